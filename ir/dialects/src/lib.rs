@@ -1,0 +1,18 @@
+//! ncc-dialects: how each control spells what a program means.
+//!
+//! A dialect is a dictionary: a data file with a row for every word that the control has, what it
+//! means in the neutral program, and who says so. Front-ends and back-ends read the same rows, one
+//! from word to meaning, the other from meaning to word, so that they cannot drift apart. A word
+//! that a dictionary does not have, or names only to refuse it, is never translated.
+//!
+//! Not here: lexing, lowering and layout. A dictionary says what, never how.
+
+mod load;
+mod meaning;
+mod schema;
+mod settings;
+
+pub use load::{DialectError, builtin, builtins, parse};
+pub use meaning::Meaning;
+pub use schema::*;
+pub use settings::{SettingError, Settings};

@@ -1,0 +1,108 @@
+//! The meanings that a code of a dictionary can have, as its data file spells them.
+
+use std::str::FromStr;
+
+use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::program::FrameSlot;
+use serde::Deserialize;
+
+/// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
+/// blank: `SELECT_PLANE XY`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(try_from = "String")]
+#[allow(missing_docs)] // The names are those of `ncc_ir::program::Op`.
+pub enum Meaning {
+    StraightTraverse,
+    StraightFeed,
+    ArcFeed(Turn),
+    Dwell,
+    UseLengthUnits(Units),
+    SetDistanceMode(Distance),
+    SelectPlane(Plane),
+    SetFeedMode(FeedMode),
+    SetReturnLevel(ReturnLevel),
+    SetOriginOffsets(u16),
+    ClearFrame(FrameSlot),
+    StopCutterRadiusCompensation,
+    /// Takes up the length entry that a word of the block names.
+    UseToolLengthOffset,
+    /// No length offset.
+    CancelToolLengthOffset,
+    /// Calls up the cycle of the row with the same code.
+    StartCycle,
+    EndCycle,
+    /// The pattern of the row with the same code.
+    Pattern,
+    NoEffect,
+    StartSpindleClockwise,
+    StartSpindleCounterclockwise,
+    StopSpindleTurning,
+    ChangeTool,
+    FloodOn,
+    MistOn,
+    CoolantOff,
+    ProgramStop,
+    OptionalProgramStop,
+    ProgramEnd,
+    Call,
+    Return,
+}
+
+impl TryFrom<String> for Meaning {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Meaning, String> {
+        text.parse()
+    }
+}
+
+impl FromStr for Meaning {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Meaning, String> {
+        let (name, argument) = text.split_once(' ').unwrap_or((text, ""));
+        Ok(match (name, argument) {
+            ("STRAIGHT_TRAVERSE", "") => Meaning::StraightTraverse,
+            ("STRAIGHT_FEED", "") => Meaning::StraightFeed,
+            ("ARC_FEED", "clockwise") => Meaning::ArcFeed(Turn::Clockwise),
+            ("ARC_FEED", "counterclockwise") => Meaning::ArcFeed(Turn::Counterclockwise),
+            ("DWELL", "") => Meaning::Dwell,
+            ("USE_LENGTH_UNITS", "mm") => Meaning::UseLengthUnits(Units::Mm),
+            ("USE_LENGTH_UNITS", "inch") => Meaning::UseLengthUnits(Units::Inch),
+            ("SET_DISTANCE_MODE", "absolute") => Meaning::SetDistanceMode(Distance::Absolute),
+            ("SET_DISTANCE_MODE", "incremental") => Meaning::SetDistanceMode(Distance::Incremental),
+            ("SELECT_PLANE", "XY") => Meaning::SelectPlane(Plane::Xy),
+            ("SELECT_PLANE", "ZX") => Meaning::SelectPlane(Plane::Zx),
+            ("SELECT_PLANE", "YZ") => Meaning::SelectPlane(Plane::Yz),
+            ("SET_FEED_MODE", "per-minute") => Meaning::SetFeedMode(FeedMode::PerMinute),
+            ("SET_FEED_MODE", "per-revolution") => Meaning::SetFeedMode(FeedMode::PerRevolution),
+            ("SET_FEED_MODE", "inverse-time") => Meaning::SetFeedMode(FeedMode::InverseTime),
+            ("SET_RETURN_LEVEL", "initial") => Meaning::SetReturnLevel(ReturnLevel::Initial),
+            ("SET_RETURN_LEVEL", "retract") => Meaning::SetReturnLevel(ReturnLevel::Retract),
+            ("SET_ORIGIN_OFFSETS", number) => {
+                Meaning::SetOriginOffsets(number.parse().map_err(|_| format!("no work offset: {text}"))?)
+            }
+            ("CLEAR_FRAME", "shift") => Meaning::ClearFrame(FrameSlot::Shift),
+            ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
+            ("USE_TOOL_LENGTH_OFFSET", "") => Meaning::UseToolLengthOffset,
+            ("USE_TOOL_LENGTH_OFFSET", "0") => Meaning::CancelToolLengthOffset,
+            ("START_CYCLE", "") => Meaning::StartCycle,
+            ("END_CYCLE", "") => Meaning::EndCycle,
+            ("PATTERN", "") => Meaning::Pattern,
+            ("NO_EFFECT", "") => Meaning::NoEffect,
+            ("START_SPINDLE_CLOCKWISE", "") => Meaning::StartSpindleClockwise,
+            ("START_SPINDLE_COUNTERCLOCKWISE", "") => Meaning::StartSpindleCounterclockwise,
+            ("STOP_SPINDLE_TURNING", "") => Meaning::StopSpindleTurning,
+            ("CHANGE_TOOL", "") => Meaning::ChangeTool,
+            ("FLOOD_ON", "") => Meaning::FloodOn,
+            ("MIST_ON", "") => Meaning::MistOn,
+            ("COOLANT_OFF", "") => Meaning::CoolantOff,
+            ("PROGRAM_STOP", "") => Meaning::ProgramStop,
+            ("OPTIONAL_PROGRAM_STOP", "") => Meaning::OptionalProgramStop,
+            ("PROGRAM_END", "") => Meaning::ProgramEnd,
+            ("CALL", "") => Meaning::Call,
+            ("RETURN", "") => Meaning::Return,
+            _ => return Err(format!("no meaning: {text}")),
+        })
+    }
+}

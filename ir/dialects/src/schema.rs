@@ -1,0 +1,569 @@
+//! The form of a dictionary.
+//!
+//! Every row that gives a word a meaning names its `source`; `sure = false` marks what no manual or
+//! measurement confirms, and a program that uses such a row is told so.
+
+use std::collections::BTreeMap;
+
+use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Units};
+use ncc_ir::caps::Caps;
+use ncc_ir::cycle::Approach;
+use serde::Deserialize;
+
+use crate::meaning::Meaning;
+
+/// A dialect's dictionary.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dialect {
+    /// Its name on the command line.
+    pub id: String,
+    /// What it is, for people.
+    pub title: String,
+    /// Which reader and writer it has.
+    pub family: Family,
+    /// Usual file extensions, the first one for writing; without the dot.
+    #[serde(default)]
+    pub extensions: Vec<String>,
+    /// Sources that rows name by a short tag.
+    #[serde(default)]
+    pub sources: BTreeMap<String, String>,
+    /// The frame of a program.
+    #[serde(default)]
+    pub program: ProgramRules,
+    /// Comments.
+    #[serde(default)]
+    pub comment: CommentRules,
+    /// Blocks.
+    #[serde(default)]
+    pub block: BlockRules,
+    /// Numbers, by kind of quantity.
+    #[serde(default)]
+    pub number: BTreeMap<Quantity, NumberRules>,
+    /// Address letters.
+    #[serde(default)]
+    pub address: Vec<Address>,
+    /// Arcs.
+    #[serde(default)]
+    pub arc: ArcRules,
+    /// What all canned cycles share.
+    #[serde(default)]
+    pub cycles: CycleRules,
+    /// Canned cycles.
+    #[serde(default)]
+    pub cycle: Vec<CycleRow>,
+    /// Patterns of positions.
+    #[serde(default)]
+    pub pattern: Vec<PatternRow>,
+    /// G and M codes.
+    #[serde(default)]
+    pub code: Vec<CodeRow>,
+    /// State at power-on.
+    #[serde(default)]
+    pub power_on: PowerOn,
+    /// What a written program states before its first event, in this order.
+    #[serde(default)]
+    pub safe_start: Vec<SafeStart>,
+    /// Questions that the sources leave open, each with a working choice.
+    #[serde(default)]
+    pub option: Vec<OptionRow>,
+    /// Capabilities that follow from no other row.
+    #[serde(default)]
+    pub can: Can,
+    /// Capabilities, all of them; filled by the loader.
+    #[serde(skip)]
+    pub caps: Caps,
+    /// Rows of `code` by letter and number; filled by the loader.
+    #[serde(skip)]
+    pub index: CodeIndex,
+}
+
+/// Which reader and writer a dialect has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Family {
+    /// Letters and numbers.
+    Word,
+    /// The canonical functions.
+    Canon,
+    /// The text form of the IR.
+    Ir,
+}
+
+/// The frame of a program's text.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProgramRules {
+    /// A line that stands before and after the program, such as `%`; empty for none.
+    pub frame: String,
+    /// Letter of the program number; `None` if the text has none.
+    pub number: Option<char>,
+    /// Another character that may stand for that letter when reading.
+    pub number_also: Option<char>,
+    /// Least digits of a written program number.
+    pub number_digits: usize,
+    /// Whether the comment after the number is a title.
+    pub title: bool,
+    /// Whether further programs in the text are subprograms.
+    pub subprograms: bool,
+    /// Digits of the program number in a call word that packs the count in front; 0 if it does not.
+    pub packed_call_digits: u32,
+    /// Who says so.
+    pub source: String,
+}
+
+/// Comments.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CommentRules {
+    /// What opens one.
+    pub open: String,
+    /// What closes one; empty if the line's end does.
+    pub close: String,
+    /// Whether only capitals, digits and simple signs can be shown.
+    pub upper_ascii: bool,
+    /// Characters besides capitals, digits and the blank that can be shown, where `upper_ascii`.
+    pub signs: String,
+    /// Longest comment when writing, in characters; 0 for no limit. Longer ones are continued.
+    pub longest: usize,
+    /// Who says so.
+    pub source: String,
+}
+
+/// Blocks.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BlockRules {
+    /// Whether words are written with blanks between them.
+    pub blanks: bool,
+    /// A sign that may end a block when reading, before the line's end; empty for none.
+    pub end: String,
+    /// Whether a letter without a number means zero.
+    pub omitted_zero: bool,
+    /// Most G codes in a block; 0 for no limit.
+    pub g_codes: u8,
+    /// Most M codes in a block; 0 for no limit.
+    pub m_codes: u8,
+    /// Letter of the block number.
+    pub number: Option<char>,
+    /// What marks a block that can be skipped; empty if there is no such thing.
+    pub skip: String,
+    /// Highest skip level that can be written after the mark; 1 means the mark alone.
+    pub skip_levels: u8,
+    /// Whether the skip rows are confirmed.
+    pub skip_unsure: bool,
+    /// Longest block when reading, in bytes.
+    pub longest: u32,
+    /// Who says so.
+    pub source: String,
+}
+
+/// Kinds of quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quantity {
+    /// Coordinates, radii, pecks.
+    Length,
+    /// Degrees.
+    Angle,
+    /// Feed.
+    Feed,
+    /// Spindle speed, rev/min.
+    Speed,
+    /// Seconds.
+    Seconds,
+    /// Milliseconds, always a whole number.
+    Milliseconds,
+    /// A whole number.
+    Integer,
+}
+
+/// How numbers of one kind are read and written.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct NumberRules {
+    /// Digits after the point that the control resolves, in mm, degrees or seconds.
+    pub decimals: u8,
+    /// The same, in inches; `None` if the unit makes no difference.
+    pub decimals_inch: Option<u8>,
+    /// What a number without a point counts.
+    pub bare: Bare,
+    /// Digits that a bare number is shifted by when it counts increments, in mm.
+    pub increment: u8,
+    /// The same, in inches.
+    pub increment_inch: Option<u8>,
+    /// Whether the point is written.
+    pub point: PointRule,
+    /// Whether a sign may be written.
+    pub unsigned: bool,
+}
+
+/// What a number without a decimal point counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bare {
+    /// Whole units, surely.
+    #[default]
+    Units,
+    /// Whole units, as a working choice that is reported.
+    UnitsUnsure,
+    /// Least increments, unless the option `decimal_point` says otherwise; reported.
+    Increments,
+}
+
+/// When a decimal point is written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PointRule {
+    /// Always: `X0.`
+    Always,
+    /// Always, but a zero that was written without stays so: `Z0`.
+    ExceptZero,
+    /// Only before digits: `F186`, `F12.5`.
+    #[default]
+    WhereNeeded,
+    /// Never; the value is a whole number.
+    Never,
+}
+
+/// An address letter.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Address {
+    /// The letter.
+    pub letter: char,
+    /// What its word is, where no code of the block gives it another use.
+    pub role: Role,
+    /// What its number is.
+    pub quantity: Quantity,
+    /// Whether the row is confirmed.
+    #[serde(default = "yes")]
+    pub sure: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// What a word is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Role {
+    /// A coordinate of the axis of the same letter.
+    Axis,
+    /// The centre of an arc along X, Y, Z.
+    CentreX,
+    /// See [`Role::CentreX`].
+    CentreY,
+    /// See [`Role::CentreX`].
+    CentreZ,
+    /// The radius of an arc.
+    Radius,
+    /// Feed.
+    Feed,
+    /// Spindle speed.
+    Speed,
+    /// Tool number: selects.
+    Tool,
+    /// Entry of the length table, used by a code of the block.
+    LengthEntry,
+    /// Entry of the length table, taken up by the word itself.
+    Corrector,
+    /// Entry of the radius table.
+    RadiusEntry,
+    /// Only a parameter of codes that name it.
+    Parameter,
+}
+
+/// Arcs.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ArcRules {
+    /// Whether centre words are measured from program zero; else from the start point.
+    pub centre_absolute: bool,
+    /// Whether a third axis makes a helix.
+    pub helix: bool,
+    /// Greatest difference of the two radii, in mm; more is an error.
+    pub tolerance: f64,
+    /// Who says so.
+    pub source: String,
+}
+
+/// What all canned cycles of a dialect share.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CycleRules {
+    /// Whether the block that calls a cycle up makes a hole (if it has an axis word or its own).
+    pub hole_on_definition: bool,
+    /// Where the tool goes, if that is fixed; else the modal return level decides.
+    pub return_level: Option<ReturnLevelName>,
+    /// What is done first below the retract plane.
+    pub approach: ApproachName,
+    /// Whether Z and R stay in force from one cycle code to the next.
+    pub retained: bool,
+    /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
+    /// needs one.
+    pub peck_clearance: Option<f64>,
+    /// Whether the rows are confirmed for incremental mode.
+    pub incremental: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// A canned cycle.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CycleRow {
+    /// Its code.
+    pub code: String,
+    /// Its kind: `drill`, `drill-dwell`, `drill-peck`, `bore`.
+    pub kind: String,
+    /// Letter of the bottom.
+    pub depth: char,
+    /// Letter of the retract plane.
+    pub retract: char,
+    /// Letter and unit of the dwell, if it has one.
+    #[serde(default)]
+    pub dwell: Option<DwellWord>,
+    /// Letter of the peck.
+    #[serde(default)]
+    pub peck: Option<char>,
+    /// Whether the row is confirmed.
+    #[serde(default = "yes")]
+    pub sure: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// A word that says how long to dwell.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DwellWord {
+    /// Its letter.
+    pub letter: char,
+    /// Seconds or milliseconds.
+    pub quantity: Quantity,
+}
+
+/// A pattern of positions.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[allow(missing_docs)] // Letters of the words of `ncc_ir::cycle::Pattern`.
+pub enum PatternRow {
+    Circle { code: String, first: [char; 2], centre: [char; 2], step: char, count: char, source: String },
+    Grid { code: String, pitch: [char; 2], counts: [char; 2], serpentine: bool, source: String },
+}
+
+impl PatternRow {
+    /// Its code.
+    pub fn code(&self) -> &str {
+        match self {
+            PatternRow::Circle { code, .. } | PatternRow::Grid { code, .. } => code,
+        }
+    }
+}
+
+/// A G or M code.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CodeRow {
+    /// The code as it is written: `G01`, `M6`.
+    pub code: String,
+    /// What it means; without, it is refused by `refuse`.
+    #[serde(default)]
+    pub means: Option<Meaning>,
+    /// The name by which it is refused.
+    #[serde(default)]
+    pub refuse: Option<String>,
+    /// Its modal group: two codes of a group exclude each other in a block. Empty for one-shots.
+    #[serde(default)]
+    pub group: String,
+    /// Letters of its own words, besides those that stand for themselves.
+    #[serde(default)]
+    pub words: String,
+    /// Letter and unit of a dwell, the first one for writing.
+    #[serde(default)]
+    pub dwell: Vec<DwellWord>,
+    /// Whether it is written when several codes mean the same.
+    #[serde(default = "yes")]
+    pub write: bool,
+    /// Whether the row is confirmed.
+    #[serde(default = "yes")]
+    pub sure: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// State at power-on: what is taken for granted of a program that does not say.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
+pub struct PowerOn {
+    pub units: Option<PowerOnFact<UnitsName>>,
+    pub distance: Option<PowerOnFact<DistanceName>>,
+    pub plane: Option<PowerOnFact<PlaneName>>,
+    pub feed_mode: Option<PowerOnFact<FeedModeName>>,
+    pub return_level: Option<PowerOnFact<ReturnLevelName>>,
+    pub motion: Option<PowerOnFact<MotionName>>,
+    pub work_offset: Option<PowerOnFact<u16>>,
+    pub length_offset: Option<PowerOnFact<u32>>,
+    pub no_origin_shift: Option<PowerOnFact<bool>>,
+}
+
+/// A fact at power-on.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PowerOnFact<T> {
+    /// What it is.
+    pub value: T,
+    /// Whether every such machine has it so; else it is one parameter's usual value, and a
+    /// program that relies on it is told so.
+    #[serde(default)]
+    pub always: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// What a written program states before its first event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
+pub enum SafeStart {
+    Units,
+    Plane,
+    Distance,
+    FeedMode,
+    NoCompensation,
+    NoLengthOffset,
+    NoCycle,
+    /// In a block of its own.
+    WorkOffset,
+}
+
+/// A question that the sources leave open.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OptionRow {
+    /// Its name: `g25_xy`.
+    pub name: String,
+    /// The choices; empty if any number is one.
+    #[serde(default)]
+    pub values: Vec<String>,
+    /// The working choice.
+    pub default: String,
+    /// What it decides.
+    pub doc: String,
+    /// Who says so.
+    pub source: String,
+}
+
+/// Capabilities that follow from no other row.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Can {
+    /// A length offset must stand in a block with a Z word.
+    pub offset_with_z: bool,
+    /// Every structure is expanded, every axis named.
+    pub flat: bool,
+    /// Grids are written only up to this many columns and rows.
+    pub grid_upto: u32,
+    /// Circles are written only with the centre at program zero and under the tool.
+    pub circle_centre_at_zero_only: bool,
+    /// A subprogram's positions may mean what the caller has in force.
+    pub inherits_motion: bool,
+    /// Any structure of the IR can be carried (the text form).
+    pub everything: bool,
+}
+
+macro_rules! names {
+    ($( $(#[$doc:meta])* $name:ident => $target:ty { $($variant:ident),* } )*) => { $(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        #[allow(missing_docs)]
+        pub enum $name { $($variant),* }
+
+        impl From<$name> for $target {
+            fn from(name: $name) -> $target {
+                match name { $($name::$variant => <$target>::$variant),* }
+            }
+        }
+    )* };
+}
+
+names! {
+    /// A [`Units`] in a data file.
+    UnitsName => Units { Mm, Inch }
+    /// A [`Distance`] in a data file.
+    DistanceName => Distance { Absolute, Incremental }
+    /// A [`Plane`] in a data file.
+    PlaneName => Plane { Xy, Zx, Yz }
+    /// A [`FeedMode`] in a data file.
+    FeedModeName => FeedMode { PerMinute, PerRevolution, InverseTime }
+    /// A [`ReturnLevel`] in a data file.
+    ReturnLevelName => ReturnLevel { Initial, Retract }
+    /// An [`Approach`] in a data file.
+    ApproachName => Approach { PlaneFirst, RaiseFirst }
+    /// A motion in a data file.
+    MotionName => ncc_ir::canon::Motion { Traverse, Feed }
+}
+
+impl Default for ApproachName {
+    fn default() -> ApproachName {
+        ApproachName::RaiseFirst
+    }
+}
+
+/// Rows of `code` by number: G and M codes in tenths (`G5.1` is 51).
+#[derive(Clone, Debug, Default)]
+pub struct CodeIndex {
+    /// G codes.
+    pub g: Vec<Option<u16>>,
+    /// M codes.
+    pub m: Vec<Option<u16>>,
+    /// Rows of `address` by letter, A first.
+    pub letter: [Option<u8>; 26],
+}
+
+fn yes() -> bool {
+    true
+}
+
+impl Dialect {
+    /// The row of a G or M code given in tenths.
+    #[inline]
+    pub fn code_row(&self, letter: u8, tenths: u32) -> Option<&CodeRow> {
+        let table = if letter == b'G' { &self.index.g } else { &self.index.m };
+        table.get(tenths as usize).copied().flatten().map(|row| &self.code[row as usize])
+    }
+
+    /// The row that is written for a meaning.
+    pub fn code_for(&self, meaning: Meaning) -> Option<&CodeRow> {
+        self.code.iter().find(|row| row.write && row.means == Some(meaning))
+    }
+
+    /// The row of an address letter.
+    #[inline]
+    pub fn address_row(&self, letter: u8) -> Option<&Address> {
+        let at = letter.checked_sub(b'A')?;
+        self.index.letter.get(at as usize).copied().flatten().map(|row| &self.address[row as usize])
+    }
+
+    /// The letter that has a role.
+    pub fn letter_for(&self, role: Role) -> Option<char> {
+        self.address.iter().find(|a| a.role == role).map(|a| a.letter)
+    }
+
+    /// The number rules of a quantity.
+    pub fn numbers(&self, quantity: Quantity) -> NumberRules {
+        self.number.get(&quantity).copied().unwrap_or_default()
+    }
+
+    /// The cycle row of a code.
+    pub fn cycle_row(&self, code: &str) -> Option<&CycleRow> {
+        self.cycle.iter().find(|row| row.code == code)
+    }
+
+    /// The pattern row of a code.
+    pub fn pattern_row(&self, code: &str) -> Option<&PatternRow> {
+        self.pattern.iter().find(|row| row.code() == code)
+    }
+}

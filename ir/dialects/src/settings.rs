@@ -1,0 +1,66 @@
+//! A dialect with the choices made for its options.
+
+use std::collections::BTreeMap;
+
+use crate::schema::Dialect;
+
+/// A dialect and the values of its options.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// The dictionary.
+    pub dialect: &'static Dialect,
+    chosen: BTreeMap<String, String>,
+}
+
+/// An option that the dialect does not have, or a value that the option does not take.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SettingError {
+    /// No option of that name.
+    NoOption(String),
+    /// The option takes other values.
+    NoValue {
+        /// The option.
+        option: String,
+        /// What it takes; empty if any number.
+        values: Vec<String>,
+    },
+}
+
+impl Settings {
+    /// The dialect with the working choice for every option.
+    pub fn new(dialect: &'static Dialect) -> Settings {
+        Settings { dialect, chosen: BTreeMap::new() }
+    }
+
+    /// Chooses a value.
+    ///
+    /// # Errors
+    /// The dialect has no such option, or it does not take the value.
+    pub fn choose(&mut self, option: &str, value: &str) -> Result<(), SettingError> {
+        let row = self.dialect.option.iter().find(|o| o.name == option);
+        let row = row.ok_or_else(|| SettingError::NoOption(option.to_owned()))?;
+        let fits = match row.values.is_empty() {
+            true => value.parse::<f64>().is_ok_and(f64::is_finite),
+            false => row.values.iter().any(|v| v == value),
+        };
+        if !fits {
+            return Err(SettingError::NoValue { option: option.to_owned(), values: row.values.clone() });
+        }
+        self.chosen.insert(option.to_owned(), value.to_owned());
+        Ok(())
+    }
+
+    /// The value of an option: the chosen one, else the working choice; empty if there is no such
+    /// option.
+    pub fn get(&self, option: &str) -> &str {
+        match self.chosen.get(option) {
+            Some(value) => value,
+            None => self.dialect.option.iter().find(|o| o.name == option).map_or("", |o| &o.default),
+        }
+    }
+
+    /// Whether the user chose it, so that relying on it is no assumption of ours.
+    pub fn is_chosen(&self, option: &str) -> bool {
+        self.chosen.contains_key(option)
+    }
+}

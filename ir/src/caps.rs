@@ -1,0 +1,67 @@
+//! What a target can say. Passes see these capabilities, never a dialect's name.
+
+use crate::canon::ReturnLevel;
+
+/// Capabilities of a target, filled from its dictionary.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Caps {
+    /// Cycles that it has words for, by [`crate::cycle::CycleKind::name`], each with the return
+    /// levels that it can ask for.
+    pub cycles: Vec<CycleCap>,
+    /// Patterns that it has words for.
+    pub circle_pattern: bool,
+    /// Grids up to this many columns and rows; 0 is none.
+    pub grid_pattern: u32,
+    /// Whether the circle's centre must be program zero and where the tool stands.
+    pub circle_centre_at_zero_only: bool,
+    /// Whether hole positions may be incremental while a cycle is in force.
+    pub incremental_cycles: bool,
+    /// Subprograms.
+    pub calls: bool,
+    /// Repetition of blocks.
+    pub repeats: bool,
+    /// Number of work offsets that it can name; 0 if it has one, without a word for it.
+    pub work_offsets: u16,
+    /// A length offset must stand in a block with a Z word.
+    pub offset_with_z: bool,
+    /// Arcs by radius.
+    pub arc_radius: bool,
+    /// Arcs with a third axis.
+    pub helix: bool,
+    /// Arcs of more than one turn.
+    pub arc_turns: bool,
+    /// Highest block-skip level; 0 if there is no block skip.
+    pub skip_levels: u8,
+    /// Incremental coordinates.
+    pub incremental: bool,
+    /// Both units of length.
+    pub inch: bool,
+    /// The target is a list of events: every structure is expanded, every axis named, absolute.
+    pub flat: bool,
+    /// Positions that a subprogram's caller gives the meaning to.
+    pub inherits_motion: bool,
+    /// Messages to the operator.
+    pub messages: bool,
+    /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
+    pub approach: Option<crate::cycle::Approach>,
+}
+
+/// A cycle that a target has words for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CycleCap {
+    /// Its kind.
+    pub kind: String,
+    /// Where it can leave the tool.
+    pub returns: Vec<ReturnLevel>,
+    /// Whether it can dwell at the bottom.
+    pub dwell: bool,
+}
+
+impl Caps {
+    /// Whether a cycle of this kind can be written, returning there.
+    pub fn cycle(&self, kind: &str, level: Option<ReturnLevel>, dwell: bool) -> bool {
+        self.cycles
+            .iter()
+            .any(|c| c.kind == kind && (c.dwell || !dwell) && level.is_none_or(|l| c.returns.contains(&l)))
+    }
+}

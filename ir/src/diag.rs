@@ -1,0 +1,280 @@
+//! Diagnostics: typed faults, losses and assumptions, with their places.
+//!
+//! A [`Fault`] carries data, no prose: the words, labels and advice are rendered by the command
+//! line alone. Codes are stable, are never used again for something else, and each has a page.
+
+use crate::source::Span;
+
+/// What was found, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diagnostic {
+    /// What it is.
+    pub fault: Fault,
+    /// Where, in the source.
+    pub span: Span,
+    /// Other places that belong to it.
+    pub related: Vec<Span>,
+}
+
+impl Diagnostic {
+    /// A diagnostic at one place.
+    pub fn new(fault: Fault, span: Span) -> Diagnostic {
+        Diagnostic { fault, span, related: Vec::new() }
+    }
+}
+
+/// How well a construct came through. The order is from harmless to loss; everything from
+/// [`Verdict::Changed`] on stops the translation unless it is allowed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Verdict {
+    /// The same construct, the same digits.
+    Exact,
+    /// The same construct, written another way.
+    Reformatted,
+    /// Rounded to the target's resolution.
+    WithinTolerance,
+    /// The same events, the structure is gone.
+    Expanded,
+    /// Holds if a fact about a control holds that the program does not state.
+    Assumed,
+    /// Other events.
+    Changed,
+    /// A person must finish it.
+    Manual,
+    /// Gone.
+    Dropped,
+}
+
+impl Verdict {
+    /// All verdicts, from harmless to loss.
+    pub const ALL: [Verdict; 8] = [
+        Verdict::Exact,
+        Verdict::Reformatted,
+        Verdict::WithinTolerance,
+        Verdict::Expanded,
+        Verdict::Assumed,
+        Verdict::Changed,
+        Verdict::Manual,
+        Verdict::Dropped,
+    ];
+
+    /// Its name on the command line and in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Verdict::Exact => "exact",
+            Verdict::Reformatted => "reformatted",
+            Verdict::WithinTolerance => "within-tolerance",
+            Verdict::Expanded => "expanded",
+            Verdict::Assumed => "assumed",
+            Verdict::Changed => "changed",
+            Verdict::Manual => "manual",
+            Verdict::Dropped => "dropped",
+        }
+    }
+
+    /// Whether it stops a translation that does not allow it.
+    pub const fn stops(self) -> bool {
+        matches!(self, Verdict::Changed | Verdict::Manual | Verdict::Dropped)
+    }
+}
+
+/// How grave a diagnostic is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Gravity {
+    /// The program is refused.
+    Error,
+    /// Worth reading; nothing is refused.
+    Warning,
+    /// Part of the translation's account of itself.
+    Verdict(Verdict),
+}
+
+/// A modal fact that was taken for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[allow(missing_docs)] // The names are those of `Modes`.
+pub enum ModeName {
+    Motion,
+    Distance,
+    Units,
+    Plane,
+    FeedMode,
+    ReturnLevel,
+    WorkOffset,
+    LengthOffset,
+    OriginShift,
+}
+
+macro_rules! faults {
+    ($( $(#[$doc:meta])* $name:ident $({ $($(#[$fdoc:meta])* $field:ident : $ty:ty),* $(,)? })? = $code:literal, $gravity:expr; )*) => {
+        /// What was found.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Fault {
+            $( $(#[$doc])* #[allow(missing_docs)] $name $({ $($(#[$fdoc])* $field: $ty),* })?, )*
+        }
+
+        impl Fault {
+            /// The number of its stable code: 107 is `NC0107`.
+            pub const fn code(&self) -> u16 {
+                match self { $( Fault::$name { .. } => $code, )* }
+            }
+
+            /// How grave it is.
+            pub const fn gravity(&self) -> Gravity {
+                match self { $( Fault::$name { .. } => $gravity, )* }
+            }
+
+            /// Every code, in the order of this list.
+            pub const CODES: &'static [u16] = &[ $( $code, )* ];
+        }
+    };
+}
+
+use Gravity::{Error, Warning};
+
+const fn verdict(v: Verdict) -> Gravity {
+    Gravity::Verdict(v)
+}
+
+faults! {
+    // NC01xx: the text.
+    /// A character that no word, comment or sign begins with.
+    UnexpectedCharacter { found: char } = 101, Error;
+    /// A number that is no decimal, or has more than 18 digits.
+    BadNumber { text: Box<str> } = 102, Error;
+    /// A comment that is not closed before the end of its line.
+    UnclosedComment = 103, Error;
+    /// A block longer than a control can hold.
+    BlockTooLong { limit: u32 } = 104, Error;
+    /// NUL bytes, or other signs that this is no text.
+    NotText = 105, Error;
+    /// A letter without its number, where the dialect does not read that as zero.
+    WordWithoutNumber { letter: char } = 106, Error;
+    /// The letter O where a zero is meant: `GOX-15.`, `GZO`.
+    LetterOForZero = 107, Error;
+    /// Nothing to translate.
+    EmptyProgram = 108, Error;
+    /// Words that do not make a block.
+    Syntax { found: Box<str>, expected: Box<str> } = 109, Error;
+    /// The text ends before the program says that it ends.
+    NoProgramEnd = 110, Warning;
+    /// Text after the end of the program.
+    TextAfterEnd = 111, Warning;
+
+    // NC02xx: the meaning.
+    /// A code that the dialect's dictionary does not have.
+    UnknownCode { code: Box<str> } = 201, Error;
+    /// A code that the dictionary names, and that is not translated.
+    NotSupported { code: Box<str>, name: Box<str> } = 202, Error;
+    /// Two codes of one modal group in a block.
+    CodesExclude { first: Box<str>, second: Box<str> } = 203, Error;
+    /// A word that nothing in the block uses.
+    WordUnused { word: Box<str> } = 204, Error;
+    /// A word that the code needs.
+    WordMissing { code: Box<str>, word: Box<str> } = 205, Error;
+    /// The same address twice in a block.
+    WordTwice { letter: char } = 206, Error;
+    /// More codes in a block than the control takes.
+    TooManyCodes { letter: char, limit: u8 } = 207, Error;
+    /// A decimal point where only a whole number is allowed.
+    PointNotAllowed { word: Box<str> } = 208, Error;
+    /// A value outside the range of the word.
+    OutOfRange { word: Box<str> } = 209, Error;
+    /// Axis words, and no motion code has been said.
+    NoMotionMode = 210, Error;
+    /// An arc without centre or radius.
+    ArcWithoutCentre = 211, Error;
+    /// An arc with both.
+    ArcCentreAndRadius = 212, Error;
+    /// The end of the arc is not on its circle; by how much (nanos).
+    ArcEndOffCircle { by: i64 } = 213, Error;
+    /// The radius cannot reach the end point.
+    ArcRadiusTooSmall = 214, Error;
+    /// A radius and no way to go.
+    ArcRadiusNoWay = 215, Error;
+    /// An axis word is needed that is not known here.
+    PositionUnknown { axis: char } = 216, Error;
+    /// A called program is not in the text.
+    CallUnknown { name: Box<str> } = 217, Error;
+    /// A subprogram calls itself.
+    CallRecursive { name: Box<str> } = 218, Error;
+    /// Two programs of one name.
+    ProgramTwice { name: Box<str> } = 219, Error;
+    /// Variables, expressions or control of the program's flow: not translated.
+    MacroLanguage { what: Box<str> } = 220, Error;
+    /// A tool change and no tool was selected.
+    NoToolSelected = 221, Error;
+    /// A move at feed and no feed was said.
+    NoFeed = 222, Error;
+    /// Holes without a cycle in force.
+    NoCycle = 223, Error;
+    /// The retract plane lies below the bottom of the hole.
+    CycleUpsideDown = 224, Error;
+    /// A cycle in a procedure that does not say what it depends on.
+    EntryFactNeeded { fact: ModeName } = 225, Error;
+    /// A statement that only the text form can carry, and that is not executed.
+    NotExecuted { what: Box<str> } = 226, Error;
+    /// A program that does not come to an end.
+    NoEnd { steps: u64 } = 227, Error;
+
+    // NC03xx: assumptions.
+    /// The program relies on a state at power-on that it never says.
+    AssumedMode { fact: ModeName, value: Box<str> } = 301, verdict(Verdict::Assumed);
+    /// A word of which no effect is known.
+    AssumedNoEffect { code: Box<str> } = 302, verdict(Verdict::Assumed);
+    /// A number without a decimal point was read by the dialect's rule.
+    AssumedBareNumber { word: Box<str>, value: Box<str> } = 303, verdict(Verdict::Assumed);
+    /// A length offset on a block without a drilling-axis word is taken up with the next.
+    AssumedOffsetWithZ = 304, verdict(Verdict::Assumed);
+    /// The one work offset of a control without work-offset words is the one that is named.
+    AssumedWorkOffset { offset: u16 } = 305, verdict(Verdict::Assumed);
+    /// A dictionary row that no manual confirms.
+    AssumedRow { code: Box<str>, meaning: Box<str> } = 306, verdict(Verdict::Assumed);
+    /// A dictionary option decides.
+    AssumedOption { option: Box<str>, value: Box<str> } = 307, verdict(Verdict::Assumed);
+    /// A parameter of the machine has this value.
+    AssumedParameter { parameter: Box<str>, value: Box<str> } = 308, verdict(Verdict::Assumed);
+
+    // NC04xx: what became of it.
+    /// A comment in the target's characters.
+    CommentReformatted = 401, verdict(Verdict::Reformatted);
+    /// An arc's centre in the target's form.
+    ArcReformatted = 402, verdict(Verdict::Reformatted);
+    /// A number rounded to the target's digits.
+    Rounded { word: Box<str>, written: Box<str> } = 403, verdict(Verdict::WithinTolerance);
+    /// A pattern written as its positions.
+    PatternExpanded { holes: u32 } = 404, verdict(Verdict::Expanded);
+    /// A cycle written as its moves.
+    CycleExpanded { kind: Box<str> } = 405, verdict(Verdict::Expanded);
+    /// A subprogram written out where it is called.
+    CallExpanded { name: Box<str>, times: u32 } = 406, verdict(Verdict::Expanded);
+    /// Block-skip levels that the target cannot tell apart.
+    SkipLevelLost { level: u8 } = 407, verdict(Verdict::Changed);
+    /// Block numbers left out.
+    NumbersLeftOut { count: u32 } = 408, verdict(Verdict::Reformatted);
+    /// The program's name kept as a comment.
+    NameAsComment = 409, verdict(Verdict::Reformatted);
+    /// A block written as several.
+    BlockSplit = 410, verdict(Verdict::Reformatted);
+    /// A message that the target cannot show.
+    MessageDropped = 411, verdict(Verdict::Dropped);
+    /// A repetition written out.
+    RepeatExpanded { times: u32 } = 412, verdict(Verdict::Expanded);
+
+    // NC05xx: what the target cannot say.
+    /// The target has no words for it.
+    CannotSay { what: Box<str> } = 501, Error;
+    /// A second work offset for a control that has one.
+    SecondWorkOffset { first: u16, second: u16 } = 502, Error;
+    /// The arc is gone after rounding to the target's digits.
+    ArcVanishes = 503, Error;
+    /// A number outside the target's range.
+    TargetRange { word: Box<str> } = 504, Error;
+
+    // NC06xx: verification.
+    /// Source and output do not make the same events: a fault of this compiler.
+    NotTheSame { difference: Box<str> } = 601, Error;
+    /// The output could not be read back: a fault of this compiler.
+    NotReadBack { code: u16 } = 602, Error;
+    /// Not every setting of the block-skip switches was tried.
+    SkipSettingsSampled { levels: u8 } = 603, Warning;
+}

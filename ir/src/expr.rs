@@ -1,0 +1,115 @@
+//! Expressions: the arguments of statements.
+//!
+//! Nearly every argument of a real program is a literal, so a literal is stored inline and
+//! everything else behind a box. No front-end of today writes more than literals; the other forms
+//! are here because the text form (`ir`) carries them, and execution refuses them by name.
+
+use crate::num::{Num, Unit};
+
+/// An argument.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Expr {
+    /// A decimal literal.
+    Num(Num),
+    /// Anything that must be computed.
+    Node(Box<Node>),
+}
+
+/// A computed expression.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// The value of a variable.
+    Var(Var),
+    /// "No value": a Fanuc variable that was never set. A value of its own, not zero.
+    Vacant,
+    /// Sign or logical negation.
+    Unary(Unary, Expr),
+    /// Two operands.
+    Binary(Binary, Expr, Expr),
+    /// A function of its arguments.
+    Call(Function, Vec<Expr>),
+}
+
+/// A variable. The IR keeps variables apart by how long they live, not by a control's spelling.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Var {
+    /// Lives as long as the call of its procedure.
+    Local(Box<str>),
+    /// Lives until power-off, seen by all procedures.
+    Common(Box<str>),
+    /// Survives power-off.
+    Retentive(Box<str>),
+    /// Something of the control itself, named by its meaning.
+    System(Box<str>),
+}
+
+/// Operators with one operand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unary {
+    /// `-a`
+    Negate,
+    /// Logical not.
+    Not,
+}
+
+/// Operators with two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // The names are the meaning.
+pub enum Binary {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo,
+    Power,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    And,
+    Or,
+    Xor,
+}
+
+/// Functions. Angles are degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // The names are the meaning.
+pub enum Function {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan2,
+    Sqrt,
+    Abs,
+    Round,
+    Floor,
+    Ceiling,
+    Truncate,
+    Ln,
+    Exp,
+}
+
+impl Expr {
+    /// A whole number.
+    pub const fn int(value: i64) -> Expr {
+        Expr::Num(Num::int(value, Unit::One))
+    }
+
+    /// The literal, if it is one.
+    pub fn literal(&self) -> Option<Num> {
+        match self {
+            Expr::Num(n) => Some(*n),
+            Expr::Node(_) => None,
+        }
+    }
+}
+
+impl From<Num> for Expr {
+    fn from(n: Num) -> Expr {
+        Expr::Num(n)
+    }
+}

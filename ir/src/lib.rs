@@ -1,0 +1,18 @@
+//! ncc-ir: what a part program means, without the name of any control.
+//!
+//! Two representations answer two questions. [`program::Program`] is what the program *says*:
+//! structured, symbolic, the form that passes rewrite. The canonical stream, [`exec::Event`]s made
+//! by executing a `Program` in a [`exec::World`], is what the machine *does*; [`verify`] compares
+//! two of them. Numbers are exact decimals ([`num`]); a binary float lives only in geometry.
+//!
+//! This crate knows no dialect by name, reads no file and prints nothing.
+
+pub mod canon;
+pub mod caps;
+pub mod cycle;
+pub mod diag;
+pub mod expr;
+pub mod num;
+pub mod program;
+pub mod source;
+pub mod world;

@@ -1,0 +1,138 @@
+//! Exact decimals: what a word's number is worth, and how it was written.
+//!
+//! A number is never a binary float: `X15.588` is the integer 15588 with three digits after the
+//! point. Conversions of units are rationals. Arithmetic on positions is done in [`Nanos`].
+
+/// A length, angle or time in billionths of its base unit: 1e-9 mm, 1e-9 degree, 1e-9 s; for a
+/// feed, 1e-9 mm/min; for a spindle speed, 1e-9 rev/min. Range about ±9.2e9 of the base unit.
+pub type Nanos = i64;
+
+/// Nanos in one base unit.
+pub const ONE: Nanos = 1_000_000_000;
+
+/// The unit of a literal.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// A pure number: a count, a tool number, a spindle speed in rev/min.
+    #[default]
+    One,
+    /// Millimetres; as a feed, millimetres a minute.
+    Mm,
+    /// Inches; as a feed, inches a minute.
+    Inch,
+    /// A length whose unit is the one in force when the statement runs.
+    Entry,
+    /// Degrees; as the feed of a rotary axis, degrees a minute.
+    Degree,
+    /// Seconds.
+    Second,
+}
+
+/// A decimal literal: `mantissa × 10^-scale` of its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Num {
+    /// All the digits, with the sign.
+    pub mantissa: i64,
+    /// Digits after the point, 0 to 18.
+    pub scale: u8,
+    /// Whether a decimal point was written. `false` only where `scale` is 0.
+    pub point: bool,
+    /// What it counts.
+    pub unit: Unit,
+}
+
+/// Powers of ten that fit an `i64`.
+pub const POW10: [i64; 19] = {
+    let mut table = [1i64; 19];
+    let mut i = 1;
+    while i < 19 {
+        table[i] = table[i - 1] * 10;
+        i += 1;
+    }
+    table
+};
+
+impl Num {
+    /// A whole number without a point.
+    pub const fn int(value: i64, unit: Unit) -> Num {
+        Num { mantissa: value, scale: 0, point: false, unit }
+    }
+
+    /// The literal nearest to `nanos` with `decimals` (0 to 9) digits after the point, half away
+    /// from zero, trailing zeros removed.
+    pub fn from_nanos(nanos: Nanos, decimals: u8, unit: Unit) -> Num {
+        let step = POW10[9 - decimals.min(9) as usize];
+        let half = if nanos < 0 { -(step / 2) } else { step / 2 };
+        let rounded = (i128::from(nanos) + i128::from(half)) / i128::from(step);
+        Num { mantissa: rounded as i64, scale: decimals.min(9), point: true, unit }.trimmed()
+    }
+
+    /// The same value without trailing zeros after the point.
+    pub fn trimmed(mut self) -> Num {
+        while self.scale > 0 && self.mantissa % 10 == 0 {
+            self.mantissa /= 10;
+            self.scale -= 1;
+        }
+        self
+    }
+
+    /// Whether the value is zero.
+    pub fn is_zero(self) -> bool {
+        self.mantissa == 0
+    }
+
+    /// The value as a whole number, if it is one.
+    pub fn whole(self) -> Option<i64> {
+        let t = self.trimmed();
+        (t.scale == 0).then_some(t.mantissa)
+    }
+
+    /// The value in base units (inches become millimetres), in nanos: exact, or `None` if it is
+    /// out of range or has digits finer than a nano. `inch` says what [`Unit::Entry`] means.
+    #[inline]
+    pub fn nanos(self, inch: bool) -> Option<Nanos> {
+        let factor = match self.unit {
+            Unit::Inch => 254,
+            Unit::Entry if inch => 254,
+            Unit::One | Unit::Mm | Unit::Entry | Unit::Degree | Unit::Second => {
+                return match 9u8.checked_sub(self.scale) {
+                    Some(up) => self.mantissa.checked_mul(POW10[up as usize]),
+                    None => exact_div(self.mantissa, self.scale - 9),
+                };
+            }
+        };
+        // An inch is 254e-1 mm, so one digit after the point is used up by the factor.
+        let tenth = self.mantissa.checked_mul(factor)?;
+        match 8u8.checked_sub(self.scale) {
+            Some(up) => tenth.checked_mul(POW10[up as usize]),
+            None => exact_div(tenth, self.scale - 8),
+        }
+    }
+}
+
+fn exact_div(value: i64, digits: u8) -> Option<Nanos> {
+    let by = *POW10.get(digits as usize)?;
+    (value % by == 0).then_some(value / by)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_inch_is_exactly_25_4_mm() {
+        let n = Num { mantissa: 15, scale: 1, point: true, unit: Unit::Inch };
+        assert_eq!(n.nanos(false), Some(38_100_000_000));
+        let fine = Num { mantissa: 1, scale: 8, point: true, unit: Unit::Inch };
+        assert_eq!(fine.nanos(false), Some(254));
+        let finer = Num { mantissa: 1, scale: 10, point: true, unit: Unit::Inch };
+        assert_eq!(finer.nanos(false), None);
+    }
+
+    #[test]
+    fn rounding_is_half_away_from_zero() {
+        assert_eq!(Num::from_nanos(1_000_500_000, 3, Unit::Mm).mantissa, 1001);
+        assert_eq!(Num::from_nanos(-1_000_500_000, 3, Unit::Mm).mantissa, -1001);
+        assert_eq!(Num::from_nanos(15_588_457_268, 3, Unit::Mm).mantissa, 15588);
+    }
+}
