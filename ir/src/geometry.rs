@@ -1,0 +1,144 @@
+//! Geometry of arcs and patterns: the only place where positions pass through binary floats.
+//!
+//! All lengths are nanos. Results are rounded to a nano, a thousandth of what any control resolves.
+
+use crate::canon::Turn;
+use crate::num::{Nanos, ONE};
+
+/// Why an arc is none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArcFault {
+    /// The radius cannot reach the end point.
+    RadiusTooSmall,
+    /// A radius, and end = start.
+    NoWay,
+    /// The end is off the circle by this much.
+    EndOffCircle(Nanos),
+    /// Start and centre are the same point.
+    NoRadius,
+}
+
+/// Centre of an arc by its radius: positive for at most half a turn, negative for more (Fanuc,
+/// NIST RS274/NGC 3.5.3.1).
+///
+/// # Errors
+/// [`ArcFault::NoWay`], [`ArcFault::RadiusTooSmall`] (by more than a micrometre; less is half a turn).
+pub fn centre_by_radius(
+    start: [Nanos; 2],
+    end: [Nanos; 2],
+    radius: Nanos,
+    turn: Turn,
+) -> Result<[Nanos; 2], ArcFault> {
+    let (dx, dy) = ((end[0] - start[0]) as f64, (end[1] - start[1]) as f64);
+    let chord = dx.hypot(dy);
+    if chord == 0.0 {
+        return Err(ArcFault::NoWay);
+    }
+    let r = (radius as f64).abs();
+    let half = chord / 2.0;
+    if half > r + 1000.0 {
+        return Err(ArcFault::RadiusTooSmall);
+    }
+    let rise = (r * r - half * half).max(0.0).sqrt();
+    // Left of the chord is the centre of a counter-clockwise arc of less than half a turn.
+    let left = (turn == Turn::Counterclockwise) == (radius > 0);
+    let side = if left { rise } else { -rise };
+    Ok([
+        start[0] + (dx / 2.0 - dy / chord * side).round() as Nanos,
+        start[1] + (dy / 2.0 + dx / chord * side).round() as Nanos,
+    ])
+}
+
+/// Checks that the end of an arc lies on its circle.
+///
+/// # Errors
+/// [`ArcFault::NoRadius`], [`ArcFault::EndOffCircle`] by more than `tolerance`.
+pub fn check_on_circle(
+    start: [Nanos; 2],
+    end: [Nanos; 2],
+    centre: [Nanos; 2],
+    tolerance: Nanos,
+) -> Result<(), ArcFault> {
+    let radius = |p: [Nanos; 2]| ((p[0] - centre[0]) as f64).hypot((p[1] - centre[1]) as f64);
+    let (r1, r2) = (radius(start), radius(end));
+    if r1 < 1000.0 {
+        return Err(ArcFault::NoRadius);
+    }
+    let off = (r1 - r2).abs();
+    if off > tolerance as f64 { Err(ArcFault::EndOffCircle(off as Nanos)) } else { Ok(()) }
+}
+
+/// Signed sweep in degrees, counter-clockwise positive: more than 0, and at most 360 plus the full
+/// turns.
+pub fn sweep_degrees(start: [Nanos; 2], end: [Nanos; 2], centre: [Nanos; 2], turn: Turn, turns: u32) -> f64 {
+    let angle = |p: [Nanos; 2]| ((p[1] - centre[1]) as f64).atan2((p[0] - centre[0]) as f64).to_degrees();
+    let extra = 360.0 * f64::from(turns);
+    if start == end {
+        let full = 360.0 + extra;
+        return if turn == Turn::Counterclockwise { full } else { -full };
+    }
+    let ccw = (angle(end) - angle(start)).rem_euclid(360.0);
+    match turn {
+        Turn::Counterclockwise => (if ccw == 0.0 { 360.0 } else { ccw }) + extra,
+        Turn::Clockwise => -((360.0 - ccw) + extra),
+    }
+}
+
+/// The `k`-th hole of a circle (0 is the first), the step in degrees, counter-clockwise positive.
+pub fn circle_position(centre: [Nanos; 2], first: [Nanos; 2], step: Nanos, k: u32) -> [Nanos; 2] {
+    let turned = (i128::from(step) * i128::from(k)).rem_euclid(360 * i128::from(ONE)) as f64 / ONE as f64;
+    let (sin, cos) = sin_cos_degrees(turned);
+    let (x, y) = ((first[0] - centre[0]) as f64, (first[1] - centre[1]) as f64);
+    [centre[0] + (x * cos - y * sin).round() as Nanos, centre[1] + (x * sin + y * cos).round() as Nanos]
+}
+
+/// Sine and cosine of degrees in 0..360, exact at multiples of 90.
+fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
+    let quarter = (degrees / 90.0).floor();
+    let (sin, cos) = (degrees - 90.0 * quarter).to_radians().sin_cos();
+    match quarter as u8 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// The `k`-th hole of a grid of `columns` × `rows` from its first: steps along the row and from row
+/// to row.
+pub fn grid_position(columns: u32, serpentine: bool, k: u32) -> (u32, u32) {
+    let (row, column) = (k / columns.max(1), k % columns.max(1));
+    if serpentine && row % 2 == 1 { (columns - 1 - column, row) } else { (column, row) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MM: Nanos = ONE;
+
+    #[test]
+    fn a_positive_radius_is_the_short_way() {
+        // Quarter circle from (10, 0) to (0, 10), counter-clockwise about the origin.
+        let c = centre_by_radius([10 * MM, 0], [0, 10 * MM], 10 * MM, Turn::Counterclockwise);
+        assert_eq!(c, Ok([0, 0]));
+        let far = centre_by_radius([10 * MM, 0], [0, 10 * MM], -10 * MM, Turn::Counterclockwise);
+        assert_eq!(far, Ok([10 * MM, 10 * MM]));
+        let cw = centre_by_radius([10 * MM, 0], [0, 10 * MM], 10 * MM, Turn::Clockwise);
+        assert_eq!(cw, Ok([10 * MM, 10 * MM]));
+    }
+
+    #[test]
+    fn bolt_circle_of_the_case_study() {
+        let at = |k| circle_position([0, 0], [0, 18 * MM], 30 * MM, k);
+        assert_eq!(at(0), [0, 18 * MM]);
+        assert_eq!(at(1), [-9 * MM, 15_588_457_268]);
+        assert_eq!(at(3), [-18 * MM, 0]);
+    }
+
+    #[test]
+    fn sweep_of_a_clockwise_three_quarter_turn() {
+        let s = sweep_degrees([10 * MM, 0], [0, 10 * MM], [0, 0], Turn::Clockwise, 0);
+        assert!((s + 270.0).abs() < 1e-9);
+    }
+}
