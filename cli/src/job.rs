@@ -1,0 +1,173 @@
+//! What a translation is asked for and what it gives back: the face of the pipeline towards the
+//! command line, and towards tests that call it without a process.
+//!
+//! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
+
+use std::io::{self, Read, Seek, SeekFrom, Write};
+
+use ncc_backends::Layout;
+use ncc_dialects::Settings;
+use ncc_ir::canon::AXES;
+use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::num::Nanos;
+use tempfile::SpooledTempFile;
+
+/// A translation to be done.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The dialect of the source, with its options.
+    pub from: Settings,
+    /// The dialect of the output, with its options.
+    pub to: Settings,
+    /// How the output is laid out.
+    pub layout: Layout,
+    /// Whether the output is read back and compared. Without, its head says UNVERIFIED.
+    pub verify: bool,
+    /// Whether the output opens with the comment that names source, hash and assumptions.
+    pub head: bool,
+    /// Where the axes stand in program coordinates before the first block, as stated by the user
+    /// (millimetres or degrees, in nanos); `None` is not known.
+    pub start: [Option<Nanos>; AXES],
+    /// The program number of the output, where the target has one.
+    pub program_number: Option<u32>,
+    /// Name of the source for the head and the report: a file name without folders, or `-`.
+    pub source_name: String,
+    /// Verdicts that stop a translation by themselves, and shall not.
+    pub allow: Vec<Verdict>,
+    /// Verdicts that would not stop a translation, and shall.
+    pub deny: Vec<Verdict>,
+}
+
+impl Job {
+    /// Whether a verdict stops this translation. What is denied stops even if it is allowed.
+    pub fn stops(&self, verdict: Verdict) -> bool {
+        self.deny.contains(&verdict) || (verdict.stops() && !self.allow.contains(&verdict))
+    }
+
+    /// Whether a diagnostic stops this translation.
+    pub fn refuses(&self, diagnostic: &Diagnostic) -> bool {
+        match diagnostic.fault.gravity() {
+            Gravity::Error => true,
+            Gravity::Warning => false,
+            Gravity::Verdict(verdict) => self.stops(verdict),
+        }
+    }
+}
+
+/// What became of a translation, whether its output may be used or not.
+#[derive(Debug)]
+pub struct Outcome {
+    /// What was found, in the order in which it was found. Spans are places in the source.
+    pub diagnostics: Vec<Diagnostic>,
+    /// What the verification covered; `None` if it was not asked for or did not come to its end.
+    pub verified: Option<Verified>,
+    /// Whether the output may be used, and if not, why.
+    pub release: Result<(), Failure>,
+    /// The output. Empty or unfinished, and not to be used, if it is not released.
+    pub output: Output,
+    /// How many constructs came through with each verdict, in the order of [`Verdict::ALL`].
+    pub counts: [u64; Verdict::ALL.len()],
+    /// SHA-256 of the source's bytes.
+    pub source_sha256: [u8; 32],
+    /// Length of the source.
+    pub source_bytes: u64,
+    /// Blocks read from the source.
+    pub blocks: u64,
+}
+
+impl Outcome {
+    /// How many constructs came through with a verdict.
+    pub fn count(&self, verdict: Verdict) -> u64 {
+        self.counts[verdict as usize]
+    }
+}
+
+/// What a verification covered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Verified {
+    /// Generated worlds in which both programs were executed.
+    pub worlds: u32,
+    /// Settings of the block-skip switches that were tried in each; 1 for a program without.
+    pub skip_settings: u32,
+    /// Events compared, over all worlds and settings.
+    pub events: u64,
+}
+
+/// Why an output is not released.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Failure {
+    /// The program has errors, or a loss is not allowed: exit code 1.
+    Refused,
+    /// Source and output were not shown to do the same: exit code 3.
+    VerificationFailed,
+}
+
+/// An output: its head, which can be written only when all the rest is known, and the rest.
+#[derive(Debug)]
+pub struct Output {
+    head: Vec<u8>,
+    body: SpooledTempFile,
+    body_bytes: u64,
+}
+
+/// Bytes of an output that are kept in memory; what is longer goes to an anonymous file.
+const IN_MEMORY: usize = 1 << 20;
+
+impl Output {
+    /// An output without anything in it.
+    pub fn new() -> Output {
+        Output { head: Vec::new(), body: SpooledTempFile::new(IN_MEMORY), body_bytes: 0 }
+    }
+
+    /// Adds to the body.
+    ///
+    /// # Errors
+    /// The anonymous file cannot be made or written.
+    pub fn push(&mut self, text: &[u8]) -> io::Result<()> {
+        self.body.write_all(text)?;
+        self.body_bytes += text.len() as u64;
+        Ok(())
+    }
+
+    /// Sets the text that goes before the body.
+    pub fn set_head(&mut self, head: Vec<u8>) {
+        self.head = head;
+    }
+
+    /// Length of the whole.
+    pub fn bytes(&self) -> u64 {
+        self.head.len() as u64 + self.body_bytes
+    }
+
+    /// Writes the whole, head first. May be called again.
+    ///
+    /// # Errors
+    /// Reading the anonymous file, or writing to `into`.
+    pub fn write_to(&mut self, into: &mut dyn Write) -> io::Result<()> {
+        into.write_all(&self.head)?;
+        self.body.seek(SeekFrom::Start(0))?;
+        let mut piece = vec![0; 1 << 16];
+        loop {
+            match self.body.read(&mut piece)? {
+                0 => return Ok(()),
+                n => into.write_all(&piece[..n])?,
+            }
+        }
+    }
+
+    /// The whole, in memory.
+    ///
+    /// # Errors
+    /// Reading the anonymous file.
+    pub fn to_vec(&mut self) -> io::Result<Vec<u8>> {
+        let mut all = Vec::with_capacity(self.bytes() as usize);
+        self.write_to(&mut all)?;
+        Ok(all)
+    }
+}
+
+impl Default for Output {
+    fn default() -> Output {
+        Output::new()
+    }
+}

@@ -1,0 +1,7 @@
+//! The binary `ncc`. Everything it does is in the library.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    ExitCode::from(2)
+}
