@@ -293,6 +293,65 @@ pub enum Op {
     Label(Text),
 }
 
+impl Op {
+    /// Its upper-case name in text; control has lower-case words.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Op::Comment(_) => "COMMENT",
+            Op::NoEffect(_) => "NO_EFFECT",
+            Op::Blank => "BLANK",
+            Op::UseLengthUnits(_) => "USE_LENGTH_UNITS",
+            Op::SetDistanceMode(_) => "SET_DISTANCE_MODE",
+            Op::SelectPlane(_) => "SELECT_PLANE",
+            Op::SetFeedMode(_) => "SET_FEED_MODE",
+            Op::SetReturnLevel(_) => "SET_RETURN_LEVEL",
+            Op::SetOriginOffsets(_) => "SET_ORIGIN_OFFSETS",
+            Op::ClearFrame(_) => "CLEAR_FRAME",
+            Op::SetFrame(..) => "SET_FRAME",
+            Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
+            Op::SetFeedRate(_) => "SET_FEED_RATE",
+            Op::SetSpindleSpeed(_) => "SET_SPINDLE_SPEED",
+            Op::SelectTool(_) => "SELECT_TOOL",
+            Op::ChangeTool => "CHANGE_TOOL",
+            Op::UseToolLengthOffset(_) => "USE_TOOL_LENGTH_OFFSET",
+            Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
+            Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
+            Op::StopSpindleTurning => "STOP_SPINDLE_TURNING",
+            Op::FloodOn => "FLOOD_ON",
+            Op::MistOn => "MIST_ON",
+            Op::CoolantOff => "COOLANT_OFF",
+            Op::Dwell(_) => "DWELL",
+            Op::StraightTraverse(_) => "STRAIGHT_TRAVERSE",
+            Op::StraightFeed(_) => "STRAIGHT_FEED",
+            Op::ArcFeed(_) => "ARC_FEED",
+            Op::Position(_) => "POSITION",
+            Op::StartCycle(_) => "START_CYCLE",
+            Op::Hole(_) => "HOLE",
+            Op::Pattern(pattern) => match **pattern {
+                Pattern::Circle { .. } => "CIRCLE_PATTERN",
+                Pattern::Grid { .. } => "RECTANGULAR_LAYOUT",
+            },
+            Op::EndCycle => "END_CYCLE",
+            Op::ProgramStop => "PROGRAM_STOP",
+            Op::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
+            Op::ProgramEnd => "PROGRAM_END",
+            Op::Message(_) => "MESSAGE",
+            Op::Call(_) => "CALL",
+            Op::Return => "RETURN",
+            Op::Assign(..) => "assignment",
+            Op::Control(control) => match **control {
+                Control::Repeat { .. } => "repeat",
+                Control::Loop { .. } => "loop",
+                Control::While { .. } => "while",
+                Control::For { .. } => "for",
+                Control::If { .. } => "if",
+            },
+            Op::Goto(_) => "GOTO",
+            Op::Label(_) => "LABEL",
+        }
+    }
+}
+
 /// A call of a procedure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Call {
