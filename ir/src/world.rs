@@ -3,7 +3,7 @@
 //! A world is an explicit argument, never ambient. Verification makes several, distinct and
 //! non-round, so that a lost work offset or a swapped length entry shows in machine coordinates.
 
-use crate::canon::{AXES, Modes};
+use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use crate::num::{Nanos, ONE};
 
 /// One state of the machine and its tables before the program starts.
@@ -20,6 +20,42 @@ pub struct World {
 }
 
 impl World {
+    /// The world of a seed (1, 2, …) for a control of which `fixed` facts always hold at power-on.
+    /// Every other fact differs from world to world, so that a program which leaves it unsaid is
+    /// not the same program in all of them.
+    pub fn generate(seed: u32, fixed: &Modes) -> World {
+        let odd_one = seed % 2 == 1;
+        let pick = |a, b| if odd_one { a } else { b };
+        let power_on = Modes {
+            motion: fixed.motion.or(Some(if odd_one { Motion::Feed } else { Motion::Traverse })),
+            distance: fixed.distance.or(Some(if odd_one {
+                Distance::Incremental
+            } else {
+                Distance::Absolute
+            })),
+            units: fixed.units.or(Some(if odd_one { Units::Inch } else { Units::Mm })),
+            plane: fixed.plane.or(Some(if odd_one { Plane::Yz } else { Plane::Zx })),
+            feed_mode: Some(FeedMode::PerMinute),
+            return_level: fixed.return_level.or(Some(if odd_one {
+                ReturnLevel::Initial
+            } else {
+                ReturnLevel::Retract
+            })),
+            work_offset: fixed.work_offset.or(Some(pick(5, 3) as u16)),
+            length_offset: fixed.length_offset.or(Some(pick(91, 92))),
+            no_origin_shift: fixed.no_origin_shift.or(Some(false)),
+        };
+        let mut world = World { seed, power_on, start: [0; AXES], peck_clearance: 0 };
+        world.start = std::array::from_fn(|axis| world.odd(50_000 + axis as u32, 400));
+        world.peck_clearance = ONE / 2 + world.odd(60_000, 1).abs() / 2;
+        world
+    }
+
+    /// A shift of program zero that an earlier program left behind, where there is one.
+    pub fn left_over_shift(&self) -> [Nanos; AXES] {
+        std::array::from_fn(|axis| self.odd(70_000 + axis as u32, 20))
+    }
+
     /// Zero of a work offset (1 is the first), in machine coordinates.
     pub fn work_offset(&self, number: u16) -> [Nanos; AXES] {
         if self.seed == 0 {

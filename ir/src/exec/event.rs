@@ -1,0 +1,92 @@
+//! Events of the canonical stream.
+
+use crate::canon::{AXES, Plane, Spindle, Turn};
+use crate::num::Nanos;
+use crate::program::Text;
+use crate::source::Span;
+
+/// One thing that the machine does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// What it is.
+    pub kind: Kind,
+    /// Where the axes stand after it, machine coordinates in nanos.
+    pub end: [Nanos; AXES],
+    /// Feed of a cutting move, mm/min in nanos; 0 of others.
+    pub rate: Nanos,
+    /// What is on.
+    pub state: State,
+    /// Whether the program was in inches; decides its resolution, not compared.
+    pub inch: bool,
+    /// Where it comes from.
+    pub span: Span,
+}
+
+/// Kinds of events.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// Rapid, straight.
+    Traverse,
+    /// Straight at feed.
+    Feed,
+    /// Arc or helix at feed.
+    Arc {
+        /// Its plane.
+        plane: Plane,
+        /// Its sense, seen from the positive end of the plane's normal.
+        turn: Turn,
+        /// Full turns beyond the first, partial one.
+        turns: u32,
+        /// Whether start and end are one point of the plane: a whole circle.
+        full: bool,
+        /// Its centre in the plane, machine coordinates.
+        centre: [Nanos; 2],
+    },
+    /// Dwell, seconds in nanos.
+    Dwell(Nanos),
+    /// The selected tool is put in.
+    ToolChange,
+    /// Coolant was switched.
+    Coolant,
+    /// Stop.
+    ProgramStop,
+    /// Stop, if the operator wants it.
+    OptionalProgramStop,
+    /// End.
+    ProgramEnd,
+    /// Text for the operator.
+    Message(Text),
+}
+
+/// What is on while an event happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct State {
+    /// Tool in the spindle; -1 is the one that was there at the start.
+    pub tool: i64,
+    /// Spindle speed in rev/min, nanos; counts only while the spindle turns.
+    pub speed: Nanos,
+    /// Sense of the spindle.
+    pub spindle: Spindle,
+    /// Flood coolant.
+    pub flood: bool,
+    /// Mist coolant.
+    pub mist: bool,
+}
+
+impl Default for State {
+    fn default() -> State {
+        State { tool: -1, speed: 0, spindle: Spindle::Stopped, flood: false, mist: false }
+    }
+}
+
+impl State {
+    /// Whether two states are the same to the machine: the speed of a stopped spindle is nothing.
+    #[inline]
+    pub fn same(&self, other: &State) -> bool {
+        self.tool == other.tool
+            && self.spindle == other.spindle
+            && (self.speed == other.speed || self.spindle == Spindle::Stopped)
+            && self.flood == other.flood
+            && self.mist == other.mist
+    }
+}

@@ -1,0 +1,475 @@
+//! Execution: from a program to the canonical stream, in a world.
+//!
+//! Everything that a program does not say comes from the [`World`]. Events are in machine
+//! coordinates, so that a lost work offset or a wrong length entry shows. Statements whose meaning
+//! is not executed yet (variables, jumps) are refused by name.
+
+mod event;
+mod holes;
+mod run;
+
+pub use event::{Event, Kind, State};
+pub use run::{Progress, Runner};
+
+use crate::canon::{AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::geometry::{self, ArcFault};
+use crate::num::{Nanos, ONE, Unit};
+use crate::program::{Arc, Centre, CentreFrom, Coord, FrameSlot, Op, Point, Stmt};
+use crate::source::Span;
+use crate::world::World;
+use holes::InForce;
+
+const Z: usize = Axis::Z as usize;
+
+/// Greatest difference of an arc's two radii, 0.02 mm; a control's parameter is of this order.
+const ARC_TOLERANCE: Nanos = ONE / 50;
+
+/// A control that executes statements one by one.
+#[derive(Clone, Debug)]
+pub struct Exec {
+    world: World,
+    /// Block-skip switches: bit n is level n.
+    skip: u16,
+    modes: InModes,
+    /// Facts that the program or an assumption has set; the others are still the world's.
+    said: u16,
+    /// Position in the program's frame.
+    position: [Nanos; AXES],
+    /// Machine coordinates of program zero, tool length included.
+    frame: [Nanos; AXES],
+    /// Position of the last move's event.
+    last: [Nanos; AXES],
+    /// Entry of the length table that the next Z takes up.
+    waiting: Option<u32>,
+    feed: Nanos,
+    selected: i64,
+    state: State,
+    cycle: Option<InForce>,
+    /// Whether the program has ended.
+    ended: bool,
+}
+
+/// Modes in force; a control always has a value for each.
+#[derive(Clone, Copy, Debug)]
+struct InModes {
+    motion: Motion,
+    distance: Distance,
+    inch: bool,
+    plane: Plane,
+    return_level: ReturnLevel,
+    work_offset: u16,
+    length: u32,
+    shifted: bool,
+}
+
+// Bits of `Exec::said`.
+const MOTION: u16 = 1;
+const DISTANCE: u16 = 2;
+const UNITS: u16 = 4;
+const PLANE: u16 = 8;
+const RETURN: u16 = 16;
+const WORK: u16 = 32;
+const LENGTH: u16 = 64;
+const SHIFT: u16 = 128;
+
+impl Exec {
+    /// A control at power-on in a world, with these block-skip switches on (bit n is level n).
+    pub fn new(world: &World, skip: u16) -> Exec {
+        let p = world.power_on;
+        let modes = InModes {
+            motion: p.motion.unwrap_or(Motion::Traverse),
+            distance: p.distance.unwrap_or(Distance::Absolute),
+            inch: p.units == Some(Units::Inch),
+            plane: p.plane.unwrap_or(Plane::Xy),
+            return_level: p.return_level.unwrap_or(ReturnLevel::Initial),
+            work_offset: p.work_offset.unwrap_or(1),
+            length: p.length_offset.unwrap_or(0),
+            shifted: p.no_origin_shift == Some(false),
+        };
+        let mut exec = Exec {
+            world: world.clone(),
+            skip,
+            modes,
+            said: 0,
+            position: [0; AXES],
+            frame: [0; AXES],
+            last: world.start,
+            waiting: None,
+            feed: 0,
+            selected: -1,
+            state: State::default(),
+            cycle: None,
+            ended: false,
+        };
+        exec.reframe(world.start);
+        exec
+    }
+
+    /// Takes facts for granted that nothing has set yet.
+    pub fn assume(&mut self, facts: &Modes) {
+        let here = self.machine();
+        let fresh = |said: u16, bit| said & bit == 0;
+        if let (Some(d), true) = (facts.distance, fresh(self.said, DISTANCE)) {
+            self.modes.distance = d;
+            self.said |= DISTANCE;
+        }
+        if let (Some(u), true) = (facts.units, fresh(self.said, UNITS)) {
+            self.modes.inch = u == Units::Inch;
+            self.said |= UNITS;
+        }
+        if let (Some(p), true) = (facts.plane, fresh(self.said, PLANE)) {
+            self.modes.plane = p;
+            self.said |= PLANE;
+        }
+        if let (Some(r), true) = (facts.return_level, fresh(self.said, RETURN)) {
+            self.modes.return_level = r;
+            self.said |= RETURN;
+        }
+        if let (Some(m), true) = (facts.motion, fresh(self.said, MOTION)) {
+            self.modes.motion = m;
+            self.said |= MOTION;
+        }
+        if let (Some(w), true) = (facts.work_offset, fresh(self.said, WORK)) {
+            self.modes.work_offset = w;
+            self.said |= WORK;
+        }
+        if let (Some(l), true) = (facts.length_offset, fresh(self.said, LENGTH)) {
+            self.modes.length = l;
+            self.said |= LENGTH;
+        }
+        if let (Some(n), true) = (facts.no_origin_shift, fresh(self.said, SHIFT)) {
+            self.modes.shifted = !n;
+            self.said |= SHIFT;
+        }
+        self.reframe(here);
+    }
+
+    /// Whether the program has ended.
+    pub fn ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Puts the axes somewhere in program coordinates (a stated start).
+    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
+        for (axis, at) in start.iter().enumerate() {
+            if let Some(at) = at {
+                self.position[axis] = *at;
+            }
+        }
+        self.last = self.machine();
+    }
+
+    /// Work offset in force, and whether the program or an assumption named it.
+    pub fn work_offset(&self) -> Option<u16> {
+        (self.said & WORK != 0).then_some(self.modes.work_offset)
+    }
+
+    #[inline]
+    fn machine(&self) -> [Nanos; AXES] {
+        std::array::from_fn(|i| self.position[i].wrapping_add(self.frame[i]))
+    }
+
+    /// Computes the frame anew; the machine stays at `here`.
+    fn reframe(&mut self, here: [Nanos; AXES]) {
+        self.frame = self.world.work_offset(self.modes.work_offset);
+        if self.modes.shifted {
+            let shift = self.world.left_over_shift();
+            for (f, s) in self.frame.iter_mut().zip(shift) {
+                *f += s;
+            }
+        }
+        self.frame[Z] += self.world.tool_length(self.modes.length);
+        self.position = std::array::from_fn(|i| here[i].wrapping_sub(self.frame[i]));
+    }
+
+    /// Takes up a waiting length entry: the coming Z is measured with it.
+    #[inline]
+    fn take_up_length(&mut self) {
+        if let Some(entry) = self.waiting.take() {
+            self.frame[Z] += self.world.tool_length(entry) - self.world.tool_length(self.modes.length);
+            self.modes.length = entry;
+        }
+    }
+
+    fn fault<T>(&self, fault: Fault, span: Span) -> Result<T, Diagnostic> {
+        Err(Diagnostic::new(fault, span))
+    }
+
+    /// A literal's value in nanos.
+    #[inline]
+    fn value(&self, value: &Expr, span: Span) -> Result<Nanos, Diagnostic> {
+        let Expr::Num(n) = value else {
+            return self.fault(Fault::NotExecuted { what: "an expression".into() }, span);
+        };
+        let inch = n.unit == Unit::Entry && self.modes.inch;
+        match n.nanos(inch) {
+            // Positions are sums of a few such values, so they stay far from the ends of the range.
+            Some(v) if v.unsigned_abs() < 1 << 60 => Ok(v),
+            _ => self.fault(Fault::OutOfRange { word: "".into() }, span),
+        }
+    }
+
+    #[inline]
+    fn whole(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
+        match value.literal().and_then(|n| n.whole()) {
+            Some(n) => Ok(n),
+            None => self.fault(Fault::OutOfRange { word: "".into() }, span),
+        }
+    }
+
+    #[inline]
+    fn target(&self, word: &Coord, from: Nanos, span: Span) -> Result<Nanos, Diagnostic> {
+        let value = self.value(&word.value, span)?;
+        Ok(match word.distance.or(self.modes.distance) {
+            Distance::Absolute => value,
+            Distance::Incremental => {
+                let sum = from.wrapping_add(value);
+                if sum.unsigned_abs() >= 1 << 61 {
+                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                }
+                sum
+            }
+        })
+    }
+
+    /// Where the words put the axes; takes up a waiting length with a Z word.
+    #[inline]
+    fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
+        let mut next = self.position;
+        for (axis, word) in to.axes.iter().enumerate() {
+            if let Some(word) = word {
+                next[axis] = self.target(word, self.position[axis], span)?;
+            }
+        }
+        if to.axes[Z].is_some() {
+            self.take_up_length();
+        }
+        self.position = next;
+        Ok(())
+    }
+
+    /// Emits a straight move to the present position, if it is one.
+    #[inline]
+    fn emit_move(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let end = self.machine();
+        if end == self.last {
+            return Ok(());
+        }
+        let kind = if feed { Kind::Feed } else { Kind::Traverse };
+        self.last = end;
+        self.emit(kind, span, out)
+    }
+
+    #[inline]
+    fn emit(&mut self, kind: Kind, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let cutting = matches!(kind, Kind::Feed | Kind::Arc { .. });
+        if cutting && self.feed == 0 {
+            return self.fault(Fault::NoFeed, span);
+        }
+        let rate = if cutting { self.feed } else { 0 };
+        out.push(Event { kind, end: self.last, rate, state: self.state, inch: self.modes.inch, span });
+        Ok(())
+    }
+
+    /// Executes a statement; its events are pushed to `out`.
+    ///
+    /// # Errors
+    /// What no control could execute, or what is not executed yet.
+    #[inline]
+    pub fn step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.ended || stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1) {
+            return Ok(());
+        }
+        let span = stmt.span;
+        match &stmt.op {
+            Op::StraightFeed(m) => self.straight(&m.to, true, span, out),
+            Op::StraightTraverse(m) => self.straight(&m.to, false, span, out),
+            Op::ArcFeed(arc) => self.arc(arc, span, out),
+            Op::Position(m) => match self.modes.motion {
+                Motion::Traverse => self.straight(&m.to, false, span, out),
+                Motion::Feed => self.straight(&m.to, true, span, out),
+                Motion::Arc(_) => self.fault(Fault::ArcWithoutCentre, span),
+                Motion::Cycle => self.hole(&m.to, span, out),
+            },
+            Op::SetFeedRate(f) => {
+                self.feed = self.value(f, span)?;
+                Ok(())
+            }
+            _ => self.other(stmt, out),
+        }
+    }
+
+    #[inline]
+    fn straight(
+        &mut self,
+        to: &Point,
+        feed: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        self.set_axes(to, span)?;
+        self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
+        self.said |= MOTION;
+        self.cycle = None;
+        self.emit_move(feed, span, out)
+    }
+
+    fn arc(&mut self, arc: &Arc, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let plane = arc.plane.or(self.modes.plane);
+        let (first, second, _) = plane.axes();
+        let (f, s) = (first as usize, second as usize);
+        let start = [self.position[f], self.position[s]];
+        let before = self.position;
+        self.set_axes(&arc.to, span)?;
+        let end = [self.position[f], self.position[s]];
+        let centre = match &arc.centre {
+            Centre::Point { words, from } => {
+                let mut centre = start;
+                for (c, axis) in centre.iter_mut().zip([f, s]) {
+                    if let Some(word) = &words[axis] {
+                        let value = self.value(word, span)?;
+                        *c = match from {
+                            CentreFrom::Start => before[axis].wrapping_add(value),
+                            CentreFrom::Zero => value,
+                        };
+                    }
+                }
+                geometry::check_on_circle(start, end, centre, ARC_TOLERANCE).map(|()| centre)
+            }
+            Centre::Radius(radius) => {
+                geometry::centre_by_radius(start, end, self.value(radius, span)?, arc.turn)
+            }
+        };
+        let centre = match centre {
+            Ok(centre) => centre,
+            Err(ArcFault::RadiusTooSmall) => return self.fault(Fault::ArcRadiusTooSmall, span),
+            Err(ArcFault::NoWay) => return self.fault(Fault::ArcRadiusNoWay, span),
+            Err(ArcFault::EndOffCircle(by)) => return self.fault(Fault::ArcEndOffCircle { by }, span),
+            Err(ArcFault::NoRadius) => return self.fault(Fault::ArcWithoutCentre, span),
+        };
+        self.modes.motion = Motion::Arc(arc.turn);
+        self.said |= MOTION;
+        self.cycle = None;
+        self.last = self.machine();
+        let machine_centre = [centre[0] + self.frame[f], centre[1] + self.frame[s]];
+        let kind =
+            Kind::Arc { plane, turn: arc.turn, turns: arc.turns, full: start == end, centre: machine_centre };
+        self.emit(kind, span, out)
+    }
+
+    /// Everything but plain moves and feeds.
+    fn other(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        match &stmt.op {
+            Op::StraightFeed(_)
+            | Op::StraightTraverse(_)
+            | Op::ArcFeed(_)
+            | Op::Position(_)
+            | Op::SetFeedRate(_) => {}
+            Op::Comment(_) | Op::NoEffect(_) | Op::Blank | Op::StopCutterRadiusCompensation => {}
+            Op::UseLengthUnits(units) => {
+                self.modes.inch = *units == Units::Inch;
+                self.said |= UNITS;
+            }
+            Op::SetDistanceMode(distance) => {
+                self.modes.distance = *distance;
+                self.said |= DISTANCE;
+            }
+            Op::SelectPlane(plane) => {
+                self.modes.plane = *plane;
+                self.said |= PLANE;
+            }
+            Op::SetFeedMode(FeedMode::PerMinute) => {}
+            Op::SetFeedMode(FeedMode::PerRevolution) => return self.not_executed("feed per turn", span),
+            Op::SetFeedMode(FeedMode::InverseTime) => return self.not_executed("inverse-time feed", span),
+            Op::SetReturnLevel(level) => {
+                self.modes.return_level = *level;
+                self.said |= RETURN;
+            }
+            Op::SetOriginOffsets(number) => {
+                let here = self.machine();
+                self.modes.work_offset = *number;
+                self.said |= WORK;
+                self.reframe(here);
+            }
+            Op::ClearFrame(FrameSlot::Shift) => {
+                let here = self.machine();
+                self.modes.shifted = false;
+                self.said |= SHIFT;
+                self.reframe(here);
+            }
+            Op::ClearFrame(_) => {}
+            Op::SetFrame(..) => return self.not_executed("a frame", span),
+            Op::SetSpindleSpeed(speed) => self.state.speed = self.value(speed, span)?,
+            Op::SelectTool(tool) => self.selected = self.whole(tool, span)?,
+            Op::ChangeTool => {
+                if self.selected < 0 {
+                    return self.fault(Fault::NoToolSelected, span);
+                }
+                self.state.tool = self.selected;
+                self.emit(Kind::ToolChange, span, out)?;
+            }
+            Op::UseToolLengthOffset(entry) => {
+                let entry = u32::try_from(self.whole(entry, span)?);
+                let Ok(entry) = entry else {
+                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                };
+                self.said |= LENGTH;
+                self.waiting = Some(entry);
+            }
+            Op::StartSpindleClockwise => self.state.spindle = Spindle::Clockwise,
+            Op::StartSpindleCounterclockwise => self.state.spindle = Spindle::Counterclockwise,
+            Op::StopSpindleTurning => self.state.spindle = Spindle::Stopped,
+            Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
+            Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
+            Op::CoolantOff => self.coolant(false, false, span, out)?,
+            Op::Dwell(seconds) => {
+                let seconds = self.value(seconds, span)?;
+                self.emit(Kind::Dwell(seconds), span, out)?;
+            }
+            Op::StartCycle(cycle) => self.start_cycle(cycle, span)?,
+            Op::Hole(m) => self.hole(&m.to, span, out)?,
+            Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
+            Op::EndCycle => self.cycle = None,
+            Op::ProgramStop => self.emit(Kind::ProgramStop, span, out)?,
+            Op::OptionalProgramStop => self.emit(Kind::OptionalProgramStop, span, out)?,
+            Op::ProgramEnd => {
+                self.emit(Kind::ProgramEnd, span, out)?;
+                self.ended = true;
+            }
+            Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,
+            Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
+            Op::Return => return self.not_executed("a return of the main program", span),
+            Op::Assign(..) => return self.not_executed("a variable", span),
+            Op::Control(_) => return self.not_executed("control of the program's flow", span),
+            Op::Goto(_) => return self.not_executed("a jump", span),
+            Op::Label(_) => {}
+        }
+        Ok(())
+    }
+
+    fn coolant(
+        &mut self,
+        flood: bool,
+        mist: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if (flood, mist) != (self.state.flood, self.state.mist) {
+            self.state.flood = flood;
+            self.state.mist = mist;
+            self.emit(Kind::Coolant, span, out)?;
+        }
+        Ok(())
+    }
+
+    fn not_executed(&self, what: &str, span: Span) -> Result<(), Diagnostic> {
+        self.fault(Fault::NotExecuted { what: what.into() }, span)
+    }
+
+    fn plane_of(&self, plane: Fact<Plane>) -> Plane {
+        plane.or(self.modes.plane)
+    }
+}

@@ -1,0 +1,135 @@
+//! Execution of a program that is kept whole: calls and repetitions, one statement at a time.
+
+use super::{Event, Exec};
+use crate::diag::{Diagnostic, Fault};
+use crate::program::{Control, Op, Program, Stmt};
+
+/// Deepest nesting of calls and repetitions.
+const DEEPEST: usize = 64;
+
+/// Most statements of one run; a program that needs more does not come to an end.
+const MOST_STEPS: u64 = 2_000_000_000;
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Progress {
+    /// There is more.
+    More,
+    /// The program is over.
+    Done,
+}
+
+/// A run of a whole program from its first statement.
+#[derive(Clone, Debug)]
+pub struct Runner<'p> {
+    program: &'p Program,
+    stack: Vec<Level<'p>>,
+    steps: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Level<'p> {
+    body: &'p [Stmt],
+    next: usize,
+    /// Further turns after this one.
+    again: u64,
+    /// Whether a return ends it.
+    call: bool,
+}
+
+impl<'p> Runner<'p> {
+    /// Ready to run the main procedure.
+    pub fn new(program: &'p Program) -> Runner<'p> {
+        let body = program.procedures.first().map_or(&[][..], |p| &p.body);
+        Runner { program, stack: vec![Level { body, next: 0, again: 0, call: false }], steps: 0 }
+    }
+
+    /// Executes statements until at least `enough` events are in `out`, or the program is over.
+    ///
+    /// # Errors
+    /// As of [`Exec::step`]; an unknown or endless call.
+    pub fn run(
+        &mut self,
+        exec: &mut Exec,
+        enough: usize,
+        out: &mut Vec<Event>,
+    ) -> Result<Progress, Diagnostic> {
+        while out.len() < enough {
+            if exec.ended() {
+                return Ok(Progress::Done);
+            }
+            let Some(level) = self.stack.last_mut() else {
+                return Ok(Progress::Done);
+            };
+            let Some(stmt) = level.body.get(level.next) else {
+                if level.again > 0 {
+                    level.again -= 1;
+                    level.next = 0;
+                } else {
+                    self.stack.pop();
+                }
+                continue;
+            };
+            level.next += 1;
+            self.steps += 1;
+            if self.steps > MOST_STEPS {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_STEPS }, stmt.span));
+            }
+            if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
+                continue;
+            }
+            match &stmt.op {
+                Op::Call(call) => {
+                    let Some(callee) = self.program.procedures.iter().skip(1).find(|p| p.name == call.name)
+                    else {
+                        return Err(Diagnostic::new(
+                            Fault::CallUnknown { name: call.name.clone() },
+                            stmt.span,
+                        ));
+                    };
+                    if call.times > 0 {
+                        self.push(&callee.body, u64::from(call.times - 1), true, stmt)?;
+                    }
+                }
+                Op::Return => {
+                    while let Some(level) = self.stack.last_mut() {
+                        if level.call {
+                            level.next = level.body.len();
+                            break;
+                        }
+                        if self.stack.len() == 1 {
+                            let what = "a return of the main program".into();
+                            return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+                        }
+                        self.stack.pop();
+                    }
+                }
+                Op::Control(control) => match &**control {
+                    Control::Repeat { times, body } => match times.literal().and_then(|n| n.whole()) {
+                        Some(0) => {}
+                        Some(n) if n > 0 => self.push(body, n as u64 - 1, false, stmt)?,
+                        Some(_) | None => exec.not_executed("a computed repetition", stmt.span)?,
+                    },
+                    Control::Loop { .. }
+                    | Control::While { .. }
+                    | Control::For { .. }
+                    | Control::If { .. } => exec.not_executed("control of the program's flow", stmt.span)?,
+                },
+                _ => exec.step(stmt, out)?,
+            }
+        }
+        Ok(Progress::More)
+    }
+
+    fn push(&mut self, body: &'p [Stmt], again: u64, call: bool, at: &Stmt) -> Result<(), Diagnostic> {
+        if self.stack.len() >= DEEPEST {
+            let name = match &at.op {
+                Op::Call(call) => call.name.clone(),
+                _ => "".into(),
+            };
+            return Err(Diagnostic::new(Fault::CallRecursive { name }, at.span));
+        }
+        self.stack.push(Level { body, next: 0, again, call });
+        Ok(())
+    }
+}

@@ -1,0 +1,197 @@
+//! Comparison of two canonical streams: is it the same cut?
+//!
+//! Equal means: the same events in the same order; end point, centre, plane and sense of arcs agree
+//! to within the target's resolution; feed, speed, spindle, tool and coolant are attributes of the
+//! event and agree. Moves that rounding has brought to nothing vanish. The comparison consumes both
+//! streams as they come, so that its memory does not grow with the program.
+
+use crate::canon::{AXES, Axis};
+use crate::exec::{Event, Kind};
+use crate::num::{Nanos, POW10};
+
+/// What the target resolves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resolution {
+    /// Digits after the point of a length in mm.
+    pub mm: u8,
+    /// Digits after the point of a length in inches.
+    pub inch: u8,
+    /// Digits after the point of an angle in degrees.
+    pub degree: u8,
+    /// Digits after the point of a feed.
+    pub feed: u8,
+    /// Digits after the point of a dwell in seconds.
+    pub second: u8,
+}
+
+impl Resolution {
+    /// Half a unit of the last digit, in nanos.
+    fn half(digits: u8, inch: bool) -> Nanos {
+        let unit = POW10[9 - digits.min(9) as usize];
+        // An inch is 25.4 mm.
+        (if inch { unit * 254 / 10 } else { unit }) / 2
+    }
+
+    #[inline]
+    fn lengths(&self, inch: bool) -> Nanos {
+        Resolution::half(if inch { self.inch } else { self.mm }, inch)
+    }
+}
+
+/// How two streams differ.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// In what.
+    pub aspect: Aspect,
+    /// The source's event; `None` if it has no further one.
+    pub source: Option<Event>,
+    /// The target's event; `None` if it has no further one.
+    pub target: Option<Event>,
+}
+
+/// In what two events differ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Aspect {
+    /// The kind of event.
+    Kind,
+    /// The end point, in this axis.
+    End(Axis),
+    /// The centre, plane or sense of an arc.
+    Arc,
+    /// The feed.
+    Feed,
+    /// Tool, spindle or coolant.
+    State,
+    /// One stream has more events.
+    Length,
+}
+
+/// A comparison in progress.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    resolution: Resolution,
+    half: [Nanos; 2],
+    source_at: [Nanos; AXES],
+    target_at: [Nanos; AXES],
+    /// Pairs of events found equal.
+    pub events: u64,
+}
+
+impl Comparison {
+    /// Nothing compared yet; both machines stand at `start`.
+    pub fn new(resolution: Resolution, start: [Nanos; AXES]) -> Comparison {
+        let half = [resolution.lengths(false), resolution.lengths(true)];
+        Comparison { resolution, half, source_at: start, target_at: start, events: 0 }
+    }
+
+    /// Compares as far as both streams go, and removes what was compared. With `over`, what is left
+    /// of one stream must be nothing.
+    ///
+    /// # Errors
+    /// The first difference.
+    pub fn advance(
+        &mut self,
+        source: &mut Vec<Event>,
+        target: &mut Vec<Event>,
+        over: bool,
+    ) -> Result<(), Box<Difference>> {
+        let (mut s, mut t) = (0, 0);
+        let found = loop {
+            match (source.get(s), target.get(t)) {
+                (Some(a), Some(b)) => match self.compare(a, b) {
+                    None => {
+                        self.source_at = a.end;
+                        self.target_at = b.end;
+                        self.events += 1;
+                        s += 1;
+                        t += 1;
+                    }
+                    Some(_) if self.vanishes(a, &self.target_at) => {
+                        self.source_at = a.end;
+                        s += 1;
+                    }
+                    Some(_) if self.vanishes(b, &self.source_at) => {
+                        self.target_at = b.end;
+                        t += 1;
+                    }
+                    Some(aspect) => break Some((aspect, Some(a.clone()), Some(b.clone()))),
+                },
+                (Some(a), None) if over => {
+                    if !self.vanishes(a, &self.target_at) {
+                        break Some((Aspect::Length, Some(a.clone()), None));
+                    }
+                    s += 1;
+                }
+                (None, Some(b)) if over => {
+                    if !self.vanishes(b, &self.source_at) {
+                        break Some((Aspect::Length, None, Some(b.clone())));
+                    }
+                    t += 1;
+                }
+                (None, _) | (_, None) => break None,
+            }
+        };
+        source.drain(..s);
+        target.drain(..t);
+        match found {
+            None => Ok(()),
+            Some((aspect, source, target)) => Err(Box::new(Difference { aspect, source, target })),
+        }
+    }
+
+    /// Whether a straight move goes nowhere, as seen from where the other machine stands.
+    fn vanishes(&self, event: &Event, other: &[Nanos; AXES]) -> bool {
+        matches!(event.kind, Kind::Traverse | Kind::Feed) && self.end(&event.end, other, event.inch).is_none()
+    }
+
+    /// The axis in which two points differ.
+    #[inline]
+    fn end(&self, a: &[Nanos; AXES], b: &[Nanos; AXES], inch: bool) -> Option<Axis> {
+        if a == b {
+            return None;
+        }
+        Axis::ALL.into_iter().find(|&axis| {
+            let off = a[axis as usize].abs_diff(b[axis as usize]);
+            let half = if axis.is_rotary() {
+                Resolution::half(self.resolution.degree, false)
+            } else {
+                self.half[usize::from(inch)]
+            };
+            off > half as u64
+        })
+    }
+
+    #[inline]
+    fn compare(&self, a: &Event, b: &Event) -> Option<Aspect> {
+        let near = |x: Nanos, y: Nanos, half: Nanos| x.abs_diff(y) <= half as u64;
+        match (&a.kind, &b.kind) {
+            (Kind::Feed, Kind::Feed) | (Kind::Traverse, Kind::Traverse) => {}
+            (
+                Kind::Arc { plane, turn, turns, full, centre },
+                Kind::Arc { plane: p2, turn: t2, turns: n2, full: f2, centre: c2 },
+            ) => {
+                // The centre follows from the rounded start and a rounded word, so it may be off by
+                // up to one and a half times what an end point may.
+                let half = self.half[usize::from(b.inch)] * 3 / 2;
+                let same = plane == p2 && turn == t2 && turns == n2 && full == f2;
+                if !same || !near(centre[0], c2[0], half) || !near(centre[1], c2[1], half) {
+                    return Some(Aspect::Arc);
+                }
+            }
+            (Kind::Dwell(x), Kind::Dwell(y)) => {
+                if !near(*x, *y, Resolution::half(self.resolution.second, false)) {
+                    return Some(Aspect::Kind);
+                }
+            }
+            (x, y) if x == y => {}
+            _ => return Some(Aspect::Kind),
+        }
+        if let Some(axis) = self.end(&a.end, &b.end, b.inch) {
+            return Some(Aspect::End(axis));
+        }
+        if a.rate != b.rate && !near(a.rate, b.rate, Resolution::half(self.resolution.feed, b.inch)) {
+            return Some(Aspect::Feed);
+        }
+        (!a.state.same(&b.state)).then_some(Aspect::State)
+    }
+}
