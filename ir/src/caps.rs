@@ -12,6 +12,8 @@ pub struct Caps {
     pub circle_pattern: bool,
     /// Grids up to this many columns and rows; 0 is none.
     pub grid_pattern: u32,
+    /// The way through its grids: whether every second row runs backwards; `None` if either.
+    pub grid_serpentine: Option<bool>,
     /// Whether the circle's centre must be program zero and where the tool stands.
     pub circle_centre_at_zero_only: bool,
     /// Whether hole positions may be incremental while a cycle is in force.
@@ -55,6 +57,8 @@ pub struct CycleCap {
     pub returns: Vec<ReturnLevel>,
     /// Whether it can dwell at the bottom.
     pub dwell: bool,
+    /// Whether it can say the clearance of a peck; else that is a parameter of the control.
+    pub clearance: bool,
 }
 
 impl Caps {

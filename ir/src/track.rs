@@ -125,20 +125,20 @@ impl Tracker {
                 let (dx, dy) = (self.nanos(&columns.pitch)?, self.nanos(&rows.pitch)?);
                 let origin = [at(first)?, at(second)?];
                 let total = columns.count.checked_mul(rows.count)?;
-                let place = |axis: Axis, by: Nanos, p: &mut [Nanos; 2]| {
-                    p[usize::from(axis == second)] += by;
+                let place = |axis: Axis, pitch: Nanos, n: u32, p: &mut [Nanos; 2]| -> Option<()> {
+                    let along = &mut p[usize::from(axis == second)];
+                    *along = along.checked_add(pitch.checked_mul(i64::from(n))?)?;
+                    Some(())
                 };
-                Some(
-                    (0..total)
-                        .map(|k| {
-                            let (c, r) = geometry::grid_position(columns.count, *serpentine, k);
-                            let mut p = origin;
-                            place(columns.axis, dx * i64::from(c), &mut p);
-                            place(rows.axis, dy * i64::from(r), &mut p);
-                            p
-                        })
-                        .collect(),
-                )
+                (0..total)
+                    .map(|k| {
+                        let (c, r) = geometry::grid_position(columns.count, *serpentine, k);
+                        let mut p = origin;
+                        place(columns.axis, dx, c, &mut p)?;
+                        place(rows.axis, dy, r, &mut p)?;
+                        Some(p)
+                    })
+                    .collect()
             }
         }
     }
@@ -180,11 +180,20 @@ impl Tracker {
         for (a, b) in self.position.iter_mut().zip(&other.position) {
             both(a, b);
         }
-        both(&mut self.cycle, &other.cycle);
+        match (&mut self.cycle, &other.cycle) {
+            // A hole that may have been skipped: the next one may be the first.
+            (Some(a), Some(b))
+                if a.drilled != b.drilled && (InForce { drilled: b.drilled, ..a.clone() }) == *b =>
+            {
+                a.drilled = false;
+            }
+            (a, b) => both(a, b),
+        }
         both(&mut self.selected, &other.selected);
     }
 
-    fn apply(&mut self, op: &Op) {
+    /// Executes an operation, whatever the block-skip switches say.
+    pub fn apply(&mut self, op: &Op) {
         match op {
             Op::StraightTraverse(m) => self.go(&m.to, Motion::Traverse),
             Op::StraightFeed(m) => self.go(&m.to, Motion::Feed),

@@ -7,7 +7,7 @@ use ncc_ir::canon::ReturnLevel;
 use ncc_ir::caps::{Caps, CycleCap};
 
 use crate::meaning::Meaning;
-use crate::schema::{CodeIndex, Dialect, Family, PatternRow};
+use crate::schema::{CodeIndex, CycleRow, Dialect, Family, PatternRow};
 
 /// Why a dictionary cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -125,17 +125,30 @@ fn caps(dialect: &Dialect) -> Caps {
     };
     let everything = dialect.can.everything;
     Caps {
-        cycles: dialect
-            .cycle
-            .iter()
-            .map(|row| CycleCap {
+        cycles: if everything {
+            let all = ["drill", "drill-dwell", "drill-peck", "bore"];
+            let cap = |kind: &str| CycleCap {
+                kind: kind.to_owned(),
+                returns: vec![ReturnLevel::Initial, ReturnLevel::Retract],
+                dwell: true,
+                clearance: true,
+            };
+            all.into_iter().map(cap).collect()
+        } else {
+            let cap = |row: &CycleRow| CycleCap {
                 kind: row.kind.clone(),
                 returns: returns.clone(),
                 dwell: row.dwell.is_some(),
-            })
-            .collect(),
+                clearance: false,
+            };
+            dialect.cycle.iter().map(cap).collect()
+        },
         circle_pattern: everything || dialect.pattern.iter().any(|p| matches!(p, PatternRow::Circle { .. })),
         grid_pattern: if everything { u32::MAX } else { dialect.can.grid_upto },
+        grid_serpentine: dialect.pattern.iter().find_map(|p| match p {
+            PatternRow::Grid { serpentine, .. } => Some(*serpentine),
+            PatternRow::Circle { .. } => None,
+        }),
         circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
         incremental_cycles: everything || dialect.cycles.incremental,
         calls: everything || (dialect.program.subprograms && says(Meaning::Call)),
@@ -148,7 +161,7 @@ fn caps(dialect: &Dialect) -> Caps {
         },
         offset_with_z: dialect.can.offset_with_z,
         arc_radius: everything || dialect.letter_for(crate::Role::Radius).is_some(),
-        helix: everything || dialect.arc.helix,
+        helix: everything || dialect.can.flat || dialect.arc.helix,
         arc_turns: everything || dialect.can.flat,
         skip_levels: if everything { 9 } else { dialect.block.skip_levels },
         incremental: everything || says(Meaning::SetDistanceMode(ncc_ir::canon::Distance::Incremental)),
