@@ -1,0 +1,69 @@
+//! The programs of `corpus/`, one folder a dialect.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Dialects with a folder in the corpus.
+pub const DIALECTS: [&str; 4] = ["mach9", "fanuc", "canon", "ir"];
+
+/// A program of the corpus.
+#[derive(Clone, Debug)]
+pub struct Program {
+    /// Its dialect.
+    pub dialect: &'static str,
+    /// Its file's name, without the extension.
+    pub name: String,
+    /// Its file's name.
+    pub file: String,
+    /// Its text.
+    pub text: Vec<u8>,
+}
+
+/// The top of the repository.
+pub fn root() -> PathBuf {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    tests.parent().map_or_else(|| tests.to_owned(), Path::to_owned)
+}
+
+/// Material that is given beside the repository, if it is there.
+pub fn shared() -> Option<PathBuf> {
+    let shared = root().join("../shared");
+    shared.is_dir().then_some(shared)
+}
+
+/// Files of a folder, by name.
+///
+/// # Panics
+/// The folder cannot be read.
+pub fn files(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display()));
+    let mut files: Vec<PathBuf> = entries.filter_map(|e| Some(e.ok()?.path())).collect();
+    files.sort();
+    files
+}
+
+/// The programs of a dialect, by name.
+///
+/// # Panics
+/// The corpus cannot be read.
+pub fn of(dialect: &'static str) -> Vec<Program> {
+    files(&root().join("corpus").join(dialect))
+        .into_iter()
+        .filter(|path| path.is_file())
+        .map(|path| Program {
+            dialect,
+            name: part(path.file_stem()),
+            file: part(path.file_name()),
+            text: fs::read(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())),
+        })
+        .collect()
+}
+
+/// All programs.
+pub fn all() -> Vec<Program> {
+    DIALECTS.into_iter().flat_map(of).collect()
+}
+
+fn part(name: Option<&std::ffi::OsStr>) -> String {
+    name.map(|n| n.to_string_lossy().into_owned()).unwrap_or_default()
+}

@@ -1,0 +1,416 @@
+//! Fanuc programs of the corpus' scope, from `reference/fanuc.md` alone.
+
+use super::{Halt, Hole, Machine, Setup, Spindle, What, characters};
+
+/// Runs the first program of a text.
+///
+/// # Errors
+/// The program is wrong, out of scope, or says something that the notes leave open.
+pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    let programs = programs(&characters(text));
+    let mut control = Control {
+        m: Machine::new(setup),
+        motion: 0,
+        cycle: None,
+        kept: Kept::default(),
+        initial: 0.0,
+        return_initial: true,
+        depth: 0,
+    };
+    let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
+    if !control.program(main, &programs)? {
+        control.m.record(What::End);
+    }
+    Ok(control.m)
+}
+
+/// A program of the text: its number and its blocks, each with its line.
+struct Program {
+    number: u32,
+    blocks: Vec<(usize, String)>,
+}
+
+/// Parts the text into programs and blocks, without comments, blanks and end-of-block signs.
+fn programs(text: &str) -> Vec<Program> {
+    let framed = text.lines().any(|line| line.trim_start().starts_with('%'));
+    let mut open = !framed;
+    let mut programs: Vec<Program> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        if line.trim_start().starts_with('%') {
+            if open {
+                break;
+            }
+            open = true;
+            continue;
+        }
+        if !open {
+            continue;
+        }
+        let mut bare = String::new();
+        let mut inside = false;
+        for c in line.chars() {
+            match c {
+                '(' => inside = true,
+                ')' => inside = false,
+                _ if inside || c.is_whitespace() => {}
+                _ => bare.push(c.to_ascii_uppercase()),
+            }
+        }
+        for block in bare.split(';').filter(|b| !b.is_empty()) {
+            if block.starts_with(['O', ':']) {
+                let digits: String = block[1..].chars().take_while(char::is_ascii_digit).collect();
+                programs.push(Program { number: digits.parse().unwrap_or(0), blocks: Vec::new() });
+                continue;
+            }
+            if programs.is_empty() {
+                programs.push(Program { number: 0, blocks: Vec::new() });
+            }
+            if let Some(program) = programs.last_mut() {
+                program.blocks.push((index + 1, block.to_owned()));
+            }
+        }
+    }
+    programs
+}
+
+/// What a cycle keeps from block to block: a word, and whether it was incremental.
+#[derive(Clone, Copy, Default)]
+struct Kept {
+    r: Option<(f64, bool)>,
+    z: Option<(f64, bool)>,
+    q: Option<f64>,
+    p: Option<f64>,
+}
+
+struct Control {
+    m: Machine,
+    motion: u32,
+    cycle: Option<u32>,
+    kept: Kept,
+    initial: f64,
+    return_initial: bool,
+    depth: u32,
+}
+
+/// A word: its letter, its number and whether that has a decimal point.
+type Word = (char, f64, bool);
+
+fn number(words: &[Word], letter: char) -> Option<(f64, bool)> {
+    // The last of an address wins.
+    words.iter().rev().find(|w| w.0 == letter).map(|w| (w.1, w.2))
+}
+
+impl Control {
+    /// Runs blocks; true when the program has ended for good.
+    fn program(&mut self, blocks: &[(usize, String)], all: &[Program]) -> Result<bool, Halt> {
+        for (line, block) in blocks {
+            self.m.line = *line;
+            match self.block(block, all)? {
+                Next::Block => {}
+                Next::Back => return Ok(false),
+                Next::End => return Ok(true),
+            }
+        }
+        Ok(false)
+    }
+
+    fn words(&self, block: &str) -> Result<Option<Vec<Word>>, Halt> {
+        let mut words = Vec::new();
+        let mut rest = block;
+        while let Some(letter) = rest.chars().next() {
+            rest = &rest[1..];
+            if letter == '/' {
+                let level = rest.chars().next().and_then(|c| c.to_digit(10)).filter(|n| *n > 0);
+                if level.is_some() {
+                    rest = &rest[1..];
+                }
+                let on = self.m.setup.skip[level.unwrap_or(1) as usize];
+                match (on, words.is_empty()) {
+                    (true, true) => return Ok(None),
+                    (true, false) => return Ok(Some(words)),
+                    (false, _) => continue,
+                }
+            }
+            if !letter.is_ascii_uppercase() {
+                return self.m.halt(format!("unexpected {letter}"));
+            }
+            let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(rest.len());
+            let text = &rest[..end];
+            rest = &rest[end..];
+            let Ok(value) = text.parse::<f64>() else {
+                return self.m.halt(format!("no number: {letter}{text}"));
+            };
+            if letter != 'N' {
+                words.push((letter, value, text.contains('.')));
+            }
+        }
+        Ok(Some(words))
+    }
+
+    /// A length, in millimetres: without a point it counts 0.001 mm or 0.0001 inch.
+    fn length(&self, words: &[Word], letter: char) -> Option<f64> {
+        let (value, point) = number(words, letter)?;
+        let unit = if self.m.inch { 25.4 } else { 1.0 };
+        let step = match (point, self.m.inch) {
+            (true, _) => 1.0,
+            (false, false) => 0.001,
+            (false, true) => 0.0001,
+        };
+        Some(value * step * unit)
+    }
+
+    /// An angle, in degrees: without a point it counts 0.001.
+    fn angle(&self, words: &[Word], letter: char) -> Option<f64> {
+        let (value, point) = number(words, letter)?;
+        Some(if point { value } else { value * 0.001 })
+    }
+
+    fn block(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
+        let Some(words) = self.words(block)? else { return Ok(Next::Block) };
+        if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGM".contains(w.0)) {
+            return self.m.halt(format!("the word {letter}"));
+        }
+        let codes = |letter: char| -> Vec<u32> {
+            words.iter().filter(|w| w.0 == letter).map(|w| (w.1 * 10.0).round() as u32).collect()
+        };
+        let m_codes = codes('M');
+        if m_codes.len() > 1 {
+            return self.m.halt("several M codes");
+        }
+        let m = m_codes.first().map(|m| m / 10);
+
+        let mut dwell = false;
+        let mut length = None;
+        let mut motion_last = None;
+        for g in codes('G') {
+            if g % 10 != 0 {
+                return self.m.halt(format!("G{}", f64::from(g) / 10.0));
+            }
+            match g / 10 {
+                g @ 0..=3 => motion_last = Some(g),
+                g @ (80 | 81 | 82 | 83 | 85 | 89) => motion_last = Some(g),
+                4 => dwell = true,
+                g @ 17..=19 => self.m.plane = g,
+                20 => self.m.inch = true,
+                21 => self.m.inch = false,
+                // Nothing that they end can have begun: G41, G42 and G95 are out of scope.
+                40 | 94 => {}
+                43 => length = Some(43),
+                49 => length = Some(49),
+                g @ 54..=59 => self.m.use_offset(g - 53),
+                90 => self.m.absolute = true,
+                91 => self.m.absolute = false,
+                98 => self.return_initial = true,
+                99 => self.return_initial = false,
+                other => return self.m.halt(format!("G{other}")),
+            }
+        }
+
+        if let Some((feed, point)) = number(&words, 'F') {
+            let step = if self.m.inch && !point { 0.01 } else { 1.0 };
+            self.m.feed = Some(feed * step * if self.m.inch { 25.4 } else { 1.0 });
+        }
+        if let Some((speed, _)) = number(&words, 'S') {
+            self.m.speed = Some(speed);
+        }
+        if let Some((tool, _)) = number(&words, 'T') {
+            self.m.selected = Some(tool as u32);
+        }
+        match m {
+            Some(6) => self.m.change_tool()?,
+            Some(3) => self.m.turn(Spindle::Clockwise),
+            Some(4) => self.m.turn(Spindle::Counterclockwise),
+            Some(7) => self.m.cool(self.m.coolant.0, true),
+            Some(8) => self.m.cool(true, self.m.coolant.1),
+            Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
+            Some(other) => return self.m.halt(format!("M{other}")),
+        }
+        match (length, number(&words, 'H')) {
+            (Some(43), Some((entry, _))) => self.m.use_length(entry as u32),
+            (Some(49), None) => self.m.use_length(0),
+            (None, None) => {}
+            _ => return self.m.halt("G43 and H"),
+        }
+
+        match motion_last {
+            Some(80) => self.end_cycle(),
+            Some(cycle @ 81..=89) => {
+                if self.cycle.is_none() {
+                    self.initial = self.m.at[2];
+                    if !self.m.settled[2] {
+                        return self.m.halt("the initial level is not known");
+                    }
+                }
+                self.cycle = Some(cycle);
+            }
+            Some(motion) => {
+                self.end_cycle();
+                self.motion = motion;
+            }
+            None => {}
+        }
+
+        if dwell {
+            let seconds = match (number(&words, 'X'), number(&words, 'P')) {
+                (Some((x, true)), None) => x,
+                (Some((x, false)), None) => x * 0.001,
+                (None, Some((p, _))) => p * 0.001,
+                _ => return self.m.halt("G04 needs X or P"),
+            };
+            self.m.record(What::Dwell(seconds));
+        } else if let Some(cycle) = self.cycle {
+            self.hole(cycle, &words)?;
+        } else {
+            self.go(&words)?;
+        }
+
+        match m {
+            Some(5) => self.m.turn(Spindle::Stopped),
+            Some(9) => self.m.cool(false, false),
+            Some(0) => self.m.record(What::Stop),
+            Some(1) => self.m.record(What::OptionalStop),
+            Some(2 | 30) => {
+                self.m.record(What::End);
+                return Ok(Next::End);
+            }
+            Some(98) => return self.call(&words, all),
+            Some(99) => {
+                if self.depth == 0 || number(&words, 'P').is_some() || number(&words, 'L').is_some() {
+                    return self.m.halt("M99 in the main program, with P or with L");
+                }
+                return Ok(Next::Back);
+            }
+            _ => {}
+        }
+        Ok(Next::Block)
+    }
+
+    fn end_cycle(&mut self) {
+        self.cycle = None;
+        self.kept = Kept::default();
+    }
+
+    fn axis_words(&self, words: &[Word]) -> [Option<f64>; 6] {
+        [
+            self.length(words, 'X'),
+            self.length(words, 'Y'),
+            self.length(words, 'Z'),
+            self.angle(words, 'A'),
+            self.angle(words, 'B'),
+            self.angle(words, 'C'),
+        ]
+    }
+
+    fn go(&mut self, words: &[Word]) -> Result<(), Halt> {
+        let axes = self.axis_words(words);
+        let ijk = ['I', 'J', 'K'].map(|letter| self.length(words, letter));
+        let r = self.length(words, 'R');
+        let any_centre = ijk.iter().any(Option::is_some) || r.is_some();
+        if axes.iter().all(Option::is_none) && !any_centre {
+            return Ok(());
+        }
+        if any_centre && self.motion < 2 {
+            return self.m.halt("a centre or radius without an arc");
+        }
+        let to = self.m.target(axes)?;
+        match self.motion {
+            0 => self.m.traverse(to),
+            1 => self.m.straight(to)?,
+            motion => {
+                let (first, second, _) = self.m.axes();
+                let clockwise = motion == 2;
+                let centre = match r {
+                    Some(r) if ijk.iter().all(Option::is_none) => {
+                        self.m.centre_by_radius(to, r, clockwise)?
+                    }
+                    None if any_centre => (
+                        self.m.at[first] + ijk[first].unwrap_or(0.0),
+                        self.m.at[second] + ijk[second].unwrap_or(0.0),
+                    ),
+                    _ => return self.m.halt("an arc without centre, or with centre and radius"),
+                };
+                self.m.arc(to, centre, clockwise)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A block while a cycle is in force: a hole if it has X, Y, Z, R or another axis.
+    fn hole(&mut self, cycle: u32, words: &[Word]) -> Result<(), Halt> {
+        if number(words, 'K').is_some() || (number(words, 'L').is_some() && number(words, 'M').is_none()) {
+            return self.m.halt("repetition in a cycle");
+        }
+        let mut axes = self.axis_words(words);
+        let r = self.length(words, 'R');
+        if axes.iter().all(Option::is_none) && r.is_none() {
+            return Ok(());
+        }
+        if self.m.plane != 17 {
+            return self.m.halt("a cycle out of G17: a parameter decides");
+        }
+        let incremental = !self.m.absolute;
+        if let Some(z) = axes[2].take() {
+            self.kept.z = Some((z, incremental));
+        }
+        if let Some(r) = r {
+            self.kept.r = Some((r, incremental));
+        }
+        if let Some(q) = self.length(words, 'Q') {
+            self.kept.q = Some(q.abs());
+        }
+        // The P of a call is a program number.
+        if let Some((p, _)) = number(words, 'P').filter(|_| number(words, 'M').is_none_or(|m| m.0 != 98.0)) {
+            self.kept.p = Some(p * 0.001);
+        }
+        let (Some((r, r_inc)), Some((z, z_inc))) = (self.kept.r, self.kept.z) else {
+            return self.m.halt("a cycle without Z and R");
+        };
+        let shift = self.m.shift(2);
+        let r = if r_inc { self.initial + r } else { r + shift };
+        let z = if z_inc { r + z } else { z + shift };
+        let hole = match (cycle, self.kept.q, self.kept.p) {
+            (81, ..) => Hole::Drill,
+            (82, _, Some(p)) => Hole::DrillDwell(p),
+            (83, Some(q), _) if q > 0.0 => Hole::Peck(q),
+            (85, ..) => Hole::Bore(0.0),
+            (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),
+            _ => return self.m.halt("a cycle without its Q or P"),
+        };
+        let to = self.m.target(axes)?;
+        self.m.traverse(to);
+        let back = if self.return_initial { self.initial.max(r) } else { r };
+        self.m.hole(hole, r, z, back)
+    }
+
+    /// M98: P is the number, with L the count; more than four digits carry the count in front.
+    fn call(&mut self, words: &[Word], all: &[Program]) -> Result<Next, Halt> {
+        let Some((p, _)) = number(words, 'P') else { return self.m.halt("M98 without P") };
+        let p = p as u32;
+        let (times, name) = match number(words, 'L') {
+            Some((l, _)) => (l as u32, p),
+            None if p > 9999 => (p / 10000, p % 10000),
+            None => (1, p),
+        };
+        let Some(program) = all.iter().skip(1).find(|program| program.number == name) else {
+            return self.m.halt(format!("no program {name}"));
+        };
+        if self.depth == 4 {
+            return self.m.halt("calls five deep");
+        }
+        for _ in 0..times {
+            self.depth += 1;
+            let ended = self.program(&program.blocks, all)?;
+            self.depth -= 1;
+            if ended {
+                return Ok(Next::End);
+            }
+        }
+        Ok(Next::Block)
+    }
+}
+
+enum Next {
+    Block,
+    Back,
+    End,
+}

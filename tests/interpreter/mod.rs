@@ -1,0 +1,401 @@
+//! A second interpreter: what a Mach-9 or a Fanuc program makes the machine do.
+//!
+//! It is here to be compared with the compiler, so it shares nothing with it: no dictionary, no
+//! number type, no geometry. It was written from the reference notes alone, reads text line by
+//! line, keeps its state in plain `f64`, and is slow and simple. Where the notes leave a question
+//! open it stops with an error and does not choose.
+//!
+//! Not here: speed, good messages, anything beyond the scope of the corpus.
+
+pub mod fanuc;
+pub mod mach9;
+
+/// X Y Z A B C; millimetres and degrees.
+pub type Place = [f64; 6];
+
+/// What the control knows that the program does not say.
+pub struct Setup {
+    /// Where the axes stand, in machine coordinates.
+    pub start: Place,
+    /// Zero of each work offset, in machine coordinates; 1 is the first.
+    pub work_offset: Box<dyn Fn(u32) -> Place>,
+    /// Length of each entry of the tool table; 0 is none.
+    pub length: Box<dyn Fn(u32) -> f64>,
+    /// Block-skip switches, by level; place 0 is not used.
+    pub skip: [bool; 10],
+    /// A Fanuc's parameter 5115, millimetres.
+    pub peck_clearance: f64,
+}
+
+impl Setup {
+    /// Everything zero and all switches off: machine coordinates are program coordinates.
+    pub fn plain() -> Setup {
+        Setup {
+            start: [0.0; 6],
+            work_offset: Box::new(|_| [0.0; 6]),
+            length: Box::new(|_| 0.0),
+            skip: [false; 10],
+            peck_clearance: 1.0,
+        }
+    }
+}
+
+/// State of the spindle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Spindle {
+    Stopped,
+    Clockwise,
+    Counterclockwise,
+}
+
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum What {
+    /// Rapid to the event's place.
+    Traverse,
+    /// Straight at feed to the event's place.
+    Feed,
+    /// Along a circle, or a helix, to the event's place.
+    Arc {
+        /// 0, 1, 2: the circle's axis is X, Y, Z.
+        normal: usize,
+        /// Centre, machine coordinates; its place on the normal axis is that of the start.
+        centre: [f64; 3],
+        /// Degrees, positive counter-clockwise seen from the positive end of the axis.
+        sweep: f64,
+    },
+    /// Standing still for so many seconds.
+    Dwell(f64),
+    /// The spindle was started, stopped or reversed.
+    Spindle(Spindle),
+    /// Coolant was turned on or off: flood, mist.
+    Coolant(bool, bool),
+    /// A tool came into the spindle.
+    Tool(u32),
+    /// A program stop.
+    Stop,
+    /// An optional stop.
+    OptionalStop,
+    /// The end.
+    End,
+}
+
+/// An event and everything that was in force.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// What happened.
+    pub what: What,
+    /// Line of the text, from 1.
+    pub line: usize,
+    /// Where the machine stands after it, in machine coordinates.
+    pub machine: Place,
+    /// The same in the coordinates of the program.
+    pub program: Place,
+    /// Work offset in force.
+    pub offset: u32,
+    /// Entry of the length table in force.
+    pub entry: u32,
+    /// Feed, mm/min.
+    pub feed: Option<f64>,
+    /// Speed, rev/min.
+    pub speed: Option<f64>,
+    /// Spindle.
+    pub spindle: Spindle,
+    /// Tool in the spindle.
+    pub tool: Option<u32>,
+    /// Flood and mist.
+    pub coolant: (bool, bool),
+}
+
+/// Why a program was not run to its end.
+#[derive(Clone, Debug)]
+pub struct Halt {
+    /// Line of the text, from 1.
+    pub line: usize,
+    /// What is wrong, or undecided.
+    pub why: String,
+}
+
+/// How a hole is made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Hole {
+    /// Feed in, rapid out.
+    Drill,
+    /// Feed in, dwell, rapid out.
+    DrillDwell(f64),
+    /// Pecks of so much.
+    Peck(f64),
+    /// Feed in, dwell if not zero, feed out to R.
+    Bore(f64),
+}
+
+/// The machine, as far as programs see it.
+pub struct Machine {
+    /// Its tables and switches.
+    pub setup: Setup,
+    /// Where it stands, machine coordinates.
+    pub at: Place,
+    /// Whether each axis was moved to a programmed position since its offset last changed. An
+    /// incremental word of an axis that was not is undecided.
+    pub settled: [bool; 6],
+    /// Inches.
+    pub inch: bool,
+    /// Absolute words.
+    pub absolute: bool,
+    /// 17, 18, 19.
+    pub plane: u32,
+    /// Work offset.
+    pub offset: u32,
+    /// Length entry.
+    pub entry: u32,
+    /// mm/min.
+    pub feed: Option<f64>,
+    /// rev/min.
+    pub speed: Option<f64>,
+    /// Spindle.
+    pub spindle: Spindle,
+    /// In the spindle.
+    pub tool: Option<u32>,
+    /// Selected for the next change.
+    pub selected: Option<u32>,
+    /// Flood and mist.
+    pub coolant: (bool, bool),
+    /// Line of the text.
+    pub line: usize,
+    /// What happened so far.
+    pub events: Vec<Event>,
+}
+
+impl Machine {
+    /// A machine that was just switched on: absolute, mm, XY.
+    pub fn new(setup: Setup) -> Machine {
+        Machine {
+            at: setup.start,
+            setup,
+            settled: [true; 6],
+            inch: false,
+            absolute: true,
+            plane: 17,
+            offset: 1,
+            entry: 0,
+            feed: None,
+            speed: None,
+            spindle: Spindle::Stopped,
+            tool: None,
+            selected: None,
+            coolant: (false, false),
+            line: 0,
+            events: Vec::new(),
+        }
+    }
+
+    /// What separates program from machine coordinates on an axis.
+    pub fn shift(&self, axis: usize) -> f64 {
+        let length = if axis == 2 { (self.setup.length)(self.entry) } else { 0.0 };
+        (self.setup.work_offset)(self.offset)[axis] + length
+    }
+
+    /// Stops with a reason.
+    pub fn halt<T>(&self, why: impl Into<String>) -> Result<T, Halt> {
+        Err(Halt { line: self.line, why: why.into() })
+    }
+
+    /// Another work offset: nothing moves.
+    pub fn use_offset(&mut self, number: u32) {
+        if number != self.offset {
+            self.settled = [false; 6];
+        }
+        self.offset = number;
+    }
+
+    /// Another length entry: nothing moves.
+    pub fn use_length(&mut self, entry: u32) {
+        if entry != self.entry {
+            self.settled[2] = false;
+        }
+        self.entry = entry;
+    }
+
+    /// First and second axis of the plane, then its normal.
+    pub fn axes(&self) -> (usize, usize, usize) {
+        match self.plane {
+            17 => (0, 1, 2),
+            18 => (2, 0, 1),
+            _ => (1, 2, 0),
+        }
+    }
+
+    /// Where axis words (mm, degrees) lead to, in machine coordinates.
+    pub fn target(&mut self, words: [Option<f64>; 6]) -> Result<Place, Halt> {
+        let mut to = self.at;
+        for axis in 0..6 {
+            let Some(value) = words[axis] else { continue };
+            if self.absolute {
+                to[axis] = value + self.shift(axis);
+                self.settled[axis] = true;
+            } else if self.settled[axis] {
+                to[axis] = self.at[axis] + value;
+            } else {
+                return self.halt("an incremental word after a change of offsets");
+            }
+        }
+        Ok(to)
+    }
+
+    /// Records an event at the present place.
+    pub fn record(&mut self, what: What) {
+        let mut program = self.at;
+        for (axis, value) in program.iter_mut().enumerate() {
+            *value -= self.shift(axis);
+        }
+        self.events.push(Event {
+            what,
+            line: self.line,
+            machine: self.at,
+            program,
+            offset: self.offset,
+            entry: self.entry,
+            feed: self.feed,
+            speed: self.speed,
+            spindle: self.spindle,
+            tool: self.tool,
+            coolant: self.coolant,
+        });
+    }
+
+    /// Rapid.
+    pub fn traverse(&mut self, to: Place) {
+        self.at = to;
+        self.record(What::Traverse);
+    }
+
+    /// Straight at feed.
+    pub fn straight(&mut self, to: Place) -> Result<(), Halt> {
+        if self.feed.is_none() {
+            return self.halt("a move at feed and no F");
+        }
+        self.at = to;
+        self.record(What::Feed);
+        Ok(())
+    }
+
+    /// Along a circle about `centre` (machine coordinates of the plane's two axes).
+    pub fn arc(&mut self, to: Place, centre: (f64, f64), clockwise: bool) -> Result<(), Halt> {
+        if self.feed.is_none() {
+            return self.halt("a move at feed and no F");
+        }
+        let (first, second, normal) = self.axes();
+        let (a0, b0) = (self.at[first] - centre.0, self.at[second] - centre.1);
+        let (a1, b1) = (to[first] - centre.0, to[second] - centre.1);
+        let (r0, r1) = (a0.hypot(b0), a1.hypot(b1));
+        if r0 < 0.0005 || (r0 - r1).abs() > 0.02 {
+            return self.halt(format!("radius {r0} at the start, {r1} at the end"));
+        }
+        let mut sweep = (b1.atan2(a1) - b0.atan2(a0)).to_degrees();
+        let closed = (a0 - a1).abs() < 1e-9 && (b0 - b1).abs() < 1e-9;
+        if closed {
+            sweep = if clockwise { -360.0 } else { 360.0 };
+        } else if clockwise && sweep > 0.0 {
+            sweep -= 360.0;
+        } else if !clockwise && sweep < 0.0 {
+            sweep += 360.0;
+        }
+        let mut full = [0.0; 3];
+        full[first] = centre.0;
+        full[second] = centre.1;
+        full[normal] = self.at[normal];
+        self.at = to;
+        self.record(What::Arc { normal, centre: full, sweep });
+        Ok(())
+    }
+
+    /// The centre of an arc of radius `r` (negative for more than half a circle).
+    pub fn centre_by_radius(&self, to: Place, r: f64, clockwise: bool) -> Result<(f64, f64), Halt> {
+        let (first, second, _) = self.axes();
+        let (x0, y0, x1, y1) = (self.at[first], self.at[second], to[first], to[second]);
+        let (dx, dy) = (x1 - x0, y1 - y0);
+        let half = dx.hypot(dy) / 2.0;
+        if half < 1e-9 {
+            return self.halt("a radius and no way to go");
+        }
+        let beyond = r * r - half * half;
+        if beyond < -0.01 {
+            return self.halt("the radius does not reach");
+        }
+        let height = beyond.max(0.0).sqrt();
+        // The centre of a short counter-clockwise arc lies to the left of the chord.
+        let left = if clockwise == (r > 0.0) { -1.0 } else { 1.0 };
+        let (nx, ny) = (-dy / (2.0 * half), dx / (2.0 * half));
+        Ok(((x0 + x1) / 2.0 + left * height * nx, (y0 + y1) / 2.0 + left * height * ny))
+    }
+
+    /// The moves at one hole position, the tool standing over it: to R, in, out. Levels are in
+    /// machine coordinates.
+    pub fn hole(&mut self, hole: Hole, r: f64, z: f64, back: f64) -> Result<(), Halt> {
+        if z > r {
+            return self.halt("the bottom lies above R");
+        }
+        let level = |at: Place, height: f64| [at[0], at[1], height, at[3], at[4], at[5]];
+        self.traverse(level(self.at, r));
+        match hole {
+            Hole::Drill => self.straight(level(self.at, z))?,
+            Hole::DrillDwell(seconds) => {
+                self.straight(level(self.at, z))?;
+                self.record(What::Dwell(seconds));
+            }
+            Hole::Peck(q) => {
+                let mut depth = r;
+                loop {
+                    depth -= q;
+                    if depth <= z + 1e-9 {
+                        break;
+                    }
+                    self.straight(level(self.at, depth))?;
+                    self.traverse(level(self.at, r));
+                    self.traverse(level(self.at, depth + self.setup.peck_clearance));
+                }
+                self.straight(level(self.at, z))?;
+            }
+            Hole::Bore(seconds) => {
+                self.straight(level(self.at, z))?;
+                if seconds > 0.0 {
+                    self.record(What::Dwell(seconds));
+                }
+                self.straight(level(self.at, r))?;
+            }
+        }
+        self.traverse(level(self.at, back));
+        self.settled[2] = true;
+        Ok(())
+    }
+
+    /// Spindle words.
+    pub fn turn(&mut self, state: Spindle) {
+        if self.spindle != state {
+            self.spindle = state;
+            self.record(What::Spindle(state));
+        }
+    }
+
+    /// Coolant words.
+    pub fn cool(&mut self, flood: bool, mist: bool) {
+        if self.coolant != (flood, mist) {
+            self.coolant = (flood, mist);
+            self.record(What::Coolant(flood, mist));
+        }
+    }
+
+    /// The tool change.
+    pub fn change_tool(&mut self) -> Result<(), Halt> {
+        let Some(tool) = self.selected else { return self.halt("a tool change and no tool selected") };
+        self.tool = Some(tool);
+        self.record(What::Tool(tool));
+        Ok(())
+    }
+}
+
+/// Text of bytes, each byte a character: comments are skipped anyway.
+pub fn characters(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| *b as char).collect()
+}

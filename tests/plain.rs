@@ -1,0 +1,273 @@
+//! Events in their plainest form, so that the second interpreter's, the compiler's and those of a
+//! book can be laid side by side. Millimetres, degrees, seconds, machine coordinates.
+
+use ncc_ir::canon::{Plane, Spindle as Turning, Turn};
+use ncc_ir::exec::{Event, Kind};
+use ncc_ir::num::Nanos;
+use ncc_ir::world::World;
+
+use crate::interpreter::{self, Machine, Setup, Spindle, What};
+
+/// An event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plain {
+    /// What happened.
+    pub what: Happening,
+    /// Where the axes stand after it.
+    pub at: [f64; 6],
+    /// Feed in mm/min of a cutting move, else 0.
+    pub feed: f64,
+    /// Tool in the spindle.
+    pub tool: Option<i64>,
+    /// Speed of a turning spindle, negative counter-clockwise; 0 while it stands.
+    pub speed: f64,
+    /// Flood, mist.
+    pub coolant: (bool, bool),
+}
+
+/// What happened.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // The names are the meaning.
+pub enum Happening {
+    Traverse,
+    Feed,
+    /// Centre on the two axes of the plane; degrees, positive counter-clockwise.
+    Arc {
+        normal: usize,
+        centre: [f64; 2],
+        sweep: f64,
+        radius: f64,
+    },
+    Dwell(f64),
+    ToolChange,
+    Coolant,
+    Stop,
+    OptionalStop,
+    End,
+    Message,
+}
+
+/// How far two lists may be apart.
+#[derive(Clone, Copy, Debug)]
+pub struct Tolerance {
+    /// End points, mm or degrees.
+    pub place: f64,
+    /// Feeds, mm/min.
+    pub feed: f64,
+}
+
+impl Tolerance {
+    /// Both computed from the same numbers.
+    pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6 };
+    /// Rounded to three digits in mm, or four in inches.
+    pub const ROUNDED: Tolerance = Tolerance { place: 0.002, feed: 0.002 };
+}
+
+/// A world in the second interpreter's terms.
+pub fn setup(world: &World, skip: u16) -> Setup {
+    let (offsets, lengths) = (world.clone(), world.clone());
+    Setup {
+        start: world.start.map(mm),
+        work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
+        length: Box::new(move |entry| mm(lengths.tool_length(entry))),
+        skip: std::array::from_fn(|level| skip >> level & 1 == 1),
+        peck_clearance: mm(world.peck_clearance),
+    }
+}
+
+fn mm(nanos: Nanos) -> f64 {
+    nanos as f64 / 1e9
+}
+
+/// The second interpreter's events.
+pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
+    let mut list = Vec::new();
+    let mut from = start;
+    for event in &machine.events {
+        let what = match event.what {
+            What::Traverse => Happening::Traverse,
+            What::Feed => Happening::Feed,
+            What::Arc { normal, centre, sweep } => {
+                let (first, second) = [(1, 2), (2, 0), (0, 1)][normal];
+                let centre = [centre[first], centre[second]];
+                let radius = (from[first] - centre[0]).hypot(from[second] - centre[1]);
+                Happening::Arc { normal, centre, sweep, radius }
+            }
+            What::Dwell(seconds) => Happening::Dwell(seconds),
+            What::Tool(_) => Happening::ToolChange,
+            What::Coolant(..) => Happening::Coolant,
+            What::Stop => Happening::Stop,
+            What::OptionalStop => Happening::OptionalStop,
+            What::End => Happening::End,
+            // The spindle's state shows in the events that follow.
+            What::Spindle(_) => continue,
+        };
+        from = event.machine;
+        let cutting = matches!(what, Happening::Feed | Happening::Arc { .. });
+        let speed = event.speed.unwrap_or(0.0);
+        push(
+            &mut list,
+            start,
+            Plain {
+                what,
+                at: event.machine,
+                feed: if cutting { event.feed.unwrap_or(0.0) } else { 0.0 },
+                tool: event.tool.map(i64::from),
+                speed: match event.spindle {
+                    Spindle::Stopped => 0.0,
+                    Spindle::Clockwise => speed,
+                    Spindle::Counterclockwise => -speed,
+                },
+                coolant: event.coolant,
+            },
+        );
+    }
+    list
+}
+
+/// The compiler's events.
+pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
+    let mut list = Vec::new();
+    let mut from = start;
+    for event in events {
+        let at = event.end.map(mm);
+        let what = match &event.kind {
+            Kind::Traverse => Happening::Traverse,
+            Kind::Feed => Happening::Feed,
+            Kind::Arc { plane, turn, turns, full, centre } => {
+                let (normal, first, second) = match plane {
+                    Plane::Xy => (2, 0, 1),
+                    Plane::Zx => (1, 2, 0),
+                    Plane::Yz => (0, 1, 2),
+                };
+                let centre = centre.map(mm);
+                let angle = |p: [f64; 6]| (p[second] - centre[1]).atan2(p[first] - centre[0]).to_degrees();
+                let partial = if *full { 360.0 } else { (angle(at) - angle(from)).rem_euclid(360.0) };
+                let once = match turn {
+                    Turn::Counterclockwise => partial,
+                    Turn::Clockwise if *full => -360.0,
+                    Turn::Clockwise => partial - 360.0,
+                };
+                let sweep = once + once.signum() * 360.0 * f64::from(*turns);
+                let radius = (from[first] - centre[0]).hypot(from[second] - centre[1]);
+                Happening::Arc { normal, centre, sweep, radius }
+            }
+            Kind::Dwell(seconds) => Happening::Dwell(mm(*seconds)),
+            Kind::ToolChange => Happening::ToolChange,
+            Kind::Coolant => Happening::Coolant,
+            Kind::ProgramStop => Happening::Stop,
+            Kind::OptionalProgramStop => Happening::OptionalStop,
+            Kind::ProgramEnd => Happening::End,
+            Kind::Message(_) => Happening::Message,
+        };
+        from = at;
+        let speed = mm(event.state.speed);
+        push(
+            &mut list,
+            start,
+            Plain {
+                what,
+                at,
+                feed: mm(event.rate),
+                tool: (event.state.tool >= 0).then_some(event.state.tool),
+                speed: match event.state.spindle {
+                    Turning::Stopped => 0.0,
+                    Turning::Clockwise => speed,
+                    Turning::Counterclockwise => -speed,
+                },
+                coolant: (event.state.flood, event.state.mist),
+            },
+        );
+    }
+    list
+}
+
+/// Adds an event, unless it is a straight move that goes nowhere.
+fn push(list: &mut Vec<Plain>, start: [f64; 6], event: Plain) {
+    let from = list.last().map_or(start, |last| last.at);
+    let still = from.iter().zip(event.at).all(|(a, b)| (a - b).abs() < 1e-9);
+    if !(still && matches!(event.what, Happening::Traverse | Happening::Feed)) {
+        list.push(event);
+    }
+}
+
+/// Compares two lists.
+///
+/// # Errors
+/// The first difference, with what stands around it.
+pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Result<(), String> {
+    for index in 0..expected.len().max(actual.len()) {
+        let fault = match (expected.get(index), actual.get(index)) {
+            (Some(a), Some(b)) => match difference(a, b, within) {
+                None => continue,
+                Some(what) => what,
+            },
+            _ => "one list is shorter",
+        };
+        let around = |list: &[Plain]| {
+            (index.saturating_sub(2)..(index + 2).min(list.len()))
+                .map(|i| format!("  {} {i:4} {}\n", if i == index { ">" } else { " " }, show(&list[i])))
+                .collect::<String>()
+        };
+        return Err(format!(
+            "event {index}: {fault}\n expected\n{} actual\n{}",
+            around(expected),
+            around(actual)
+        ));
+    }
+    Ok(())
+}
+
+fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
+    let near = |x: f64, y: f64, by: f64| (x - y).abs() <= by;
+    let same_kind = match (a.what, b.what) {
+        (
+            Happening::Arc { normal, centre, sweep, radius },
+            Happening::Arc { normal: n, centre: c, sweep: s, .. },
+        ) => {
+            // A degree of sweep is as long as the radius makes it.
+            let slack = (within.place * 4.0 / radius.max(0.001)).to_degrees();
+            normal == n
+                && near(centre[0], c[0], within.place * 2.0)
+                && near(centre[1], c[1], within.place * 2.0)
+                && near(sweep, s, slack)
+        }
+        (Happening::Dwell(x), Happening::Dwell(y)) => near(x, y, 0.0006),
+        (x, y) => x == y,
+    };
+    if !same_kind {
+        return Some("another kind of event, or another arc or dwell");
+    }
+    if !a.at.iter().zip(b.at).all(|(x, y)| near(*x, y, within.place)) {
+        return Some("another end point");
+    }
+    if !near(a.feed, b.feed, within.feed) {
+        return Some("another feed");
+    }
+    if a.tool != b.tool || a.coolant != b.coolant || !near(a.speed, b.speed, 1e-6) {
+        return Some("another tool, spindle or coolant");
+    }
+    None
+}
+
+/// An event on a line.
+pub fn show(event: &Plain) -> String {
+    let at = event.at.map(|v| format!("{v:.4}")).join(" ");
+    format!(
+        "{:?} at {at} F{} T{:?} S{} coolant {:?}",
+        event.what, event.feed, event.tool, event.speed, event.coolant
+    )
+}
+
+/// Runs the second interpreter on a program of one of the two dialects that it knows.
+///
+/// # Errors
+/// It stopped, and why.
+pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, String> {
+    let run = match dialect {
+        "mach9" => interpreter::mach9::run(text, setup),
+        "fanuc" => interpreter::fanuc::run(text, setup),
+        other => return Err(format!("no second interpreter for {other}")),
+    };
+    run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))
+}
