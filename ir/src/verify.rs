@@ -84,6 +84,12 @@ impl Comparison {
         Comparison { resolution, half, source_at: start, target_at: start, events: 0 }
     }
 
+    /// Both machines stand here; before the first event.
+    pub fn start_at(&mut self, start: [Nanos; AXES]) {
+        self.source_at = start;
+        self.target_at = start;
+    }
+
     /// Compares as far as both streams go, and removes what was compared. With `over`, what is left
     /// of one stream must be nothing.
     ///

@@ -166,8 +166,20 @@ impl Exec {
         (self.said & WORK != 0).then_some(self.modes.work_offset)
     }
 
+    /// Puts the machine somewhere.
+    pub fn be_at(&mut self, machine: [Nanos; AXES]) {
+        self.last = machine;
+        self.position = std::array::from_fn(|i| machine[i].wrapping_sub(self.frame[i]));
+    }
+
+    /// Sets the block-skip switches: bit n is level n.
+    pub fn set_skip(&mut self, skip: u16) {
+        self.skip = skip;
+    }
+
+    /// Where the axes stand, in machine coordinates.
     #[inline]
-    fn machine(&self) -> [Nanos; AXES] {
+    pub fn machine(&self) -> [Nanos; AXES] {
         std::array::from_fn(|i| self.position[i].wrapping_add(self.frame[i]))
     }
 

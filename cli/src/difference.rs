@@ -1,0 +1,76 @@
+//! A difference of two canonical streams in words, for the diagnostic of a failed verification.
+
+use ncc_ir::canon::{Axis, Spindle, Turn};
+use ncc_ir::exec::{Event, Kind};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::verify::{Aspect, Difference};
+
+/// Both sides of a difference.
+pub(crate) fn describe(difference: &Difference) -> String {
+    let side = |event: &Option<Event>| match event {
+        Some(event) => event_text(event, difference.aspect),
+        None => "nothing more".to_owned(),
+    };
+    format!("the source makes {}; the output makes {}", side(&difference.source), side(&difference.target))
+}
+
+fn event_text(event: &Event, aspect: Aspect) -> String {
+    let mut text = match &event.kind {
+        Kind::Traverse => "a rapid".to_owned(),
+        Kind::Feed => "a feed move".to_owned(),
+        Kind::Arc { plane, turn, turns, full, centre } => {
+            let (first, second, _) = plane.axes();
+            format!(
+                "{} {} about {}{} {}{}{}",
+                match turn {
+                    Turn::Clockwise => "a clockwise",
+                    Turn::Counterclockwise => "a counter-clockwise",
+                },
+                if *full { "circle" } else { "arc" },
+                first.letter() as char,
+                number(centre[0]),
+                second.letter() as char,
+                number(centre[1]),
+                if *turns > 0 { format!(" with {turns} further turns") } else { String::new() },
+            )
+        }
+        Kind::Dwell(seconds) => format!("a dwell of {} s", number(*seconds)),
+        Kind::ToolChange => format!("a change to tool {}", event.state.tool),
+        Kind::Coolant => "a switch of the coolant".to_owned(),
+        Kind::ProgramStop => "a stop".to_owned(),
+        Kind::OptionalProgramStop => "an optional stop".to_owned(),
+        Kind::ProgramEnd => "the end".to_owned(),
+        Kind::Message(text) => format!("the message {text:?}"),
+    };
+    match aspect {
+        Aspect::State => {
+            let s = &event.state;
+            let spindle = match s.spindle {
+                Spindle::Stopped => "spindle stopped".to_owned(),
+                Spindle::Clockwise => format!("spindle clockwise at {}", number(s.speed)),
+                Spindle::Counterclockwise => format!("spindle counter-clockwise at {}", number(s.speed)),
+            };
+            let coolant = match (s.flood, s.mist) {
+                (false, false) => "no coolant",
+                (true, false) => "flood",
+                (false, true) => "mist",
+                (true, true) => "flood and mist",
+            };
+            text += &format!(" with tool {}, {spindle}, {coolant}", s.tool);
+        }
+        Aspect::Feed => text += &format!(" at F{}", number(event.rate)),
+        Aspect::Kind | Aspect::End(_) | Aspect::Arc | Aspect::Length => {
+            text += " to";
+            for axis in Axis::ALL.into_iter().take(if event.end[3..] == [0; 3] { 3 } else { 6 }) {
+                text += &format!(" {}{}", axis.letter() as char, number(event.end[axis as usize]));
+            }
+            text += " (machine coordinates of a test world)";
+        }
+    }
+    text
+}
+
+fn number(nanos: i64) -> String {
+    let n = Num::from_nanos(nanos, 6, Unit::One);
+    format!("{:.*}", n.scale as usize, n.mantissa as f64 / 10f64.powi(i32::from(n.scale)))
+}

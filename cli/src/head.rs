@@ -1,0 +1,52 @@
+//! The comment that opens an emitted program: source and hash, verified or not, assumptions. The
+//! operator at the machine never sees what the command line printed.
+
+use std::collections::BTreeSet;
+
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict};
+
+use crate::job::Job;
+
+/// The lines of the comment.
+pub(crate) fn lines(job: &Job, hash: &[u8; 32], diagnostics: &[Diagnostic]) -> Vec<String> {
+    let hash: String = hash[..4].iter().map(|b| format!("{b:02x}")).collect();
+    let verified = if job.verify { "verified" } else { "UNVERIFIED" };
+    let mut lines =
+        vec![format!("ncc: {} {} sha256 {hash}, {verified}", job.from.dialect.id, job.source_name)];
+    let mut seen = BTreeSet::new();
+    let assumed: Vec<String> = diagnostics
+        .iter()
+        .filter(|d| d.fault.gravity() == Gravity::Verdict(Verdict::Assumed))
+        .filter_map(|d| assumption(&d.fault))
+        .filter(|text| seen.insert(text.clone()))
+        .collect();
+    if !assumed.is_empty() {
+        lines.push(format!("assumed: {}", assumed.join("; ")));
+    }
+    lines
+}
+
+/// An assumption in the few words that fit a program's head; `None` for what is none.
+pub fn assumption(fault: &Fault) -> Option<String> {
+    Some(match fault {
+        Fault::AssumedMode { fact, value } => match fact {
+            ModeName::Motion => format!("motion = {value}"),
+            ModeName::Distance => format!("start in {value} mode"),
+            ModeName::Units => format!("units = {value}"),
+            ModeName::Plane => format!("plane = {value}"),
+            ModeName::FeedMode => format!("feed {value}"),
+            ModeName::ReturnLevel => format!("cycles return to {value}"),
+            ModeName::WorkOffset => format!("work offset = {value}"),
+            ModeName::LengthOffset => "no length offset at the start".to_owned(),
+            ModeName::OriginShift => "no origin shift at the start".to_owned(),
+        },
+        Fault::AssumedNoEffect { code } => format!("{code} has no effect"),
+        Fault::AssumedBareNumber { word, value } => format!("{word} without point = {value}"),
+        Fault::AssumedOffsetWithZ => "length offset taken up with the next Z".to_owned(),
+        Fault::AssumedWorkOffset { offset } => format!("set reference = work offset {offset}"),
+        Fault::AssumedRow { code, meaning } => format!("{code} = {meaning}"),
+        Fault::AssumedOption { option, value } => format!("{option} = {value}"),
+        Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
+        _ => return None,
+    })
+}

@@ -1,0 +1,54 @@
+//! Judging a given text against a source: does it make the same cut?
+//!
+//! For tests that change an emitted program and want to see the change caught. The text may rely on
+//! what the translation itself takes for granted, and on nothing else.
+
+use std::io;
+
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::Diagnostic;
+use ncc_ir::program::{Procedure, Program};
+
+use crate::job::{Job, Outcome, Verified};
+use crate::translate::translate_keeping;
+use crate::verify_run::{Stop, Verifier};
+
+/// A source, ready to judge texts against.
+pub struct Judge<'j> {
+    job: &'j Job,
+    source: Program,
+    inherited: Modes,
+    /// The translation of the source itself.
+    pub outcome: Outcome,
+}
+
+impl<'j> Judge<'j> {
+    /// Translates and keeps the source.
+    ///
+    /// # Errors
+    /// As of [`crate::translate::translate`].
+    pub fn new(job: &'j Job, source: &[u8]) -> io::Result<Judge<'j>> {
+        let (outcome, inherited) = translate_keeping(job, &mut &source[..])?;
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut batch = Batch::default();
+        reader.read(source, 0, &mut batch);
+        reader.finish(&mut batch);
+        let mut procedures = vec![Procedure { body: batch.stmts, ..Procedure::default() }];
+        procedures.append(&mut batch.procedures);
+        let source = Program { name: batch.name, assumed: batch.assumed, procedures };
+        Ok(Judge { job, source, inherited, outcome })
+    }
+
+    /// Compares a text in the target dialect with the source.
+    ///
+    /// # Errors
+    /// What differs, or why the text cannot be read or executed.
+    pub fn judge(&self, text: &[u8]) -> Result<Verified, Diagnostic> {
+        let mut verifier = Verifier::new(self.job);
+        match verifier.whole(&self.source, text, 0, &self.inherited) {
+            Ok(()) => Ok(verifier.covered()),
+            Err(Stop::Source(diagnostic) | Stop::Target(diagnostic)) => Err(diagnostic),
+        }
+    }
+}

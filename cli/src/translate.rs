@@ -1,0 +1,323 @@
+//! The pipeline: read, bring within the target's capabilities, write, read back, compare.
+//!
+//! A program streams through in pieces of whole lines until its first call, label or loop, and is
+//! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
+//! difference; the caller decides where a released output goes.
+
+use std::io::{self, Read};
+
+use ncc_backends::{Head, Writer};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::passes::Legaliser;
+use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
+use ncc_ir::source::Span;
+
+use crate::chunks::{Chunk, Chunks};
+use crate::head;
+use crate::job::{Failure, Job, Outcome, Output};
+use crate::verify_run::{Stop, Verifier};
+
+/// After so many errors, reading more of the program would help nobody.
+const ENOUGH_ERRORS: usize = 200;
+
+/// Translates a program.
+///
+/// # Errors
+/// Reading the source or writing the anonymous file of the output failed. What is wrong with the
+/// program itself is in the outcome.
+pub fn translate(job: &Job, source: &mut dyn Read) -> io::Result<Outcome> {
+    Ok(translate_keeping(job, source)?.0)
+}
+
+/// Translates a program; tells also which assumed facts the output does not state itself.
+pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Read) -> io::Result<(Outcome, Modes)> {
+    let mut chunks = Chunks::new(source);
+    let mut line = Line::new(job);
+    loop {
+        match chunks.next()? {
+            Chunk::Lines(base, range) => line.piece(chunks.text(range), base)?,
+            Chunk::TooLong(start, end) => line.reader.too_long(Span::new(start, end), &mut line.batch),
+            Chunk::End => break,
+        }
+        if line.errors >= ENOUGH_ERRORS {
+            break;
+        }
+    }
+    line.end()?;
+    let (hash, bytes) = chunks.finish();
+    let inherited = without(&line.batch.assumed, &line.writer.stated());
+    Ok((line.outcome(hash, bytes), inherited))
+}
+
+/// What is between source and output.
+struct Line<'j> {
+    job: &'j Job,
+    reader: Reader,
+    batch: Batch,
+    legaliser: Legaliser,
+    writer: Writer,
+    text: Vec<u8>,
+    verifier: Option<Verifier>,
+    output: Output,
+    written: u64,
+    diagnostics: Vec<Diagnostic>,
+    errors: usize,
+    refused: bool,
+    failed: bool,
+    statements: u64,
+    blocks: u64,
+}
+
+impl<'j> Line<'j> {
+    fn new(job: &'j Job) -> Line<'j> {
+        let mut legaliser = Legaliser::new(&job.to.dialect.caps, legal_decimals(job), peck_clearance(job));
+        legaliser.stand_at(&job.start);
+        let mut writer = Writer::new(job.to.clone(), job.layout.clone());
+        writer.stand_at(&job.start);
+        Line {
+            job,
+            reader: Reader::new(job.from.clone(), true),
+            batch: Batch::default(),
+            legaliser,
+            writer,
+            text: Vec::new(),
+            verifier: job.verify.then(|| Verifier::new(job)),
+            output: Output::new(),
+            written: 0,
+            diagnostics: Vec::new(),
+            errors: 0,
+            refused: false,
+            failed: false,
+            statements: 0,
+            blocks: 0,
+        }
+    }
+
+    /// A piece of the source.
+    fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
+        self.reader.read(text, base, &mut self.batch);
+        self.take_diagnostics();
+        if self.batch.whole {
+            return Ok(());
+        }
+        self.count();
+        let mut stmts = std::mem::take(&mut self.batch.stmts);
+        self.streamed(&mut stmts)?;
+        stmts.clear();
+        self.batch.stmts = stmts;
+        Ok(())
+    }
+
+    /// Statements of a program that streams.
+    fn streamed(&mut self, stmts: &mut Vec<Stmt>) -> io::Result<()> {
+        if self.errors > 0 {
+            return Ok(());
+        }
+        let assumed = self.batch.assumed;
+        self.check(|v| v.source(stmts, &assumed));
+        let mut found = Vec::new();
+        self.legaliser.run(stmts, &assumed, &mut found);
+        self.writer.write(stmts, &assumed, &mut self.text, &mut found);
+        self.take(found);
+        self.release_text(&assumed)
+    }
+
+    /// The end of the source.
+    fn end(&mut self) -> io::Result<()> {
+        self.reader.finish(&mut self.batch);
+        self.take_diagnostics();
+        if self.errors > 0 {
+            return Ok(());
+        }
+        self.count();
+        if self.batch.whole {
+            return self.end_whole();
+        }
+        let mut stmts = std::mem::take(&mut self.batch.stmts);
+        self.streamed(&mut stmts)?;
+        stmts.clear();
+        let assumed = self.batch.assumed;
+        let mut found = Vec::new();
+        self.legaliser.finish(&mut stmts, &mut found);
+        self.writer.write(&stmts, &assumed, &mut self.text, &mut found);
+        self.writer.finish(&mut self.text, &mut found);
+        self.take(found);
+        self.release_text(&assumed)?;
+        self.check(Verifier::finish);
+        Ok(())
+    }
+
+    /// The end of a program of which the rest was kept whole.
+    fn end_whole(&mut self) -> io::Result<()> {
+        let assumed = self.batch.assumed;
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        let source = Program { name: self.batch.name.clone(), assumed, procedures };
+        let mut program = source.clone();
+        let mut found = Vec::new();
+        self.legaliser.run_program(&mut program, &mut found);
+        for (at, procedure) in program.procedures.iter().enumerate() {
+            match at {
+                0 => self.writer.write(&procedure.body, &assumed, &mut self.text, &mut found),
+                _ => self.writer.procedure(procedure, &mut self.text, &mut found),
+            }
+        }
+        self.writer.finish(&mut self.text, &mut found);
+        self.take(found);
+        let text = std::mem::take(&mut self.text);
+        let inherited = without(&assumed, &self.writer.stated());
+        let base = u32::try_from(self.written).unwrap_or(u32::MAX);
+        self.check(|v| v.whole(&source, &text, base, &inherited));
+        self.output.push(&text)
+    }
+
+    /// Verifies the text written so far and passes it on.
+    fn release_text(&mut self, assumed: &Modes) -> io::Result<()> {
+        let text = std::mem::take(&mut self.text);
+        let inherited = without(assumed, &self.writer.stated());
+        // Places in the output are not shown, so a base that does not fit does no harm.
+        let base = u32::try_from(self.written).unwrap_or(u32::MAX);
+        self.check(|v| v.target(&text, base, &inherited));
+        self.output.push(&text)?;
+        self.written += text.len() as u64;
+        self.text = text;
+        self.text.clear();
+        Ok(())
+    }
+
+    /// A step of the verification, as long as there is something to verify.
+    fn check(&mut self, step: impl FnOnce(&mut Verifier) -> Result<(), Stop>) {
+        if self.errors > 0 || self.failed {
+            return;
+        }
+        let Some(verifier) = &mut self.verifier else { return };
+        match step(verifier) {
+            Ok(()) => {}
+            Err(Stop::Source(diagnostic)) => self.take(vec![diagnostic]),
+            Err(Stop::Target(diagnostic)) => {
+                self.failed = true;
+                self.diagnostics.push(diagnostic);
+            }
+        }
+    }
+
+    fn count(&mut self) {
+        let blocks = self.batch.stmts.iter().filter(|s| !s.joined).count();
+        self.blocks += blocks as u64;
+        let told = |s: &&Stmt| !matches!(s.op, Op::Blank | Op::Comment(_));
+        self.statements += self.batch.stmts.iter().filter(told).count() as u64;
+    }
+
+    fn take_diagnostics(&mut self) {
+        let found = std::mem::take(&mut self.batch.diagnostics);
+        self.take(found);
+    }
+
+    fn take(&mut self, found: Vec<Diagnostic>) {
+        for diagnostic in found {
+            self.refused |= self.job.refuses(&diagnostic);
+            self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
+            self.diagnostics.push(diagnostic);
+        }
+    }
+
+    fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
+        let verified = match &self.verifier {
+            Some(verifier) if self.errors == 0 && !self.failed => {
+                if let Some(levels) = verifier.sampled() {
+                    let warning = Fault::SkipSettingsSampled { levels };
+                    self.diagnostics.push(Diagnostic::new(warning, Span::default()));
+                }
+                Some(verifier.covered())
+            }
+            _ => None,
+        };
+        let release = if self.refused {
+            Err(Failure::Refused)
+        } else if self.failed {
+            Err(Failure::VerificationFailed)
+        } else {
+            Ok(())
+        };
+        let mut text = Vec::new();
+        let mut found = Vec::new();
+        let head = Head { name: self.name(), lines: self.head_lines(&hash) };
+        self.writer.head(&head, &mut text, &mut found);
+        self.take(found);
+        self.output.set_head(text);
+        let mut counts = [0; Verdict::ALL.len()];
+        for diagnostic in &self.diagnostics {
+            if let Gravity::Verdict(verdict) = diagnostic.fault.gravity() {
+                counts[verdict as usize] += 1;
+            }
+        }
+        let told: u64 = counts.iter().sum();
+        counts[Verdict::Exact as usize] = self.statements.saturating_sub(told);
+        Outcome {
+            diagnostics: self.diagnostics,
+            verified,
+            release,
+            output: self.output,
+            counts,
+            source_sha256: hash,
+            source_bytes: bytes,
+            blocks: self.blocks,
+        }
+    }
+
+    /// The output's program name: the source's own; where the target needs one and the source has
+    /// none, one made from the file's name.
+    fn name(&self) -> ProgramName {
+        let mut name = self.batch.name.clone();
+        if self.job.to.dialect.program.number.is_some() {
+            name.number = self.job.program_number.or(name.number).or(Some(1));
+            if name.title.is_none() {
+                let stem = self.job.source_name.rsplit_once('.').map_or(&*self.job.source_name, |n| n.0);
+                name.title = (stem != "-" && !stem.is_empty()).then(|| stem.to_uppercase().into());
+            }
+        }
+        name
+    }
+
+    fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
+        if !self.job.head {
+            return Vec::new();
+        }
+        head::lines(self.job, hash, &self.diagnostics)
+    }
+}
+
+/// The facts of `assumed` that `stated` does not have.
+fn without(assumed: &Modes, stated: &Modes) -> Modes {
+    fn keep<T: Copy>(a: Option<T>, s: Option<T>) -> Option<T> {
+        if s.is_some() { None } else { a }
+    }
+    Modes {
+        motion: keep(assumed.motion, stated.motion),
+        distance: keep(assumed.distance, stated.distance),
+        units: keep(assumed.units, stated.units),
+        plane: keep(assumed.plane, stated.plane),
+        feed_mode: keep(assumed.feed_mode, stated.feed_mode),
+        return_level: keep(assumed.return_level, stated.return_level),
+        work_offset: keep(assumed.work_offset, stated.work_offset),
+        length_offset: keep(assumed.length_offset, stated.length_offset),
+        no_origin_shift: keep(assumed.no_origin_shift, stated.no_origin_shift),
+    }
+}
+
+/// Digits after the point to which computed positions are rounded: the target's, in mm.
+fn legal_decimals(job: &Job) -> u8 {
+    job.to.dialect.numbers(ncc_dialects::Quantity::Length).decimals
+}
+
+/// The source control's clearance of the peck cycle, needed where the cycle is written out.
+fn peck_clearance(job: &Job) -> Option<Num> {
+    let text = job.from.get("peck_clearance");
+    let (whole, part) = text.split_once('.').unwrap_or((text, ""));
+    let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
+    (part.len() < 10).then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
+}

@@ -1,0 +1,307 @@
+//! Verification of a translation as it streams by: source and emitted text are executed in the same
+//! worlds and under the same block-skip settings, and their events compared.
+
+use ncc_dialects::{Dialect, Quantity, Settings};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::exec::{Event, Exec, Progress, Runner};
+use ncc_ir::num::Nanos;
+use ncc_ir::program::{Control, Op, Procedure, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::verify::{Comparison, Difference, Resolution};
+use ncc_ir::world::World;
+
+use crate::difference;
+use crate::job::{Job, Verified};
+
+/// Generated worlds in which every program is executed.
+pub(crate) const WORLDS: u32 = 2;
+
+/// Levels of block skip of which every setting is tried; of more, only pairs.
+const ALL_SETTINGS: u32 = 6;
+
+/// Events that are made on each side before they are compared, in a program kept whole.
+const PIECE: usize = 4096;
+
+/// Why a verification ends early.
+#[derive(Debug)]
+pub(crate) enum Stop {
+    /// The source cannot be executed.
+    Source(Diagnostic),
+    /// The output is not the same program, or cannot be read back: a fault of the compiler.
+    Target(Diagnostic),
+}
+
+/// One world under one setting of the block-skip switches.
+#[derive(Clone)]
+pub(crate) struct Run {
+    /// Levels that are on in the source: bit n is level n.
+    skip: u16,
+    source: Exec,
+    target: Exec,
+    source_events: Vec<Event>,
+    target_events: Vec<Event>,
+    comparison: Comparison,
+}
+
+/// A verification in progress.
+pub(crate) struct Verifier {
+    reader: Reader,
+    batch: Batch,
+    runs: Vec<Run>,
+    levels: u16,
+    /// The target knows one level only: the source's are on or off together.
+    one_level: bool,
+    start: [Option<Nanos>; AXES],
+    stood: bool,
+    /// Last place of the source that was executed, for differences without an event.
+    last: Span,
+}
+
+/// Facts that hold at power-on of every such control.
+fn fixed(dialect: &Dialect) -> Modes {
+    let p = &dialect.power_on;
+    Modes {
+        motion: p.motion.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        distance: p.distance.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        units: p.units.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        plane: p.plane.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        feed_mode: p.feed_mode.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        return_level: p.return_level.as_ref().filter(|f| f.always).map(|f| f.value.into()),
+        work_offset: p.work_offset.as_ref().filter(|f| f.always).map(|f| f.value),
+        length_offset: p.length_offset.as_ref().filter(|f| f.always).map(|f| f.value),
+        no_origin_shift: p.no_origin_shift.as_ref().filter(|f| f.always).map(|f| f.value),
+    }
+}
+
+/// What a dialect's numbers resolve.
+pub(crate) fn resolution(settings: &Settings) -> Resolution {
+    let numbers = |q| settings.dialect.numbers(q);
+    let length = numbers(Quantity::Length);
+    Resolution {
+        mm: length.decimals,
+        inch: length.decimals_inch.unwrap_or(length.decimals),
+        degree: numbers(Quantity::Angle).decimals,
+        feed: numbers(Quantity::Feed).decimals,
+        second: numbers(Quantity::Seconds).decimals.max(3),
+    }
+}
+
+impl Verifier {
+    pub(crate) fn new(job: &Job) -> Verifier {
+        let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
+        let runs = (1..=WORLDS)
+            .map(|seed| {
+                let source = World::generate(seed, &from);
+                let target = World::generate(seed, &to);
+                Run {
+                    skip: 0,
+                    comparison: Comparison::new(resolution(&job.to), source.start),
+                    source: Exec::new(&source, 0),
+                    target: Exec::new(&target, 0),
+                    source_events: Vec::new(),
+                    target_events: Vec::new(),
+                }
+            })
+            .collect();
+        Verifier {
+            reader: Reader::new(job.to.clone(), false),
+            batch: Batch::default(),
+            runs,
+            levels: 0,
+            one_level: job.to.dialect.caps.skip_levels <= 1,
+            start: job.start,
+            stood: false,
+            last: Span::default(),
+        }
+    }
+
+    /// Executes further statements of the source's main procedure.
+    pub(crate) fn source(&mut self, stmts: &[Stmt], assumed: &Modes) -> Result<(), Stop> {
+        self.prepare(stmts, assumed);
+        for run in &mut self.runs {
+            for stmt in stmts {
+                run.source.step(stmt, &mut run.source_events).map_err(Stop::Source)?;
+            }
+        }
+        if let Some(stmt) = stmts.last() {
+            self.last = stmt.span;
+        }
+        Ok(())
+    }
+
+    /// Reads a further piece of emitted text back, executes it and compares. `inherited` are the
+    /// assumed facts that the text does not state itself.
+    pub(crate) fn target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        self.read_back(inherited)?;
+        for run in &mut self.runs {
+            for stmt in &self.batch.stmts {
+                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
+            }
+            run.comparison
+                .advance(&mut run.source_events, &mut run.target_events, false)
+                .map_err(|d| different(&d, self.last))?;
+        }
+        self.batch.stmts.clear();
+        Ok(())
+    }
+
+    /// Ends a program that was streamed to its end.
+    pub(crate) fn finish(&mut self) -> Result<(), Stop> {
+        let mut rest = Batch::default();
+        self.reader.finish(&mut rest);
+        self.batch.stmts.append(&mut rest.stmts);
+        self.batch.diagnostics.append(&mut rest.diagnostics);
+        self.read_back(&Modes::default())?;
+        for run in &mut self.runs {
+            for stmt in &self.batch.stmts {
+                run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
+            }
+            run.comparison
+                .advance(&mut run.source_events, &mut run.target_events, true)
+                .map_err(|d| different(&d, self.last))?;
+        }
+        Ok(())
+    }
+
+    /// Ends a program of which the rest was kept whole: runs both rests against each other.
+    pub(crate) fn whole(&mut self, source: &Program, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
+        for procedure in &source.procedures {
+            self.prepare(&procedure.body, &source.assumed);
+        }
+        self.reader.read(text, base, &mut self.batch);
+        self.reader.finish(&mut self.batch);
+        self.read_back(inherited)?;
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        let target = Program { procedures, ..Program::default() };
+        for run in &mut self.runs {
+            let mut a = Runner::new(source);
+            let mut b = Runner::new(&target);
+            loop {
+                let more_a = a.run(&mut run.source, PIECE, &mut run.source_events).map_err(Stop::Source)?;
+                let more_b = b
+                    .run(&mut run.target, PIECE, &mut run.target_events)
+                    .map_err(|d| unreadable(&d, self.last))?;
+                let over = more_a == Progress::Done && more_b == Progress::Done;
+                run.comparison
+                    .advance(&mut run.source_events, &mut run.target_events, over)
+                    .map_err(|d| different(&d, self.last))?;
+                if over {
+                    break;
+                }
+                // One side is done and the other goes on: it must be going nowhere.
+                if run.source_events.len().max(run.target_events.len()) >= PIECE {
+                    run.comparison
+                        .advance(&mut run.source_events, &mut run.target_events, true)
+                        .map_err(|d| different(&d, self.last))?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What was covered.
+    pub(crate) fn covered(&self) -> Verified {
+        Verified {
+            worlds: WORLDS,
+            skip_settings: self.runs.len() as u32 / WORLDS,
+            events: self.runs.iter().map(|r| r.comparison.events).sum(),
+        }
+    }
+
+    /// Levels of block skip that occur, if not every setting of them was tried.
+    pub(crate) fn sampled(&self) -> Option<u8> {
+        let levels = self.levels.count_ones();
+        let all = !self.one_level && levels <= ALL_SETTINGS || levels <= 1;
+        (!all).then_some(levels as u8)
+    }
+
+    fn prepare(&mut self, stmts: &[Stmt], assumed: &Modes) {
+        self.fork(levels(stmts));
+        for run in &mut self.runs {
+            run.source.assume(assumed);
+            if !self.stood {
+                run.source.stand_at(&self.start);
+                run.target.be_at(run.source.machine());
+                run.comparison.start_at(run.source.machine());
+            }
+        }
+        self.stood = true;
+    }
+
+    /// Adds the settings that a new level of block skip makes.
+    fn fork(&mut self, levels: u16) {
+        for level in (1..=9u32).filter(|l| levels & !self.levels & 1 << l != 0) {
+            let bit = 1u16 << level;
+            let first = self.levels == 0;
+            let all = self.levels;
+            self.levels |= bit;
+            if self.one_level && !first {
+                for run in self.runs.iter_mut().filter(|r| r.skip != 0) {
+                    run.skip |= bit;
+                    run.source.set_skip(run.skip);
+                }
+                continue;
+            }
+            let many = self.levels.count_ones() > ALL_SETTINGS;
+            let further: Vec<Run> = self
+                .runs
+                .iter()
+                .filter(|r| !many || r.skip.count_ones() <= 1 || r.skip == all)
+                .cloned()
+                .map(|mut run| {
+                    run.skip |= bit;
+                    run.source.set_skip(run.skip);
+                    run.target.set_skip(if self.one_level { 1 << 1 } else { run.skip });
+                    run
+                })
+                .collect();
+            self.runs.extend(further);
+        }
+    }
+
+    /// Takes the facts that the output inherits, and refuses what could not be read back.
+    fn read_back(&mut self, inherited: &Modes) -> Result<(), Stop> {
+        for run in &mut self.runs {
+            run.target.assume(inherited);
+        }
+        let error = self.batch.diagnostics.iter().find(|d| d.fault.gravity() == Gravity::Error);
+        if let Some(d) = error {
+            return Err(unreadable(d, self.last));
+        }
+        self.batch.diagnostics.clear();
+        Ok(())
+    }
+}
+
+/// Levels of block skip that occur.
+fn levels(stmts: &[Stmt]) -> u16 {
+    let mut found = 0;
+    for stmt in stmts {
+        found |= stmt.skip.map_or(0, |level| 1u16 << level.min(9));
+        if let Op::Control(control) = &stmt.op {
+            found |= match &**control {
+                Control::Repeat { body, .. }
+                | Control::Loop { body }
+                | Control::While { body, .. }
+                | Control::For { body, .. } => levels(body),
+                Control::If { then, otherwise, .. } => levels(then) | levels(otherwise),
+            };
+        }
+    }
+    found
+}
+
+fn unreadable(d: &Diagnostic, at: Span) -> Stop {
+    Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
+}
+
+fn different(difference: &Difference, last: Span) -> Stop {
+    let at = difference.source.as_ref().map_or(last, |event| event.span);
+    let difference = difference::describe(difference).into();
+    Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))
+}
