@@ -1,0 +1,102 @@
+//! Canned cycles against the moves that a source from outside gives for them.
+//!
+//! `tests/cycles/*.md`: the source, the program, the moves. Both the second interpreter and the
+//! compiler must make exactly these moves.
+
+use std::path::PathBuf;
+
+use ncc_tests::expect::Failures;
+use ncc_tests::interpreter::Setup;
+use ncc_tests::page::{self, Page};
+use ncc_tests::plain::{self, Happening, Plain, Tolerance};
+use ncc_tests::corpus;
+
+/// A cited example.
+struct Cited {
+    name: String,
+    dialect: &'static str,
+    text: String,
+    start: [f64; 6],
+    moves: Vec<Plain>,
+    within: Tolerance,
+}
+
+fn cited() -> Vec<Cited> {
+    let folder = corpus::root().join("tests/cycles");
+    corpus::files(&folder).into_iter().map(|path| read(&path)).collect()
+}
+
+fn read(path: &PathBuf) -> Cited {
+    let name = path.display().to_string();
+    let page: Page = page::read(&std::fs::read_to_string(path).expect("a page that can be read"));
+    assert!(page.fact("source").is_some_and(|s| s.len() > 20), "{name}: no source");
+    let unit = if page.fact("unit") == Some("inch") { 25.4 } else { 1.0 };
+    let dialect = ["mach9", "fanuc"].into_iter().find(|d| page.block(d).is_some()).expect("a program");
+    let number = |word: &str| word.parse::<f64>().unwrap_or_else(|_| panic!("{name}: {word}"));
+    let mut start = [0.0; 6];
+    for (axis, word) in page.fact("start").expect("a start").split(' ').enumerate() {
+        start[axis] = number(word) * unit;
+    }
+    let mut moves = Vec::new();
+    for line in page.block("moves").expect("moves").text.lines() {
+        let words: Vec<&str> = line.split(' ').collect();
+        let place = |words: &[&str]| {
+            let mut at = start;
+            for (axis, word) in words.iter().take(3).enumerate() {
+                at[axis] = number(word) * unit;
+            }
+            at
+        };
+        let last = moves.last().map_or(start, |m: &Plain| m.at);
+        let (what, at, feed) = match words[0] {
+            "traverse" => (Happening::Traverse, place(&words[1..]), 0.0),
+            "feed" => (Happening::Feed, place(&words[1..]), number(&words[4][1..]) * unit),
+            "dwell" => (Happening::Dwell(number(words[1])), last, 0.0),
+            other => panic!("{name}: {other}"),
+        };
+        moves.push(Plain { what, at, feed, tool: None, speed: 0.0, coolant: (false, false) });
+    }
+    let place = if page.fact("digits") == Some("3") { 0.0005001 } else { 1e-6 };
+    Cited { name, dialect, text: page.block(dialect).expect("a program").text.clone(), start, moves, within: Tolerance { place, feed: 1e-6 } }
+}
+
+/// Only moves and dwells, without what the examples leave out: tools, spindle, coolant, the end.
+fn bare(events: Vec<Plain>) -> Vec<Plain> {
+    events
+        .into_iter()
+        .filter(|e| matches!(e.what, Happening::Traverse | Happening::Feed | Happening::Dwell(_)))
+        .map(|e| Plain { tool: None, speed: 0.0, coolant: (false, false), ..e })
+        .collect()
+}
+
+/// Where the cited moves pass through a point without stopping there, both are one move: a rapid
+/// that goes on in the same direction.
+fn joined(moves: &[Plain]) -> Vec<Plain> {
+    let mut joined: Vec<Plain> = Vec::new();
+    for m in moves {
+        if let [.., before, last] = &joined[..] {
+            let same = |axis: usize| before.at[axis] == last.at[axis] && last.at[axis] == m.at[axis];
+            let up = (last.at[2] - before.at[2]) * (m.at[2] - last.at[2]) > 0.0;
+            let rapid = last.what == Happening::Traverse && m.what == Happening::Traverse;
+            if rapid && same(0) && same(1) && up {
+                joined.pop();
+            }
+        }
+        joined.push(*m);
+    }
+    joined
+}
+
+#[test]
+fn the_second_interpreter_makes_the_cited_moves() {
+    let mut failures = Failures::default();
+    for c in cited() {
+        let setup = Setup { start: c.start, ..Setup::plain() };
+        let result = plain::second(c.dialect, c.text.as_bytes(), setup).and_then(|machine| {
+            let made = bare(plain::of_machine(&machine, c.start));
+            plain::compare(&joined(&c.moves), &joined(&made), c.within)
+        });
+        failures.check(&c.name, result);
+    }
+    failures.finish();
+}
