@@ -1,5 +1,6 @@
 //! The meanings that a code of a dictionary can have, as its data file spells them.
 
+use std::fmt;
 use std::str::FromStr;
 
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
@@ -56,6 +57,54 @@ impl TryFrom<String> for Meaning {
     }
 }
 
+impl fmt::Display for Meaning {
+    /// As a data file spells it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Meaning::StraightTraverse => "STRAIGHT_TRAVERSE",
+            Meaning::StraightFeed => "STRAIGHT_FEED",
+            Meaning::ArcFeed(Turn::Clockwise) => "ARC_FEED clockwise",
+            Meaning::ArcFeed(Turn::Counterclockwise) => "ARC_FEED counterclockwise",
+            Meaning::Dwell => "DWELL",
+            Meaning::UseLengthUnits(Units::Mm) => "USE_LENGTH_UNITS mm",
+            Meaning::UseLengthUnits(Units::Inch) => "USE_LENGTH_UNITS inch",
+            Meaning::SetDistanceMode(Distance::Absolute) => "SET_DISTANCE_MODE absolute",
+            Meaning::SetDistanceMode(Distance::Incremental) => "SET_DISTANCE_MODE incremental",
+            Meaning::SelectPlane(Plane::Xy) => "SELECT_PLANE XY",
+            Meaning::SelectPlane(Plane::Zx) => "SELECT_PLANE ZX",
+            Meaning::SelectPlane(Plane::Yz) => "SELECT_PLANE YZ",
+            Meaning::SetFeedMode(FeedMode::PerMinute) => "SET_FEED_MODE per-minute",
+            Meaning::SetFeedMode(FeedMode::PerRevolution) => "SET_FEED_MODE per-revolution",
+            Meaning::SetFeedMode(FeedMode::InverseTime) => "SET_FEED_MODE inverse-time",
+            Meaning::SetReturnLevel(ReturnLevel::Initial) => "SET_RETURN_LEVEL initial",
+            Meaning::SetReturnLevel(ReturnLevel::Retract) => "SET_RETURN_LEVEL retract",
+            Meaning::SetOriginOffsets(number) => return write!(f, "SET_ORIGIN_OFFSETS {number}"),
+            Meaning::ClearFrame(slot) => {
+                return write!(f, "CLEAR_FRAME {}", format!("{slot:?}").to_lowercase());
+            }
+            Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
+            Meaning::UseToolLengthOffset => "USE_TOOL_LENGTH_OFFSET",
+            Meaning::CancelToolLengthOffset => "USE_TOOL_LENGTH_OFFSET 0",
+            Meaning::StartCycle => "START_CYCLE",
+            Meaning::EndCycle => "END_CYCLE",
+            Meaning::Pattern => "PATTERN",
+            Meaning::NoEffect => "NO_EFFECT",
+            Meaning::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
+            Meaning::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
+            Meaning::StopSpindleTurning => "STOP_SPINDLE_TURNING",
+            Meaning::ChangeTool => "CHANGE_TOOL",
+            Meaning::FloodOn => "FLOOD_ON",
+            Meaning::MistOn => "MIST_ON",
+            Meaning::CoolantOff => "COOLANT_OFF",
+            Meaning::ProgramStop => "PROGRAM_STOP",
+            Meaning::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
+            Meaning::ProgramEnd => "PROGRAM_END",
+            Meaning::Call => "CALL",
+            Meaning::Return => "RETURN",
+        })
+    }
+}
+
 impl FromStr for Meaning {
     type Err = String;
 
@@ -104,5 +153,17 @@ impl FromStr for Meaning {
             ("RETURN", "") => Meaning::Return,
             _ => return Err(format!("no meaning: {text}")),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_meaning_in_a_dictionary_is_written_as_it_is_read() {
+        for row in crate::builtins().iter().flat_map(|d| &d.code) {
+            if let Some(meaning) = row.means {
+                assert_eq!(meaning.to_string().parse(), Ok(meaning));
+            }
+        }
     }
 }

@@ -106,6 +106,9 @@ pub struct ProgramRules {
     pub title: bool,
     /// Whether further programs in the text are subprograms.
     pub subprograms: bool,
+    /// Whether the control has variables, expressions and jumps (macro language). They are not
+    /// translated; where there are none, their signs are no words at all.
+    pub macros: bool,
     /// Digits of the program number in a call word that packs the count in front; 0 if it does not.
     pub packed_call_digits: u32,
     /// Who says so.
@@ -299,6 +302,8 @@ pub struct CycleRules {
     pub approach: ApproachName,
     /// Whether Z and R stay in force from one cycle code to the next.
     pub retained: bool,
+    /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
+    pub repeat: Option<char>,
     /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
     /// needs one.
     pub peck_clearance: Option<f64>,
