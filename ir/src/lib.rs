@@ -15,6 +15,7 @@ pub mod exec;
 pub mod expr;
 pub mod geometry;
 pub mod num;
+pub mod passes;
 pub mod program;
 pub mod source;
 pub mod track;

@@ -1,0 +1,124 @@
+//! `approach`: the way to the first hole if the tool stands below the retract plane.
+//!
+//! Controls differ: some go up to the plane first, others over the hole first. Where the target's
+//! way is not the program's, the first leg is written as a rapid of its own, after which both ways
+//! are one. What cannot be mended so is left to `expand-cycles`.
+
+use super::expand_cycles::{is_above, level, sayable};
+use super::walk::Walk;
+use super::write::{at, only, traverse};
+use super::{Target, each_body};
+use crate::canon::ReturnLevel;
+use crate::cycle::{Approach, Cycle};
+use crate::diag::Diagnostic;
+use crate::program::{Op, Point, Program, Stmt};
+use crate::track::Tracker;
+
+/// Writes out first legs that the target would make in another order.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, target));
+}
+
+/// The same for one body.
+pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) {
+    let Some(way) = target.caps.approach else { return };
+    let mut i = 0;
+    while i < body.len() {
+        walk.enter(body[i].skip);
+        let chained = walk.at.cycle.is_some();
+        walk.step(&body[i]);
+        if let Op::StartCycle(cycle) = &body[i].op
+            && cycle.approach != way
+            && let Some(leg) = first_leg(body, i, cycle, chained, walk, target)
+        {
+            let (rapid, hole, cycle) = leg;
+            body[i].op = Op::StartCycle(Box::new(cycle));
+            if let Some((at, to)) = hole
+                && let Op::Hole(m) = &mut body[at].op
+            {
+                m.to = to;
+            }
+            if let Some(to) = rapid {
+                let mut before = Stmt::new(body[i].span, traverse(to));
+                before.skip = body[i].skip;
+                if body[i].joined {
+                    body[i].joined = false;
+                }
+                // The walk has passed this place: the rapid is part of what the cycle does first.
+                body.insert(i, before);
+                i += 1;
+            }
+        }
+        i += 1;
+    }
+}
+
+/// A rapid to be made before, the first hole with other words, the cycle in the target's way.
+type Leg = (Option<Point>, Option<(usize, Point)>, Cycle);
+
+fn first_leg(
+    body: &[Stmt],
+    i: usize,
+    cycle: &Cycle,
+    chained: bool,
+    walk: &Walk,
+    target: &Target,
+) -> Option<Leg> {
+    let in_force = walk.at.cycle.as_ref()?;
+    let mut other = cycle.clone();
+    other.approach = match cycle.approach {
+        Approach::PlaneFirst => Approach::RaiseFirst,
+        Approach::RaiseFirst => Approach::PlaneFirst,
+    };
+    if is_above(walk, in_force) {
+        return Some((None, None, other));
+    }
+    // A rapid would end the cycle that is in force, and change the level to return to.
+    let returns = cycle.return_level.known().or(walk.at.modes.return_level);
+    if chained || returns != Some(ReturnLevel::Retract) {
+        return None;
+    }
+    let mut nothing = Vec::new();
+    if !sayable(walk, cycle, target, body[i].span, &mut nothing) || !nothing.is_empty() {
+        return None;
+    }
+    let normal = walk.at.plane(cycle.plane)?.axes().2;
+    let now = walk.at.position[normal as usize]?;
+    let retract = level(walk, &cycle.retract, in_force.retract, normal).ok()?;
+    let depth = level(walk, &cycle.depth, in_force.depth, normal).ok()?;
+    in_force.retract.filter(|r| now < *r)?;
+    other.retract = retract.clone();
+    match cycle.approach {
+        Approach::RaiseFirst => Some((Some(only(normal, retract)), None, other)),
+        Approach::PlaneFirst => {
+            other.depth = depth;
+            let (at_hole, to) = first_hole(body, i)?;
+            let mut words = to.clone();
+            words.axes[normal as usize] = None;
+            for (axis, word) in crate::canon::Axis::ALL.into_iter().zip(&mut words.axes) {
+                if let Some(coord) = word {
+                    let from = walk.at.position[axis as usize];
+                    let nanos = walk.at.resolve(coord, from)?;
+                    if coord.distance.known() != Some(crate::canon::Distance::Absolute) {
+                        *coord = at(nanos, axis, walk.unit());
+                    }
+                }
+            }
+            Some((Some(words.clone()), Some((at_hole, words)), other))
+        }
+    }
+}
+
+/// The first hole of the cycle called up at `i`, if nothing that could change it stands between and
+/// it is skipped with the call or not at all.
+fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, &Point)> {
+    for (k, stmt) in body.iter().enumerate().skip(i + 1) {
+        match &stmt.op {
+            Op::Hole(m) if stmt.skip == body[i].skip => return Some((k, &m.to)),
+            Op::Comment(_) | Op::Blank | Op::NoEffect(_) | Op::SetFeedRate(_) | Op::SelectTool(_) => {}
+            // Anything else could be part of what the rapid is made with.
+            _ => return None,
+        }
+    }
+    None
+}

@@ -1,0 +1,297 @@
+//! `expand-calls`: subprograms are written out where they are called.
+//!
+//! What a subprogram takes from its caller (motion or cycle in force, distance mode, plane, units)
+//! becomes what this caller has in force.
+
+use std::collections::HashMap;
+
+use super::walk::Walk;
+use super::write::Rebuild;
+use super::{MOST_STATEMENTS, Target};
+use crate::canon::{Fact, Motion};
+use crate::cycle::{Clearance, CycleKind, Pattern};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::{Expr, Node};
+use crate::num::Unit;
+use crate::program::{Call, Centre, Control, Coord, Op, Point, Procedure, Program, Stmt};
+use crate::source::Span;
+use crate::track::Tracker;
+
+/// Writes the subprograms out; only the main procedure is left.
+pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    over(program, &mut Walk::new(entry.clone()), diags);
+}
+
+/// The same, with a walk that stands before the main procedure.
+pub(super) fn over(program: &mut Program, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+    let mut procedures = std::mem::take(&mut program.procedures).into_iter();
+    let Some(mut main) = procedures.next() else { return };
+    let subs: Vec<Procedure> = procedures.collect();
+    let mut inliner = Inliner {
+        subs: subs.iter().map(|p| (&*p.name, p)).collect(),
+        stack: Vec::new(),
+        walk: std::mem::take(walk),
+        diags,
+        full: false,
+    };
+    let mut made = Rebuild::new(main.body.len());
+    inliner.body(&main.body, None, &mut made);
+    *walk = inliner.walk;
+    main.body = made.out;
+    program.procedures = vec![main];
+}
+
+struct Inliner<'a> {
+    subs: HashMap<&'a str, &'a Procedure>,
+    stack: Vec<&'a str>,
+    walk: Walk,
+    diags: &'a mut Vec<Diagnostic>,
+    /// There is no room for more.
+    full: bool,
+}
+
+impl<'a> Inliner<'a> {
+    /// Writes a body out; `skip` is the level under which it was called.
+    fn body(&mut self, body: &'a [Stmt], skip: Option<u8>, made: &mut Rebuild) {
+        let called = !self.stack.is_empty();
+        for stmt in body {
+            let mut stmt = stmt.clone();
+            if called {
+                stmt.number = None;
+                if let Err(fault) = also_skipped(&mut stmt, skip) {
+                    self.diags.push(Diagnostic::new(fault, stmt.span));
+                }
+            }
+            self.walk.enter(stmt.skip);
+            match &mut stmt.op {
+                Op::Call(call) => {
+                    let call = std::mem::replace(
+                        &mut **call,
+                        Call { name: "".into(), times: 0, arguments: Vec::new() },
+                    );
+                    let (span, skip) = (stmt.span, stmt.skip);
+                    made.leave_out(stmt);
+                    self.call(&call, span, skip, made);
+                }
+                Op::Return if called => {
+                    if stmt.skip != skip {
+                        let what = "a return that can be skipped, written out".into();
+                        self.diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    }
+                    made.leave_out(stmt);
+                    return;
+                }
+                Op::Control(control) => {
+                    match &mut **control {
+                        Control::Repeat { body, .. }
+                        | Control::Loop { body }
+                        | Control::While { body, .. }
+                        | Control::For { body, .. } => self.nested(body),
+                        Control::If { then, otherwise, .. } => {
+                            self.nested(then);
+                            self.nested(otherwise);
+                        }
+                    }
+                    self.walk.step(&stmt);
+                    made.push(stmt);
+                }
+                Op::Goto(_) | Op::Label(_) if called => {
+                    let what = "a subprogram with jumps, written out".into();
+                    self.diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    made.leave_out(stmt);
+                }
+                op => {
+                    settle(op, &self.walk.at);
+                    self.walk.step(&stmt);
+                    made.push(stmt);
+                }
+            }
+            if self.full {
+                return;
+            }
+        }
+    }
+
+    /// A body that is not run straight through: what holds at its start is not known.
+    fn nested(&mut self, body: &mut Vec<Stmt>) {
+        let before = std::mem::take(&mut self.walk);
+        let input = std::mem::take(body);
+        let mut made = Rebuild::new(input.len());
+        for stmt in input {
+            if let Op::Call(call) = &stmt.op {
+                let (call, span, skip) = ((**call).clone(), stmt.span, stmt.skip);
+                self.walk.enter(skip);
+                made.leave_out(stmt);
+                self.call(&call, span, skip, &mut made);
+            } else {
+                self.walk.step(&stmt);
+                made.push(stmt);
+            }
+        }
+        *body = made.out;
+        self.walk = before;
+    }
+
+    fn call(&mut self, call: &Call, span: Span, skip: Option<u8>, made: &mut Rebuild) {
+        let Some((name, sub)) = self.subs.get_key_value(&*call.name).map(|(n, p)| (*n, *p)) else {
+            return self.refuse(Fault::CallUnknown { name: call.name.clone() }, span);
+        };
+        if self.stack.contains(&name) {
+            return self.refuse(Fault::CallRecursive { name: call.name.clone() }, span);
+        }
+        if !sub.parameters.is_empty() || !call.arguments.is_empty() {
+            return self.refuse(Fault::MacroLanguage { what: "a call with arguments".into() }, span);
+        }
+        let fault = Fault::CallExpanded { name: call.name.clone(), times: call.times };
+        self.diags.push(Diagnostic::new(fault, span));
+        self.stack.push(name);
+        for _ in 0..call.times {
+            self.body(&sub.body, skip, made);
+            if made.out.len() > MOST_STATEMENTS && !self.full {
+                self.full = true;
+                let what = "calls that are too long to be written out".into();
+                self.refuse(Fault::CannotSay { what }, span);
+            }
+            if self.full {
+                break;
+            }
+        }
+        self.stack.pop();
+    }
+
+    fn refuse(&mut self, fault: Fault, span: Span) {
+        self.diags.push(Diagnostic::new(fault, span));
+    }
+}
+
+/// Puts a statement under a further skip level.
+pub(super) fn also_skipped(stmt: &mut Stmt, skip: Option<u8>) -> Result<(), Fault> {
+    match (stmt.skip, skip) {
+        (Some(a), Some(b)) if a != b => {
+            Err(Fault::CannotSay { what: "a block under two block-skip levels".into() })
+        }
+        _ => {
+            stmt.skip = stmt.skip.or(skip);
+            Ok(())
+        }
+    }
+}
+
+/// Replaces what a statement takes from its caller by what is in force.
+fn settle(op: &mut Op, here: &Tracker) {
+    if let Op::Position(m) = op {
+        let m = std::mem::take(m);
+        *op = match here.modes.motion {
+            Some(Motion::Traverse) => Op::StraightTraverse(m),
+            Some(Motion::Feed) => Op::StraightFeed(m),
+            Some(Motion::Cycle) => Op::Hole(m),
+            Some(Motion::Arc(_)) | None => Op::Position(m),
+        };
+    }
+    match op {
+        Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
+            settle_point(&mut m.to, here);
+        }
+        Op::ArcFeed(arc) => {
+            settle_fact(&mut arc.plane, here.modes.plane);
+            settle_point(&mut arc.to, here);
+            match &mut arc.centre {
+                Centre::Point { words, .. } => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
+                Centre::Radius(radius) => settle_expr(radius, here),
+            }
+        }
+        Op::StartCycle(cycle) => {
+            settle_fact(&mut cycle.plane, here.modes.plane);
+            settle_fact(&mut cycle.return_level, here.modes.return_level);
+            settle_coord(&mut cycle.retract, here);
+            settle_coord(&mut cycle.depth, here);
+            cycle.feed.iter_mut().for_each(|f| settle_expr(f, here));
+            if let CycleKind::DrillPeck { peck, clearance, .. } = &mut cycle.kind {
+                settle_expr(peck, here);
+                if let Clearance::Stated(clearance) = clearance {
+                    settle_expr(clearance, here);
+                }
+            }
+        }
+        Op::Pattern(pattern) => match &mut **pattern {
+            Pattern::Circle { centre, first, .. } => {
+                centre.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+                first.iter_mut().for_each(|c| settle_coord(c, here));
+            }
+            Pattern::Grid { columns, rows, .. } => {
+                settle_expr(&mut columns.pitch, here);
+                settle_expr(&mut rows.pitch, here);
+            }
+        },
+        Op::SetFeedRate(feed) => settle_expr(feed, here),
+        Op::Comment(_)
+        | Op::NoEffect(_)
+        | Op::Blank
+        | Op::UseLengthUnits(_)
+        | Op::SetDistanceMode(_)
+        | Op::SelectPlane(_)
+        | Op::SetFeedMode(_)
+        | Op::SetReturnLevel(_)
+        | Op::SetOriginOffsets(_)
+        | Op::ClearFrame(_)
+        | Op::SetFrame(..)
+        | Op::StopCutterRadiusCompensation
+        | Op::SetSpindleSpeed(_)
+        | Op::SelectTool(_)
+        | Op::ChangeTool
+        | Op::UseToolLengthOffset(_)
+        | Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff
+        | Op::Dwell(_)
+        | Op::EndCycle
+        | Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ProgramEnd
+        | Op::Message(_)
+        | Op::Call(_)
+        | Op::Return
+        | Op::Assign(..)
+        | Op::Control(_)
+        | Op::Goto(_)
+        | Op::Label(_) => {}
+    }
+}
+
+fn settle_fact<T: Copy>(fact: &mut Fact<T>, in_force: Option<T>) {
+    if let (Fact::Entry, Some(value)) = (&fact, in_force) {
+        *fact = Fact::Known(value);
+    }
+}
+
+fn settle_point(to: &mut Point, here: &Tracker) {
+    to.axes.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+}
+
+fn settle_coord(coord: &mut Coord, here: &Tracker) {
+    settle_fact(&mut coord.distance, here.modes.distance);
+    settle_expr(&mut coord.value, here);
+}
+
+fn settle_expr(value: &mut Expr, here: &Tracker) {
+    match value {
+        Expr::Num(n) if n.unit == Unit::Entry => match here.modes.units {
+            Some(crate::canon::Units::Mm) => n.unit = Unit::Mm,
+            Some(crate::canon::Units::Inch) => n.unit = Unit::Inch,
+            None => {}
+        },
+        Expr::Num(_) => {}
+        Expr::Node(node) => match &mut **node {
+            Node::Var(_) | Node::Vacant => {}
+            Node::Unary(_, a) => settle_expr(a, here),
+            Node::Binary(_, a, b) => {
+                settle_expr(a, here);
+                settle_expr(b, here);
+            }
+            Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| settle_expr(a, here)),
+        },
+    }
+}

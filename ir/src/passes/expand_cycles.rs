@@ -1,0 +1,437 @@
+//! `expand-cycles`: a canned cycle becomes its moves. This is the definition of what a cycle does.
+//!
+//! A hole, in the order of its moves:
+//! 1. to the position in the plane, at the level where the tool stands, then by rapid to the
+//!    retract plane R; if the tool stands below R and the cycle is [`Approach::RaiseFirst`], up to R
+//!    first (NIST RS274/NGC 3.8.1), else in the plane first (Fanuc 15i-M);
+//! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
+//!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
+//! 3. out by rapid to R or to the level where the tool stood when the cycle was called up;
+//!    [`CycleKind::Bore`] feeds to R first.
+//!
+//! The cycle's feed is stated again before the first feed of every hole, as the case study has it.
+//! Moves without way are left out. Levels that the program measures from others are written
+//! absolute, for which they must be known.
+
+use super::walk::Walk;
+use super::write::{Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of};
+use super::{Target, each_body, expand_patterns};
+use crate::canon::{Axis, Motion, ReturnLevel};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, absolute};
+use crate::diag::{Diagnostic, Fault, ModeName};
+use crate::expr::Expr;
+use crate::num::Nanos;
+use crate::program::{Coord, Op, Point, Program, Stmt};
+use crate::source::Span;
+use crate::track::{InForce, Tracker};
+
+/// Most pecks of one hole; more is a slip of the pen.
+const MOST_PECKS: i64 = 100_000;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    /// The cycle in force is being expanded.
+    expanding: bool,
+    /// Feed that is stated again at every hole.
+    feed: Option<Expr>,
+    /// That feed, if no hole has stated it yet; a cycle sets the feed even if it makes no hole.
+    owed: Option<Owed>,
+}
+
+#[derive(Clone, Debug)]
+struct Owed {
+    feed: Expr,
+    skip: Option<u8>,
+    span: Span,
+}
+
+/// Expands the cycles that the target cannot say, and their patterns.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+}
+
+impl State {
+    /// Whether statements of a cycle that is not there any more are to come.
+    pub(super) fn is_busy(&self) -> bool {
+        self.expanding
+    }
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    rebuild(body, |stmt, made| {
+        walk.enter(stmt.skip);
+        match &stmt.op {
+            Op::StartCycle(cycle) => {
+                let feed = cycle.feed.clone();
+                let kept_before = walk.at.cycle.is_some() && !state.expanding;
+                let chained = walk.at.cycle.is_some() && state.expanding;
+                walk.step(&stmt);
+                let must = match &walk.at.cycle {
+                    Some(in_force) => chained || must_expand(walk, in_force, target, stmt.span, diags),
+                    None => false,
+                };
+                if !must {
+                    state.pay(made);
+                    state.expanding = false;
+                    return made.push(stmt);
+                }
+                told(&stmt, target, diags);
+                state.expanding = true;
+                if let Some(feed) = feed {
+                    state.owed = Some(Owed { feed: feed.clone(), skip: stmt.skip, span: stmt.span });
+                    state.feed = Some(feed);
+                } else if !chained {
+                    state.feed = None;
+                }
+                if kept_before {
+                    made.replace(stmt, [(true, Op::EndCycle)]);
+                } else {
+                    made.leave_out(stmt);
+                }
+            }
+            Op::Hole(m) if state.expanding => {
+                let holes = Ok(vec![m.to.clone()]);
+                state.holes(stmt, holes, walk, target, made, diags);
+            }
+            Op::Position(m) if state.expanding && walk.at.modes.motion == Some(Motion::Cycle) => {
+                let holes = Ok(vec![m.to.clone()]);
+                state.holes(stmt, holes, walk, target, made, diags);
+            }
+            Op::Pattern(pattern) if state.expanding => {
+                let holes = expand_patterns::holes(walk, pattern, target.decimals_in(walk.unit()));
+                if let Ok(holes) = &holes {
+                    let count = holes.len() as u32;
+                    diags.push(Diagnostic::new(Fault::PatternExpanded { holes: count }, stmt.span));
+                }
+                state.holes(stmt, holes, walk, target, made, diags);
+            }
+            Op::EndCycle if state.expanding => {
+                walk.step(&stmt);
+                if stmt.skip.is_none() {
+                    state.expanding = false;
+                }
+                match state.owed.take() {
+                    Some(owed) if owed.skip == stmt.skip => {
+                        made.replace(stmt, [(true, Op::SetFeedRate(owed.feed))]);
+                    }
+                    owed => {
+                        state.owed = owed;
+                        state.pay(made);
+                        made.leave_out(stmt);
+                    }
+                }
+            }
+            Op::SetFeedRate(feed) if state.expanding => {
+                if stmt.skip.is_none() {
+                    state.owed = None;
+                    if state.feed.is_some() {
+                        state.feed = Some(feed.clone());
+                    }
+                } else {
+                    // Which feed is in force depends on a switch: the last one said goes on.
+                    state.pay(made);
+                    state.feed = None;
+                }
+                walk.step(&stmt);
+                made.push(stmt);
+            }
+            _ => {
+                walk.step(&stmt);
+                if state.expanding && walk.at.cycle.is_none() && stmt.skip.is_none() {
+                    // A move ends a cycle.
+                    state.expanding = false;
+                    state.pay(made);
+                }
+                made.push(stmt);
+            }
+        }
+    });
+}
+
+impl State {
+    /// States a feed that no hole has stated.
+    fn pay(&mut self, made: &mut Rebuild) {
+        if let Some(owed) = self.owed.take() {
+            let mut stmt = Stmt::new(owed.span, Op::SetFeedRate(owed.feed));
+            stmt.skip = owed.skip;
+            made.push(stmt);
+        }
+    }
+
+    /// Puts the moves of holes in the place of their statement.
+    fn holes(
+        &mut self,
+        stmt: Stmt,
+        holes: Result<Vec<Point>, Fault>,
+        walk: &mut Walk,
+        target: &Target,
+        made: &mut Rebuild,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let holes = match holes {
+            Ok(holes) => holes,
+            Err(fault) => {
+                diags.push(Diagnostic::new(fault, stmt.span));
+                walk.step(&stmt);
+                return made.leave_out(stmt);
+            }
+        };
+        let mut moves = Vec::new();
+        let mut inner = walk.clone();
+        for to in holes {
+            let moved = match &inner.at.cycle {
+                Some(in_force) => hole(&inner, in_force, &to, self.feed.as_ref(), target, &mut moves),
+                None => {
+                    Err(Fault::CannotSay { what: "a cycle called up in a block that can be skipped".into() })
+                }
+            };
+            if let Err(fault) = moved {
+                diags.push(Diagnostic::new(fault, stmt.span));
+                break;
+            }
+            let op = Op::Hole(crate::program::Move { to, said: false });
+            let mut one = Stmt::new(stmt.span, op);
+            one.skip = stmt.skip;
+            inner.step(&one);
+        }
+        walk.step(&stmt);
+        if self.owed.as_ref().is_some_and(|o| stmt.skip.is_none() || o.skip == stmt.skip) {
+            self.owed = None;
+        }
+        made.replace(stmt, moves);
+    }
+}
+
+fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let Op::StartCycle(cycle) = &stmt.op else { return };
+    diags.push(Diagnostic::new(Fault::CycleExpanded { kind: cycle.kind.name().into() }, stmt.span));
+    let parameter = matches!(&cycle.kind, CycleKind::DrillPeck { clearance: Clearance::Parameter, .. });
+    if let (true, Some(value)) = (parameter, target.peck_clearance) {
+        let nanos = value.nanos(false).unwrap_or(0);
+        let value = format!("{} mm", nanos as f64 / 1e9).into();
+        let parameter = "clearance of peck drilling".into();
+        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+    }
+}
+
+/// Whether the target has words for a cycle, whatever the tool does before it.
+pub(super) fn sayable(
+    walk: &Walk,
+    cycle: &Cycle,
+    target: &Target,
+    span: Span,
+    diags: &mut Vec<Diagnostic>,
+) -> bool {
+    let caps = &target.caps;
+    if caps.flat {
+        return false;
+    }
+    let kind = cycle.kind.name();
+    let (dwell, stated) = match &cycle.kind {
+        CycleKind::Drill => (false, false),
+        CycleKind::DrillDwell { .. } => (true, false),
+        CycleKind::DrillPeck { dwell, clearance, .. } => {
+            (dwell.is_some(), matches!(clearance, Clearance::Stated(_)))
+        }
+        CycleKind::Bore { dwell } => (dwell.is_some(), false),
+    };
+    let says = |level| caps.cycle(kind, Some(level), dwell);
+    let level = match cycle.return_level.known().or(walk.at.modes.return_level) {
+        Some(level) => says(level),
+        None => {
+            let (initial, retract) = (says(ReturnLevel::Initial), says(ReturnLevel::Retract));
+            if initial != retract {
+                diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }, span));
+            }
+            initial || retract
+        }
+    };
+    level && (!stated || caps.cycles.iter().any(|c| c.kind == kind && c.clearance))
+}
+
+fn must_expand(
+    walk: &Walk,
+    in_force: &InForce,
+    target: &Target,
+    span: Span,
+    diags: &mut Vec<Diagnostic>,
+) -> bool {
+    let cycle = &in_force.cycle;
+    let same_way = target.caps.approach.is_none_or(|a| a == cycle.approach) || is_above(walk, in_force);
+    !sayable(walk, cycle, target, span, diags) || !same_way
+}
+
+/// Whether the tool surely stands at the retract plane or above it.
+pub(super) fn is_above(walk: &Walk, in_force: &InForce) -> bool {
+    let Some(plane) = walk.at.plane(in_force.cycle.plane) else { return false };
+    match (walk.at.position[plane.axes().2 as usize], in_force.retract) {
+        (Some(level), Some(retract)) => level >= retract,
+        _ => false,
+    }
+}
+
+/// A level of a cycle as an absolute word.
+pub(super) fn level(
+    walk: &Walk,
+    word: &Coord,
+    resolved: Option<Nanos>,
+    normal: Axis,
+) -> Result<Coord, Fault> {
+    if is_absolute(word, walk.at.modes.distance) {
+        return Ok(as_absolute(word));
+    }
+    match resolved {
+        Some(nanos) => Ok(at(nanos, normal, walk.unit())),
+        None if word.distance.known().or(walk.at.modes.distance).is_none() => {
+            Err(Fault::EntryFactNeeded { fact: ModeName::Distance })
+        }
+        None => Err(Fault::PositionUnknown { axis: normal.letter() as char }),
+    }
+}
+
+/// The moves of one hole; `true` marks those that stand in the block of the one before.
+fn hole(
+    walk: &Walk,
+    in_force: &InForce,
+    to: &Point,
+    feed: Option<&Expr>,
+    target: &Target,
+    moves: &mut Vec<(bool, Op)>,
+) -> Result<(), Fault> {
+    let cycle = &in_force.cycle;
+    let here = &walk.at;
+    let plane = here.plane(cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+    let normal = plane.axes().2;
+    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
+    let retract = only(normal, level(walk, &cycle.retract, in_force.retract, normal)?);
+    let depth = only(normal, level(walk, &cycle.depth, in_force.depth, normal)?);
+    if let (Some(r), Some(d)) = (in_force.retract, in_force.depth)
+        && d > r
+    {
+        return Err(Fault::CycleUpsideDown);
+    }
+    let out = match cycle.return_level.known().or(here.modes.return_level) {
+        Some(ReturnLevel::Retract) => None,
+        Some(ReturnLevel::Initial) => {
+            let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
+            (in_force.retract != Some(initial)).then(|| only(normal, at(initial, normal, walk.unit())))
+        }
+        None => return Err(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }),
+    };
+
+    // 1. To the retract plane above the hole.
+    let mut aside = to.clone();
+    aside.axes[normal as usize] = None;
+    let now = here.position[normal as usize];
+    let goes_aside = aside.axes.iter().enumerate().any(|(axis, word)| {
+        word.as_ref().is_some_and(|w| {
+            here.position[axis].is_none() || here.resolve(w, here.position[axis]) != here.position[axis]
+        })
+    });
+    for (axis, word) in Axis::ALL.into_iter().zip(&mut aside.axes) {
+        let Some(coord) = word else { continue };
+        let known = here.resolve(coord, here.position[axis as usize]);
+        if let (false, Some(nanos)) = (is_absolute(coord, here.modes.distance), known) {
+            *coord = at(nanos, axis, walk.unit());
+        }
+    }
+    let raise = cycle.approach == Approach::RaiseFirst
+        && match (now, in_force.retract) {
+            (Some(now), Some(retract)) => now < retract,
+            _ if goes_aside => return Err(unknown),
+            _ => true,
+        };
+    // A waiting length offset is taken up here, even if the tool stands at R already.
+    let to_retract = now.is_none() || now != in_force.retract || walk.waiting;
+    if raise {
+        moves.push((false, traverse(retract.clone())));
+    }
+    if goes_aside {
+        moves.push((false, traverse(aside)));
+    }
+    if to_retract && !raise {
+        moves.push((false, traverse(retract.clone())));
+    }
+
+    // 2. The hole.
+    let stated = feed.is_some();
+    if let Some(feed) = feed {
+        moves.push((false, Op::SetFeedRate(feed.clone())));
+    }
+    if let CycleKind::DrillPeck { peck, clearance, .. } = &cycle.kind {
+        pecks(walk, in_force, peck, clearance, normal, target, stated, moves)?;
+    }
+    let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
+    moves.push((stated && first_cut, cut(depth)));
+    let dwell = match &cycle.kind {
+        CycleKind::Drill => None,
+        CycleKind::DrillDwell { dwell } => Some(dwell),
+        CycleKind::DrillPeck { dwell, .. } | CycleKind::Bore { dwell } => dwell.as_ref(),
+    };
+    if let Some(dwell) = dwell {
+        moves.push((false, Op::Dwell(dwell.clone())));
+    }
+
+    // 3. Out.
+    match (&cycle.kind, out) {
+        (CycleKind::Bore { .. }, out) => {
+            moves.push((false, cut(retract)));
+            if let Some(out) = out {
+                moves.push((false, traverse(out)));
+            }
+        }
+        (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),
+    }
+    Ok(())
+}
+
+/// All pecks but the last.
+#[allow(clippy::too_many_arguments)]
+fn pecks(
+    walk: &Walk,
+    in_force: &InForce,
+    peck: &Expr,
+    clearance: &Clearance,
+    normal: Axis,
+    target: &Target,
+    stated: bool,
+    moves: &mut Vec<(bool, Op)>,
+) -> Result<(), Fault> {
+    let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
+    let (Some(retract), Some(depth)) = (in_force.retract, in_force.depth) else { return Err(unknown) };
+    let peck = walk.at.nanos(peck).ok_or_else(|| unknown.clone())?.checked_abs().unwrap_or(0);
+    if peck == 0 || retract.saturating_sub(depth) / peck > MOST_PECKS {
+        return Err(Fault::OutOfRange { word: "depth of a peck".into() });
+    }
+    let clearance = match clearance {
+        Clearance::Stated(value) => walk.at.nanos(value).ok_or(unknown)?,
+        Clearance::Parameter => match target.peck_clearance.and_then(|n| n.nanos(false)) {
+            Some(nanos) => nanos,
+            None => {
+                let what = "peck drilling whose clearance is a parameter of the control".into();
+                return Err(Fault::CannotSay { what });
+            }
+        },
+    };
+    let unit = unit_of(normal, walk.unit());
+    let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
+    let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
+    let mut bottom = retract.saturating_sub(peck);
+    let mut first = true;
+    while bottom > depth {
+        moves.push((stated && first, cut(go(bottom))));
+        moves.push((false, traverse(up.clone())));
+        moves.push((false, traverse(go(bottom.saturating_add(clearance)))));
+        bottom = bottom.saturating_sub(peck);
+        first = false;
+    }
+    Ok(())
+}

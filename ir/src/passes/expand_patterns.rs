@@ -1,0 +1,149 @@
+//! `expand-patterns`: circles and grids of holes become their positions, one block a hole.
+
+use super::walk::Walk;
+use super::write::{Rebuild, as_absolute, exact, is_absolute, rebuild, rounded, unit_of};
+use super::{Target, each_body};
+use crate::canon::{AXES, Axis, Plane};
+use crate::cycle::{Pattern, absolute};
+use crate::diag::{Diagnostic, Fault};
+use crate::num::{Nanos, ONE};
+use crate::program::{Coord, Move, Op, Point, Program, Stmt};
+use crate::track::Tracker;
+
+/// Most holes of one pattern; more is a slip of the pen.
+const MOST_HOLES: u32 = 100_000;
+
+/// Expands the patterns that the target cannot say.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+}
+
+/// The same for one body.
+pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+    rebuild(body, |stmt, made| {
+        walk.enter(stmt.skip);
+        let holes = match &stmt.op {
+            Op::Pattern(pattern) if !sayable(walk, pattern, target) => {
+                Some(holes(walk, pattern, target.decimals_in(walk.unit())))
+            }
+            _ => None,
+        };
+        walk.step(&stmt);
+        match holes {
+            None => made.push(stmt),
+            Some(Ok(holes)) => put(stmt, holes, made, diags),
+            Some(Err(fault)) => {
+                diags.push(Diagnostic::new(fault, stmt.span));
+                made.push(stmt);
+            }
+        }
+    });
+}
+
+fn put(stmt: Stmt, holes: Vec<Point>, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
+    diags.push(Diagnostic::new(Fault::PatternExpanded { holes: holes.len() as u32 }, stmt.span));
+    made.replace(stmt, holes.into_iter().map(|to| (false, Op::Hole(Move { to, said: false }))));
+}
+
+/// Whether the target has words for a pattern as it stands here.
+fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
+    let caps = &target.caps;
+    if caps.flat {
+        return false;
+    }
+    let Some(plane) = plane(walk) else { return caps.repeats };
+    let (first, second, _) = plane.axes();
+    match pattern {
+        Pattern::Circle { centre, .. } => {
+            let here = [first, second].map(|axis| walk.at.position[axis as usize]);
+            let centre = match centre {
+                None => here,
+                Some([x, y]) => [walk.at.resolve(x, here[0]), walk.at.resolve(y, here[1])],
+            };
+            let at_zero = here == [Some(0); 2] && centre == [Some(0); 2];
+            caps.circle_pattern && (at_zero || !caps.circle_centre_at_zero_only)
+        }
+        Pattern::Grid { columns, rows, serpentine } => {
+            let straight = columns.count <= 1 || rows.count <= 1;
+            let way = straight || caps.grid_serpentine.is_none_or(|s| s == *serpentine);
+            let axes = caps.grid_pattern == u32::MAX || (columns.axis == first && rows.axis == second);
+            way && axes && columns.count.max(rows.count) <= caps.grid_pattern
+        }
+    }
+}
+
+fn plane(walk: &Walk) -> Option<Plane> {
+    walk.at.cycle.as_ref().and_then(|c| c.cycle.plane.known()).or(walk.at.modes.plane)
+}
+
+/// The positions of a pattern: as they are written in the program or exact, the others of a circle
+/// rounded to `decimals` digits. An axis that stays where the hole before was has no word.
+///
+/// # Errors
+/// What must be known and is not.
+pub(super) fn holes(walk: &Walk, pattern: &Pattern, decimals: u8) -> Result<Vec<Point>, Fault> {
+    let count = match pattern {
+        Pattern::Circle { count, .. } => Some(*count),
+        Pattern::Grid { columns, rows, .. } => columns.count.checked_mul(rows.count),
+    };
+    if count.is_none_or(|n| n > MOST_HOLES) {
+        return Err(Fault::OutOfRange { word: "number of holes".into() });
+    }
+    let Some(plane) = plane(walk) else {
+        return Err(Fault::EntryFactNeeded { fact: crate::diag::ModeName::Plane });
+    };
+    let (first, second, _) = plane.axes();
+    let axes = [first, second];
+    let Some(positions) = walk.at.positions(pattern) else {
+        return Err(unknown(&walk.at, axes));
+    };
+    let mut last: [Option<Coord>; 2] = [None, None];
+    let mut points = Vec::with_capacity(positions.len());
+    for (k, position) in positions.iter().enumerate() {
+        let mut to = Point { axes: [const { None }; AXES] };
+        for (i, axis) in axes.into_iter().enumerate() {
+            let word = word(walk, pattern, k, i, axis, position[i], decimals);
+            if last[i].as_ref() != Some(&word) {
+                to.set(axis, word.clone());
+                last[i] = Some(word);
+            }
+        }
+        if to.is_empty() {
+            // A hole made twice in one place still needs a word.
+            to.set(first, last[0].clone().unwrap_or_else(|| absolute(exact(position[0], walk.unit()))));
+        }
+        points.push(to);
+    }
+    Ok(points)
+}
+
+/// The word of a hole's axis.
+fn word(
+    walk: &Walk,
+    pattern: &Pattern,
+    k: usize,
+    side: usize,
+    axis: Axis,
+    nanos: Nanos,
+    decimals: u8,
+) -> Coord {
+    let unit = unit_of(axis, walk.unit());
+    match pattern {
+        Pattern::Grid { .. } => absolute(exact(nanos, unit)),
+        Pattern::Circle { first, .. } if k == 0 && is_absolute(&first[side], walk.at.modes.distance) => {
+            as_absolute(&first[side])
+        }
+        Pattern::Circle { step, .. } => {
+            let turned = walk.at.nanos(step).map_or(1, |s| i128::from(s) * k as i128);
+            let exactly = turned % (90 * i128::from(ONE)) == 0;
+            let number = if exactly { exact(nanos, unit) } else { rounded(nanos, decimals, unit) };
+            absolute(number)
+        }
+    }
+}
+
+/// The axis of a plane that is not known.
+fn unknown(at: &Tracker, axes: [Axis; 2]) -> Fault {
+    let axis = axes.into_iter().find(|a| at.position[*a as usize].is_none()).unwrap_or(axes[0]);
+    Fault::PositionUnknown { axis: axis.letter() as char }
+}

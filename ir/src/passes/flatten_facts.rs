@@ -1,0 +1,109 @@
+//! `flatten-facts`: for targets that are a list of events, every move names every axis from zero.
+//!
+//! An axis that is not known stays without a word; the target says what that means. Arcs get their
+//! centre from zero. Modes that only decide how words are read are left out.
+
+use super::walk::Walk;
+use super::write::{at, exact, rebuild, unit_of};
+use super::{Target, each_body};
+use crate::canon::{Axis, Fact, Motion};
+use crate::diag::{Diagnostic, Fault, ModeName};
+use crate::expr::Expr;
+use crate::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt};
+use crate::track::Tracker;
+
+/// Names every axis.
+pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, diags));
+}
+
+/// The same for one body.
+pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+    rebuild(body, |mut stmt, made| {
+        walk.enter(stmt.skip);
+        if let Op::Position(m) = &mut stmt.op {
+            let m = std::mem::take(m);
+            stmt.op = match walk.at.modes.motion {
+                Some(Motion::Traverse) => Op::StraightTraverse(m),
+                Some(Motion::Feed) => Op::StraightFeed(m),
+                Some(Motion::Cycle) => Op::Hole(m),
+                Some(Motion::Arc(_)) => {
+                    diags.push(Diagnostic::new(Fault::ArcWithoutCentre, stmt.span));
+                    Op::Position(m)
+                }
+                None => {
+                    let fact = ModeName::Motion;
+                    diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact }, stmt.span));
+                    Op::Position(m)
+                }
+            };
+        }
+        if let Op::ArcFeed(arc) = &mut stmt.op
+            && let Err(fault) = centre_from_zero(arc, walk)
+        {
+            diags.push(Diagnostic::new(fault, stmt.span));
+        }
+        walk.step(&stmt);
+        if matches!(stmt.op, Op::SetDistanceMode(_) | Op::SetReturnLevel(_)) {
+            return made.leave_out(stmt);
+        }
+        let to = match &mut stmt.op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) => Some(&mut m.to),
+            Op::ArcFeed(arc) => Some(&mut arc.to),
+            _ => None,
+        };
+        if let Some(to) = to
+            && let Err(fault) = name_all(to, walk)
+        {
+            diags.push(Diagnostic::new(fault, stmt.span));
+        }
+        made.push(stmt);
+    });
+}
+
+/// Gives every axis its word; the walk stands after the move.
+#[inline]
+fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
+    for (axis, word) in Axis::ALL.into_iter().zip(&mut to.axes) {
+        let absolute = word.as_ref().is_some_and(|w| super::write::is_absolute(w, walk.at.modes.distance));
+        match walk.at.position[axis as usize] {
+            _ if absolute => {
+                if let Some(word) = word {
+                    word.distance = Fact::Known(crate::canon::Distance::Absolute);
+                }
+            }
+            Some(nanos) => *word = Some(at(nanos, axis, walk.unit())),
+            None if word.is_some() => {
+                return Err(Fault::PositionUnknown { axis: axis.letter() as char });
+            }
+            None => {}
+        }
+    }
+    Ok(())
+}
+
+fn centre_from_zero(arc: &mut Arc, walk: &Walk) -> Result<(), Fault> {
+    let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+    arc.plane = Fact::Known(plane);
+    let (first, second, _) = plane.axes();
+    if let Centre::Point { words, from: CentreFrom::Zero } = &arc.centre
+        && words[first as usize].is_some()
+        && words[second as usize].is_some()
+    {
+        return Ok(());
+    }
+    let Some(centre) = walk.at.centre(arc) else {
+        let unknown = [first, second].into_iter().find(|a| walk.at.position[*a as usize].is_none());
+        let axis = unknown.unwrap_or(first).letter() as char;
+        return Err(match unknown {
+            Some(_) => Fault::PositionUnknown { axis },
+            None => Fault::ArcRadiusTooSmall,
+        });
+    };
+    let mut words: [Option<Expr>; 3] = [None, None, None];
+    for (axis, nanos) in [first, second].into_iter().zip(centre) {
+        words[axis as usize] = Some(exact(nanos, unit_of(axis, walk.unit())).into());
+    }
+    arc.centre = Centre::Point { words, from: CentreFrom::Zero };
+    Ok(())
+}

@@ -1,0 +1,301 @@
+//! The legaliser: brings a program within a target's capabilities, piece by piece.
+//!
+//! It scans each piece once. Where no statement needs work, as in nearly all of a long program, the
+//! piece is left as it is and only the tool's position is followed. Bodies of structured control are
+//! not looked into: a target that has such control can say everything.
+
+use super::walk::Walk;
+use super::{
+    Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats,
+    expand_turns, flatten_facts, offset_with_z, skip_levels, work_offset,
+};
+use crate::canon::{AXES, Modes, ReturnLevel};
+use crate::caps::Caps;
+use crate::diag::{Diagnostic, Fault};
+use crate::num::{Nanos, Num};
+use crate::program::{Arc, Op, Program, Stmt};
+use crate::track::Tracker;
+
+// What a statement may need, and a target may lack.
+const PATTERN: u16 = 1;
+const CYCLE: u16 = 2;
+const LENGTH: u16 = 4;
+const WORK: u16 = 8;
+const ARC: u16 = 16;
+const CONTROL: u16 = 32;
+const MESSAGE: u16 = 64;
+const SKIP: u16 = 128;
+const EVERY: u16 = 256;
+const CALL: u16 = 512;
+
+/// Brings a program within a target's capabilities.
+#[derive(Clone, Debug)]
+pub struct Legaliser {
+    target: Target,
+    /// What the target lacks.
+    lacks: u16,
+    /// Whether any pass wants to know where the tool is.
+    follow: bool,
+    walk: Walk,
+    cycles: expand_cycles::State,
+    length: offset_with_z::State,
+    work: work_offset::State,
+    skip: skip_levels::State,
+}
+
+impl Legaliser {
+    /// For a target that writes positions with so many digits after the point (in mm; one more in
+    /// inches). `peck_clearance` is the value of the source control's parameter, for peck cycles
+    /// that must be written out.
+    pub fn new(caps: &Caps, decimals: u8, peck_clearance: Option<Num>) -> Legaliser {
+        let lacks = lacks(caps);
+        Legaliser {
+            target: Target { caps: caps.clone(), decimals: decimals.min(8), peck_clearance },
+            lacks,
+            follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL) != 0,
+            walk: Walk::default(),
+            cycles: expand_cycles::State::default(),
+            length: offset_with_z::State::default(),
+            work: work_offset::State::default(),
+            skip: skip_levels::State::default(),
+        }
+    }
+
+    /// Says where the axes stand before the program starts, in its own frame.
+    pub fn stand_at(&mut self, position: &[Option<Nanos>; AXES]) {
+        self.walk.at.position = *position;
+    }
+
+    /// The work offset that the target's only one stands for, if the program named one or relied
+    /// on one.
+    pub fn work_offset(&self) -> Option<u16> {
+        self.work.only
+    }
+
+    /// Brings further statements of the main procedure within the target's capabilities. `assumed`
+    /// are the facts taken for granted so far.
+    pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
+        self.walk.assume(assumed);
+        let mut found = self.lacks & EVERY;
+        for stmt in stmts.iter() {
+            found |= interest(stmt);
+        }
+        let mut needs = found & self.lacks;
+        if self.length.is_busy() {
+            needs |= LENGTH;
+        }
+        if self.cycles.is_busy() {
+            needs |= CYCLE;
+        }
+        if needs == 0 {
+            if self.follow {
+                for stmt in stmts.iter() {
+                    self.walk.step(stmt);
+                }
+            }
+            return;
+        }
+        self.mend(stmts, needs, assumed, diags);
+    }
+
+    #[cold]
+    fn mend(&mut self, stmts: &mut Vec<Stmt>, needs: u16, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
+        if needs & CONTROL != 0 {
+            expand_repeats::over(stmts, diags);
+        }
+        if needs & WORK != 0 {
+            work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
+        }
+        if needs & SKIP != 0 {
+            skip_levels::over(stmts, &mut self.skip, &self.target, diags);
+        }
+        // Every pass walks from the same start: what it walks over does what the piece does.
+        let start = self.walk.clone();
+        if self.follow {
+            for stmt in stmts.iter() {
+                self.walk.step(stmt);
+            }
+        }
+        if needs & (ARC | MESSAGE | CALL | CONTROL) != 0 {
+            self.check(stmts, &mut start.clone(), diags);
+        }
+        if needs & PATTERN != 0 {
+            expand_patterns::over(stmts, &mut start.clone(), &self.target, diags);
+        }
+        if needs & CYCLE != 0 {
+            approach::over(stmts, &mut start.clone(), &self.target);
+            expand_cycles::over(stmts, &mut start.clone(), &mut self.cycles, &self.target, diags);
+            if !self.target.caps.incremental_cycles {
+                absolute_holes::over(stmts, &mut start.clone(), diags);
+            }
+        }
+        if needs & ARC != 0 && !self.target.caps.arc_turns {
+            expand_turns::over(stmts, &mut start.clone(), &self.target, diags);
+        }
+        // An expanded cycle may have left an offset that was in its block to take up elsewhere.
+        if needs & LENGTH != 0 {
+            offset_with_z::over(stmts, &mut start.clone(), &mut self.length, diags);
+        }
+        if needs & EVERY != 0 {
+            flatten_facts::over(stmts, &mut start.clone(), diags);
+        }
+    }
+
+    /// Brings a program that is kept whole within the target's capabilities: the rest of the main
+    /// procedure, and all subprograms. Ends it, as [`Legaliser::finish`] does.
+    pub fn run_program(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) {
+        let assumed = rest.assumed;
+        self.walk.assume(&assumed);
+        if self.lacks & CALL != 0 || self.calls_under_expanded(rest) {
+            // The walk is needed again for the other passes.
+            expand_calls::over(rest, &mut self.walk.clone(), diags);
+        }
+        let mut procedures = rest.procedures.iter_mut();
+        if let Some(main) = procedures.next() {
+            self.run(&mut main.body, &assumed, diags);
+            self.finish(&mut main.body, diags);
+        }
+        for procedure in procedures {
+            self.walk = Walk::default();
+            self.cycles = expand_cycles::State::default();
+            self.run(&mut procedure.body, &Modes::default(), diags);
+            self.finish(&mut procedure.body, diags);
+        }
+    }
+
+    /// The end of the program: further statements, if any were waiting.
+    pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        self.length.flush(stmts, diags);
+    }
+
+    /// Whether positions in a subprogram may belong to a cycle that the target cannot say.
+    fn calls_under_expanded(&self, program: &Program) -> bool {
+        let calls = |p: &[Stmt]| p.iter().any(|s| matches!(s.op, Op::Call(_)));
+        if self.lacks & CYCLE == 0 || !program.procedures.iter().any(|p| calls(&p.body)) {
+            return false;
+        }
+        let walk = Walk::default();
+        program.procedures.iter().flat_map(|p| &p.body).any(|stmt| match &stmt.op {
+            Op::StartCycle(cycle) => {
+                let other = self.target.caps.approach.is_some_and(|a| a != cycle.approach);
+                let mut nothing = Vec::new();
+                let says = expand_cycles::sayable(&walk, cycle, &self.target, stmt.span, &mut nothing);
+                other || !says || !nothing.is_empty()
+            }
+            _ => false,
+        })
+    }
+
+    /// Refuses what no pass can mend.
+    fn check(&self, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+        let caps = &self.target.caps;
+        for stmt in stmts {
+            walk.enter(stmt.skip);
+            let mut cannot = |what: &str| {
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            };
+            match &stmt.op {
+                Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
+                Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
+                Op::Goto(_) | Op::Label(_) if !caps.repeats => cannot("a jump"),
+                Op::Call(_) if !caps.calls => cannot("a call"),
+                Op::Return if !caps.calls => cannot("a return"),
+                _ => {}
+            }
+            walk.step(stmt);
+            if let Op::Message(text) = &mut stmt.op
+                && !caps.messages
+            {
+                let text = std::mem::take(text);
+                diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
+                stmt.op = Op::Comment(text);
+            }
+        }
+    }
+}
+
+/// Whether an arc has a word of the third axis that moves it.
+fn is_helix(arc: &Arc, here: &Tracker) -> bool {
+    let axis = match here.plane(arc.plane) {
+        Some(plane) => plane.axes().2,
+        None => return true,
+    };
+    let now = here.position[axis as usize];
+    arc.to.get(axis).is_some_and(|word| now.is_none() || here.resolve(word, now) != now)
+}
+
+/// What a target lacks.
+fn lacks(caps: &Caps) -> u16 {
+    let levels = [ReturnLevel::Initial, ReturnLevel::Retract];
+    let kinds = ["drill", "drill-dwell", "drill-peck", "bore"];
+    let says_all = |kind: &str| {
+        let cap = caps.cycles.iter().any(|c| c.kind == kind && c.dwell && c.clearance);
+        cap && levels.iter().all(|level| caps.cycle(kind, Some(*level), true))
+    };
+    let cycles =
+        kinds.into_iter().all(says_all) && caps.approach.is_none() && caps.incremental_cycles && !caps.flat;
+    let patterns = caps.circle_pattern
+        && caps.grid_pattern == u32::MAX
+        && caps.grid_serpentine.is_none()
+        && !caps.circle_centre_at_zero_only
+        && !caps.flat;
+    let mut lacks = 0;
+    let mut needs = |what: u16, has: bool| {
+        if !has {
+            lacks |= what;
+        }
+    };
+    needs(PATTERN, patterns);
+    needs(CYCLE, cycles);
+    needs(LENGTH, !caps.offset_with_z);
+    needs(WORK, caps.work_offsets == u16::MAX);
+    needs(ARC, caps.helix && caps.arc_turns);
+    needs(CONTROL, caps.repeats);
+    needs(MESSAGE, caps.messages);
+    needs(SKIP, caps.skip_levels >= 9);
+    needs(EVERY, !caps.flat);
+    needs(CALL, caps.calls);
+    lacks
+}
+
+/// What a statement may need.
+#[inline]
+fn interest(stmt: &Stmt) -> u16 {
+    let skip = if stmt.skip.is_some() { SKIP } else { 0 };
+    skip | match &stmt.op {
+        Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
+        Op::ArcFeed(_) => ARC,
+        Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
+        Op::Pattern(_) => PATTERN | CYCLE,
+        Op::UseToolLengthOffset(_) => LENGTH,
+        Op::SetOriginOffsets(_) => WORK,
+        Op::Control(_) | Op::Goto(_) | Op::Label(_) => CONTROL,
+        Op::Call(_) | Op::Return => CALL,
+        Op::Message(_) => MESSAGE,
+        Op::Comment(_)
+        | Op::NoEffect(_)
+        | Op::Blank
+        | Op::UseLengthUnits(_)
+        | Op::SetDistanceMode(_)
+        | Op::SelectPlane(_)
+        | Op::SetFeedMode(_)
+        | Op::SetReturnLevel(_)
+        | Op::ClearFrame(_)
+        | Op::SetFrame(..)
+        | Op::StopCutterRadiusCompensation
+        | Op::SetSpindleSpeed(_)
+        | Op::SelectTool(_)
+        | Op::ChangeTool
+        | Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff
+        | Op::Dwell(_)
+        | Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ProgramEnd
+        | Op::Assign(..) => 0,
+    }
+}

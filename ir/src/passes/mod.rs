@@ -1,0 +1,133 @@
+//! Passes: rewriting a program so that a target can say it, with the machine doing the same.
+//!
+//! A pass is a plain function on a program, listed in [`PASSES`] and runnable alone. Which ones a
+//! target needs follows from its capabilities; [`Legaliser`] picks them and runs them on a program
+//! that streams through in pieces. A pass never names a dialect, and never changes what the machine
+//! does: what it cannot mend it refuses.
+
+pub mod absolute_holes;
+pub mod approach;
+pub mod expand_calls;
+pub mod expand_cycles;
+pub mod expand_patterns;
+pub mod expand_repeats;
+pub mod expand_turns;
+pub mod flatten_facts;
+mod legalise;
+pub mod offset_with_z;
+pub mod skip_levels;
+mod walk;
+pub mod work_offset;
+mod write;
+
+#[cfg(test)]
+mod tests;
+
+pub use legalise::Legaliser;
+
+use crate::caps::Caps;
+use crate::diag::Diagnostic;
+use crate::num::{Num, Unit};
+use crate::program::{Program, Stmt};
+use crate::track::Tracker;
+use walk::Walk;
+
+/// Most statements that a program may grow to by being written out.
+const MOST_STATEMENTS: usize = 4_000_000;
+
+/// What passes know of the target.
+#[derive(Clone, Debug, Default)]
+pub struct Target {
+    /// What it can say.
+    pub caps: Caps,
+    /// Digits after the point, in mm or degrees, to which computed positions are rounded (0 to 8);
+    /// in inches it is one more.
+    pub decimals: u8,
+    /// Clearance of a peck cycle whose own control has it as a parameter: taken for granted where
+    /// the cycle is written out.
+    pub peck_clearance: Option<Num>,
+}
+
+impl Target {
+    /// Digits after the point of a computed length in a unit.
+    fn decimals_in(&self, unit: Unit) -> u8 {
+        match unit {
+            Unit::Inch => self.decimals.saturating_add(1),
+            Unit::One | Unit::Mm | Unit::Entry | Unit::Degree | Unit::Second => self.decimals,
+        }
+    }
+}
+
+/// A pass.
+#[derive(Clone, Copy, Debug)]
+pub struct Pass {
+    /// Its name.
+    pub name: &'static str,
+    /// What it does, in a line.
+    pub about: &'static str,
+    /// Runs it alone. The tracker says what holds before the main procedure.
+    pub run: fn(&mut Program, &Target, &Tracker, &mut Vec<Diagnostic>),
+}
+
+/// All passes, in the order in which they are run.
+pub const PASSES: &[Pass] = &[
+    Pass {
+        name: "expand-calls",
+        about: "writes subprograms out where they are called",
+        run: expand_calls::run,
+    },
+    Pass { name: "expand-repeats", about: "writes counted repetitions out", run: expand_repeats::run },
+    Pass {
+        name: "work-offset",
+        about: "lets the target's only work offset stand for the program's only one",
+        run: work_offset::run,
+    },
+    Pass {
+        name: "skip-levels",
+        about: "makes block-skip levels that the target cannot tell apart one",
+        run: skip_levels::run,
+    },
+    // Before the cycles, so that a kept cycle gets its positions.
+    Pass {
+        name: "expand-patterns",
+        about: "turns circles and grids of holes into positions",
+        run: expand_patterns::run,
+    },
+    // Before the cycles: what it mends need not be expanded.
+    Pass {
+        name: "approach",
+        about: "writes the first leg to a hole out where the target would go another way",
+        run: approach::run,
+    },
+    Pass { name: "expand-cycles", about: "turns canned cycles into their moves", run: expand_cycles::run },
+    Pass {
+        name: "absolute-holes",
+        about: "measures planes and positions of cycles from program zero",
+        run: absolute_holes::run,
+    },
+    Pass {
+        name: "expand-turns",
+        about: "splits arcs of several turns into single turns",
+        run: expand_turns::run,
+    },
+    // After the cycles, whose moves along Z can take an offset up.
+    Pass {
+        name: "offset-with-z",
+        about: "moves a tool-length offset into the block that takes it up",
+        run: offset_with_z::run,
+    },
+    // Last: afterwards every move names every axis.
+    Pass {
+        name: "flatten-facts",
+        about: "gives every move all its axes, from program zero",
+        run: flatten_facts::run,
+    },
+];
+
+/// Runs a pass over each procedure; what holds before a subprogram is not known.
+fn each_body(program: &mut Program, entry: &Tracker, mut over: impl FnMut(&mut Vec<Stmt>, &mut Walk)) {
+    for (at, procedure) in program.procedures.iter_mut().enumerate() {
+        let mut walk = Walk::new(if at == 0 { entry.clone() } else { Tracker::default() });
+        over(&mut procedure.body, &mut walk);
+    }
+}

@@ -1,0 +1,186 @@
+//! `offset-with-z`: a tool-length offset goes into the block that next commands the Z axis.
+//!
+//! An offset moves nothing and is taken up with the next command of Z, so that the machine does the
+//! same. It stands in a block with Z because some controls move the axis by the offset at once if
+//! it stands alone (16-C; 30i-C, parameter 5006#6).
+
+use super::walk::Walk;
+use super::write::Rebuild;
+use super::{Target, each_body};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::program::{Op, Program, Stmt};
+use crate::source::Span;
+use crate::track::Tracker;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    waiting: Option<Waiting>,
+    /// Number of the present block.
+    block: u64,
+}
+
+#[derive(Clone, Debug)]
+struct Waiting {
+    entry: Expr,
+    span: Span,
+    skip: Option<u8>,
+    /// Number of its block.
+    block: u64,
+    /// It has been reported.
+    told: bool,
+}
+
+/// Moves the offsets.
+pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| {
+        let mut state = State::default();
+        over(body, walk, &mut state, diags);
+        state.flush(body, diags);
+    });
+}
+
+impl State {
+    /// Whether an offset waits.
+    pub(super) fn is_busy(&self) -> bool {
+        self.waiting.is_some()
+    }
+
+    /// The end of the body: an offset that nothing takes up stands where it may do no harm, last.
+    pub(super) fn flush(&mut self, body: &mut Vec<Stmt>, _: &mut Vec<Diagnostic>) {
+        if let Some(waiting) = self.waiting.take() {
+            body.push(waiting.into_stmt());
+        }
+    }
+}
+
+impl Waiting {
+    fn into_stmt(self) -> Stmt {
+        let mut stmt = Stmt::new(self.span, Op::UseToolLengthOffset(self.entry));
+        stmt.skip = self.skip;
+        stmt
+    }
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
+    let input = std::mem::take(body);
+    let mut made = Rebuild::new(input.len() + 1);
+    for stmt in input {
+        walk.enter(stmt.skip);
+        state.block = state.block.wrapping_add(u64::from(!stmt.joined));
+        let commands = walk.commands_z(&stmt.op) || calls_up(walk, &stmt.op);
+        let leaves = leaves(&stmt.op);
+        match &stmt.op {
+            Op::UseToolLengthOffset(entry) => {
+                walk.step(&stmt);
+                if let Some(before) = state.waiting.take()
+                    && before.skip != stmt.skip
+                    && stmt.skip.is_some()
+                {
+                    // With the switch on, the one before is still the one that waits.
+                    cannot(diags, stmt.span);
+                }
+                state.waiting = Some(Waiting {
+                    entry: entry.clone(),
+                    span: stmt.span,
+                    skip: stmt.skip,
+                    block: state.block,
+                    told: false,
+                });
+                made.leave_out(stmt);
+            }
+            _ if state.waiting.is_some() && commands => {
+                walk.step(&stmt);
+                take_up(stmt, state, &mut made, diags);
+            }
+            Op::ProgramEnd if state.waiting.is_some() => {
+                walk.step(&stmt);
+                if let Some(waiting) = state.waiting.take() {
+                    put_before(stmt, waiting.into_stmt(), &mut made);
+                }
+            }
+            _ if leaves && state.waiting.is_some() => {
+                walk.step(&stmt);
+                if let Some(waiting) = state.waiting.take() {
+                    cannot(diags, waiting.span);
+                    put_before(stmt, waiting.into_stmt(), &mut made);
+                }
+            }
+            _ => {
+                walk.step(&stmt);
+                made.push(stmt);
+            }
+        }
+    }
+    *body = made.out;
+}
+
+/// Whether a statement calls up a cycle that drills along Z: its block says Z.
+fn calls_up(walk: &Walk, op: &Op) -> bool {
+    match op {
+        Op::StartCycle(cycle) => walk.at.plane(cycle.plane).is_none_or(|p| p == crate::canon::Plane::Xy),
+        _ => false,
+    }
+}
+
+/// Whether the program goes on where this pass does not follow.
+fn leaves(op: &Op) -> bool {
+    matches!(op, Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_))
+}
+
+fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
+    let what = "a tool-length offset without a block that commands Z".into();
+    diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+}
+
+/// Puts a waiting offset into the block of the statement that takes it up.
+fn take_up(stmt: Stmt, state: &mut State, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
+    let Some(waiting) = &mut state.waiting else { return made.push(stmt) };
+    if waiting.skip.is_some() && waiting.skip != stmt.skip {
+        cannot(diags, waiting.span);
+    }
+    let mut offset = waiting.clone().into_stmt();
+    offset.skip = stmt.skip;
+    if !waiting.told && waiting.block != state.block {
+        diags.push(Diagnostic::new(Fault::AssumedOffsetWithZ, waiting.span));
+        waiting.told = true;
+    }
+    // A block that may be skipped takes it up only then: the next one has to say it again.
+    if stmt.skip == waiting.skip {
+        state.waiting = None;
+    }
+    put_before(stmt, offset, made);
+}
+
+/// Puts a statement into the block of another, in its place within the block.
+fn put_before(mut stmt: Stmt, mut offset: Stmt, made: &mut Rebuild) {
+    if matches!(
+        stmt.op,
+        Op::ProgramEnd | Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_)
+    ) {
+        // It goes into no block, but before the whole of this one.
+        let block = if stmt.joined { made.out.iter().rev().take_while(|s| s.joined).count() + 1 } else { 0 };
+        let at = made.out.len().saturating_sub(block);
+        offset.joined = false;
+        made.out.insert(at, offset);
+        return made.push(stmt);
+    }
+    // The end of a cycle or its call, in the same block, comes after the offset.
+    let mut after = Vec::new();
+    while stmt.joined
+        && made.out.last().is_some_and(|last| matches!(last.op, Op::EndCycle | Op::StartCycle(_)))
+        && let Some(last) = made.out.pop()
+    {
+        after.push(std::mem::replace(&mut stmt, last));
+    }
+    offset.joined = stmt.joined;
+    offset.number = stmt.number.take();
+    made.push(offset);
+    stmt.joined = true;
+    made.push(stmt);
+    while let Some(next) = after.pop() {
+        made.push(next);
+    }
+}

@@ -1,0 +1,39 @@
+//! `skip-levels`: block-skip levels that the target cannot tell apart become the first.
+//!
+//! That changes what the switches do, unless the program uses the first level only. A target without
+//! block skip is told.
+
+use super::{Target, each_body};
+use crate::diag::{Diagnostic, Fault};
+use crate::program::{Program, Stmt};
+use crate::track::Tracker;
+
+/// Levels that were reported: bit n is level n.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct State {
+    told: u16,
+}
+
+/// Makes the levels one, or refuses them.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    each_body(program, entry, |body, _| over(body, &mut state, target, diags));
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(body: &mut [Stmt], state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let highest = target.caps.skip_levels;
+    for stmt in body {
+        let Some(level) = stmt.skip.filter(|l| *l > highest) else { continue };
+        let bit = 1u16 << level.min(15);
+        if state.told & bit == 0 {
+            state.told |= bit;
+            let fault = match highest {
+                0 => Fault::CannotSay { what: "a block that can be skipped".into() },
+                _ => Fault::SkipLevelLost { level },
+            };
+            diags.push(Diagnostic::new(fault, stmt.span));
+        }
+        stmt.skip = Some(1);
+    }
+}

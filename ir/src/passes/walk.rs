@@ -1,0 +1,142 @@
+//! Walking a body of statements: where the tool stands on the way, and block skip.
+//!
+//! A stretch of blocks with one skip level is executed whole or not at all, so that what holds
+//! afterwards is what holds on both ways; within the stretch nothing is in doubt.
+
+use crate::canon::{Axis, Modes, Plane};
+use crate::num::Unit;
+use crate::program::{Op, Stmt};
+use crate::track::Tracker;
+
+/// A tracker that knows stretches of skipped blocks.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Walk {
+    /// State before the statement that comes next.
+    pub(super) at: Tracker,
+    /// Whether a length offset waits for a command of Z, or may wait.
+    pub(super) waiting: bool,
+    /// The level of the stretch that is being walked, and the state if it is skipped.
+    skipped: Option<(u8, Box<Tracker>)>,
+    /// Facts taken for granted that the tracker has already.
+    assumed: Modes,
+}
+
+impl Walk {
+    /// A walk that starts in this state.
+    pub(super) fn new(start: Tracker) -> Walk {
+        Walk { at: start, ..Walk::default() }
+    }
+
+    /// Goes into or out of a stretch of skipped blocks, as the next statement's level says.
+    #[inline]
+    pub(super) fn enter(&mut self, skip: Option<u8>) {
+        if self.skipped.is_some() || skip.is_some() {
+            self.turn(skip);
+        }
+    }
+
+    #[cold]
+    fn turn(&mut self, skip: Option<u8>) {
+        if self.skipped.as_ref().map(|s| s.0) == skip {
+            return;
+        }
+        if let Some((_, before)) = self.skipped.take() {
+            self.at.join(&before);
+        }
+        self.skipped = skip.map(|level| (level, Box::new(self.at.clone())));
+    }
+
+    /// Executes a statement.
+    #[inline]
+    pub(super) fn step(&mut self, stmt: &Stmt) {
+        self.enter(stmt.skip);
+        if matches!(stmt.op, Op::UseToolLengthOffset(_)) {
+            self.waiting = true;
+        } else if self.waiting && stmt.skip.is_none() && self.commands_z(&stmt.op) {
+            self.waiting = false;
+        }
+        self.at.apply(&stmt.op);
+    }
+
+    /// Takes over facts that were taken for granted since the last time.
+    pub(super) fn assume(&mut self, assumed: &Modes) {
+        if self.assumed == *assumed {
+            return;
+        }
+        let skipped = self.skipped.as_mut().map(|s| &mut s.1.modes);
+        for modes in std::iter::once(&mut self.at.modes).chain(skipped) {
+            macro_rules! take {
+                ($($fact:ident)*) => {$(
+                    if self.assumed.$fact.is_none() && modes.$fact.is_none() {
+                        modes.$fact = assumed.$fact;
+                    }
+                )*};
+            }
+            take!(motion distance units plane feed_mode return_level work_offset length_offset no_origin_shift);
+        }
+        self.assumed = *assumed;
+    }
+
+    /// Whether a statement surely commands the Z axis, so that a waiting length offset is taken up.
+    pub(super) fn commands_z(&self, op: &Op) -> bool {
+        let normal_is_z = || {
+            let plane = self.at.cycle.as_ref().and_then(|c| c.cycle.plane.known());
+            plane.or(self.at.modes.plane).is_none_or(|p| p == Plane::Xy)
+        };
+        match op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) => m.to.get(Axis::Z).is_some(),
+            Op::ArcFeed(arc) => arc.to.get(Axis::Z).is_some(),
+            Op::Position(m) => {
+                m.to.get(Axis::Z).is_some()
+                    || self.at.modes.motion == Some(crate::canon::Motion::Cycle) && normal_is_z()
+            }
+            Op::Hole(m) => m.to.get(Axis::Z).is_some() || normal_is_z(),
+            Op::Pattern(_) => normal_is_z(),
+            Op::Comment(_)
+            | Op::NoEffect(_)
+            | Op::Blank
+            | Op::UseLengthUnits(_)
+            | Op::SetDistanceMode(_)
+            | Op::SelectPlane(_)
+            | Op::SetFeedMode(_)
+            | Op::SetReturnLevel(_)
+            | Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::SetFrame(..)
+            | Op::StopCutterRadiusCompensation
+            | Op::SetFeedRate(_)
+            | Op::SetSpindleSpeed(_)
+            | Op::SelectTool(_)
+            | Op::ChangeTool
+            | Op::UseToolLengthOffset(_)
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::Dwell(_)
+            | Op::StartCycle(_)
+            | Op::EndCycle
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::ProgramEnd
+            | Op::Message(_)
+            | Op::Call(_)
+            | Op::Return
+            | Op::Assign(..)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_) => false,
+        }
+    }
+
+    /// The unit in which lengths are written here.
+    pub(super) fn unit(&self) -> Unit {
+        match self.at.modes.units {
+            Some(crate::canon::Units::Mm) => Unit::Mm,
+            Some(crate::canon::Units::Inch) => Unit::Inch,
+            None => Unit::Entry,
+        }
+    }
+}
