@@ -6,6 +6,9 @@
 //!
 //! Not here: reading, passes, verification, file access, printing.
 
+pub mod canon;
+pub mod ir;
+
 use ncc_ir::program::ProgramName;
 
 /// How a program is laid out.

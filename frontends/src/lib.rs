@@ -5,6 +5,9 @@
 //!
 //! Not here: file access, formatting, printing, anything of back-ends.
 
+pub mod canon;
+pub mod ir;
+
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::{Procedure, ProgramName, Stmt};

@@ -1,0 +1,2 @@
+//! Writer of the canonical stream.
+pub(crate) mod text;

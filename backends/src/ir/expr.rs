@@ -1,0 +1,158 @@
+//! Expressions, variables and numbers of the `ir` text.
+
+use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
+use ncc_ir::num::{Num, Unit};
+
+use crate::canon::text::{decimal, quote};
+
+/// How tightly the operands of an expression hold together; what holds less needs brackets.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Tie {
+    Or,
+    And,
+    Comparison,
+    Sum,
+    Product,
+    Power,
+    /// A literal, or an operand with a sign.
+    Atom,
+    /// What may follow a sign: a variable, a call, brackets.
+    Named,
+}
+
+/// Writes an expression with as few brackets as it needs.
+pub(super) fn expr(e: &Expr, out: &mut Vec<u8>) {
+    tied(e, Tie::Or, out);
+}
+
+fn tied(e: &Expr, least: Tie, out: &mut Vec<u8>) {
+    let brackets = tie(e) < least;
+    if brackets {
+        out.push(b'(');
+    }
+    match e {
+        Expr::Num(n) => num(*n, out),
+        Expr::Node(node) => match &**node {
+            Node::Var(v) => var(v, out),
+            Node::Vacant => out.extend_from_slice(b"vacant"),
+            Node::Unary(operator, a) => {
+                out.extend_from_slice(match operator {
+                    Unary::Negate => b"-".as_slice(),
+                    Unary::Not => b"not ",
+                });
+                tied(a, Tie::Named, out);
+            }
+            Node::Binary(operator, a, b) => {
+                let (sign, tie) = operation(*operator);
+                let (left, right) = match tie {
+                    Tie::Or => (Tie::Or, Tie::And),
+                    Tie::And => (Tie::And, Tie::Comparison),
+                    Tie::Comparison => (Tie::Sum, Tie::Sum),
+                    Tie::Sum => (Tie::Sum, Tie::Product),
+                    Tie::Product => (Tie::Product, Tie::Power),
+                    Tie::Power | Tie::Atom | Tie::Named => (Tie::Atom, Tie::Atom),
+                };
+                tied(a, left, out);
+                out.push(b' ');
+                out.extend_from_slice(sign.as_bytes());
+                out.push(b' ');
+                tied(b, right, out);
+            }
+            Node::Call(f, args) => {
+                out.extend_from_slice(function(*f).as_bytes());
+                out.push(b'(');
+                for (place, arg) in args.iter().enumerate() {
+                    if place > 0 {
+                        out.extend_from_slice(b", ");
+                    }
+                    expr(arg, out);
+                }
+                out.push(b')');
+            }
+        },
+    }
+    if brackets {
+        out.push(b')');
+    }
+}
+
+fn tie(e: &Expr) -> Tie {
+    match e {
+        Expr::Num(_) => Tie::Atom,
+        Expr::Node(node) => match &**node {
+            Node::Var(_) | Node::Vacant | Node::Call(..) => Tie::Named,
+            Node::Unary(..) => Tie::Atom,
+            Node::Binary(operator, ..) => operation(*operator).1,
+        },
+    }
+}
+
+fn operation(operator: Binary) -> (&'static str, Tie) {
+    match operator {
+        Binary::Add => ("+", Tie::Sum),
+        Binary::Subtract => ("-", Tie::Sum),
+        Binary::Multiply => ("*", Tie::Product),
+        Binary::Divide => ("/", Tie::Product),
+        Binary::Modulo => ("mod", Tie::Product),
+        Binary::Power => ("^", Tie::Power),
+        Binary::Equal => ("==", Tie::Comparison),
+        Binary::NotEqual => ("!=", Tie::Comparison),
+        Binary::Less => ("<", Tie::Comparison),
+        Binary::LessOrEqual => ("<=", Tie::Comparison),
+        Binary::Greater => (">", Tie::Comparison),
+        Binary::GreaterOrEqual => (">=", Tie::Comparison),
+        Binary::And => ("and", Tie::And),
+        Binary::Or => ("or", Tie::Or),
+        Binary::Xor => ("xor", Tie::Or),
+    }
+}
+
+fn function(f: Function) -> &'static str {
+    match f {
+        Function::Sin => "sin",
+        Function::Cos => "cos",
+        Function::Tan => "tan",
+        Function::Asin => "asin",
+        Function::Acos => "acos",
+        Function::Atan2 => "atan2",
+        Function::Sqrt => "sqrt",
+        Function::Abs => "abs",
+        Function::Round => "round",
+        Function::Floor => "floor",
+        Function::Ceiling => "ceiling",
+        Function::Truncate => "truncate",
+        Function::Ln => "ln",
+        Function::Exp => "exp",
+    }
+}
+
+/// Writes a variable: its kind, and its name, in quotation marks if it is not plain.
+pub(super) fn var(v: &Var, out: &mut Vec<u8>) {
+    let (kind, name) = match v {
+        Var::Local(name) => ("local:", name),
+        Var::Common(name) => ("common:", name),
+        Var::Retentive(name) => ("retentive:", name),
+        Var::System(name) => ("system:", name),
+    };
+    out.extend_from_slice(kind.as_bytes());
+    let plain = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'$');
+    if !name.is_empty() && name.bytes().all(plain) {
+        out.extend_from_slice(name.as_bytes());
+    } else {
+        quote(name, out);
+    }
+}
+
+/// Writes a number with its unit.
+#[inline]
+pub(super) fn num(n: Num, out: &mut Vec<u8>) {
+    decimal(n, out);
+    out.extend_from_slice(match n.unit {
+        Unit::One => b"".as_slice(),
+        Unit::Mm => b"mm",
+        Unit::Inch => b"in",
+        Unit::Entry => b"u",
+        Unit::Degree => b"deg",
+        Unit::Second => b"s",
+    });
+}

@@ -1,0 +1,409 @@
+//! Statements of the `ir` text, each without its block's marks.
+
+use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Arc, Call, Centre, CentreFrom, Control, Coord, FrameSlot, Op, Point};
+
+use super::expr::{expr, var};
+use crate::canon::text::{quote, whole};
+
+/// Writes what a statement does; of a control statement what stands before its body.
+pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
+    let said = match op {
+        Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => m.said,
+        Op::ArcFeed(arc) => arc.said,
+        Op::Assign(v, value) => {
+            var(v, out);
+            put(" = ", out);
+            return expr(value, out);
+        }
+        Op::Control(c) => return control(c, out),
+        Op::Comment(_)
+        | Op::NoEffect(_)
+        | Op::Blank
+        | Op::UseLengthUnits(_)
+        | Op::SetDistanceMode(_)
+        | Op::SelectPlane(_)
+        | Op::SetFeedMode(_)
+        | Op::SetReturnLevel(_)
+        | Op::SetOriginOffsets(_)
+        | Op::ClearFrame(_)
+        | Op::SetFrame(..)
+        | Op::StopCutterRadiusCompensation
+        | Op::SetFeedRate(_)
+        | Op::SetSpindleSpeed(_)
+        | Op::SelectTool(_)
+        | Op::ChangeTool
+        | Op::UseToolLengthOffset(_)
+        | Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff
+        | Op::Dwell(_)
+        | Op::StartCycle(_)
+        | Op::Pattern(_)
+        | Op::EndCycle
+        | Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ProgramEnd
+        | Op::Message(_)
+        | Op::Call(_)
+        | Op::Return
+        | Op::Goto(_)
+        | Op::Label(_) => false,
+    };
+    if said {
+        put("said ", out);
+    }
+    put(op.name(), out);
+    out.push(b'(');
+    arguments(op, out);
+    out.push(b')');
+}
+
+fn arguments(op: &Op, out: &mut Vec<u8>) {
+    match op {
+        Op::Comment(text) | Op::NoEffect(text) | Op::Message(text) => text_argument(text, out),
+        Op::UseLengthUnits(u) => put(units(*u), out),
+        Op::SetDistanceMode(d) => put(distance(*d), out),
+        Op::SelectPlane(p) => put(plane(*p), out),
+        Op::SetFeedMode(f) => put(feed_mode(*f), out),
+        Op::SetReturnLevel(r) => put(return_level(*r), out),
+        Op::SetOriginOffsets(n) => whole(u64::from(*n), out),
+        Op::ClearFrame(s) => put(slot(*s), out),
+        Op::SetFrame(s, arguments) => {
+            put(slot(*s), out);
+            further(arguments, out);
+        }
+        Op::SetFeedRate(e)
+        | Op::SetSpindleSpeed(e)
+        | Op::SelectTool(e)
+        | Op::UseToolLengthOffset(e)
+        | Op::Dwell(e) => expr(e, out),
+        Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
+            point(&m.to, b"", out);
+        }
+        Op::ArcFeed(a) => arc(a, out),
+        Op::StartCycle(c) => cycle(c, out),
+        Op::Pattern(p) => pattern(p, out),
+        Op::Call(c) => call(c, out),
+        Op::Goto(label) | Op::Label(label) => name(label, out),
+        Op::Blank
+        | Op::StopCutterRadiusCompensation
+        | Op::ChangeTool
+        | Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff
+        | Op::EndCycle
+        | Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ProgramEnd
+        | Op::Return
+        | Op::Assign(..)
+        | Op::Control(_) => {}
+    }
+}
+
+fn put(text: &str, out: &mut Vec<u8>) {
+    out.extend_from_slice(text.as_bytes());
+}
+
+/// Writes a name: bare if it is a plain number, else in quotation marks.
+pub(super) fn name(text: &str, out: &mut Vec<u8>) {
+    let number = text.bytes().all(|b| b.is_ascii_digit())
+        && (1..=18).contains(&text.len())
+        && (text.len() == 1 || !text.starts_with('0'));
+    if number { put(text, out) } else { text_argument(text, out) }
+}
+
+/// Writes the line of facts that were taken for granted.
+pub(super) fn assumed(m: &Modes, out: &mut Vec<u8>) {
+    let turned = |motion| match motion {
+        Motion::Traverse => "traverse",
+        Motion::Feed => "feed",
+        Motion::Arc(Turn::Clockwise) => "arc clockwise",
+        Motion::Arc(Turn::Counterclockwise) => "arc counterclockwise",
+        Motion::Cycle => "cycle",
+    };
+    let facts = [
+        m.motion.map(|v| ("motion ", turned(v).to_owned())),
+        m.distance.map(|v| ("distance ", distance(v).to_owned())),
+        m.units.map(|v| ("units ", units(v).to_owned())),
+        m.plane.map(|v| ("plane ", plane(v).to_owned())),
+        m.feed_mode.map(|v| ("feed-mode ", feed_mode(v).to_owned())),
+        m.return_level.map(|v| ("return-level ", return_level(v).to_owned())),
+        m.work_offset.map(|v| ("work-offset ", v.to_string())),
+        m.length_offset.map(|v| ("length-offset ", v.to_string())),
+        m.no_origin_shift.map(|v| ("no-origin-shift ", v.to_string())),
+    ];
+    put("assumed(", out);
+    for (place, (fact, value)) in facts.into_iter().flatten().enumerate() {
+        put(if place > 0 { ", " } else { "" }, out);
+        put(fact, out);
+        put(&value, out);
+    }
+    put(")", out);
+}
+
+/// A text between quotation marks; an escape is no loss here, since the reader undoes it.
+fn text_argument(text: &str, out: &mut Vec<u8>) {
+    let _escaped = quote(text, out);
+}
+
+fn further(arguments: &[Expr], out: &mut Vec<u8>) {
+    for e in arguments {
+        put(", ", out);
+        expr(e, out);
+    }
+}
+
+/// Writes axis words with commas between, and `after` each.
+fn point(to: &Point, after: &[u8], out: &mut Vec<u8>) {
+    let mut first = true;
+    for axis in Axis::ALL {
+        if let Some(c) = to.get(axis) {
+            if !first && after.is_empty() {
+                put(", ", out);
+            }
+            first = false;
+            out.push(axis.letter());
+            out.push(b' ');
+            coord(c, out);
+            out.extend_from_slice(after);
+        }
+    }
+}
+
+fn coord(c: &Coord, out: &mut Vec<u8>) {
+    put(
+        match c.distance {
+            Fact::Known(Distance::Absolute) => "",
+            Fact::Known(Distance::Incremental) => "inc ",
+            Fact::Entry => "entry ",
+        },
+        out,
+    );
+    expr(&c.value, out);
+}
+
+fn arc(a: &Arc, out: &mut Vec<u8>) {
+    put(a.plane.known().map_or("entry", plane), out);
+    put(", ", out);
+    put(turn(a.turn), out);
+    put(", ", out);
+    point(&a.to, b", ", out);
+    match &a.centre {
+        Centre::Radius(radius) => {
+            put("radius ", out);
+            expr(radius, out);
+        }
+        Centre::Point { words, from } => {
+            put("centre(", out);
+            put(
+                match from {
+                    CentreFrom::Start => "start",
+                    CentreFrom::Zero => "zero",
+                },
+                out,
+            );
+            for (word, letter) in words.iter().zip([", I ", ", J ", ", K "]) {
+                if let Some(value) = word {
+                    put(letter, out);
+                    expr(value, out);
+                }
+            }
+            put(")", out);
+        }
+    }
+    if a.turns > 0 {
+        put(", turns ", out);
+        whole(u64::from(a.turns), out);
+    }
+}
+
+fn cycle(c: &Cycle, out: &mut Vec<u8>) {
+    put(c.kind.name(), out);
+    match &c.kind {
+        CycleKind::Drill | CycleKind::Bore { dwell: None } => {}
+        CycleKind::DrillDwell { dwell } | CycleKind::Bore { dwell: Some(dwell) } => {
+            put("(dwell ", out);
+            expr(dwell, out);
+            put(")", out);
+        }
+        CycleKind::DrillPeck { peck, clearance, dwell } => {
+            put("(peck ", out);
+            expr(peck, out);
+            put(", clearance ", out);
+            match clearance {
+                Clearance::Stated(e) => expr(e, out),
+                Clearance::Parameter => put("parameter", out),
+            }
+            if let Some(dwell) = dwell {
+                put(", dwell ", out);
+                expr(dwell, out);
+            }
+            put(")", out);
+        }
+    }
+    put(", ", out);
+    put(c.plane.known().map_or("entry", plane), out);
+    put(", retract ", out);
+    coord(&c.retract, out);
+    put(", depth ", out);
+    coord(&c.depth, out);
+    put(", return ", out);
+    put(c.return_level.known().map_or("entry", return_level), out);
+    put(
+        match c.approach {
+            Approach::RaiseFirst => ", raise-first",
+            Approach::PlaneFirst => ", plane-first",
+        },
+        out,
+    );
+    if let Some(feed) = &c.feed {
+        put(", feed ", out);
+        expr(feed, out);
+    }
+}
+
+fn pattern(p: &Pattern, out: &mut Vec<u8>) {
+    match p {
+        Pattern::Circle { centre, first, step, count } => {
+            put("centre ", out);
+            match centre {
+                Some(centre) => pair(centre, out),
+                None => put("here", out),
+            }
+            put(", first ", out);
+            pair(first, out);
+            put(", step ", out);
+            expr(step, out);
+            put(", count ", out);
+            whole(u64::from(*count), out);
+        }
+        Pattern::Grid { columns, rows, serpentine } => {
+            put("columns ", out);
+            row(columns, out);
+            put(", rows ", out);
+            row(rows, out);
+            put(if *serpentine { ", serpentine" } else { "" }, out);
+        }
+    }
+}
+
+fn pair([a, b]: &[Coord; 2], out: &mut Vec<u8>) {
+    put("(", out);
+    coord(a, out);
+    put(", ", out);
+    coord(b, out);
+    put(")", out);
+}
+
+fn row(r: &Row, out: &mut Vec<u8>) {
+    put("(", out);
+    out.push(r.axis.letter());
+    put(", ", out);
+    expr(&r.pitch, out);
+    put(", ", out);
+    whole(u64::from(r.count), out);
+    put(")", out);
+}
+
+fn call(c: &Call, out: &mut Vec<u8>) {
+    name(&c.name, out);
+    if c.times != 1 {
+        put(", times ", out);
+        whole(u64::from(c.times), out);
+    }
+    further(&c.arguments, out);
+}
+
+fn control(c: &Control, out: &mut Vec<u8>) {
+    match c {
+        Control::Repeat { times, .. } => {
+            put("repeat ", out);
+            expr(times, out);
+        }
+        Control::Loop { .. } => put("loop", out),
+        Control::While { condition, .. } => {
+            put("while ", out);
+            expr(condition, out);
+        }
+        Control::For { variable, from, to, step, .. } => {
+            put("for ", out);
+            var(variable, out);
+            put(" = ", out);
+            expr(from, out);
+            put(" to ", out);
+            expr(to, out);
+            put(" step ", out);
+            expr(step, out);
+        }
+        Control::If { condition, .. } => {
+            put("if ", out);
+            expr(condition, out);
+        }
+    }
+}
+
+fn units(u: Units) -> &'static str {
+    match u {
+        Units::Mm => "mm",
+        Units::Inch => "inch",
+    }
+}
+
+fn distance(d: Distance) -> &'static str {
+    match d {
+        Distance::Absolute => "absolute",
+        Distance::Incremental => "incremental",
+    }
+}
+
+fn plane(p: Plane) -> &'static str {
+    match p {
+        Plane::Xy => "XY",
+        Plane::Zx => "ZX",
+        Plane::Yz => "YZ",
+    }
+}
+
+fn feed_mode(f: FeedMode) -> &'static str {
+    match f {
+        FeedMode::PerMinute => "per-minute",
+        FeedMode::PerRevolution => "per-revolution",
+        FeedMode::InverseTime => "inverse-time",
+    }
+}
+
+fn return_level(r: ReturnLevel) -> &'static str {
+    match r {
+        ReturnLevel::Initial => "initial",
+        ReturnLevel::Retract => "retract",
+    }
+}
+
+fn turn(t: Turn) -> &'static str {
+    match t {
+        Turn::Clockwise => "clockwise",
+        Turn::Counterclockwise => "counterclockwise",
+    }
+}
+
+fn slot(s: FrameSlot) -> &'static str {
+    match s {
+        FrameSlot::Shift => "shift",
+        FrameSlot::Rotation => "rotation",
+        FrameSlot::Scale => "scale",
+        FrameSlot::Mirror => "mirror",
+        FrameSlot::Polar => "polar",
+        FrameSlot::Tilt => "tilt",
+        FrameSlot::Chain => "chain",
+    }
+}

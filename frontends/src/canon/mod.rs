@@ -1,0 +1,2 @@
+//! Reader of the canonical stream.
+pub(crate) mod text;

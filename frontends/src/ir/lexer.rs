@@ -1,0 +1,445 @@
+//! Words of the `ir` text: names of functions, key words, numbers with their units, texts.
+//!
+//! Works on one line. A word that is not known is a token as well, so that the parser can point at
+//! it. Not here: what the words mean together.
+
+use logos::{Lexer, Logos};
+use ncc_ir::expr::Var;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Op, Text};
+
+use crate::canon::text::unquote;
+
+/// Why a stretch of text is no word.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum LexFault {
+    /// No word begins like this.
+    #[default]
+    Character,
+    /// More digits than a number holds.
+    Number,
+    /// A text with an escape that there is not.
+    Escape,
+}
+
+/// A number as written, still without a sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Literal {
+    magnitude: u64,
+    scale: u8,
+    point: bool,
+    unit: Unit,
+}
+
+impl Literal {
+    /// The number, with a sign; `None` if it has too many digits.
+    pub(super) fn signed(self, negative: bool) -> Option<Num> {
+        let mantissa = match negative {
+            true => 0i64.checked_sub_unsigned(self.magnitude),
+            false => i64::try_from(self.magnitude).ok(),
+        }?;
+        Some(Num { mantissa, scale: self.scale, point: self.point, unit: self.unit })
+    }
+
+    /// The value of a plain whole number without unit.
+    pub(super) fn plain(self) -> Option<u64> {
+        (self.unit == Unit::One && !self.point).then_some(self.magnitude)
+    }
+}
+
+/// A function with one number as its argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+
+pub(crate) enum Valued {
+    SetFeedRate,
+    SetSpindleSpeed,
+    SelectTool,
+    UseToolLengthOffset,
+    Dwell,
+}
+
+/// A function with a text as its argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+
+pub(crate) enum Worded {
+    Comment,
+    NoEffect,
+    Message,
+}
+
+/// A function of an expression.
+pub(crate) type Function = ncc_ir::expr::Function;
+
+/// A word.
+#[derive(Clone, Debug, Logos, PartialEq)]
+#[logos(error = LexFault)]
+#[logos(skip r"[ \t\r]+")]
+#[logos(skip(r"#[^\n]*", allow_greedy = true))]
+pub(crate) enum Token {
+    #[token("(")]
+    Open,
+    #[token(")")]
+    Close,
+    #[token("{")]
+    Begin,
+    #[token("}")]
+    End,
+    #[token(",")]
+    Comma,
+    #[token("&")]
+    Join,
+    #[token("=")]
+    Assign,
+    #[token("+")]
+    Plus,
+    #[token("-")]
+    Minus,
+    #[token("*")]
+    Times,
+    #[token("/")]
+    Slash,
+    #[token("^")]
+    Power,
+    #[token("==")]
+    Equal,
+    #[token("!=")]
+    NotEqual,
+    #[token("<")]
+    Less,
+    #[token("<=")]
+    LessOrEqual,
+    #[token(">")]
+    Greater,
+    #[token(">=")]
+    GreaterOrEqual,
+
+    #[regex(r"([0-9]+(\.[0-9]*)?|\.[0-9]+)(mm|in|deg|s|u)?", number)]
+    Number(Literal),
+    #[regex(r#""([^"\\\n]|\\[^\n])*""#, quoted)]
+    Text(Text),
+    #[regex(r"N[0-9]+", block_number)]
+    BlockNumber(u32),
+    #[regex(r#"(local|common|retentive|system):([A-Za-z0-9_.$]+|"([^"\\\n]|\\[^\n])*")"#, variable)]
+    Var(Var),
+
+    #[token("X")]
+    X,
+    #[token("Y")]
+    Y,
+    #[token("Z")]
+    Z,
+    #[token("A")]
+    A,
+    #[token("B")]
+    B,
+    #[token("C")]
+    C,
+    #[token("I")]
+    I,
+    #[token("J")]
+    J,
+    #[token("K")]
+    K,
+    #[token("XY")]
+    Xy,
+    #[token("ZX")]
+    Zx,
+    #[token("YZ")]
+    Yz,
+
+    #[token("BLANK", |_| Box::new(Op::Blank))]
+    #[token("STOP_CUTTER_RADIUS_COMPENSATION", |_| Box::new(Op::StopCutterRadiusCompensation))]
+    #[token("CHANGE_TOOL", |_| Box::new(Op::ChangeTool))]
+    #[token("START_SPINDLE_CLOCKWISE", |_| Box::new(Op::StartSpindleClockwise))]
+    #[token("START_SPINDLE_COUNTERCLOCKWISE", |_| Box::new(Op::StartSpindleCounterclockwise))]
+    #[token("STOP_SPINDLE_TURNING", |_| Box::new(Op::StopSpindleTurning))]
+    #[token("FLOOD_ON", |_| Box::new(Op::FloodOn))]
+    #[token("MIST_ON", |_| Box::new(Op::MistOn))]
+    #[token("COOLANT_OFF", |_| Box::new(Op::CoolantOff))]
+    #[token("END_CYCLE", |_| Box::new(Op::EndCycle))]
+    #[token("PROGRAM_STOP", |_| Box::new(Op::ProgramStop))]
+    #[token("OPTIONAL_PROGRAM_STOP", |_| Box::new(Op::OptionalProgramStop))]
+    #[token("PROGRAM_END", |_| Box::new(Op::ProgramEnd))]
+    #[token("RETURN", |_| Box::new(Op::Return))]
+    /// A function without arguments; in a box, since most words are small.
+    Bare(Box<Op>),
+    #[token("SET_FEED_RATE", |_| Valued::SetFeedRate)]
+    #[token("SET_SPINDLE_SPEED", |_| Valued::SetSpindleSpeed)]
+    #[token("SELECT_TOOL", |_| Valued::SelectTool)]
+    #[token("USE_TOOL_LENGTH_OFFSET", |_| Valued::UseToolLengthOffset)]
+    #[token("DWELL", |_| Valued::Dwell)]
+    Valued(Valued),
+    #[token("COMMENT", |_| Worded::Comment)]
+    #[token("NO_EFFECT", |_| Worded::NoEffect)]
+    #[token("MESSAGE", |_| Worded::Message)]
+    Worded(Worded),
+    #[token("USE_LENGTH_UNITS")]
+    UseLengthUnits,
+    #[token("SET_DISTANCE_MODE")]
+    SetDistanceMode,
+    #[token("SELECT_PLANE")]
+    SelectPlane,
+    #[token("SET_FEED_MODE")]
+    SetFeedMode,
+    #[token("SET_RETURN_LEVEL")]
+    SetReturnLevel,
+    #[token("SET_ORIGIN_OFFSETS")]
+    SetOriginOffsets,
+    #[token("CLEAR_FRAME")]
+    ClearFrame,
+    #[token("SET_FRAME")]
+    SetFrame,
+    #[token("STRAIGHT_TRAVERSE")]
+    StraightTraverse,
+    #[token("STRAIGHT_FEED")]
+    StraightFeed,
+    #[token("POSITION")]
+    Position,
+    #[token("HOLE")]
+    Hole,
+    #[token("ARC_FEED")]
+    ArcFeed,
+    #[token("START_CYCLE")]
+    StartCycle,
+    #[token("CIRCLE_PATTERN")]
+    CirclePattern,
+    #[token("RECTANGULAR_LAYOUT")]
+    RectangularLayout,
+    #[token("CALL")]
+    Call,
+    #[token("GOTO")]
+    Goto,
+    #[token("LABEL")]
+    Label,
+
+    #[token("ncc-ir")]
+    Version,
+    #[token("program")]
+    Program,
+    #[token("assumed")]
+    Assumed,
+    #[token("procedure")]
+    Procedure,
+    #[token("repeat")]
+    Repeat,
+    #[token("loop")]
+    Loop,
+    #[token("while")]
+    While,
+    #[token("for")]
+    For,
+    #[token("to")]
+    To,
+    #[token("step")]
+    Step,
+    #[token("if")]
+    If,
+    #[token("else")]
+    Else,
+    #[token("said")]
+    Said,
+    #[token("inc")]
+    Inc,
+    #[token("entry")]
+    Entry,
+    #[token("mm")]
+    Mm,
+    #[token("inch")]
+    Inch,
+    #[token("absolute")]
+    Absolute,
+    #[token("incremental")]
+    Incremental,
+    #[token("per-minute")]
+    PerMinute,
+    #[token("per-revolution")]
+    PerRevolution,
+    #[token("inverse-time")]
+    InverseTime,
+    #[token("initial")]
+    Initial,
+    #[token("retract")]
+    Retract,
+    #[token("clockwise")]
+    Clockwise,
+    #[token("counterclockwise")]
+    Counterclockwise,
+    #[token("shift")]
+    Shift,
+    #[token("rotation")]
+    Rotation,
+    #[token("scale")]
+    Scale,
+    #[token("mirror")]
+    Mirror,
+    #[token("polar")]
+    Polar,
+    #[token("tilt")]
+    Tilt,
+    #[token("chain")]
+    Chain,
+    #[token("centre")]
+    Centre,
+    #[token("start")]
+    Start,
+    #[token("zero")]
+    Zero,
+    #[token("radius")]
+    Radius,
+    #[token("turns")]
+    Turns,
+    #[token("drill")]
+    Drill,
+    #[token("drill-dwell")]
+    DrillDwell,
+    #[token("drill-peck")]
+    DrillPeck,
+    #[token("bore")]
+    Bore,
+    #[token("dwell")]
+    DwellWord,
+    #[token("peck")]
+    Peck,
+    #[token("clearance")]
+    Clearance,
+    #[token("parameter")]
+    Parameter,
+    #[token("depth")]
+    Depth,
+    #[token("return")]
+    ReturnWord,
+    #[token("raise-first")]
+    RaiseFirst,
+    #[token("plane-first")]
+    PlaneFirst,
+    #[token("feed")]
+    Feed,
+    #[token("here")]
+    Here,
+    #[token("first")]
+    First,
+    #[token("count")]
+    Count,
+    #[token("columns")]
+    Columns,
+    #[token("rows")]
+    Rows,
+    #[token("serpentine")]
+    Serpentine,
+    #[token("times")]
+    TimesWord,
+    #[token("motion")]
+    Motion,
+    #[token("traverse")]
+    Traverse,
+    #[token("arc")]
+    Arc,
+    #[token("cycle")]
+    Cycle,
+    #[token("distance")]
+    Distance,
+    #[token("units")]
+    Units,
+    #[token("plane")]
+    Plane,
+    #[token("feed-mode")]
+    FeedMode,
+    #[token("return-level")]
+    ReturnLevel,
+    #[token("work-offset")]
+    WorkOffset,
+    #[token("length-offset")]
+    LengthOffset,
+    #[token("no-origin-shift")]
+    NoOriginShift,
+    #[token("true", |_| true)]
+    #[token("false", |_| false)]
+    Bool(bool),
+
+    #[token("vacant")]
+    Vacant,
+    #[token("not")]
+    Not,
+    #[token("and")]
+    And,
+    #[token("or")]
+    Or,
+    #[token("xor")]
+    Xor,
+    #[token("mod")]
+    Modulo,
+    #[token("sin", |_| Function::Sin)]
+    #[token("cos", |_| Function::Cos)]
+    #[token("tan", |_| Function::Tan)]
+    #[token("asin", |_| Function::Asin)]
+    #[token("acos", |_| Function::Acos)]
+    #[token("atan2", |_| Function::Atan2)]
+    #[token("sqrt", |_| Function::Sqrt)]
+    #[token("abs", |_| Function::Abs)]
+    #[token("round", |_| Function::Round)]
+    #[token("floor", |_| Function::Floor)]
+    #[token("ceiling", |_| Function::Ceiling)]
+    #[token("truncate", |_| Function::Truncate)]
+    #[token("ln", |_| Function::Ln)]
+    #[token("exp", |_| Function::Exp)]
+    Function(Function),
+
+    /// A name in capitals that is no function's.
+    #[regex(r"[A-Z][A-Z0-9_]*", priority = 1)]
+    UnknownName,
+    /// A word that is no key word.
+    #[regex(r"[a-z]+(-[a-z]+)*", priority = 1)]
+    UnknownWord,
+}
+
+fn number(lexer: &mut Lexer<'_, Token>) -> Result<Literal, LexFault> {
+    let text = lexer.slice();
+    let digits_end = text.find(|c: char| c.is_ascii_lowercase()).unwrap_or(text.len());
+    let unit = match &text[digits_end..] {
+        "mm" => Unit::Mm,
+        "in" => Unit::Inch,
+        "deg" => Unit::Degree,
+        "s" => Unit::Second,
+        "u" => Unit::Entry,
+        _ => Unit::One,
+    };
+    let (mut magnitude, mut scale, mut point) = (0u64, 0u8, false);
+    for byte in text[..digits_end].bytes() {
+        if byte == b'.' {
+            point = true;
+            continue;
+        }
+        let shifted = magnitude.checked_mul(10).and_then(|m| m.checked_add(u64::from(byte - b'0')));
+        magnitude = shifted.ok_or(LexFault::Number)?;
+        scale += u8::from(point);
+        if scale > 18 {
+            return Err(LexFault::Number);
+        }
+    }
+    if magnitude > i64::MIN.unsigned_abs() {
+        return Err(LexFault::Number);
+    }
+    Ok(Literal { magnitude, scale, point, unit })
+}
+
+fn quoted(lexer: &mut Lexer<'_, Token>) -> Result<Text, LexFault> {
+    unquote(lexer.slice()).ok_or(LexFault::Escape)
+}
+
+fn block_number(lexer: &mut Lexer<'_, Token>) -> Result<u32, LexFault> {
+    lexer.slice()[1..].parse().map_err(|_| LexFault::Number)
+}
+
+fn variable(lexer: &mut Lexer<'_, Token>) -> Result<Var, LexFault> {
+    let (kind, name) = lexer.slice().split_once(':').unwrap_or_default();
+    let name = match name.starts_with('"') {
+        true => unquote(name).ok_or(LexFault::Escape)?,
+        false => Box::from(name),
+    };
+    Ok(match kind {
+        "local" => Var::Local(name),
+        "common" => Var::Common(name),
+        "retentive" => Var::Retentive(name),
+        _ => Var::System(name),
+    })
+}

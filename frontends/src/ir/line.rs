@@ -1,0 +1,133 @@
+//! One line of the `ir` text: what the grammar makes of it, and the checks that it leaves to us.
+//!
+//! Not here: how lines nest.
+
+use ncc_ir::canon::{Axis, Modes};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Binary, Expr, Node};
+use ncc_ir::num::Num;
+use ncc_ir::program::{Coord, Point, Procedure, ProgramName, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::lexer::{LexFault, Literal};
+
+/// A line. Spans count from its start.
+#[derive(Debug)]
+pub(crate) enum Line {
+    /// Nothing but a note.
+    Empty,
+    /// The version of the text form.
+    Version(u32),
+    /// The program's name.
+    Program(ProgramName),
+    /// Facts taken for granted.
+    Assumed(Modes),
+    /// Opens a procedure.
+    Procedure(Procedure),
+    /// Statements of one block; with `begins`, the body of the last one follows.
+    Stmts { joined: bool, items: Vec<Stmt>, begins: bool },
+    /// Closes a body.
+    End,
+    /// Closes a body and opens the other branch.
+    Else,
+}
+
+/// Why a line that has the form of one is refused.
+#[derive(Debug)]
+pub(crate) enum Refusal {
+    /// A stretch of text that is no word.
+    Word(usize, usize, LexFault),
+    /// More words than a line may have.
+    TooLong,
+    /// A fault of the meaning.
+    Meaning(usize, usize, Fault),
+}
+
+/// Coordinates along the plane's two axes.
+pub(crate) type Pair = [Coord; 2];
+
+type Parsed<T> = Result<T, lalrpop_util::ParseError<usize, super::lexer::Token, Refusal>>;
+
+fn refuse<T>(l: usize, r: usize, fault: Fault) -> Parsed<T> {
+    Err(lalrpop_util::ParseError::User { error: Refusal::Meaning(l, r, fault) })
+}
+
+/// A span within the line; a line is far shorter than 4 GiB.
+pub(crate) fn span(l: usize, r: usize) -> Span {
+    Span::new(l as u32, r as u32)
+}
+
+/// A block-skip level: a mark alone is level 1.
+pub(crate) fn skip(level: Option<Literal>, l: usize, r: usize) -> Parsed<u8> {
+    match level.map_or(Some(1), Literal::plain) {
+        Some(level @ 0..=9) => Ok(level as u8),
+        _ => refuse(l, r, Fault::OutOfRange { word: "skip level".into() }),
+    }
+}
+
+/// A number with its sign.
+pub(crate) fn number(n: Literal, negative: bool, l: usize, r: usize) -> Parsed<Num> {
+    match n.signed(negative) {
+        Some(n) => Ok(n),
+        None => refuse(l, r, Fault::OutOfRange { word: "number".into() }),
+    }
+}
+
+/// A whole number without unit.
+pub(crate) fn whole<T: TryFrom<u64>>(n: Literal, l: usize, r: usize) -> Parsed<T> {
+    match n.plain().and_then(|n| T::try_from(n).ok()) {
+        Some(n) => Ok(n),
+        None => refuse(l, r, Fault::OutOfRange { word: "whole number".into() }),
+    }
+}
+
+/// A name that is a number.
+pub(crate) fn name(n: Literal, l: usize, r: usize) -> Parsed<Text> {
+    match n.plain() {
+        Some(n) => Ok(n.to_string().into()),
+        None => refuse(l, r, Fault::OutOfRange { word: "name".into() }),
+    }
+}
+
+/// The axis words of a move.
+pub(crate) fn point(words: Vec<(Axis, Coord)>, l: usize, r: usize) -> Parsed<Point> {
+    let mut point = Point::default();
+    for (axis, coord) in words {
+        if point.get(axis).is_some() {
+            return refuse(l, r, Fault::WordTwice { letter: axis.letter() as char });
+        }
+        point.set(axis, coord);
+    }
+    Ok(point)
+}
+
+/// The words of a centre.
+pub(crate) fn centre(words: Vec<(usize, Expr)>, l: usize, r: usize) -> Parsed<[Option<Expr>; 3]> {
+    let mut all = [None, None, None];
+    for (axis, value) in words {
+        if all[axis].replace(value).is_some() {
+            return refuse(l, r, Fault::WordTwice { letter: char::from(b"IJK"[axis]) });
+        }
+    }
+    Ok(all)
+}
+
+/// An expression of two operands.
+pub(crate) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
+    Expr::Node(Box::new(Node::Binary(operator, a, b)))
+}
+
+/// Facts of two lists; the later one counts.
+pub(crate) fn with(known: Modes, more: Modes) -> Modes {
+    Modes {
+        motion: more.motion.or(known.motion),
+        distance: more.distance.or(known.distance),
+        units: more.units.or(known.units),
+        plane: more.plane.or(known.plane),
+        feed_mode: more.feed_mode.or(known.feed_mode),
+        return_level: more.return_level.or(known.return_level),
+        work_offset: more.work_offset.or(known.work_offset),
+        length_offset: more.length_offset.or(known.length_offset),
+        no_origin_shift: more.no_origin_shift.or(known.no_origin_shift),
+    }
+}

@@ -1,0 +1,336 @@
+//! Generated programs: every kind of node, for the laws of the text forms.
+
+use ncc_ir::canon::*;
+use ncc_ir::cycle::*;
+use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::*;
+use ncc_ir::source::Span;
+use proptest::option::of;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn unit() -> impl Strategy<Value = Unit> {
+    select(vec![Unit::One, Unit::Mm, Unit::Inch, Unit::Entry, Unit::Degree, Unit::Second])
+}
+
+pub fn num() -> impl Strategy<Value = Num> {
+    let mantissa = prop_oneof![Just(0), -20i64..20, any::<i64>(), -99_999_999i64..99_999_999];
+    (mantissa, 0u8..=18, any::<bool>(), unit()).prop_map(|(mantissa, scale, point, unit)| Num {
+        mantissa,
+        scale: if point { scale } else { 0 },
+        point,
+        unit,
+    })
+}
+
+pub fn text() -> impl Strategy<Value = Text> {
+    prop_oneof!["[a-z]{0,5}", any::<String>(), "[\"\\\\\n\r\t#{}& ]{0,6}"].prop_map(Text::from)
+}
+
+fn name() -> impl Strategy<Value = Text> {
+    prop_oneof!["[0-9]{1,4}".prop_map(Text::from), text()]
+}
+
+fn var() -> impl Strategy<Value = Var> {
+    (name(), 0..4).prop_map(|(name, kind)| match kind {
+        0 => Var::Local(name),
+        1 => Var::Common(name),
+        2 => Var::Retentive(name),
+        _ => Var::System(name),
+    })
+}
+
+fn binary() -> impl Strategy<Value = Binary> {
+    use Binary::*;
+    select(vec![
+        Add,
+        Subtract,
+        Multiply,
+        Divide,
+        Modulo,
+        Power,
+        Equal,
+        NotEqual,
+        Less,
+        LessOrEqual,
+        Greater,
+        GreaterOrEqual,
+        And,
+        Or,
+        Xor,
+    ])
+}
+
+fn function() -> impl Strategy<Value = Function> {
+    use Function::*;
+    select(vec![Sin, Cos, Tan, Asin, Acos, Atan2, Sqrt, Abs, Round, Floor, Ceiling, Truncate, Ln, Exp])
+}
+
+pub fn expr() -> impl Strategy<Value = Expr> {
+    let leaf = prop_oneof![
+        4 => num().prop_map(Expr::Num),
+        1 => var().prop_map(|v| Expr::Node(Box::new(Node::Var(v)))),
+        1 => Just(Expr::Node(Box::new(Node::Vacant))),
+    ];
+    leaf.prop_recursive(4, 12, 3, |inner| {
+        let unary = select(vec![Unary::Negate, Unary::Not]);
+        prop_oneof![
+            (unary, inner.clone()).prop_map(|(o, a)| Node::Unary(o, a)),
+            (binary(), inner.clone(), inner.clone()).prop_map(|(o, a, b)| Node::Binary(o, a, b)),
+            (function(), prop::collection::vec(inner, 0..3)).prop_map(|(f, a)| Node::Call(f, a)),
+        ]
+        .prop_map(|node| Expr::Node(Box::new(node)))
+    })
+}
+
+fn fact<T: Clone + std::fmt::Debug + 'static>(values: Vec<T>) -> impl Strategy<Value = Fact<T>> {
+    of(select(values)).prop_map(Fact::from)
+}
+
+fn distances() -> Vec<Distance> {
+    vec![Distance::Absolute, Distance::Incremental]
+}
+
+fn planes() -> Vec<Plane> {
+    vec![Plane::Xy, Plane::Zx, Plane::Yz]
+}
+
+fn levels() -> Vec<ReturnLevel> {
+    vec![ReturnLevel::Initial, ReturnLevel::Retract]
+}
+
+fn units() -> Vec<Units> {
+    vec![Units::Mm, Units::Inch]
+}
+
+fn feed_modes() -> Vec<FeedMode> {
+    vec![FeedMode::PerMinute, FeedMode::PerRevolution, FeedMode::InverseTime]
+}
+
+fn turn() -> impl Strategy<Value = Turn> {
+    select(vec![Turn::Clockwise, Turn::Counterclockwise])
+}
+
+fn coord() -> impl Strategy<Value = Coord> {
+    (expr(), fact(distances())).prop_map(|(value, distance)| Coord { value, distance })
+}
+
+fn point() -> impl Strategy<Value = Point> {
+    prop::collection::vec(of(coord()), 6).prop_map(|axes| {
+        let mut point = Point::default();
+        for (axis, coord) in Axis::ALL.into_iter().zip(axes) {
+            point.axes[axis as usize] = coord;
+        }
+        point
+    })
+}
+
+fn moves() -> impl Strategy<Value = Move> {
+    (point(), any::<bool>()).prop_map(|(to, said)| Move { to, said })
+}
+
+fn centre() -> impl Strategy<Value = Centre> {
+    prop_oneof![
+        expr().prop_map(Centre::Radius),
+        (of(expr()), of(expr()), of(expr()), any::<bool>()).prop_map(|(i, j, k, start)| Centre::Point {
+            words: [i, j, k],
+            from: if start { CentreFrom::Start } else { CentreFrom::Zero },
+        }),
+    ]
+}
+
+fn cycle() -> impl Strategy<Value = Cycle> {
+    let kind = prop_oneof![
+        Just(CycleKind::Drill),
+        expr().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
+        (expr(), of(expr()), of(expr())).prop_map(|(peck, clearance, dwell)| CycleKind::DrillPeck {
+            peck,
+            clearance: clearance.map_or(Clearance::Parameter, Clearance::Stated),
+            dwell,
+        }),
+        of(expr()).prop_map(|dwell| CycleKind::Bore { dwell }),
+    ];
+    let approach = select(vec![Approach::PlaneFirst, Approach::RaiseFirst]);
+    (kind, fact(planes()), coord(), coord(), fact(levels()), approach, of(expr())).prop_map(
+        |(kind, plane, retract, depth, return_level, approach, feed)| Cycle {
+            kind,
+            plane,
+            retract,
+            depth,
+            return_level,
+            approach,
+            feed,
+        },
+    )
+}
+
+fn row() -> impl Strategy<Value = Row> {
+    (select(Axis::ALL.to_vec()), expr(), any::<u32>()).prop_map(|(axis, pitch, count)| Row {
+        axis,
+        pitch,
+        count,
+    })
+}
+
+fn pattern() -> impl Strategy<Value = Pattern> {
+    prop_oneof![
+        (of([coord(), coord()]), [coord(), coord()], expr(), any::<u32>())
+            .prop_map(|(centre, first, step, count)| Pattern::Circle { centre, first, step, count }),
+        (row(), row(), any::<bool>()).prop_map(|(columns, rows, serpentine)| Pattern::Grid {
+            columns,
+            rows,
+            serpentine
+        }),
+    ]
+}
+
+/// A statement's operation that has no body.
+fn simple() -> BoxedStrategy<Op> {
+    let bare = select(vec![
+        Op::Blank,
+        Op::StopCutterRadiusCompensation,
+        Op::ChangeTool,
+        Op::StartSpindleClockwise,
+        Op::StartSpindleCounterclockwise,
+        Op::StopSpindleTurning,
+        Op::FloodOn,
+        Op::MistOn,
+        Op::CoolantOff,
+        Op::EndCycle,
+        Op::ProgramStop,
+        Op::OptionalProgramStop,
+        Op::ProgramEnd,
+        Op::Return,
+    ]);
+    let setting = prop_oneof![
+        select(units()).prop_map(Op::UseLengthUnits),
+        select(distances()).prop_map(Op::SetDistanceMode),
+        select(planes()).prop_map(Op::SelectPlane),
+        select(feed_modes()).prop_map(Op::SetFeedMode),
+        select(levels()).prop_map(Op::SetReturnLevel),
+        any::<u16>().prop_map(Op::SetOriginOffsets),
+        select(FrameSlot::ALL.to_vec()).prop_map(Op::ClearFrame),
+        (select(FrameSlot::ALL.to_vec()), prop::collection::vec(expr(), 0..3))
+            .prop_map(|(slot, args)| Op::SetFrame(slot, args)),
+    ];
+    let valued = prop_oneof![
+        expr().prop_map(Op::SetFeedRate),
+        expr().prop_map(Op::SetSpindleSpeed),
+        expr().prop_map(Op::SelectTool),
+        expr().prop_map(Op::UseToolLengthOffset),
+        expr().prop_map(Op::Dwell),
+    ];
+    let motion = prop_oneof![
+        moves().prop_map(Op::StraightTraverse),
+        moves().prop_map(Op::StraightFeed),
+        moves().prop_map(Op::Position),
+        moves().prop_map(Op::Hole),
+        (fact(planes()), turn(), point(), centre(), 0u32..3, any::<bool>()).prop_map(
+            |(plane, turn, to, centre, turns, said)| Op::ArcFeed(Arc {
+                plane,
+                turn,
+                to,
+                centre,
+                turns,
+                said
+            })
+        ),
+        cycle().prop_map(|c| Op::StartCycle(Box::new(c))),
+        pattern().prop_map(|p| Op::Pattern(Box::new(p))),
+    ];
+    let other = prop_oneof![
+        text().prop_map(Op::Comment),
+        text().prop_map(Op::NoEffect),
+        text().prop_map(Op::Message),
+        name().prop_map(Op::Goto),
+        name().prop_map(Op::Label),
+        (var(), expr()).prop_map(|(v, e)| Op::Assign(v, e)),
+        (name(), 0u32..4, prop::collection::vec(expr(), 0..3))
+            .prop_map(|(name, times, arguments)| Op::Call(Box::new(Call { name, times, arguments }))),
+    ];
+    prop_oneof![bare, setting, valued, motion, other].boxed()
+}
+
+fn stmts(op: BoxedStrategy<Op>) -> impl Strategy<Value = Vec<Stmt>> {
+    let stmt = (op, of(any::<u32>()), of(1u8..=9), any::<bool>(), of(text())).prop_map(
+        |(op, number, skip, joined, comment)| Stmt {
+            span: Span::default(),
+            number,
+            skip,
+            joined,
+            comment: comment.map(Box::new),
+            op,
+        },
+    );
+    prop::collection::vec(stmt, 0..6)
+}
+
+/// The body of a procedure.
+pub fn body() -> impl Strategy<Value = Vec<Stmt>> {
+    let op = simple().prop_recursive(3, 20, 4, |inner| {
+        let body = || stmts(inner.clone());
+        prop_oneof![
+            2 => inner.clone(),
+            1 => (expr(), body()).prop_map(|(times, body)| control(Control::Repeat { times, body })),
+            1 => body().prop_map(|body| control(Control::Loop { body })),
+            1 => (expr(), body()).prop_map(|(condition, body)| control(Control::While { condition, body })),
+            1 => (var(), expr(), expr(), expr(), body())
+                .prop_map(|(variable, from, to, step, body)| control(Control::For { variable, from, to, step, body })),
+            1 => (expr(), body(), body())
+                .prop_map(|(condition, then, otherwise)| control(Control::If { condition, then, otherwise })),
+        ]
+    });
+    stmts(op.boxed())
+}
+
+fn control(c: Control) -> Op {
+    Op::Control(Box::new(c))
+}
+
+fn modes() -> impl Strategy<Value = Modes> {
+    let motion = prop_oneof![
+        Just(Motion::Traverse),
+        Just(Motion::Feed),
+        turn().prop_map(Motion::Arc),
+        Just(Motion::Cycle)
+    ];
+    (
+        of(motion),
+        of(select(distances())),
+        of(select(units())),
+        of(select(planes())),
+        of(select(feed_modes())),
+        of(select(levels())),
+        of(any::<u16>()),
+        of(any::<u32>()),
+        of(any::<bool>()),
+    )
+        .prop_map(
+            |(motion, distance, units, plane, feed_mode, return_level, work_offset, length_offset, s)| {
+                Modes {
+                    motion,
+                    distance,
+                    units,
+                    plane,
+                    feed_mode,
+                    return_level,
+                    work_offset,
+                    length_offset,
+                    no_origin_shift: s,
+                }
+            },
+        )
+}
+
+/// A whole program.
+pub fn program() -> impl Strategy<Value = Program> {
+    let procedure = (name(), of(text()), prop::collection::vec(var(), 0..3), body())
+        .prop_map(|(name, title, parameters, body)| Procedure { name, title, parameters, body });
+    let name = (of(any::<u32>()), of(text())).prop_map(|(number, title)| ProgramName { number, title });
+    (name, modes(), body(), prop::collection::vec(procedure, 0..3)).prop_map(|(name, assumed, main, subs)| {
+        let mut procedures = vec![Procedure { body: main, ..Procedure::default() }];
+        procedures.extend(subs);
+        Program { name, assumed, procedures }
+    })
+}
