@@ -48,7 +48,7 @@ pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Read) -> io::Result<
     }
     line.end()?;
     let (hash, bytes) = chunks.finish();
-    let inherited = without(&line.batch.assumed, &line.writer.stated());
+    let inherited = line.inherited(&line.batch.assumed);
     Ok((line.outcome(hash, bytes), inherited))
 }
 
@@ -169,16 +169,26 @@ impl<'j> Line<'j> {
         self.writer.finish(&mut self.text, &mut found);
         self.take(found);
         let text = std::mem::take(&mut self.text);
-        let inherited = without(&assumed, &self.writer.stated());
+        let inherited = self.inherited(&assumed);
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.check(|v| v.whole(&source, &text, base, &inherited));
         self.output.push(&text)
     }
 
+    /// Assumed facts that the output does not state itself. A target without words for work
+    /// offsets works in the one that its set reference was taken to stand for.
+    fn inherited(&self, assumed: &Modes) -> Modes {
+        let mut facts = without(assumed, &self.writer.stated());
+        if self.job.to.dialect.caps.work_offsets == 0 {
+            facts.work_offset = self.legaliser.work_offset().or(facts.work_offset);
+        }
+        facts
+    }
+
     /// Verifies the text written so far and passes it on.
     fn release_text(&mut self, assumed: &Modes) -> io::Result<()> {
         let text = std::mem::take(&mut self.text);
-        let inherited = without(assumed, &self.writer.stated());
+        let inherited = self.inherited(assumed);
         // Places in the output are not shown, so a base that does not fit does no harm.
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.check(|v| v.target(&text, base, &inherited));
