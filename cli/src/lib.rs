@@ -1,3 +1,23 @@
 //! ncc: the command line, and the pipeline behind it as a library for tests.
+//!
+//! `run` goes from the arguments to the exit code, `job` is the face of the pipeline in
+//! `translate`, `render` turns typed diagnostics into words. Only this crate reads files and prints.
 
+pub mod args;
+pub mod arrow;
+mod chunks;
+pub mod dialects;
+mod difference;
+pub mod explain;
+pub mod files;
+pub mod guess;
+mod head;
 pub mod job;
+mod judge;
+pub mod problem;
+pub mod render;
+pub mod report;
+pub mod run;
+pub mod sugar;
+pub mod translate;
+mod verify_run;

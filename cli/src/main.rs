@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    ExitCode::from(2)
+    ExitCode::from(ncc::run::run(std::env::args_os().collect()) as u8)
 }

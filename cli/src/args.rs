@@ -1,0 +1,342 @@
+//! The command line as clap sees it, after `sugar` has rewritten `A to B FILE` to the verb.
+//!
+//! Values are parsed here as far as that needs no file; what they mean together is `run`'s matter.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use ncc_backends::Numbering;
+use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::diag::Verdict;
+use ncc_ir::num::{Nanos, Num, Unit};
+
+/// `ncc` and its verbs.
+#[derive(Debug, Parser)]
+#[command(
+    name = "ncc",
+    version,
+    max_term_width = 100,
+    about = "Translates CNC part programs from one control's language into another's, and shows that \
+             the machine makes the same cut.",
+    override_usage = "ncc [OPTIONS] A to B FILE\n       ncc <COMMAND>",
+    after_help = TOP_EXAMPLES,
+    subcommand_required = true,
+    arg_required_else_help = true,
+    disable_help_subcommand = true
+)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+const TOP_EXAMPLES: &str = "\
+Examples:
+  ncc mach9 to fanuc part.cn               print the program for the other control
+  ncc mach9 to fanuc part.cn -o part.nc    write it to a file
+  ncc mach9 -> fanuc part.cn               the same, to a file named `fanuc`; any shell
+  ncc auto to canon part.nc                recognise the source; list the moves
+  ncc explain NC0107                       what a message means, and what to do
+
+`ncc A to B FILE`, `ncc A:B FILE` and the arrow are short for `ncc translate --from A --to B FILE`;
+all options of `ncc translate --help` can be given with them.
+
+The translated program goes to stdout, everything else to stderr. Exit code: 0 done and verified;
+1 the program has errors, or something would be lost; 2 wrong usage; 3 verification failed and
+nothing is released; 4 a file could not be read or written.";
+
+const TRANSLATE_EXAMPLES: &str = "\
+Examples:
+  ncc translate --from mach9 --to fanuc part.cn -o part.nc
+  ncc mach9 to fanuc part.cn --number 10:10 --eol crlf
+  ncc mach9 to canon part.cn --start X-9,Y15.588,Z3 --from-option o_word=ignore
+  ncc auto to fanuc - --report part.json < part.cn
+
+`ncc dialects` lists the dialects, `ncc dialects show mach9` the options and what is unconfirmed.";
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Translate a program, and verify the result [short: A to B FILE]
+    Translate(Box<Translate>),
+    /// List the dialects, or show one: its words, options, sources
+    Dialects(Dialects),
+    /// Explain a message by its code
+    Explain(Explain),
+    /// Print completions for a shell
+    Completions(Completions),
+}
+
+/// `ncc translate`.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "ncc [OPTIONS] A to B FILE\n       ncc translate --from A --to B [OPTIONS] FILE",
+    after_help = TRANSLATE_EXAMPLES
+)]
+pub struct Translate {
+    /// Dialect of the source, or `auto` to recognise it
+    #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
+    pub from: String,
+    /// Dialect to translate into
+    #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
+    pub to: String,
+    /// The program; `-` for stdin
+    #[arg(value_name = "FILE", required = true, help_heading = "What to translate")]
+    pub files: Vec<PathBuf>,
+    /// Decide a question that the source's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What to translate")]
+    pub from_option: Vec<(String, String)>,
+    /// Decide a question that the target's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What to translate")]
+    pub to_option: Vec<(String, String)>,
+    /// Where the tool stands before the first block, in program coordinates, mm and degrees:
+    /// `X-9,Y15.588,Z3`
+    #[arg(
+        long,
+        value_name = "AXES",
+        value_parser = start,
+        allow_hyphen_values = true,
+        help_heading = "What to translate"
+    )]
+    pub start: Option<Start>,
+
+    /// Write the program to this file instead of stdout; it appears whole or not at all
+    #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
+    pub output: Option<PathBuf>,
+    /// Block numbers: none, those of the source, or new ones
+    #[arg(
+        long,
+        value_name = "off|keep|FIRST:STEP",
+        default_value = "keep",
+        value_parser = numbering,
+        hide_default_value = true,
+        help_heading = "How the result looks"
+    )]
+    pub number: Numbering,
+    /// Line ends
+    #[arg(long, value_enum, default_value_t = Eol::Keep, help_heading = "How the result looks")]
+    pub eol: Eol,
+    /// Program number, where the target has one
+    #[arg(
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u32).range(1..=99_999_999),
+        help_heading = "How the result looks"
+    )]
+    pub program_number: Option<u32>,
+    /// Leave out the comment at the top that names source, hash and assumptions
+    #[arg(long, conflicts_with = "no_verify", help_heading = "How the result looks")]
+    pub no_head: bool,
+
+    /// Let these verdicts pass: changed, manual, dropped
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        value_parser = verdicts(),
+        hide_possible_values = true,
+        help_heading = "What is accepted"
+    )]
+    pub allow: Vec<Verdict>,
+    /// Let these verdicts stop the translation too: assumed, expanded, within-tolerance, reformatted
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        value_parser = verdicts(),
+        hide_possible_values = true,
+        help_heading = "What is accepted"
+    )]
+    pub deny: Vec<Verdict>,
+    /// Do not verify; the result says UNVERIFIED at its top
+    #[arg(long, help_heading = "What is accepted")]
+    pub no_verify: bool,
+
+    /// Write everything that is known of the translation to this file, as JSON
+    #[arg(long, value_name = "FILE", help_heading = "What is reported")]
+    pub report: Option<PathBuf>,
+    /// Say every verdict with its place, not only the summary
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
+    pub verbose: bool,
+    /// Say errors only
+    #[arg(short, long, help_heading = "What is reported")]
+    pub quiet: bool,
+    /// Form of the messages on stderr
+    #[arg(long, value_enum, default_value_t = Format::Human, help_heading = "What is reported")]
+    pub format: Format,
+    /// Colour of the messages
+    #[arg(long, value_enum, default_value_t = Color::Auto, help_heading = "What is reported")]
+    pub color: Color,
+}
+
+/// `ncc dialects`.
+#[derive(Debug, Args)]
+pub struct Dialects {
+    /// What about them; without, a list.
+    #[command(subcommand)]
+    pub what: Option<DialectsWhat>,
+}
+
+/// `ncc dialects show`.
+#[derive(Debug, Subcommand)]
+pub enum DialectsWhat {
+    /// Show a dialect: every row with its meaning and source
+    Show {
+        /// Its name, as `ncc dialects` lists it
+        id: String,
+    },
+}
+
+/// `ncc explain`.
+#[derive(Debug, Args)]
+pub struct Explain {
+    /// The code of a message, such as NC0107
+    pub code: String,
+}
+
+/// `ncc completions`.
+#[derive(Debug, Args)]
+pub struct Completions {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
+}
+
+/// Line ends of the output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Eol {
+    /// Those of the source's first line
+    Keep,
+    /// LF
+    Lf,
+    /// CR LF
+    Crlf,
+}
+
+/// Form of the messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// For people
+    Human,
+    /// One JSON object a line
+    Json,
+}
+
+/// Colour of the messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Color {
+    /// If stderr is a terminal and NO_COLOR is not set
+    Auto,
+    /// Yes
+    Always,
+    /// No
+    Never,
+}
+
+/// Where the axes stand before the first block.
+pub type Start = [Option<Nanos>; AXES];
+
+fn verdicts() -> impl TypedValueParser<Value = Verdict> {
+    PossibleValuesParser::new(Verdict::ALL.map(Verdict::name))
+        .map(|name| Verdict::ALL.into_iter().find(|v| v.name() == name).unwrap_or(Verdict::Exact))
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.is_empty() && !value.is_empty() => {
+            Ok((name.to_owned(), value.to_owned()))
+        }
+        Some(_) | None => Err("write it as NAME=VALUE".to_owned()),
+    }
+}
+
+fn numbering(text: &str) -> Result<Numbering, String> {
+    match text {
+        "off" => return Ok(Numbering::Off),
+        "keep" => return Ok(Numbering::Keep),
+        _ => {}
+    }
+    let every = text.split_once(':').and_then(|(first, step)| {
+        let (first, step) = (first.parse().ok()?, step.parse().ok()?);
+        (step > 0 && first < 100_000_000 && step < 100_000_000).then_some(Numbering::Every { first, step })
+    });
+    every.ok_or_else(|| "write `off`, `keep`, or the first number and the step, such as 10:10".to_owned())
+}
+
+fn start(text: &str) -> Result<Start, String> {
+    let mut start = [None; AXES];
+    for word in text.split(',').map(str::trim) {
+        let mut chars = word.chars();
+        let axis = chars.next().map(|c| c.to_ascii_uppercase());
+        let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
+        let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
+        let value = decimal(chars.as_str()).ok_or_else(|| format!("`{}` is no decimal", chars.as_str()))?;
+        if start[axis as usize].replace(value).is_some() {
+            return Err(format!("{} stands twice", axis.letter() as char));
+        }
+    }
+    Ok(start)
+}
+
+/// A decimal with at most nine digits after the point, in nanos.
+fn decimal(text: &str) -> Option<Nanos> {
+    let (negative, digits) = match text.as_bytes().first()? {
+        b'-' => (true, &text[1..]),
+        b'+' => (false, &text[1..]),
+        _ => (false, text),
+    };
+    let (whole, fraction) = digits.split_once('.').unwrap_or((digits, ""));
+    let all = [whole, fraction].concat();
+    if all.is_empty() || fraction.len() > 9 || !all.bytes().all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    let mantissa: i64 = all.parse().ok()?;
+    let num = Num {
+        mantissa: if negative { -mantissa } else { mantissa },
+        scale: fraction.len() as u8,
+        point: true,
+        unit: Unit::Mm,
+    };
+    num.nanos(false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stated_start_is_exact() {
+        let s = start("X-9,Y15.588,z+3").unwrap();
+        assert_eq!(s[..3], [Some(-9_000_000_000), Some(15_588_000_000), Some(3_000_000_000)]);
+        for wrong in ["", "X", "X.", "Q1", "X1,X2", "X1e3", "X1.2.3", "X99999999999", "X0.1234567890"] {
+            assert!(start(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn numbering_forms() {
+        assert_eq!(numbering("10:5"), Ok(Numbering::Every { first: 10, step: 5 }));
+        for wrong in ["", "10", "10:0", ":", "a:b", "-1:1", "OFF"] {
+            assert!(numbering(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn clap_agrees_with_itself() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn no_dialect_bears_the_name_of_a_verb() {
+        use clap::CommandFactory;
+        let command = Cli::command();
+        for dialect in ncc_dialects::builtins() {
+            let id = dialect.id.as_str();
+            let verb = command.get_subcommands().any(|verb| verb.get_name() == id);
+            assert!(!verb && !["auto", "help", "passes", "to"].contains(&id), "{id}");
+            assert!(crate::sugar::is_name(id), "{id} cannot be written in `A:B`");
+        }
+    }
+}

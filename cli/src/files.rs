@@ -1,0 +1,210 @@
+//! Reading the source and writing what comes out, so that no input is ever written over and no
+//! half-written file is ever seen.
+
+use std::fs::{self, File};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use same_file::Handle;
+
+use crate::arrow;
+use crate::job::Output;
+use crate::problem::{Exit, Problem};
+
+/// Largest source, in bytes: places in it are 32-bit numbers.
+const LARGEST: u64 = u32::MAX as u64;
+
+/// A source that can be read more than once.
+#[derive(Debug)]
+pub struct Source {
+    /// Its bytes.
+    pub file: File,
+    /// Its name in messages: the path, or `<stdin>`.
+    pub shown: String,
+    /// Its name in the output and the report: the file's name without folders, or `-`.
+    pub name: String,
+    identity: Option<Handle>,
+}
+
+/// Opens a source; `-` is stdin, which is kept in an anonymous file.
+///
+/// # Errors
+/// It cannot be read, or is too large.
+pub fn open(path: &Path) -> Result<Source, Problem> {
+    let stdin = path == Path::new("-");
+    let shown = if stdin { "<stdin>".to_owned() } else { path.display().to_string() };
+    let wrong = |error: &io::Error| Problem::file("read", &shown, error);
+    let identity = if stdin { Handle::stdin() } else { Handle::from_path(path) };
+    let file = if stdin {
+        spool(&mut io::stdin().lock()).map_err(|e| wrong(&e))?
+    } else {
+        let mut file = File::open(path).map_err(|e| wrong(&e))?;
+        let metadata = file.metadata().map_err(|e| wrong(&e))?;
+        if metadata.is_dir() {
+            return Err(wrong(&io::ErrorKind::IsADirectory.into()));
+        }
+        if metadata.is_file() { file } else { spool(&mut file).map_err(|e| wrong(&e))? }
+    };
+    if file.metadata().map_err(|e| wrong(&e))?.len() > LARGEST {
+        let message = format!("cannot read {shown}: it is larger than 4 GiB");
+        return Err(Problem { exit: Exit::File, message, help: vec!["split the program".to_owned()] });
+    }
+    let name = match path.file_name() {
+        Some(name) if !stdin => name.to_string_lossy().into_owned(),
+        Some(_) | None => "-".to_owned(),
+    };
+    Ok(Source { file, shown, name, identity: identity.ok() })
+}
+
+/// Keeps what can be read only once in an anonymous file.
+fn spool(from: &mut dyn Read) -> io::Result<File> {
+    let mut file = tempfile::tempfile()?;
+    io::copy(&mut from.take(LARGEST + 1), &mut file)?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(file)
+}
+
+impl Source {
+    /// Whether the path is this source.
+    fn is(&self, path: &Path) -> bool {
+        match (&self.identity, Handle::from_path(path)) {
+            (Some(own), Ok(other)) => *own == other,
+            (None, _) | (_, Err(_)) => false,
+        }
+    }
+
+    /// Refuses to write over the source.
+    ///
+    /// # Errors
+    /// The path is the source, or, without a path, stdout is.
+    pub fn guard(&self, into: Option<&Path>) -> Result<(), Problem> {
+        let same = match into {
+            Some(path) => self.is(path),
+            None => arrow::stdout_is(&self.file),
+        };
+        match (same, into) {
+            (false, _) => Ok(()),
+            (true, Some(path)) => Err(Problem::usage(
+                format!("{} is the source, and is never written over", path.display()),
+                "choose another name",
+            )),
+            (true, None) => Err(Problem::usage(
+                format!("stdout is {}, the source itself; the shell has emptied it", self.shown),
+                "write into another file, best with `-o NAME`",
+            )),
+        }
+    }
+
+    /// Whether its first line ends with CR LF.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn is_crlf(&mut self) -> Result<bool, Problem> {
+        let look = |file: &mut File| -> io::Result<bool> {
+            file.seek(SeekFrom::Start(0))?;
+            let mut piece = vec![0; 1 << 16];
+            let mut before = 0;
+            loop {
+                let n = file.read(&mut piece)?;
+                match memchr::memchr(b'\n', &piece[..n]) {
+                    _ if n == 0 => return Ok(false),
+                    Some(0) => return Ok(before == b'\r'),
+                    Some(at) => return Ok(piece[at - 1] == b'\r'),
+                    None => before = piece[n - 1],
+                }
+            }
+        };
+        look(&mut self.file).map_err(|e| Problem::file("read", &self.shown, &e))
+    }
+
+    /// Goes back to the start.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn rewind(&mut self) -> Result<(), Problem> {
+        self.file.seek(SeekFrom::Start(0)).map_err(|e| Problem::file("read", &self.shown, &e))?;
+        Ok(())
+    }
+}
+
+/// Writes an output to stdout. Somebody who stops reading, as `head` does, is no one to complain to.
+///
+/// # Errors
+/// stdout cannot be written.
+pub fn to_stdout(write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+    let mut stdout = io::stdout().lock();
+    match write(&mut stdout).and_then(|()| stdout.flush()) {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => {
+            Err(Problem { exit: Exit::File, message: String::new(), help: Vec::new() })
+        }
+        Err(error) => Err(Problem::file("write", "stdout", &error)),
+    }
+}
+
+/// Writes a file whole or not at all. What is no plain file, such as `/dev/null`, is written as
+/// it is.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn to_file(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+    replace(path, write).map_err(|error| Problem::file("write", &path.display().to_string(), &error))
+}
+
+fn replace(path: &Path, write: &mut dyn FnMut(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    // Through a link, the file that it leads to is replaced, not the link.
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let before = fs::metadata(&path).ok();
+    match &before {
+        Some(metadata) if metadata.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+        Some(metadata) if !metadata.is_file() => {
+            let mut file = File::options().write(true).open(&path)?;
+            return write(&mut file);
+        }
+        Some(metadata) if metadata.permissions().readonly() => {
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+        Some(_) | None => {}
+    }
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_owned(),
+        Some(_) | None => PathBuf::from("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".ncc-");
+    #[cfg(unix)]
+    if before.is_none() {
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder)?;
+    if let Some(metadata) = before {
+        file.as_file().set_permissions(metadata.permissions())?;
+    }
+    write(file.as_file_mut())?;
+    file.as_file().sync_all()?;
+    file.persist(path)?;
+    Ok(())
+}
+
+/// Where an output goes.
+#[derive(Debug)]
+pub enum Destination {
+    /// stdout.
+    Stdout,
+    /// A file.
+    File(PathBuf),
+}
+
+impl Destination {
+    /// Writes the output there.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn release(&self, output: &mut Output) -> Result<(), Problem> {
+        match self {
+            Destination::Stdout => to_stdout(&mut |out| output.write_to(out)),
+            Destination::File(path) => to_file(path, &mut |out| output.write_to(out)),
+        }
+    }
+}

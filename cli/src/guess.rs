@@ -1,0 +1,283 @@
+//! `--from auto`: which dialect a text is written in, and why.
+//!
+//! Every dialect's own dictionary is held against the beginning of the text: what only it can
+//! explain speaks for it, what it cannot explain speaks against it. One dialect must fit clearly
+//! better than all others, else nothing is chosen: a program read in the wrong dialect would cut
+//! another part.
+
+use std::collections::BTreeMap;
+use std::io::{self, Read, Seek, SeekFrom};
+
+use ncc_dialects::{Dialect, Family, Meaning, Role};
+
+/// How much of the text is looked at.
+const BEGINNING: u64 = 1 << 16;
+/// So many letters without a number, one after the other, are no block in any dialect.
+const WORDS_OF_A_TEXT: u32 = 5;
+
+/// What was found out.
+#[derive(Debug)]
+pub enum Guess {
+    /// One dialect, and the reasons.
+    Sure(&'static Dialect, Vec<String>),
+    /// None; for every dialect that something speaks for, what speaks against it.
+    Unsure(Vec<(&'static Dialect, Vec<String>)>),
+}
+
+/// Reasons for or against a dialect, each with the line where it was met first.
+#[derive(Debug, Default)]
+struct Evidence {
+    /// The text says itself what it is.
+    conclusive: bool,
+    /// Whether a G or M code of the dialect was met.
+    codes: bool,
+    speaks_for: BTreeMap<String, usize>,
+    against: BTreeMap<String, usize>,
+}
+
+impl Evidence {
+    fn pro(&mut self, line: usize, reason: String) {
+        self.speaks_for.entry(reason).or_insert(line);
+    }
+
+    fn con(&mut self, line: usize, reason: String) {
+        self.against.entry(reason).or_insert(line);
+    }
+
+    fn list(reasons: &BTreeMap<String, usize>) -> Vec<String> {
+        let mut reasons: Vec<_> = reasons.iter().map(|(reason, line)| (*line, reason)).collect();
+        reasons.sort();
+        reasons.into_iter().take(4).map(|(line, reason)| format!("{reason} (line {line})")).collect()
+    }
+}
+
+/// Looks at a source.
+///
+/// # Errors
+/// Reading it.
+pub fn guess(source: &mut (impl Read + Seek), dialects: &'static [Dialect]) -> io::Result<Guess> {
+    source.seek(SeekFrom::Start(0))?;
+    let mut text = Vec::new();
+    source.take(BEGINNING).read_to_end(&mut text)?;
+    if text.len() as u64 == BEGINNING {
+        // The last line may be cut.
+        text.truncate(text.iter().rposition(|b| *b == b'\n').unwrap_or(0));
+    }
+    let found = dialects.iter().map(|dialect| (dialect, evidence(dialect, &text)));
+    Ok(judge(found.collect()))
+}
+
+fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
+    if let Some((dialect, evidence)) = found.iter().find(|(_, evidence)| evidence.conclusive) {
+        return Guess::Sure(dialect, Evidence::list(&evidence.speaks_for));
+    }
+    found.retain(|(_, evidence)| !evidence.speaks_for.is_empty());
+    found.sort_by_key(|(_, e)| (e.against.len(), usize::MAX - e.speaks_for.len()));
+    let clear = match found.as_slice() {
+        [] => false,
+        [(_, only)] => only.against.is_empty() || only.against.len() * 2 < only.speaks_for.len(),
+        // One that explains everything, or nearly, beside others that cannot.
+        [(_, best), (_, next), ..] => {
+            best.against.len() < next.against.len()
+                && (best.against.is_empty() || best.against.len() * 3 <= next.against.len())
+        }
+    };
+    match found.first() {
+        Some((dialect, evidence)) if clear => Guess::Sure(dialect, Evidence::list(&evidence.speaks_for)),
+        Some(_) | None => {
+            Guess::Unsure(found.into_iter().map(|(d, e)| (d, Evidence::list(&e.against))).collect())
+        }
+    }
+}
+
+fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
+    let mut evidence = Evidence::default();
+    let lines = text.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).enumerate().map(|(i, l)| (i + 1, l));
+    for (number, line) in lines.filter(|(_, line)| !line.is_empty()) {
+        match dialect.family {
+            Family::Word => word_line(dialect, number, line, &mut evidence),
+            Family::Canon => canon_line(number, line, &mut evidence),
+            Family::Ir => {
+                match line.starts_with(b"ncc-ir") {
+                    true => {
+                        evidence.conclusive = true;
+                        evidence.pro(number, "the first line names the text form".to_owned());
+                    }
+                    false => evidence.con(number, "the first line does not name the text form".to_owned()),
+                }
+                break;
+            }
+        }
+    }
+    evidence
+}
+
+/// A line such as `STRAIGHT_FEED(1.0, 2.0, 3.0)`.
+fn canon_line(number: usize, line: &[u8], evidence: &mut Evidence) {
+    let name = line.iter().take_while(|b| b.is_ascii_uppercase() || **b == b'_').count();
+    if name >= 4 && line.get(name) == Some(&b'(') && line.contains(&b')') {
+        evidence.pro(number, "lines are calls of canonical functions".to_owned());
+    } else if line[0].is_ascii_alphanumeric() || line[0] == b'%' {
+        evidence.con(number, "a line is no call".to_owned());
+    }
+}
+
+fn word_line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evidence) {
+    let frame = dialect.program.frame.as_bytes();
+    if line == b"%" {
+        match frame == line {
+            true => evidence.pro(number, "`%` before and after the program".to_owned()),
+            false => evidence.con(number, "`%` is not written".to_owned()),
+        }
+        return;
+    }
+    let Some(code) = without_comment(dialect, number, line, evidence) else { return };
+    let mut at = 0;
+    let mut alone = 0;
+    while at < code.len() {
+        let letter = code[at].to_ascii_uppercase();
+        let from = at;
+        at += 1;
+        if !letter.is_ascii_uppercase() {
+            if !b" \t/+-.0123456789%:".contains(&letter) && dialect.block.end.as_bytes() != [letter] {
+                let c = char::from(letter);
+                evidence.con(number, format!("`{}` is no sign of it", super::render::source::visible(c)));
+            }
+            continue;
+        }
+        while code.get(at).is_some_and(|b| b" \t".contains(b)) {
+            at += 1;
+        }
+        let digits = code[at..].iter().take_while(|b| b"+-.0123456789".contains(b)).count();
+        let value = std::str::from_utf8(&code[at..at + digits]).unwrap_or("");
+        at += digits;
+        alone = if digits == 0 { alone + 1 } else { 0 };
+        if alone == WORDS_OF_A_TEXT {
+            evidence.con(number, "letters without numbers".to_owned());
+        }
+        let word = String::from_utf8_lossy(&code[from..at]).into_owned();
+        word_of(dialect, number, letter, value, &word, from == 0, evidence);
+    }
+}
+
+fn word_of(
+    dialect: &Dialect,
+    line: usize,
+    letter: u8,
+    value: &str,
+    word: &str,
+    first: bool,
+    evidence: &mut Evidence,
+) {
+    let c = char::from(letter);
+    if value.is_empty() {
+        match dialect.block.omitted_zero {
+            true => evidence.pro(line, "a letter alone means zero".to_owned()),
+            false => evidence.con(line, format!("`{c}` without a number")),
+        }
+    }
+    if dialect.block.number == Some(c) {
+        return;
+    }
+    if dialect.program.number == Some(c) {
+        match first {
+            true => evidence.pro(line, format!("`{c}` begins the program's number")),
+            false => evidence.con(line, format!("`{word}` within a block")),
+        }
+        return;
+    }
+    if matches!(letter, b'G' | b'M') {
+        let Some(tenths) = tenths(value) else { return };
+        match dialect.code_row(letter, tenths).map(|row| row.means) {
+            None => evidence.con(line, format!("`{word}` is unknown")),
+            Some(Some(Meaning::UseLengthUnits(_))) => evidence.pro(line, format!("`{word}` says the unit")),
+            Some(Some(_)) => {
+                if !std::mem::replace(&mut evidence.codes, true) {
+                    evidence.pro(line, format!("`{word}` is one of its codes"));
+                }
+            }
+            Some(None) => {}
+        }
+        return;
+    }
+    match dialect.address_row(letter).map(|row| row.role) {
+        None => evidence.con(line, format!("no word begins with `{c}`")),
+        Some(Role::Corrector) if first || value.is_empty() => {}
+        Some(Role::Corrector) => evidence.pro(line, format!("`{word}` takes up a length offset")),
+        Some(_) => {}
+    }
+}
+
+/// The line without its comment, and nothing if it cannot be told.
+fn without_comment(
+    dialect: &Dialect,
+    number: usize,
+    line: &[u8],
+    evidence: &mut Evidence,
+) -> Option<Vec<u8>> {
+    let (open, close) = (dialect.comment.open.as_bytes(), dialect.comment.close.as_bytes());
+    let mut code = Vec::new();
+    let mut at = 0;
+    while at < line.len() {
+        let rest = &line[at..];
+        if !open.is_empty() && rest.starts_with(open) {
+            evidence.pro(number, format!("`{}` opens a comment", dialect.comment.open));
+            match rest.iter().position(|b| close.first() == Some(b)) {
+                Some(end) => at += end + close.len(),
+                None => break,
+            }
+            continue;
+        }
+        if rest[0] == b'(' {
+            evidence.con(number, "`(` is no sign of it".to_owned());
+            return None;
+        }
+        if rest[0] == b';' {
+            if dialect.block.end != ";" || !rest[1..].trim_ascii().is_empty() {
+                evidence.con(number, "`;` before a text".to_owned());
+            }
+            break;
+        }
+        code.push(rest[0]);
+        at += 1;
+    }
+    Some(code)
+}
+
+/// The number of a code in tenths: `5.1` is 51; a letter alone is 0.
+fn tenths(value: &str) -> Option<u32> {
+    let (whole, tenth) = value.split_once('.').unwrap_or((value, ""));
+    let number = |digits: &str| if digits.is_empty() { Some(0) } else { digits.parse::<u32>().ok() };
+    number(whole)?.checked_mul(10)?.checked_add(number(tenth).filter(|t| *t < 10)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Cursor;
+
+    fn id(text: &str) -> Option<&'static str> {
+        match guess(&mut Cursor::new(text.as_bytes()), ncc_dialects::builtins()).unwrap() {
+            Guess::Sure(dialect, reasons) => {
+                assert!(!reasons.is_empty());
+                Some(&dialect.id)
+            }
+            Guess::Unsure(_) => None,
+        }
+    }
+
+    #[test]
+    fn each_is_recognised() {
+        assert_eq!(id("%\nO1 (A)\nG21 G90\nG0 X1. (B)\nM30\n%\n"), Some("fanuc"));
+        assert_eq!(id(";A\nG71\nT1M6\nO1S500M3\nGZ0\nM2\n"), Some("mach9"));
+        assert_eq!(id("STRAIGHT_FEED(1.0, 2.0, 3.0)\nPROGRAM_END()\n"), Some("canon"));
+        assert_eq!(id("ncc-ir 1\n"), Some("ir"));
+    }
+
+    #[test]
+    fn what_fits_several_is_not_chosen() {
+        for text in ["", "\n\n", "G0 X1.\nM30\n", "hello world\n", "\0\0\0\0", "X1 Y2\n"] {
+            assert_eq!(id(text), None, "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! What to do about a fault: at most two lines, the first one what most people will want.
+
+use ncc_ir::diag::{Fault, ModeName, Verdict};
+
+use super::words::{Context, mode};
+
+/// What to do. Empty where the message says it already.
+pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
+    let from = at.from.id.as_str();
+    let to = at.to.id.as_str();
+    let own = |text: &str| vec![text.to_owned()];
+    match fault {
+        Fault::UnexpectedCharacter { .. } => {
+            vec![format!("is the source really {from}? `--from auto` looks at the text and says why")]
+        }
+        Fault::BadNumber { .. } => own("write digits, at most one point and one sign: `-12.5`"),
+        Fault::UnclosedComment => match at.from.comment.close.as_str() {
+            "" => Vec::new(),
+            close => vec![format!("close it with `{close}` in the same line")],
+        },
+        Fault::BlockTooLong { .. } => own("are the line ends still there? some transfers strip them"),
+        Fault::NotText => own("choose the part program itself: a text file, one block a line"),
+        Fault::WordWithoutNumber { letter } => vec![format!("if zero is meant, write `{letter}0`")],
+        Fault::LetterOForZero => own(&mend(at.snippet)),
+        Fault::EmptyProgram => own("the file is empty, or holds comments alone: is it the right one?"),
+        Fault::Syntax { .. } => Vec::new(),
+        Fault::NoProgramEnd => {
+            own("is the file complete? if so, end the program with its end code, such as M30")
+        }
+        Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
+
+        Fault::UnknownCode { .. } => {
+            vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
+        }
+        Fault::NotSupported { .. } => {
+            own("write this place another way, or finish it by hand after translating the rest")
+        }
+        Fault::CodesExclude { .. } => {
+            own("put them into blocks of their own, in the order in which they shall act")
+        }
+        Fault::WordUnused { .. } => own("delete the word, or add the code that it belongs to"),
+        Fault::WordMissing { word, .. } => vec![format!("add `{}` to this block", super::words::plain(word))],
+        Fault::WordTwice { .. } => own("keep one of the two"),
+        Fault::TooManyCodes { .. } => own("spread the codes over several blocks"),
+        Fault::PointNotAllowed { .. } => own("write it without a point"),
+        Fault::OutOfRange { .. } => Vec::new(),
+        Fault::NoMotionMode => own("say the motion before the first axis word: rapid, feed or arc"),
+        Fault::ArcWithoutCentre => match at.from.letter_for(ncc_dialects::Role::Radius) {
+            Some(letter) => vec![format!("add the centre (I, J, K), or the radius ({letter})")],
+            None => own("add the centre (I, J, K)"),
+        },
+        Fault::ArcCentreAndRadius => own("keep the centre, or the radius"),
+        Fault::ArcEndOffCircle { .. } => own(match at.from.arc.centre_absolute {
+            true => "check the centre: here it is measured from program zero, not from the start of the arc",
+            false => "check the centre: here it is measured from the start of the arc, not from program zero",
+        }),
+        Fault::ArcRadiusTooSmall => own("check the radius, the end point, and where the tool stands before"),
+        Fault::ArcRadiusNoWay => own("write a full circle with its centre (I, J, K)"),
+        Fault::PositionUnknown { axis } => vec![
+            format!("say the position: an absolute {axis} word before this block"),
+            format!("or, if the tool stands somewhere when the program starts: `--start {axis}100`"),
+        ],
+        Fault::CallUnknown { .. } => own("put the subprogram into the same file, after the main program"),
+        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } => Vec::new(),
+        Fault::MacroLanguage { .. } => own("write the values out, or translate the blocks around it alone"),
+        Fault::NoToolSelected => own("say the tool number in this block or before it"),
+        Fault::NoFeed => own("say the feed in this block or before it"),
+        Fault::NoCycle => own("call the cycle up before the positions"),
+        Fault::CycleUpsideDown => own("check the signs of the bottom and of the retract plane"),
+        Fault::EntryFactNeeded { .. } => own("say it in the subprogram itself"),
+        Fault::NotExecuted { .. } => {
+            own("`--to ir` keeps it; for another target it has to be written another way")
+        }
+
+        Fault::AssumedMode { fact, .. } => match fact {
+            ModeName::WorkOffset | ModeName::LengthOffset | ModeName::OriginShift => {
+                own("check that this is how the machine is set up when the program starts")
+            }
+            ModeName::Motion
+            | ModeName::Distance
+            | ModeName::Units
+            | ModeName::Plane
+            | ModeName::FeedMode
+            | ModeName::ReturnLevel => {
+                vec![format!("to be sure, say the {} at the start of the program", mode(*fact))]
+            }
+        },
+        Fault::AssumedNoEffect { .. } => {
+            own("if your manual knows an effect, do not use the output before it is seen to")
+        }
+        Fault::AssumedBareNumber { .. } => {
+            vec![format!("write a decimal point, or see the options of `ncc dialects show {from}`")]
+        }
+        Fault::AssumedOffsetWithZ => own("check the first Z after it"),
+        Fault::AssumedWorkOffset { .. } => own("set the machine's zero in this offset"),
+        Fault::AssumedRow { .. } => {
+            vec![format!("check your manual; `ncc dialects show {from}` names the source")]
+        }
+        Fault::AssumedOption { option, .. } => {
+            let side = if at.from.option.iter().any(|o| o.name == **option) { "from" } else { "to" };
+            vec![format!("decide it with `--{side}-option {option}=…`, see `ncc dialects show`")]
+        }
+        Fault::AssumedParameter { .. } => own("compare with the parameter on your machine"),
+
+        Fault::CommentReformatted
+        | Fault::ArcReformatted
+        | Fault::Rounded { .. }
+        | Fault::PatternExpanded { .. }
+        | Fault::CycleExpanded { .. }
+        | Fault::CallExpanded { .. }
+        | Fault::RepeatExpanded { .. }
+        | Fault::NumbersLeftOut { .. }
+        | Fault::NameAsComment
+        | Fault::BlockSplit => Vec::new(),
+        Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
+        Fault::MessageDropped => own("tell the operator on the setup sheet"),
+
+        Fault::CannotSay { .. } => {
+            vec![format!("write it in a way that {to} has words for: `ncc dialects show {to}`")]
+        }
+        Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
+        Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
+        Fault::TargetRange { .. } => Vec::new(),
+
+        Fault::NotTheSame { .. } | Fault::NotReadBack { .. } => vec![
+            "this is a fault of ncc, not of your program; nothing was released".to_owned(),
+            "please report it with the program, or the lines around this place".to_owned(),
+        ],
+        Fault::SkipSettingsSampled { .. } => Vec::new(),
+    }
+}
+
+/// What to say of a verdict that stops a translation.
+pub fn stopped(verdict: Verdict, denied: bool) -> String {
+    match denied {
+        true => format!("stopped because of `--deny {}`", verdict.name()),
+        false => format!("to accept this loss, add `--allow {}`", verdict.name()),
+    }
+}
+
+/// The word with zeros for its letters O, but for a leading one, which is an address.
+fn mend(snippet: &str) -> String {
+    match snippet.char_indices().nth(1) {
+        Some((second, _)) if snippet.chars().count() <= 40 => {
+            format!("write `{}{}`", &snippet[..second], snippet[second..].replace(['O', 'o'], "0"))
+        }
+        Some(_) | None => "write the digit 0".to_owned(),
+    }
+}

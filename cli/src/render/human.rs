@@ -1,0 +1,92 @@
+//! Diagnostics for people: codespan's boxes on stderr.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use codespan_reporting::diagnostic::{Diagnostic as Boxed, Label, Severity};
+use codespan_reporting::term::termcolor::WriteColor;
+use codespan_reporting::term::{self, Config};
+use ncc_ir::diag::{Diagnostic, Gravity};
+
+use super::{About, Told};
+use crate::job::Job;
+
+/// Of one code, so many diagnostics are shown; the rest is counted.
+pub const MOST: usize = 20;
+
+/// How much is said.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loudness {
+    /// What stops the translation.
+    Quiet,
+    /// That, and warnings.
+    Usual,
+    /// Every verdict too.
+    Verbose,
+}
+
+/// Which diagnostics are shown: those that are told at this loudness, in the order of their
+/// places, at most [`MOST`] of a code; and how many of each code are left out.
+pub fn choose<'d>(
+    job: &Job,
+    diagnostics: &'d [Diagnostic],
+    loudness: Loudness,
+) -> (Vec<&'d Diagnostic>, BTreeMap<u16, usize>) {
+    let told = |d: &&Diagnostic| match (d.fault.gravity(), loudness) {
+        _ if job.refuses(d) => true,
+        (_, Loudness::Quiet) => false,
+        (_, Loudness::Verbose) | (Gravity::Error | Gravity::Warning, Loudness::Usual) => true,
+        (Gravity::Verdict(verdict), Loudness::Usual) => verdict.stops(),
+    };
+    let mut all: Vec<&Diagnostic> = diagnostics.iter().filter(told).collect();
+    all.sort_by_key(|d| d.span.start);
+    let mut counts: BTreeMap<u16, usize> = BTreeMap::new();
+    all.retain(|d| {
+        let count = counts.entry(d.fault.code()).or_default();
+        *count += 1;
+        *count <= MOST
+    });
+    let left_out = counts.into_iter().filter(|(_, n)| *n > MOST).map(|(code, n)| (code, n - MOST)).collect();
+    (all, left_out)
+}
+
+/// Prints the diagnostics that are told at this loudness.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub fn print(
+    out: &mut dyn WriteColor,
+    about: &mut About,
+    diagnostics: &[Diagnostic],
+    loudness: Loudness,
+) -> io::Result<()> {
+    let (shown, left_out) = choose(about.job, diagnostics, loudness);
+    let lines = about.lines(shown.iter().copied())?;
+    for diagnostic in shown {
+        let told = about.tell(&lines, diagnostic)?;
+        let boxed = boxed(&told, &lines);
+        term::emit_to_write_style(out, &Config::default(), &told.excerpt, &boxed)
+            .map_err(io::Error::other)?;
+    }
+    for (code, count) in left_out {
+        writeln!(out, "… and {count} more of NC{code:04}\n")?;
+    }
+    Ok(())
+}
+
+fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
+    let range = |span| told.excerpt.range(lines, span).unwrap_or(0..0);
+    let mut labels = vec![Label::primary((), range(told.place.span)).with_message(&told.place.label)];
+    for place in &told.related {
+        labels.push(Label::secondary((), range(place.span)).with_message(&place.label));
+    }
+    let mut notes: Vec<String> = told.advice.iter().map(|line| format!("help: {line}")).collect();
+    if told.severity == Severity::Error && told.advice.is_empty() {
+        notes.push(format!("help: `ncc explain {}` says more", told.code));
+    }
+    Boxed::new(told.severity)
+        .with_code(&told.code)
+        .with_message(&told.message)
+        .with_labels(labels)
+        .with_notes(notes)
+}

@@ -1,0 +1,116 @@
+//! Diagnostics for programs: one JSON object a line on stderr.
+
+use std::io::{self, Write};
+
+use codespan_reporting::diagnostic::Severity;
+use ncc_ir::diag::Diagnostic;
+use serde::Serialize;
+
+use super::human::{Loudness, choose};
+use super::{About, Place, Told};
+
+/// A diagnostic, as it stands in a line of `--format json` and in a report.
+#[derive(Debug, Serialize)]
+pub struct Entry {
+    /// `NC0107`.
+    pub code: String,
+    /// `error`, `warning` or `note`; what stops the translation is an error.
+    pub severity: &'static str,
+    /// The verdict, if it is one.
+    pub verdict: Option<&'static str>,
+    /// What is wrong, or what became of the place.
+    pub message: String,
+    /// Its place.
+    pub place: JsonPlace,
+    /// Further places.
+    pub related: Vec<JsonPlace>,
+    /// What to do.
+    pub advice: Vec<String>,
+}
+
+/// A place, with line and column counted from 1; a column is a character.
+#[derive(Debug, Serialize)]
+pub struct JsonPlace {
+    /// First byte in the source.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+    /// Line of the start.
+    pub line: u64,
+    /// Column of the start.
+    pub column: u64,
+    /// Column of the end, or of the end of the line if the place goes on.
+    pub end_column: u64,
+    /// The text there, up to the end of the line.
+    pub text: String,
+    /// Why this place.
+    pub label: String,
+}
+
+impl From<Told> for Entry {
+    fn from(told: Told) -> Entry {
+        Entry {
+            code: told.code,
+            severity: match told.severity {
+                Severity::Bug | Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Note | Severity::Help => "note",
+            },
+            verdict: told.verdict.map(|v| v.name()),
+            message: told.message,
+            place: told.place.into(),
+            related: told.related.into_iter().map(JsonPlace::from).collect(),
+            advice: told.advice,
+        }
+    }
+}
+
+impl From<Place> for JsonPlace {
+    fn from(place: Place) -> JsonPlace {
+        JsonPlace {
+            start: place.span.start,
+            end: place.span.end,
+            line: place.start.0,
+            column: place.start.1,
+            end_column: place.end.1,
+            text: place.text,
+            label: place.label,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct LeftOut {
+    left_out: String,
+    count: usize,
+}
+
+/// Prints the diagnostics that are told at this loudness.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub fn print(
+    out: &mut dyn Write,
+    about: &mut About,
+    diagnostics: &[Diagnostic],
+    loudness: Loudness,
+) -> io::Result<()> {
+    let (shown, left_out) = choose(about.job, diagnostics, loudness);
+    let lines = about.lines(shown.iter().copied())?;
+    for diagnostic in shown {
+        line(out, &Entry::from(about.tell(&lines, diagnostic)?))?;
+    }
+    for (code, count) in left_out {
+        line(out, &LeftOut { left_out: format!("NC{code:04}"), count })?;
+    }
+    Ok(())
+}
+
+/// One object in a line.
+///
+/// # Errors
+/// Writing.
+pub fn line(out: &mut dyn Write, object: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer(&mut *out, object)?;
+    out.write_all(b"\n")
+}

@@ -1,0 +1,229 @@
+//! The account at the end: what was verified, what was assumed, expanded, rewritten and lost.
+
+use std::collections::HashMap;
+use std::io;
+
+use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+
+use super::About;
+use super::source::Lines;
+use super::words::{Context, plain, plural, words, work_offset};
+use crate::job::{Failure, Outcome};
+
+/// Of one phrase, so many line numbers are named.
+const MOST_LINES: usize = 4;
+/// Of one verdict, so many phrases are named.
+const MOST_PHRASES: usize = 12;
+
+/// The headings, in the order of the account.
+const HEADINGS: [(&str, &[Verdict]); 5] = [
+    ("assumed", &[Verdict::Assumed]),
+    ("expanded", &[Verdict::Expanded]),
+    ("rounded", &[Verdict::WithinTolerance]),
+    ("reformatted", &[Verdict::Reformatted]),
+    ("lost", &[Verdict::Changed, Verdict::Manual, Verdict::Dropped]),
+];
+
+/// Diagnostics that one phrase covers.
+struct Group {
+    phrase: String,
+    count: usize,
+    /// First byte of the first few.
+    places: Vec<u32>,
+}
+
+/// Prints the account of a translation that was done.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> io::Result<()> {
+    let (from, to) = (&about.job.from.dialect.id, &about.job.to.dialect.id);
+    write!(out, "{}: {from} to {to}", about.name)?;
+    match (&outcome.release, &outcome.verified) {
+        (Err(_), _) => return print_failure(out, about, outcome),
+        (Ok(()), Some(verified)) => {
+            write!(out, ", ")?;
+            coloured(out, Color::Green, "verified")?;
+            let worlds = plural(verified.worlds.into(), "world");
+            write!(out, ": the same moves in {} {worlds}", verified.worlds)?;
+            if verified.skip_settings > 1 {
+                write!(out, " and {} block-skip settings", verified.skip_settings)?;
+            }
+            writeln!(out, ", {} events compared", verified.events)?;
+        }
+        (Ok(()), None) => {
+            write!(out, ", ")?;
+            coloured(out, Color::Red, "NOT VERIFIED")?;
+            writeln!(out)?;
+        }
+    }
+    let at = Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "" };
+    let groups: Vec<(&str, Vec<Group>)> = HEADINGS
+        .iter()
+        .map(|(heading, verdicts)| (*heading, groups(&outcome.diagnostics, verdicts, at)))
+        .filter(|(_, groups)| !groups.is_empty())
+        .collect();
+    let places =
+        groups.iter().flat_map(|(_, groups)| groups).flat_map(|g| g.places.iter().copied()).collect();
+    let lines = Lines::find(about.source, places)?;
+    for (heading, groups) in groups {
+        for (i, group) in groups.iter().take(MOST_PHRASES).enumerate() {
+            let heading = if i == 0 { heading } else { "" };
+            let colour = if heading == "lost" { Color::Red } else { Color::Yellow };
+            write!(out, "  ")?;
+            coloured(out, colour, &format!("{heading:<12}"))?;
+            writeln!(out, "{} ({})", group.phrase, line_list(group, &lines))?;
+        }
+        if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
+            writeln!(out, "  {:<12}… and {more} more; --verbose or --report says all", "")?;
+        }
+    }
+    Ok(())
+}
+
+fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
+    write!(out, ", ")?;
+    let stopping = outcome.diagnostics.iter().filter(|d| about.job.refuses(d));
+    let errors = stopping.clone().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
+    let losses = stopping.count() as u64 - errors;
+    match outcome.release {
+        Err(Failure::VerificationFailed) => {
+            coloured(out, Color::Red, "verification failed")?;
+            writeln!(out, ", nothing was written")
+        }
+        Err(Failure::Refused) | Ok(()) => {
+            coloured(out, Color::Red, "not translated")?;
+            let errors = format!("{errors} {}", plural(errors, "error"));
+            let losses = format!("{losses} {}", plural(losses, "verdict"));
+            writeln!(out, ": {errors}, {losses} not allowed; nothing was written")
+        }
+    }
+}
+
+fn coloured(out: &mut dyn WriteColor, colour: Color, text: &str) -> io::Result<()> {
+    out.set_color(ColorSpec::new().set_fg(Some(colour)).set_bold(true))?;
+    write!(out, "{text}")?;
+    out.reset()
+}
+
+fn groups(diagnostics: &[Diagnostic], verdicts: &[Verdict], at: Context) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    let mut by_phrase: HashMap<String, usize> = HashMap::new();
+    for diagnostic in diagnostics {
+        let Gravity::Verdict(verdict) = diagnostic.fault.gravity() else { continue };
+        if !verdicts.contains(&verdict) {
+            continue;
+        }
+        let phrase = phrase(&diagnostic.fault, at);
+        let index = *by_phrase.entry(phrase).or_insert_with_key(|phrase| {
+            groups.push(Group { phrase: phrase.clone(), count: 0, places: Vec::new() });
+            groups.len() - 1
+        });
+        let group = &mut groups[index];
+        group.count += 1;
+        if group.places.len() < MOST_LINES {
+            group.places.push(diagnostic.span.start);
+        }
+    }
+    groups
+}
+
+/// `line 6`, `lines 9, 19, 30 and 12 more`.
+fn line_list(group: &Group, lines: &Lines) -> String {
+    let mut numbers: Vec<u64> =
+        group.places.iter().filter_map(|place| lines.line(*place)).map(|line| line.number).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let more = group.count - group.places.len();
+    let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
+    match (list.as_slice(), more) {
+        ([only], 0) => format!("line {only}"),
+        ([], _) => format!("{} places", group.count),
+        (list, 0) => {
+            let (last, first) = list.split_last().map_or(("", list), |(last, first)| (last.as_str(), first));
+            format!("lines {} and {last}", first.join(", "))
+        }
+        (list, more) => format!("lines {} and {more} more", list.join(", ")),
+    }
+}
+
+/// A fault as a phrase after its heading. Details that differ from place to place are left out.
+pub fn phrase(fault: &Fault, at: Context) -> String {
+    let to = at.to.id.as_str();
+    match fault {
+        Fault::AssumedMode { fact, value } => format!("{}: {}", super::words::mode(*fact), plain(value)),
+        Fault::AssumedNoEffect { code } => format!("{} has no effect", plain(code)),
+        Fault::AssumedBareNumber { .. } => {
+            "numbers without a decimal point, read by the control's usual setting".to_owned()
+        }
+        Fault::AssumedOffsetWithZ => "a length offset alone is taken up with the next Z".to_owned(),
+        Fault::AssumedWorkOffset { offset } => {
+            format!("the only work offset is {}", work_offset(*offset, at))
+        }
+        Fault::AssumedRow { code, meaning } => format!("{} means {}", plain(code), plain(meaning)),
+        Fault::AssumedOption { option, value } => format!("{} is {}", plain(option), plain(value)),
+        Fault::AssumedParameter { parameter, value } => format!("{} is {}", plain(parameter), plain(value)),
+        Fault::CommentReformatted => format!("comments, in the characters of {to}"),
+        Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
+        Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
+        Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
+        Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
+        Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
+        Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
+        Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
+        Fault::NumbersLeftOut { count } => {
+            format!("{count} block {} left out", plural(u64::from(*count), "number"))
+        }
+        Fault::NameAsComment => "the program's name, as a comment".to_owned(),
+        Fault::BlockSplit => "blocks, as several".to_owned(),
+        Fault::MessageDropped => "messages to the operator".to_owned(),
+
+        // What is no verdict has no place in the account, and would be named by its message.
+        Fault::UnexpectedCharacter { .. }
+        | Fault::BadNumber { .. }
+        | Fault::UnclosedComment
+        | Fault::BlockTooLong { .. }
+        | Fault::NotText
+        | Fault::WordWithoutNumber { .. }
+        | Fault::LetterOForZero
+        | Fault::EmptyProgram
+        | Fault::Syntax { .. }
+        | Fault::NoProgramEnd
+        | Fault::TextAfterEnd
+        | Fault::UnknownCode { .. }
+        | Fault::NotSupported { .. }
+        | Fault::CodesExclude { .. }
+        | Fault::WordUnused { .. }
+        | Fault::WordMissing { .. }
+        | Fault::WordTwice { .. }
+        | Fault::TooManyCodes { .. }
+        | Fault::PointNotAllowed { .. }
+        | Fault::OutOfRange { .. }
+        | Fault::NoMotionMode
+        | Fault::ArcWithoutCentre
+        | Fault::ArcCentreAndRadius
+        | Fault::ArcEndOffCircle { .. }
+        | Fault::ArcRadiusTooSmall
+        | Fault::ArcRadiusNoWay
+        | Fault::PositionUnknown { .. }
+        | Fault::CallUnknown { .. }
+        | Fault::CallRecursive { .. }
+        | Fault::ProgramTwice { .. }
+        | Fault::MacroLanguage { .. }
+        | Fault::NoToolSelected
+        | Fault::NoFeed
+        | Fault::NoCycle
+        | Fault::CycleUpsideDown
+        | Fault::EntryFactNeeded { .. }
+        | Fault::NotExecuted { .. }
+        | Fault::NoEnd { .. }
+        | Fault::CannotSay { .. }
+        | Fault::SecondWorkOffset { .. }
+        | Fault::ArcVanishes
+        | Fault::TargetRange { .. }
+        | Fault::NotTheSame { .. }
+        | Fault::NotReadBack { .. }
+        | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
+    }
+}

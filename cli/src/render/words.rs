@@ -1,0 +1,319 @@
+//! What every fault is called: its message, and the words at its place.
+//!
+//! A message says what is wrong in a line; the label says why this very place. What to do about it
+//! is in `advice`, the background on the fault's page in `pages/`.
+
+use ncc_dialects::{Dialect, Meaning};
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::num::ONE;
+
+/// What the wording may name besides the fault's own data.
+#[derive(Clone, Copy, Debug)]
+pub struct Context<'a> {
+    /// The source's dialect.
+    pub from: &'a Dialect,
+    /// The target's dialect.
+    pub to: &'a Dialect,
+    /// The text that the diagnostic points at.
+    pub snippet: &'a str,
+}
+
+/// The words of a fault.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Words {
+    /// What is wrong, in one line.
+    pub message: String,
+    /// Why this place.
+    pub label: String,
+    /// What the related places are.
+    pub related: &'static str,
+}
+
+/// The words of a fault.
+pub fn words(fault: &Fault, at: Context) -> Words {
+    let from = at.from.id.as_str();
+    let to = at.to.id.as_str();
+    let (message, label): (String, String) = match fault {
+        Fault::UnexpectedCharacter { found } => {
+            (format!("unexpected character {}", character(*found)), format!("no word of {from} begins so"))
+        }
+        Fault::BadNumber { text } => {
+            (format!("{} is not a number", quoted(text)), "a decimal of at most 18 digits".into())
+        }
+        Fault::UnclosedComment => {
+            ("comment is not closed".into(), "opened here, and still open at the end of the line".into())
+        }
+        Fault::BlockTooLong { limit } => {
+            (format!("block is longer than {limit} bytes"), "this block, or line".into())
+        }
+        Fault::NotText => ("this is not a part program".into(), "bytes that no text contains".into()),
+        Fault::WordWithoutNumber { letter } => {
+            (format!("`{letter}` without a number"), format!("{from} does not read this as zero"))
+        }
+        Fault::LetterOForZero => ("letter O where a zero is meant".into(), "this is the letter".into()),
+        Fault::EmptyProgram => ("nothing to translate".into(), "the text has no blocks".into()),
+        Fault::Syntax { found, expected } => {
+            (format!("{} is not expected here", quoted(found)), format!("expected {}", plain(expected)))
+        }
+        Fault::NoProgramEnd => ("the program does not say that it ends".into(), "the text ends here".into()),
+        Fault::TextAfterEnd => {
+            ("text after the end of the program".into(), "the control never comes here".into())
+        }
+
+        Fault::UnknownCode { code } => {
+            (format!("{} is unknown", quoted(code)), format!("not in the dictionary of {from}"))
+        }
+        Fault::NotSupported { code, name } => {
+            (format!("{} is not translated: {}", quoted(code), plain(name)), plain(name))
+        }
+        Fault::CodesExclude { first, second } => (
+            format!("{} and {} in one block", quoted(first), quoted(second)),
+            "each would cancel the other: they are of one modal group".into(),
+        ),
+        Fault::WordUnused { word } => {
+            (format!("nothing in this block uses {}", quoted(word)), "no code here takes this word".into())
+        }
+        Fault::WordMissing { code, word } => (
+            format!("{} without {}", quoted(code), quoted(word)),
+            format!("needs {} in the same block", quoted(word)),
+        ),
+        Fault::WordTwice { letter } => (format!("`{letter}` twice in one block"), "again".into()),
+        Fault::TooManyCodes { letter, limit } => (
+            format!("too many {letter} codes in one block"),
+            format!("{from} takes {limit} {letter} {} in a block", plural(u64::from(*limit), "code")),
+        ),
+        Fault::PointNotAllowed { word } => {
+            (format!("decimal point in {}", quoted(word)), "a whole number is expected".into())
+        }
+        Fault::OutOfRange { word } => {
+            (format!("{} is out of range", quoted(word)), "no such value can be used here".into())
+        }
+        Fault::NoMotionMode => {
+            ("axis words without a motion code".into(), "rapid, feed or arc? none has been said".into())
+        }
+        Fault::ArcWithoutCentre => ("arc without centre or radius".into(), "where is its centre?".into()),
+        Fault::ArcCentreAndRadius => {
+            ("arc with both centre and radius".into(), "one of the two is too many".into())
+        }
+        Fault::ArcEndOffCircle { by } => (
+            "the end of the arc is not on its circle".into(),
+            format!("the radius at the end differs by {} mm", millimetres(*by)),
+        ),
+        Fault::ArcRadiusTooSmall => (
+            "the radius is too small for this arc".into(),
+            "less than half the distance from start to end".into(),
+        ),
+        Fault::ArcRadiusNoWay => (
+            "arc by radius, with its end where the tool stands".into(),
+            "any number of circles would fit".into(),
+        ),
+        Fault::PositionUnknown { axis } => (
+            format!("it is not known where {axis} stands"),
+            format!("this depends on the position of {axis}"),
+        ),
+        Fault::CallUnknown { name } => {
+            (format!("program {} is not in this file", quoted(name)), "called here".into())
+        }
+        Fault::CallRecursive { name } => {
+            (format!("program {} calls itself", quoted(name)), "this call never comes to an end".into())
+        }
+        Fault::ProgramTwice { name } => {
+            (format!("two programs are called {}", quoted(name)), "the second one".into())
+        }
+        Fault::MacroLanguage { what } => (
+            format!("the macro language is not translated: {}", plain(what)),
+            "a variable, an expression or a jump".into(),
+        ),
+        Fault::NoToolSelected => {
+            ("tool change without a tool".into(), "no tool number has been said before".into())
+        }
+        Fault::NoFeed => ("move at feed without a feed".into(), "no feed has been said before".into()),
+        Fault::NoCycle => {
+            ("hole positions without a cycle".into(), "no cycle is in force to be made here".into())
+        }
+        Fault::CycleUpsideDown => (
+            "the retract plane is below the bottom of the hole".into(),
+            "the tool would drill upwards".into(),
+        ),
+        Fault::EntryFactNeeded { fact } => (
+            format!("this depends on the {}, which only the caller knows", mode(*fact)),
+            "never said in this program".into(),
+        ),
+        Fault::NotExecuted { what } => (
+            format!("{} cannot be verified", plain(what)),
+            "can be written down, but not executed by this version".into(),
+        ),
+        Fault::NoEnd { steps } => {
+            ("the program does not come to an end".into(), format!("still running after {steps} blocks"))
+        }
+
+        Fault::AssumedMode { fact, value } => (
+            format!("{}: {} assumed", mode(*fact), plain(value)),
+            "the program relies on it here and never says it".into(),
+        ),
+        Fault::AssumedNoEffect { code } => (
+            format!("{} assumed to have no effect", quoted(code)),
+            "no source tells of any effect; kept as a comment".into(),
+        ),
+        Fault::AssumedBareNumber { word, value } => (
+            format!("{} read as {}", quoted(word), plain(value)),
+            "no decimal point: the control's setting decides".into(),
+        ),
+        Fault::AssumedOffsetWithZ => (
+            "length offset taken up with the next Z".into(),
+            "stands alone here; written into the next block with a Z".into(),
+        ),
+        Fault::AssumedWorkOffset { offset } => (
+            format!("the only work offset taken for {}", work_offset(*offset, at)),
+            "here it is first relied on".into(),
+        ),
+        Fault::AssumedRow { code, meaning } => (
+            format!("{} assumed to mean {}", quoted(code), plain(meaning)),
+            "no manual confirms this row of the dictionary".into(),
+        ),
+        Fault::AssumedOption { option, value } => (
+            format!("{} assumed to be {}", quoted(option), quoted(value)),
+            "the sources leave it open".into(),
+        ),
+        Fault::AssumedParameter { parameter, value } => (
+            format!("{} assumed to be {}", plain(parameter), plain(value)),
+            "a parameter of the machine decides".into(),
+        ),
+
+        Fault::CommentReformatted => {
+            ("comment rewritten".into(), format!("in the characters that {to} can show"))
+        }
+        Fault::ArcReformatted => {
+            ("centre of the arc rewritten".into(), format!("in the form that {to} takes"))
+        }
+        Fault::Rounded { word, written } => {
+            (format!("{} rounded to {}", quoted(word), quoted(written)), format!("finer than {to} resolves"))
+        }
+        Fault::PatternExpanded { holes } => (
+            format!("pattern written out as {holes} {}", plural(u64::from(*holes), "position")),
+            format!("{to} has no word for it"),
+        ),
+        Fault::CycleExpanded { kind } => {
+            (format!("{} cycle written out as moves", plain(kind)), format!("{to} has no word for it"))
+        }
+        Fault::CallExpanded { name, times } => (
+            format!("program {} written out {times} {}", quoted(name), plural(u64::from(*times), "time")),
+            "where it is called".into(),
+        ),
+        Fault::SkipLevelLost { level } => (
+            format!("block-skip level {level} lost"),
+            format!("{to} cannot tell this switch from the others"),
+        ),
+        Fault::NumbersLeftOut { count } => (
+            format!("{count} block {} left out", plural(u64::from(*count), "number")),
+            "the first one".into(),
+        ),
+        Fault::NameAsComment => {
+            ("program name kept as a comment".into(), format!("{to} has no place for it"))
+        }
+        Fault::BlockSplit => ("block written as several".into(), "this block".into()),
+        Fault::MessageDropped => {
+            ("message to the operator lost".into(), format!("{to} cannot show a message"))
+        }
+        Fault::RepeatExpanded { times } => (
+            format!("repetition written out {times} {}", plural(u64::from(*times), "time")),
+            format!("{to} has no word for it"),
+        ),
+
+        Fault::CannotSay { what } => {
+            (format!("{to} has no words for this: {}", plain(what)), "cannot be written".into())
+        }
+        Fault::SecondWorkOffset { first, second } => (
+            format!("a second work offset, and {to} has one"),
+            format!("offset {second} here; the program began with offset {first}"),
+        ),
+        Fault::ArcVanishes => (
+            "the arc is too small to be written".into(),
+            format!("its ends become one point when rounded to the digits of {to}"),
+        ),
+        Fault::TargetRange { word } => {
+            (format!("{} cannot be written", quoted(word)), format!("out of the range of {to}"))
+        }
+
+        Fault::NotTheSame { difference } => (
+            "the output does not do the same as the source".into(),
+            format!("first difference: {}", plain(difference)),
+        ),
+        Fault::NotReadBack { code } => (
+            "the output cannot be read back".into(),
+            format!("reading what was written for this gives NC{code:04}"),
+        ),
+        Fault::SkipSettingsSampled { levels } => (
+            format!("not every setting of {levels} block-skip switches was tried"),
+            "each switch alone and every pair were".into(),
+        ),
+    };
+    Words { message, label, related: related(fault) }
+}
+
+/// What the further places of a fault are. Most faults have none.
+fn related(fault: &Fault) -> &'static str {
+    match fault {
+        Fault::WordTwice { .. } | Fault::ProgramTwice { .. } | Fault::SecondWorkOffset { .. } => "first here",
+        Fault::CodesExclude { .. } => "the other one",
+        Fault::TextAfterEnd => "the program ends here",
+        Fault::CallRecursive { .. } => "by way of this call",
+        Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
+        _ => "belongs to it",
+    }
+}
+
+/// A modal fact's name.
+pub fn mode(fact: ModeName) -> &'static str {
+    match fact {
+        ModeName::Motion => "motion mode",
+        ModeName::Distance => "distance mode",
+        ModeName::Units => "unit of length",
+        ModeName::Plane => "plane",
+        ModeName::FeedMode => "feed mode",
+        ModeName::ReturnLevel => "return level of cycles",
+        ModeName::WorkOffset => "work offset",
+        ModeName::LengthOffset => "length offset",
+        ModeName::OriginShift => "origin shift",
+    }
+}
+
+/// A work offset by the word that one of the two dialects has for it.
+pub fn work_offset(number: u16, at: Context) -> String {
+    let row = [at.to, at.from].into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
+    row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
+}
+
+/// A noun with its plural's s.
+pub fn plural(count: u64, noun: &str) -> String {
+    if count == 1 { noun.to_owned() } else { format!("{noun}s") }
+}
+
+/// Text from the source, as it may be shown: no control characters, not too long.
+pub fn plain(text: &str) -> String {
+    const LONGEST: usize = 60;
+    let mut shown: String = text.chars().take(LONGEST).map(super::source::visible).collect();
+    if text.chars().nth(LONGEST).is_some() {
+        shown.push('…');
+    }
+    shown
+}
+
+/// The same, in the quotes of code.
+fn quoted(text: &str) -> String {
+    format!("`{}`", plain(text))
+}
+
+fn character(c: char) -> String {
+    if c.is_control() || c as u32 > 0x7e {
+        format!("`{}` (U+{:04X})", super::source::visible(c), c as u32)
+    } else {
+        format!("`{c}`")
+    }
+}
+
+/// Nanos in millimetres, to four digits after the point.
+fn millimetres(nanos: i64) -> String {
+    let text = format!("{:.4}", nanos.abs() as f64 / ONE as f64);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

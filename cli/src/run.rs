@@ -1,0 +1,333 @@
+//! The command line from its arguments to its exit code.
+
+use std::ffi::OsString;
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
+
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser};
+use codespan_reporting::term::termcolor::{ColorChoice, StandardStream, WriteColor};
+use ncc_backends::Layout;
+use ncc_dialects::{Dialect, SettingError, Settings, builtin, builtins};
+
+use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Translate, Verb};
+use crate::files::{self, Destination, Source};
+use crate::guess::{Guess, guess};
+use crate::job::{Failure, Job, Outcome};
+use crate::problem::{Exit, Problem};
+use crate::render::human::Loudness;
+use crate::render::{About, human, json, summary};
+use crate::sugar::{Said, rewrite};
+use crate::{arrow, dialects, explain, report, translate};
+
+/// Runs `ncc` with its arguments, the program's name first.
+pub fn run(arguments: Vec<OsString>) -> Exit {
+    let mut err = StandardStream::stderr(choice(Color::Auto));
+    let (arguments, arrow) = match honour(rewrite(arguments)) {
+        Ok(both) => both,
+        Err(problem) => return fail(&problem, &mut err, false),
+    };
+    let cli = match Cli::try_parse_from(&arguments) {
+        Ok(cli) => cli,
+        Err(error) => return clap_says(&error, &arguments, &mut err),
+    };
+    let done = match &cli.verb {
+        Verb::Translate(args) => return translate_verb(args, arrow),
+        Verb::Dialects(args) => match &args.what {
+            None => print(&dialects::list(builtins())),
+            Some(DialectsWhat::Show { id }) => {
+                dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
+            }
+        },
+        Verb::Explain(args) => match explain::page(&args.code) {
+            Some(page) => print(page),
+            None => Err(Problem::usage(
+                format!("there is no message `{}`", args.code),
+                "a code looks like NC0107; it stands in brackets at the beginning of a message",
+            )),
+        },
+        Verb::Completions(args) => {
+            let mut text = Vec::new();
+            clap_complete::generate(args.shell, &mut Cli::command(), "ncc", &mut text);
+            files::to_stdout(&mut |out| out.write_all(&text))
+        }
+    };
+    match done {
+        Ok(()) => Exit::Done,
+        Err(problem) => fail(&problem, &mut err, false),
+    }
+}
+
+/// Takes up a torn arrow if it is certain that it is one.
+fn honour(said: Said) -> Result<(Vec<OsString>, Option<&'static Dialect>), Problem> {
+    let (from, typed, rest) = match said {
+        Said::Plain(arguments) => return Ok((arguments, None)),
+        Said::Arrow { from, typed, rest } => (from, typed, rest),
+    };
+    let to = arrow::target(builtins()).map_err(|doubt| Problem {
+        exit: Exit::Usage,
+        message: format!("`{from} {typed}` without a target: {}", doubt.words()),
+        help: vec![
+            format!("a shell takes the `>` of `{typed}` for a redirection; put it in quotes, or write"),
+            format!("  ncc {from} to DIALECT FILE -o NAME"),
+        ],
+    })?;
+    let mut arguments: Vec<OsString> =
+        ["ncc", "translate", "--from", &from, "--to", &to.id].map(OsString::from).into();
+    arguments.extend(rest);
+    Ok((arguments, Some(to)))
+}
+
+/// What clap has to say: help and version on stdout, anything else is wrong usage.
+fn clap_says(error: &clap::Error, arguments: &[OsString], err: &mut StandardStream) -> Exit {
+    let unknown = error.kind() == ErrorKind::InvalidSubcommand || error.kind() == ErrorKind::UnknownArgument;
+    let verbs: Vec<String> = Cli::command().get_subcommands().map(|v| v.get_name().to_owned()).collect();
+    let word = arguments.iter().skip(1).find_map(|a| a.to_str().filter(|a| !a.starts_with('-')));
+    if let (true, Some(word)) = (unknown, word)
+        && !verbs.iter().any(|verb| verb == word)
+    {
+        let is_dialect = builtin(word).is_some();
+        let message = match is_dialect {
+            true => format!("`{word}`, and what more?"),
+            false => format!("`{word}` is neither a command nor a dialect"),
+        };
+        let help = vec![
+            "to translate a program, name both dialects: ncc mach9 to fanuc part.cn".to_owned(),
+            format!("dialects: {}; commands: {}", ids(), verbs.join(", ")),
+        ];
+        return fail(&Problem { exit: Exit::Usage, message, help }, err, false);
+    }
+    // If nobody can read it, there is nobody to tell.
+    let _ = error.print();
+    if error.use_stderr() { Exit::Usage } else { Exit::Done }
+}
+
+fn translate_verb(args: &Translate, arrow: Option<&'static Dialect>) -> Exit {
+    let mut err = StandardStream::stderr(choice(args.color));
+    let as_json = args.format == Format::Json;
+    match translated(args, arrow, &mut err) {
+        Ok(exit) => exit,
+        Err(problem) => fail(&problem, &mut err, as_json),
+    }
+}
+
+fn translated(
+    args: &Translate,
+    arrow: Option<&'static Dialect>,
+    err: &mut StandardStream,
+) -> Result<Exit, Problem> {
+    let path = match args.files.as_slice() {
+        [one] => one.as_path(),
+        several => {
+            return Err(Problem::usage(
+                format!("{} files: one is translated at a time", several.len()),
+                "call ncc once for each of them",
+            ));
+        }
+    };
+    let destination = match &args.output {
+        Some(name) if arrow.is_some() => {
+            return Err(Problem::usage(
+                format!("two places to write to: the shell's redirection, and {}", name.display()),
+                "leave one of them out",
+            ));
+        }
+        Some(name) if name != Path::new("-") => Destination::File(name.clone()),
+        Some(_) | None => Destination::Stdout,
+    };
+    let to = settings(dialect(&args.to)?, &args.to_option)?;
+    let named = if args.from == "auto" { None } else { Some(dialect(&args.from)?) };
+    let mut source = files::open(path)?;
+    match &destination {
+        Destination::File(name) => source.guard(Some(name))?,
+        Destination::Stdout => source.guard(None)?,
+    }
+    if let Some(report) = &args.report {
+        source.guard(Some(report))?;
+        if matches!(&destination, Destination::File(name) if name == report) {
+            return Err(Problem::usage(
+                format!("{} is both output and report", report.display()),
+                "choose another name for one of them",
+            ));
+        }
+    }
+    let from = match named {
+        Some(dialect) => dialect,
+        None => recognise(&mut source, args, err)?,
+    };
+    let crlf = match args.eol {
+        Eol::Lf => false,
+        Eol::Crlf => true,
+        Eol::Keep => source.is_crlf()?,
+    };
+    let job = Job {
+        from: settings(from, &args.from_option)?,
+        to,
+        layout: Layout { numbering: args.number, crlf },
+        verify: !args.no_verify,
+        head: !args.no_head,
+        start: args.start.unwrap_or_default(),
+        program_number: args.program_number,
+        source_name: source.name.clone(),
+        allow: args.allow.clone(),
+        deny: args.deny.clone(),
+    };
+    source.rewind()?;
+    let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
+    let mut outcome = translate::translate(&job, &mut source.file).map_err(|e| cannot_read(&e, &source))?;
+    if outcome.release.is_ok() {
+        destination.release(&mut outcome.output)?;
+    }
+    let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
+    if let Some(name) = &args.report {
+        files::to_file(name, &mut |out| report::write(out, &mut about, &outcome))?;
+    }
+    // Messages that cannot be written change nothing about what was done.
+    let _ = tell(args, &mut about, &outcome, err);
+    if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.quiet) {
+        let _ = say_where(to, &job, &source.shown, args.format, err);
+    }
+    Ok(match outcome.release {
+        Ok(()) => Exit::Done,
+        Err(Failure::Refused) => Exit::Refused,
+        Err(Failure::VerificationFailed) => Exit::VerificationFailed,
+    })
+}
+
+fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn WriteColor) -> io::Result<()> {
+    let loudness = match (args.quiet, args.verbose) {
+        (true, _) => Loudness::Quiet,
+        (false, true) => Loudness::Verbose,
+        (false, false) => Loudness::Usual,
+    };
+    match args.format {
+        Format::Json => {
+            json::print(&mut crate::problem::as_write(err), about, &outcome.diagnostics, loudness)?
+        }
+        Format::Human => {
+            human::print(err, about, &outcome.diagnostics, loudness)?;
+            if loudness != Loudness::Quiet {
+                summary::print(err, about, outcome)?;
+            }
+        }
+    }
+    err.flush()
+}
+
+/// Says where an arrow has led to.
+fn say_where(to: &Dialect, job: &Job, shown: &str, format: Format, err: &mut dyn Write) -> io::Result<()> {
+    let (from, to) = (&job.from.dialect.id, &to.id);
+    if format == Format::Json {
+        return Ok(());
+    }
+    writeln!(
+        err,
+        "The program is in the file `{to}` of this folder: the shell took `> {to}` for a redirection.\n\
+         To choose a name: ncc {from} to {to} {shown} -o NAME, or now: mv {to} NAME"
+    )
+}
+
+fn recognise(
+    source: &mut Source,
+    args: &Translate,
+    err: &mut StandardStream,
+) -> Result<&'static Dialect, Problem> {
+    let found = guess(&mut source.file, builtins()).map_err(|e| Problem::file("read", &source.shown, &e))?;
+    match found {
+        Guess::Sure(dialect, reasons) => {
+            if !args.quiet && args.format == Format::Human {
+                let _ = writeln!(err, "{}: read as {}: {}", source.shown, dialect.id, reasons.join(", "));
+            }
+            Ok(dialect)
+        }
+        Guess::Unsure(fits) => {
+            let mut help: Vec<String> = fits
+                .iter()
+                .map(|(dialect, against)| match against.is_empty() {
+                    true => format!("{}: nothing speaks against it", dialect.id),
+                    false => format!("{}: {}", dialect.id, against.join(", ")),
+                })
+                .collect();
+            help.insert(0, format!("name it: --from, one of {}", ids()));
+            let message = format!("the dialect of {} cannot be told for certain", source.shown);
+            Err(Problem { exit: Exit::Usage, message, help })
+        }
+    }
+}
+
+fn ids() -> String {
+    builtins().iter().map(|d| d.id.as_str()).collect::<Vec<_>>().join(", ")
+}
+
+fn dialect(id: &str) -> Result<&'static Dialect, Problem> {
+    builtin(id).ok_or_else(|| {
+        let near = builtins().iter().find(|d| d.id.eq_ignore_ascii_case(id) || close(&d.id, id));
+        let help = match near {
+            Some(dialect) => format!("did you mean {}? there are: {}", dialect.id, ids()),
+            None => format!("there are: {}", ids()),
+        };
+        Problem::usage(format!("there is no dialect `{id}`"), help)
+    })
+}
+
+/// Whether two words differ by one letter at most.
+fn close(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+    let same = short.iter().zip(long).take_while(|(x, y)| x == y).count();
+    let rest = &short[same..];
+    match long.len() - short.len() {
+        0 => rest.is_empty() || rest[1..] == long[same + 1..],
+        1 => *rest == long[same + 1..],
+        _ => false,
+    }
+}
+
+fn settings(dialect: &'static Dialect, chosen: &[(String, String)]) -> Result<Settings, Problem> {
+    let mut settings = Settings::new(dialect);
+    for (option, value) in chosen {
+        settings.choose(option, value).map_err(|error| match error {
+            SettingError::NoOption(option) => Problem::usage(
+                format!("{} has no option `{option}`", dialect.id),
+                match dialect.option.is_empty() {
+                    true => "it has no options at all".to_owned(),
+                    false => {
+                        let names: Vec<&str> = dialect.option.iter().map(|o| o.name.as_str()).collect();
+                        format!("it has: {}", names.join(", "))
+                    }
+                },
+            ),
+            SettingError::NoValue { option, values } => Problem::usage(
+                format!("`{value}` is no value of {option}"),
+                match values.is_empty() {
+                    true => "it takes a number".to_owned(),
+                    false => format!("it takes: {}", values.join(", ")),
+                },
+            ),
+        })?;
+    }
+    Ok(settings)
+}
+
+fn choice(color: Color) -> ColorChoice {
+    let wanted = match color {
+        Color::Always => true,
+        Color::Never => false,
+        Color::Auto => {
+            io::stderr().is_terminal()
+                && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
+                && std::env::var_os("TERM").is_none_or(|term| term != "dumb")
+        }
+    };
+    if wanted { ColorChoice::Always } else { ColorChoice::Never }
+}
+
+fn print(text: &str) -> Result<(), Problem> {
+    files::to_stdout(&mut |out| out.write_all(text.as_bytes()))
+}
+
+fn fail(problem: &Problem, err: &mut StandardStream, json: bool) -> Exit {
+    // If stderr cannot be written, the exit code has to say it all.
+    let _ = problem.print(err, json);
+    problem.exit
+}

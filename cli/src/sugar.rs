@@ -1,0 +1,193 @@
+//! Other ways to say `ncc translate --from A --to B FILE`, rewritten before clap sees them.
+//!
+//! `ncc A to B FILE`, `ncc A:B FILE`, and the arrow: `->`, `=>` and `→`, as a word or glued. clap
+//! would take `->` for an option. An arrow that is not quoted never arrives: a POSIX shell reads
+//! `>` as a redirection, so that `mach9 -> fanuc part.cn` becomes `mach9 - part.cn` with stdout
+//! sent to a file named `fanuc`. That is recognised here by what is left of it; whether it can be
+//! honoured is a question about stdout, answered in `arrow`.
+
+use std::ffi::OsString;
+
+use clap::{Command, CommandFactory};
+
+use crate::args::Cli;
+
+/// What the arguments were taken for.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Said {
+    /// Arguments for clap, the program's name first.
+    Plain(Vec<OsString>),
+    /// An arrow that the shell has taken apart.
+    Arrow {
+        /// The dialect before the arrow.
+        from: String,
+        /// The arrow as it was typed: `->` or `=>`.
+        typed: &'static str,
+        /// All other arguments, without the program's name.
+        rest: Vec<OsString>,
+    },
+}
+
+/// Words that may stand between two dialects.
+const ARROWS: [&str; 4] = ["to", "->", "=>", "→"];
+
+/// Rewrites the arguments, the program's name first. What is no sugar comes back as it was.
+pub fn rewrite(arguments: Vec<OsString>) -> Said {
+    let command = Cli::command();
+    let Some(at) = first_positional(&arguments, &command) else {
+        return Said::Plain(arguments);
+    };
+    let word = |i: usize| arguments.get(i).and_then(|a| a.to_str()).unwrap_or("");
+    let first = word(at);
+    if command.get_subcommands().any(|verb| verb.get_name() == first) {
+        return Said::Plain(arguments);
+    }
+    let without =
+        |count: usize| -> Vec<OsString> { [&arguments[1.min(at)..at], &arguments[at + count..]].concat() };
+    let translate = |from: &str, to: &str, rest: Vec<OsString>| {
+        let mut all: Vec<OsString> = vec![arguments[0].clone(), "translate".into()];
+        all.extend(["--from", from, "--to", to].map(OsString::from));
+        all.extend(rest);
+        Said::Plain(all)
+    };
+    if let Some((from, to)) = glued(first) {
+        return translate(from, to, without(1));
+    }
+    if is_name(first) {
+        let second = word(at + 1);
+        let third = word(at + 2);
+        if ARROWS.contains(&second) && !third.is_empty() {
+            return translate(first, third, without(3));
+        }
+        // `mach9 ->fanuc`, `mach9→ fanuc` are typing mistakes that mean one thing only.
+        if let Some(to) = ARROWS[1..].iter().find_map(|a| second.strip_prefix(a)).filter(|to| is_name(to)) {
+            return translate(first, to, without(2));
+        }
+        if let Some(typed) = torn(second) {
+            return Said::Arrow { from: first.to_owned(), typed, rest: without(2) };
+        }
+    }
+    if let Some(from) = ARROWS[1..].iter().find_map(|a| first.strip_suffix(a)).filter(|from| is_name(from))
+        && is_name(word(at + 1))
+    {
+        return translate(from, word(at + 1), without(2));
+    }
+    if let Some((from, typed)) = first.split_at_checked(first.len().saturating_sub(1))
+        && let Some(typed) = torn(typed)
+        && is_name(from)
+    {
+        return Said::Arrow { from: from.to_owned(), typed, rest: without(1) };
+    }
+    Said::Plain(arguments)
+}
+
+/// What a shell leaves of an arrow.
+fn torn(rest: &str) -> Option<&'static str> {
+    match rest {
+        "-" => Some("->"),
+        "=" => Some("=>"),
+        _ => None,
+    }
+}
+
+/// `A:B`, `A->B`, `A=>B`, `A→B`.
+fn glued(word: &str) -> Option<(&str, &str)> {
+    ["->", "=>", "→", ":"]
+        .iter()
+        .filter_map(|sign| word.split_once(sign))
+        .find(|(from, to)| is_name(from) && is_name(to))
+}
+
+/// Whether a word can be a dialect's name: two signs or more, so that a drive letter is none.
+pub fn is_name(word: &str) -> bool {
+    word.len() >= 2
+        && word.as_bytes()[0].is_ascii_alphabetic()
+        && !ARROWS.contains(&word)
+        && word[1..]
+            .split('-')
+            .all(|part| word.len() > 1 && part.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_'))
+        && !word.ends_with('-')
+}
+
+/// Place of the first argument that is neither an option nor an option's value.
+fn first_positional(arguments: &[OsString], command: &Command) -> Option<usize> {
+    let translate = command.find_subcommand("translate")?;
+    let mut at = 1;
+    while let Some(argument) = arguments.get(at) {
+        let Some(text) = argument.to_str() else { return Some(at) };
+        if text == "--" {
+            return None;
+        }
+        if !text.starts_with('-') || text == "-" {
+            return Some(at);
+        }
+        let option = translate.get_arguments().find(|a| {
+            a.get_long().is_some_and(|long| text.strip_prefix("--") == Some(long))
+                || a.get_short().is_some_and(|short| text.strip_prefix('-') == Some(&short.to_string()))
+        });
+        at += if option.is_some_and(|o| o.get_action().takes_values()) { 2 } else { 1 };
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(line: &str) -> Said {
+        rewrite(std::iter::once("ncc").chain(line.split(' ')).map(OsString::from).collect())
+    }
+
+    fn plain(line: &str) -> String {
+        match said(line) {
+            Said::Plain(all) => all[1..].iter().map(|a| a.to_str().unwrap()).collect::<Vec<_>>().join(" "),
+            Said::Arrow { .. } => panic!("{line}: taken for a torn arrow"),
+        }
+    }
+
+    #[test]
+    fn sugar_is_the_verb() {
+        let verb = "translate --from mach9 --to fanuc p.cn";
+        for line in [
+            "mach9 to fanuc p.cn",
+            "mach9 -> fanuc p.cn",
+            "mach9 => fanuc p.cn",
+            "mach9 → fanuc p.cn",
+            "mach9:fanuc p.cn",
+            "mach9->fanuc p.cn",
+            "mach9=>fanuc p.cn",
+            "mach9→fanuc p.cn",
+            "mach9-> fanuc p.cn",
+            "mach9 ->fanuc p.cn",
+            "translate --from mach9 --to fanuc p.cn",
+        ] {
+            assert_eq!(plain(line), verb, "{line}");
+        }
+        assert_eq!(
+            plain("-q --eol crlf mach9 to fanuc -o x p.cn"),
+            "translate --from mach9 --to fanuc -q --eol crlf -o x p.cn"
+        );
+    }
+
+    #[test]
+    fn what_is_no_sugar_stays() {
+        for line in
+            ["--help", "explain NC0101", "prog.cn", "C:prog.cn", "-- mach9 to fanuc", "mach9", "mach9 to"]
+        {
+            assert_eq!(plain(line), line);
+        }
+    }
+
+    #[test]
+    fn a_torn_arrow_is_recognised() {
+        let arrow = |typed, rest: &[&str]| Said::Arrow {
+            from: "mach9".into(),
+            typed,
+            rest: rest.iter().map(OsString::from).collect(),
+        };
+        assert_eq!(said("mach9 - p.cn"), arrow("->", &["p.cn"]));
+        assert_eq!(said("mach9- p.cn"), arrow("->", &["p.cn"]));
+        assert_eq!(said("mach9 = p.cn"), arrow("=>", &["p.cn"]));
+        assert_eq!(said("-q mach9 - p.cn"), arrow("->", &["-q", "p.cn"]));
+    }
+}
