@@ -7,10 +7,13 @@
 
 pub mod canon;
 pub mod ir;
+pub mod word;
 
+use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::Modes;
-use ncc_ir::diag::Diagnostic;
+use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Procedure, ProgramName, Stmt};
+use ncc_ir::source::Span;
 
 /// What reading a piece of text gave. The vectors are drained by the caller between pieces and
 /// their memory is used again.
@@ -30,3 +33,63 @@ pub struct Batch {
     /// What was found.
     pub diagnostics: Vec<Diagnostic>,
 }
+
+impl Batch {
+    /// Reports something at a place.
+    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
+        self.diagnostics.push(Diagnostic::new(fault, span));
+    }
+}
+
+/// The reader of one text, of whichever family its dialect is.
+pub enum Reader {
+    /// Letters and numbers.
+    Word(Box<word::Reader>),
+    /// The canonical functions.
+    Canon(Box<canon::Reader>),
+    /// The text form of the neutral program.
+    Ir(Box<ir::Reader>),
+}
+
+impl Reader {
+    /// The reader of a dialect. With `assume` (a user's source), a fact that the program relies on
+    /// and never says is taken from the dictionary, recorded in [`Batch::assumed`] and reported
+    /// once; without (text that ncc wrote), it stays open.
+    pub fn new(settings: Settings, assume: bool) -> Reader {
+        match settings.dialect.family {
+            Family::Word => Reader::Word(Box::new(word::Reader::new(settings, assume))),
+            Family::Canon => Reader::Canon(Box::new(canon::Reader::new(settings, assume))),
+            Family::Ir => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
+        }
+    }
+
+    /// Reads further whole lines. Spans count from `base`, the place of the first byte of `text`
+    /// in the source.
+    pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        match self {
+            Reader::Word(reader) => reader.read(text, base, out),
+            Reader::Canon(reader) => reader.read(text, base, out),
+            Reader::Ir(reader) => reader.read(text, base, out),
+        }
+    }
+
+    /// A line that is too long to be handed over: only its place is known.
+    pub fn too_long(&mut self, span: Span, out: &mut Batch) {
+        match self {
+            Reader::Word(reader) => reader.too_long(span, out),
+            Reader::Canon(_) | Reader::Ir(_) => out.report(Fault::BlockTooLong { limit: LONGEST_LINE }, span),
+        }
+    }
+
+    /// The end of the text.
+    pub fn finish(&mut self, out: &mut Batch) {
+        match self {
+            Reader::Word(reader) => reader.finish(out),
+            Reader::Canon(reader) => reader.finish(out),
+            Reader::Ir(reader) => reader.finish(out),
+        }
+    }
+}
+
+/// Longest line of a text whose dialect sets no limit, in bytes; longer ones are not handed over.
+pub const LONGEST_LINE: u32 = 1 << 16;

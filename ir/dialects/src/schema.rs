@@ -511,6 +511,7 @@ names! {
     MotionName => ncc_ir::canon::Motion { Traverse, Feed }
 }
 
+#[allow(clippy::derivable_impls)] // The macro makes the type.
 impl Default for ApproachName {
     fn default() -> ApproachName {
         ApproachName::RaiseFirst

@@ -1,0 +1,502 @@
+//! Lowering of canned cycles and patterns: call-up, retained words, holes, repetition.
+//!
+//! The moves of a hole are not made here: a cycle stays a cycle.
+
+use ncc_dialects::{CycleRow, PatternRow, Quantity};
+use ncc_ir::canon::{Axis, Distance, Fact};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Coord, Move, Op};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::block::Word;
+use super::facts::{Active, InForce, Know};
+use super::lower::{Code, Lower, Words, motion_of};
+use crate::Batch;
+
+/// Most repetitions of a cycle's block.
+const MOST_REPEATS: u32 = 9999;
+
+impl Lower {
+    /// The feed word: of the block, or of the cycle that it calls up or changes.
+    pub(super) fn feed_word(&mut self, motion: &[Code], words: &mut Words, src: Source, out: &mut Batch) {
+        let Some(word) = self.take_role(ncc_dialects::Role::Feed, words) else {
+            return;
+        };
+        self.rely_on_feed_mode(word.span, out);
+        let Some(num) = self.number(&word, Quantity::Feed, src, out) else {
+            return;
+        };
+        if !num.is_zero() {
+            self.state.feed = Know::Said(());
+        }
+        use ncc_dialects::Meaning::{EndCycle, StartCycle};
+        if motion.iter().any(|c| c.meaning == StartCycle) {
+            self.now.feed = Some(num);
+            return;
+        }
+        let ends = motion.iter().any(|c| c.meaning == EndCycle || motion_of(c.meaning).is_some());
+        if let (InForce::Active(active), false) = (&mut self.state.cycle, ends)
+            && active.feed.is_some()
+        {
+            active.feed = Some(num);
+            self.state.cycle_feed = Some(num);
+            self.now.recall = true;
+            return;
+        }
+        self.state.cycle_feed = None;
+        self.push(word.span, Op::SetFeedRate(Expr::Num(num)), out);
+    }
+
+    /// Calls a cycle up, and makes its first hole if the dialect does.
+    pub(super) fn start_cycle(
+        &mut self,
+        code: &Code,
+        dwell: bool,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let dialect = self.settings.dialect;
+        let Some(index) = dialect.cycle.iter().position(|r| r.code == code.row.code) else {
+            return;
+        };
+        let row = &dialect.cycle[index];
+        let refuse =
+            |name: &str| Fault::NotSupported { code: code.row.code.as_str().into(), name: name.into() };
+        if dwell {
+            self.fault(refuse("cycle and dwell in one block"), code.span, out);
+        }
+        if !row.sure {
+            self.assume_row(code.row, &code.meaning.to_string(), code.span, out);
+        }
+        let plane = self.plane(code.span, out);
+        if plane.known().is_some_and(|p| p.axes().2.letter() != row.depth as u8) {
+            self.fault(refuse("cycle along another axis"), code.span, out);
+        }
+        let distance = self.distance(code.span, out);
+        if self.incremental_unknown(distance) {
+            self.fault(refuse("cycle with incremental words"), code.span, out);
+        }
+        let kept = match &self.state.cycle {
+            InForce::Active(active) if dialect.cycles.retained => Some((**active).clone()),
+            InForce::Active(_) | InForce::None | InForce::Lost => None,
+        };
+        let has_hole_word = self.has_axis_word(words) || words.get(row.retract as u8).is_some();
+        let given = self.cycle_words(row, distance, words, src, out);
+        let depth = given.depth.or_else(|| kept.as_ref().map(|k| k.depth.clone()));
+        let retract = given.retract.or_else(|| kept.as_ref().map(|k| k.retract.clone()));
+        let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
+        let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck));
+        for (letter, missing) in [(row.depth, depth.is_none()), (row.retract, retract.is_none())] {
+            if missing && !self.now.failed {
+                self.missing(code, letter, out);
+            }
+        }
+        let kind = self.kind(row, dwell, peck, code, out);
+        let feed = self.now.feed;
+        if feed.is_some() {
+            self.state.cycle_feed = feed;
+        } else {
+            self.rely_on_feed(block, out);
+        }
+        let (Some(depth), Some(retract), Some(kind)) = (depth, retract, kind) else {
+            self.state.cycle = InForce::Lost;
+            return;
+        };
+        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, feed };
+        self.state.cycle = InForce::Active(Box::new(active));
+        self.call_up(block, out);
+        if dialect.cycles.hole_on_definition && has_hole_word {
+            self.hole(true, row, block, words, src, out);
+        } else {
+            self.repeat(words, src, out);
+        }
+    }
+
+    /// A block while a cycle is in force, without a code of motion.
+    pub(super) fn in_cycle(
+        &mut self,
+        dwell: bool,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let dialect = self.settings.dialect;
+        let InForce::Active(active) = &self.state.cycle else {
+            return;
+        };
+        let row = &dialect.cycle[active.row];
+        let has_hole_word = !dwell && (self.has_axis_word(words) || words.get(row.retract as u8).is_some());
+        if has_hole_word {
+            let distance = self.distance(block, out);
+            if self.incremental_unknown(distance) {
+                let name = "cycle with incremental words".into();
+                self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
+            }
+            if dialect.cycles.retained {
+                self.change_cycle(row, distance, words, src, out);
+            }
+        }
+        if self.now.recall {
+            self.call_up(block, out);
+        }
+        if has_hole_word {
+            self.hole(false, row, block, words, src, out);
+        }
+    }
+
+    /// Words that change the cycle in force.
+    fn change_cycle(
+        &mut self,
+        row: &'static CycleRow,
+        distance: Fact<Distance>,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let given = self.cycle_words(row, distance, words, src, out);
+        let InForce::Active(active) = &mut self.state.cycle else {
+            return;
+        };
+        let changes =
+            given.depth.is_some() || given.retract.is_some() || given.dwell.is_some() || given.peck.is_some();
+        if !changes {
+            return;
+        }
+        if let Some(depth) = given.depth {
+            active.depth = depth;
+        }
+        if let Some(retract) = given.retract {
+            active.retract = retract;
+        }
+        active.dwell = given.dwell.or(active.dwell);
+        active.peck = given.peck.or(active.peck);
+        if let Ok(kind) = kind_of(row, active.dwell, active.peck) {
+            active.kind = kind;
+        }
+        self.now.recall = true;
+    }
+
+    /// The cycle in force as a statement.
+    fn call_up(&mut self, block: Span, out: &mut Batch) {
+        let return_level = self.return_level(block, out);
+        let InForce::Active(active) = &self.state.cycle else {
+            return;
+        };
+        let cycle = Cycle {
+            kind: active.kind.clone(),
+            plane: active.plane,
+            retract: active.retract.clone(),
+            depth: active.depth.clone(),
+            return_level,
+            approach: self.settings.dialect.cycles.approach.into(),
+            feed: active.feed.map(Expr::Num),
+        };
+        self.push(block, Op::StartCycle(Box::new(cycle)), out);
+    }
+
+    /// One hole, or as many as the block says.
+    fn hole(
+        &mut self,
+        said: bool,
+        row: &CycleRow,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let times = self.repeat(words, src, out);
+        let to = self.point(Some(row.depth as u8), block, words, src, out);
+        for turn in 0..times {
+            if self.now.failed {
+                return;
+            }
+            self.push(block, Op::Hole(Move { to: to.clone(), said: said && turn == 0 }), out);
+            if turn > 0 {
+                self.separate(out);
+            }
+            self.holes_made();
+        }
+    }
+
+    /// A hole has used the cycle's feed.
+    fn holes_made(&mut self) {
+        if self.now.skip.is_none() {
+            self.state.cycle_feed = None;
+        }
+    }
+
+    /// How often the block's hole is made.
+    fn repeat(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> u32 {
+        let letter = self.settings.dialect.cycles.repeat;
+        let Some(word) = letter.and_then(|l| words.take(l as u8)) else {
+            return 1;
+        };
+        match self.whole(&word, src, out) {
+            Some(times) if times <= MOST_REPEATS => times,
+            Some(_) => {
+                self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                0
+            }
+            None => 0,
+        }
+    }
+
+    /// The cycle's own words in the block.
+    fn cycle_words(
+        &mut self,
+        row: &CycleRow,
+        distance: Fact<Distance>,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Given {
+        let mut level = |lower: &mut Lower, letter: char| {
+            let word = words.take(letter as u8)?;
+            let num = lower.number(&word, Quantity::Length, src, out)?;
+            Some(Coord { value: Expr::Num(num), distance })
+        };
+        let depth = level(self, row.depth);
+        let retract = level(self, row.retract);
+        let dwell = row.dwell.and_then(|d| {
+            let word = words.take(d.letter as u8)?;
+            self.number(&word, d.quantity, src, out)
+        });
+        let peck = row.peck.and_then(|letter| {
+            let word = words.take(letter as u8)?;
+            let num = self.number(&word, Quantity::Length, src, out)?;
+            if num.is_zero() {
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            }
+            // A peck's sign is ignored by the controls that take one.
+            Some(Num { mantissa: num.mantissa.abs(), ..num })
+        });
+        Given { depth, retract, dwell, peck }
+    }
+
+    fn kind(
+        &mut self,
+        row: &CycleRow,
+        dwell: Option<Num>,
+        peck: Option<Num>,
+        code: &Code,
+        out: &mut Batch,
+    ) -> Option<CycleKind> {
+        match kind_of(row, dwell, peck) {
+            Ok(kind) => Some(kind),
+            Err(letter) => {
+                if !self.now.failed {
+                    self.missing(code, letter, out);
+                }
+                None
+            }
+        }
+    }
+
+    fn missing(&mut self, code: &Code, letter: char, out: &mut Batch) {
+        let word = letter.to_string().into();
+        self.fault(Fault::WordMissing { code: code.row.code.as_str().into(), word }, code.span, out);
+    }
+
+    /// A pattern of holes.
+    pub(super) fn pattern(
+        &mut self,
+        code: &Code,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let Some(row) = self.settings.dialect.pattern_row(&code.row.code) else {
+            return;
+        };
+        if self.state.cycle == InForce::None {
+            self.fault(Fault::NoCycle, code.span, out);
+        }
+        let distance = self.distance(code.span, out);
+        if self.incremental_unknown(distance) {
+            let name = "pattern with incremental words".into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+        }
+        let pattern = match row {
+            PatternRow::Circle { first, centre, step, count, .. } => {
+                self.circle(code, [*first, *centre], *step, *count, distance, words, src, out)
+            }
+            PatternRow::Grid { pitch, counts, serpentine, .. } => {
+                self.grid(code, *pitch, *counts, *serpentine, words, src, out)
+            }
+        };
+        if self.now.recall && matches!(self.state.cycle, InForce::Active(_)) {
+            self.call_up(block, out);
+        }
+        if let Some(pattern) = pattern {
+            self.rely_on_frames(true, block, out);
+            self.push(block, Op::Pattern(Box::new(pattern)), out);
+            self.holes_made();
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)] // The columns of the row.
+    fn circle(
+        &mut self,
+        code: &Code,
+        [first, centre]: [[char; 2]; 2],
+        step: char,
+        count: char,
+        distance: Fact<Distance>,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Pattern> {
+        let count = self.count(code, count, words, src, out);
+        let x = self.needed(code, first[0], Quantity::Length, words, src, out);
+        let y = self.needed(code, first[1], Quantity::Length, words, src, out);
+        let mut turn = self.needed(code, step, Quantity::Angle, words, src, out);
+        let coord = |num: Num, distance| Coord { value: Expr::Num(num), distance };
+        let absolute = Fact::Known(Distance::Absolute);
+        let centre = if words.get(centre[0] as u8).or_else(|| words.get(centre[1] as u8)).is_some() {
+            let i = self.needed(code, centre[0], Quantity::Length, words, src, out)?;
+            let j = self.needed(code, centre[1], Quantity::Length, words, src, out)?;
+            Some([coord(i, absolute), coord(j, absolute)])
+        } else if self.option("g24_centre", code.span, out) == "zero" {
+            let zero = Num::int(0, Unit::Mm);
+            Some([coord(zero, absolute), coord(zero, absolute)])
+        } else {
+            None
+        };
+        let count = count?;
+        if count > 1 && self.option("g24_direction", code.span, out) == "cw" {
+            turn = turn.map(|t| Num { mantissa: -t.mantissa, ..t });
+        }
+        Some(Pattern::Circle {
+            centre,
+            first: [coord(x?, distance), coord(y?, distance)],
+            step: Expr::Num(turn?),
+            count,
+        })
+    }
+
+    #[allow(clippy::too_many_arguments)] // The columns of the row.
+    fn grid(
+        &mut self,
+        code: &Code,
+        pitch: [char; 2],
+        counts: [char; 2],
+        serpentine: bool,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Pattern> {
+        let columns = self.count(code, counts[0], words, src, out);
+        let rows = self.count(code, counts[1], words, src, out);
+        let x = self.needed(code, pitch[0], Quantity::Length, words, src, out);
+        let y = self.needed(code, pitch[1], Quantity::Length, words, src, out);
+        let (columns, rows) = (columns?, rows?);
+        // With two of a kind the pitch is the extent, whatever the words mean.
+        let extent = columns.max(rows) > 2 && self.option("g25_xy", code.span, out) == "extent";
+        let mut row = |letter: char, num: Option<Num>, count: u32| {
+            let num = num?;
+            let pitch = match extent && count > 2 {
+                false => num,
+                true => match divided(num, count - 1) {
+                    Some(pitch) => pitch,
+                    None => {
+                        let word = letter.to_string().into();
+                        return self.refuse(Fault::OutOfRange { word }, code.span, out);
+                    }
+                },
+            };
+            let axis = Axis::from_letter(letter as u8)?;
+            Some(Row { axis, pitch: Expr::Num(pitch), count })
+        };
+        let columns = row(pitch[0], x, columns);
+        let rows = row(pitch[1], y, rows);
+        Some(Pattern::Grid { columns: columns?, rows: rows?, serpentine })
+    }
+
+    /// A word that the code needs.
+    fn needed(
+        &mut self,
+        code: &Code,
+        letter: char,
+        quantity: Quantity,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        match words.take(letter as u8) {
+            Some(word) => self.number(&word, quantity, src, out),
+            None => {
+                self.missing(code, letter, out);
+                None
+            }
+        }
+    }
+
+    /// A number of holes, at least one.
+    fn count(
+        &mut self,
+        code: &Code,
+        letter: char,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<u32> {
+        let Some(word): Option<Word> = words.take(letter as u8) else {
+            self.missing(code, letter, out);
+            return None;
+        };
+        match self.whole(&word, src, out)? {
+            count @ 1..=9999 => Some(count),
+            _ => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+        }
+    }
+}
+
+/// A cycle's words in one block.
+struct Given {
+    depth: Option<Coord>,
+    retract: Option<Coord>,
+    dwell: Option<Num>,
+    peck: Option<Num>,
+}
+
+/// The cycle of a row; `Err` with the letter of the word that it lacks.
+fn kind_of(row: &CycleRow, dwell: Option<Num>, peck: Option<Num>) -> Result<CycleKind, char> {
+    let bottom = dwell.filter(|_| row.dwell.is_some()).map(Expr::Num);
+    Ok(match row.kind.as_str() {
+        "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
+        "drill-peck" => CycleKind::DrillPeck {
+            peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
+            clearance: Clearance::Parameter,
+            dwell: bottom,
+        },
+        "bore" => CycleKind::Bore { dwell: bottom },
+        // The loader lets no other kind pass.
+        _ => CycleKind::Drill,
+    })
+}
+
+/// A length divided by a count: exactly, or to a nano.
+fn divided(num: Num, by: u32) -> Option<Num> {
+    let by = i64::from(by);
+    if num.mantissa % by == 0 {
+        return Some(Num { mantissa: num.mantissa / by, ..num });
+    }
+    // Digits are added until it comes out even, at most nine after the point.
+    let mut wide = num;
+    while wide.scale < 9 {
+        wide = Num { mantissa: wide.mantissa.checked_mul(10)?, scale: wide.scale + 1, point: true, ..wide };
+        if wide.mantissa % by == 0 {
+            return Some(Num { mantissa: wide.mantissa / by, ..wide });
+        }
+    }
+    let half = by / 2 * wide.mantissa.signum();
+    Some(Num { mantissa: (wide.mantissa + half) / by, ..wide })
+}

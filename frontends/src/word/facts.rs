@@ -1,0 +1,315 @@
+//! What a program has said so far: modal facts, the cycle in force, and what was taken for granted.
+//!
+//! A fact that the program never said is taken from the dictionary's state at power-on if the
+//! source is a user's, and stays open if it is not. After a call, and after a block that a switch
+//! may skip, a fact is lost: what is in force then is only known when the program runs.
+//!
+//! Not here: what a control has in force at run time; that is execution's.
+
+use ncc_dialects::PowerOnFact;
+use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel, Units};
+use ncc_ir::cycle::CycleKind;
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::num::Num;
+use ncc_ir::program::Coord;
+use ncc_ir::source::Span;
+
+use super::lower::Lower;
+use crate::Batch;
+
+/// What is known of a modal fact.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Know<T> {
+    /// The program has not said it.
+    #[default]
+    Unsaid,
+    /// The program has said it.
+    Said(T),
+    /// The program relies on it and never said it: taken for granted.
+    Taken(T),
+    /// Said on some way to here, or by somebody else.
+    Lost,
+}
+
+impl<T: Copy> Know<T> {
+    /// The fact, without taking anything for granted.
+    pub(super) fn fact(self) -> Fact<T> {
+        match self {
+            Know::Said(value) | Know::Taken(value) => Fact::Known(value),
+            Know::Unsaid | Know::Lost => Fact::Entry,
+        }
+    }
+
+    pub(super) fn value(self) -> Option<T> {
+        self.fact().known()
+    }
+}
+
+impl<T: PartialEq> Know<T> {
+    /// What is known after a block that may have been skipped; `before` is what was before it.
+    fn join(&mut self, before: Know<T>) {
+        // What was taken for granted in the block holds without it as well.
+        let taken = matches!((&before, &self), (Know::Unsaid, Know::Taken(_)));
+        if *self != before && !taken {
+            *self = Know::Lost;
+        }
+    }
+}
+
+/// A cycle in force, with the words that stay in force with it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Active {
+    /// Index of its row among the dictionary's cycles.
+    pub(super) row: usize,
+    pub(super) plane: Fact<Plane>,
+    pub(super) retract: Coord,
+    pub(super) depth: Coord,
+    pub(super) kind: CycleKind,
+    pub(super) dwell: Option<Num>,
+    pub(super) peck: Option<Num>,
+    /// Feed of the cycle's own block.
+    pub(super) feed: Option<Num>,
+}
+
+/// Whether a cycle is in force.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum InForce {
+    #[default]
+    None,
+    Active(Box<Active>),
+    /// Only known when the program runs.
+    Lost,
+}
+
+/// All that a block's meaning depends on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    pub(super) units: Know<Units>,
+    pub(super) distance: Know<Distance>,
+    pub(super) plane: Know<Plane>,
+    pub(super) feed_mode: Know<FeedMode>,
+    pub(super) return_level: Know<ReturnLevel>,
+    pub(super) work_offset: Know<u16>,
+    /// Whether any length offset was said.
+    pub(super) length_offset: Know<()>,
+    pub(super) no_shift: Know<bool>,
+    /// What bare axis words do outside cycles.
+    pub(super) motion: Know<Motion>,
+    /// A cycle has ended without a motion code: whether the motion before it is in force again is
+    /// the control's way.
+    pub(super) after_cycle: bool,
+    /// Whether a feed was said.
+    pub(super) feed: Know<()>,
+    /// Whether a tool was selected.
+    pub(super) tool: Know<()>,
+    pub(super) cycle: InForce,
+    /// A feed that was said in a cycle's block and that no hole has used yet.
+    pub(super) cycle_feed: Option<Num>,
+}
+
+impl State {
+    /// Nothing is known, and nothing is to be taken for granted: a subprogram, after a call.
+    pub(super) fn lost() -> State {
+        State {
+            units: Know::Lost,
+            distance: Know::Lost,
+            plane: Know::Lost,
+            feed_mode: Know::Lost,
+            return_level: Know::Lost,
+            work_offset: Know::Lost,
+            length_offset: Know::Lost,
+            no_shift: Know::Lost,
+            motion: Know::Lost,
+            after_cycle: false,
+            feed: Know::Lost,
+            tool: Know::Lost,
+            cycle: InForce::Lost,
+            cycle_feed: None,
+        }
+    }
+
+    /// What is known after a block that may have been skipped.
+    pub(super) fn join(&mut self, before: &State) {
+        self.units.join(before.units);
+        self.distance.join(before.distance);
+        self.plane.join(before.plane);
+        self.feed_mode.join(before.feed_mode);
+        self.return_level.join(before.return_level);
+        self.work_offset.join(before.work_offset);
+        self.length_offset.join(before.length_offset);
+        self.no_shift.join(before.no_shift);
+        self.motion.join(before.motion);
+        self.feed.join(before.feed);
+        self.tool.join(before.tool);
+        self.after_cycle |= before.after_cycle;
+        if self.cycle != before.cycle {
+            self.cycle = InForce::Lost;
+        }
+        self.cycle_feed = self.cycle_feed.or(before.cycle_feed);
+    }
+}
+
+/// Takes a fact for granted. Gives what is to be reported: the value, if not every such control
+/// has it so.
+fn take<T: Copy, U: Copy + From<T>>(
+    know: &mut Know<U>,
+    assumed: &mut Option<U>,
+    power_on: &Option<PowerOnFact<T>>,
+) -> Option<U> {
+    let row = power_on.as_ref()?;
+    let value = U::from(row.value);
+    *know = Know::Taken(value);
+    *assumed = Some(value);
+    (!row.always).then_some(value)
+}
+
+/// Facts as they are asked for. Each is reported once, where the program first relies on it.
+impl Lower {
+    pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
+        if self.assume && self.state.distance == Know::Unsaid {
+            let (know, row) = (&mut self.state.distance, &self.settings.dialect.power_on.distance);
+            let value = take(know, &mut out.assumed.distance, row).map(|d| match d {
+                Distance::Absolute => "absolute",
+                Distance::Incremental => "incremental",
+            });
+            report(out, at, ModeName::Distance, value);
+        }
+        self.state.distance.fact()
+    }
+
+    pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
+        if self.assume && self.state.units == Know::Unsaid {
+            let (know, row) = (&mut self.state.units, &self.settings.dialect.power_on.units);
+            let value = take(know, &mut out.assumed.units, row).map(|u| match u {
+                Units::Mm => "mm",
+                Units::Inch => "inch",
+            });
+            report(out, at, ModeName::Units, value);
+        }
+        self.state.units.fact()
+    }
+
+    pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
+        if self.assume && self.state.plane == Know::Unsaid {
+            let (know, row) = (&mut self.state.plane, &self.settings.dialect.power_on.plane);
+            let value = take(know, &mut out.assumed.plane, row).map(|p| match p {
+                Plane::Xy => "XY",
+                Plane::Zx => "ZX",
+                Plane::Yz => "YZ",
+            });
+            report(out, at, ModeName::Plane, value);
+        }
+        self.state.plane.fact()
+    }
+
+    /// A feed word relies on what it counts.
+    pub(super) fn rely_on_feed_mode(&mut self, at: Span, out: &mut Batch) {
+        if self.assume && self.state.feed_mode == Know::Unsaid {
+            let (know, row) = (&mut self.state.feed_mode, &self.settings.dialect.power_on.feed_mode);
+            let value = take(know, &mut out.assumed.feed_mode, row).map(|f| match f {
+                FeedMode::PerMinute => "per minute",
+                FeedMode::PerRevolution => "per revolution",
+                FeedMode::InverseTime => "inverse time",
+            });
+            report(out, at, ModeName::FeedMode, value);
+        }
+    }
+
+    pub(super) fn return_level(&mut self, at: Span, out: &mut Batch) -> Fact<ReturnLevel> {
+        if let Some(level) = self.settings.dialect.cycles.return_level {
+            return Fact::Known(level.into());
+        }
+        if self.assume && self.state.return_level == Know::Unsaid {
+            let (know, row) = (&mut self.state.return_level, &self.settings.dialect.power_on.return_level);
+            let value = take(know, &mut out.assumed.return_level, row).map(|r| match r {
+                ReturnLevel::Initial => "initial level",
+                ReturnLevel::Retract => "retract plane",
+            });
+            report(out, at, ModeName::ReturnLevel, value);
+        }
+        self.state.return_level.fact()
+    }
+
+    /// A move relies on the frames between machine and program, and with the drilling axis on the
+    /// length offset.
+    pub(super) fn rely_on_frames(&mut self, with_z: bool, at: Span, out: &mut Batch) {
+        if !self.assume {
+            return;
+        }
+        let power_on = &self.settings.dialect.power_on;
+        if self.state.work_offset == Know::Unsaid {
+            let know = &mut self.state.work_offset;
+            if let Some(offset) = take(know, &mut out.assumed.work_offset, &power_on.work_offset) {
+                if self.settings.dialect.caps.work_offsets == 0 {
+                    out.report(Fault::AssumedWorkOffset { offset }, at);
+                } else {
+                    report(out, at, ModeName::WorkOffset, Some(&offset.to_string()));
+                }
+            }
+        }
+        if self.state.no_shift == Know::Unsaid {
+            let value =
+                take(&mut self.state.no_shift, &mut out.assumed.no_origin_shift, &power_on.no_origin_shift);
+            report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+        }
+        if with_z
+            && self.state.length_offset == Know::Unsaid
+            && let Some(row) = &power_on.length_offset
+        {
+            self.state.length_offset = Know::Taken(());
+            out.assumed.length_offset = Some(row.value);
+            if !row.always {
+                report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
+            }
+        }
+    }
+
+    /// What bare axis words do: `None` if that is only known when the program runs.
+    ///
+    /// # Errors
+    /// The program has not said it, and nothing may be taken for granted.
+    pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
+        let power_on = &self.settings.dialect.power_on.motion;
+        match self.state.motion {
+            Know::Lost => Ok(None),
+            Know::Unsaid if !self.assume => Ok(None),
+            Know::Unsaid => match take(&mut self.state.motion, &mut out.assumed.motion, power_on) {
+                None if self.state.motion == Know::Unsaid => {
+                    out.report(Fault::NoMotionMode, at);
+                    Err(())
+                }
+                value => {
+                    report(out, at, ModeName::Motion, value.map(motion_name));
+                    Ok(self.state.motion.value())
+                }
+            },
+            Know::Said(motion) | Know::Taken(motion) => {
+                if self.state.after_cycle {
+                    if !self.assume {
+                        return Ok(None);
+                    }
+                    self.state.after_cycle = false;
+                    if !std::mem::replace(&mut self.reported.after_cycle, true) {
+                        report(out, at, ModeName::Motion, Some(motion_name(motion)));
+                    }
+                }
+                Ok(Some(motion))
+            }
+        }
+    }
+}
+
+fn motion_name(motion: Motion) -> &'static str {
+    match motion {
+        Motion::Traverse => "rapid",
+        Motion::Feed => "line at feed",
+        Motion::Arc(_) => "arc",
+        Motion::Cycle => "cycle",
+    }
+}
+
+fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&str>) {
+    if let Some(value) = value {
+        out.report(Fault::AssumedMode { fact, value: value.into() }, at);
+    }
+}

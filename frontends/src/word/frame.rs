@@ -1,0 +1,225 @@
+//! The frame of a text: start and end marks, program numbers and titles, what is subprogram and
+//! what is main, the end, and texts that are none.
+//!
+//! The first program of a text is the main one; each further program number begins a subprogram.
+
+use ncc_dialects::Dialect;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Procedure, Text};
+use ncc_ir::source::Span;
+
+use super::block::{Value, Word};
+use super::facts::State;
+use super::lower::decode;
+use super::{Reader, Source};
+use crate::Batch;
+
+/// Characters that no text has, before reading is given up.
+const MOST_CONTROL_SIGNS: u32 = 16;
+
+/// End of a text file in old systems; nothing may follow it.
+const CONTROL_Z: u8 = 0x1A;
+
+/// How far the frame of the text is.
+#[derive(Debug)]
+pub(super) struct Frame {
+    /// Line that stands before and after the program; empty for none.
+    mark: &'static str,
+    /// Letter of the program number and the sign that may stand for it; 0 for none.
+    number: [u8; 2],
+    title: bool,
+    /// Whether the mark that opens the text has been met.
+    opened: bool,
+    /// Nothing is read any more: the closing mark has been met.
+    pub(super) closed: bool,
+    /// Whether any block with words has been met.
+    pub(super) blocks: bool,
+    /// Whether anything was refused.
+    pub(super) faulty: bool,
+    /// Whether text after the end was reported.
+    after_end: bool,
+    /// Not a text; nothing is read any more.
+    pub(super) is_binary: bool,
+    control_signs: u32,
+    /// Numbers of the programs met.
+    numbers: Vec<u32>,
+    /// End of what has been read.
+    pub(super) end: u32,
+}
+
+impl Frame {
+    pub(super) fn new(dialect: &'static Dialect) -> Frame {
+        let program = &dialect.program;
+        let sign = |c: Option<char>| c.map_or(0, |c| c as u8);
+        Frame {
+            mark: &program.frame,
+            number: [sign(program.number), sign(program.number_also)],
+            title: program.title,
+            opened: false,
+            closed: false,
+            blocks: false,
+            faulty: false,
+            after_end: false,
+            is_binary: false,
+            control_signs: 0,
+            numbers: Vec::new(),
+            end: 0,
+        }
+    }
+}
+
+impl Reader {
+    /// Lines that belong to the frame, and all after the end; `true` if it was one.
+    pub(super) fn framing(&mut self, line: &[u8], span: Span, out: &mut Batch) -> bool {
+        let text = line.trim_ascii();
+        if text.first() == Some(&CONTROL_Z) {
+            self.frame.closed = true;
+            return text.iter().all(|&b| b == CONTROL_Z) || self.text_after_end(span, out);
+        }
+        if self.frame.closed {
+            return text.is_empty() || self.text_after_end(span, out);
+        }
+        let mark = self.frame.mark.as_bytes();
+        if mark.is_empty() || !text.starts_with(mark) {
+            // A blank line after the end is nothing.
+            return self.lower.ended && text.is_empty();
+        }
+        // The rest of the opening line is a leader, which controls ignore.
+        if self.frame.opened || self.frame.blocks || !self.frame.numbers.is_empty() {
+            self.end_of_program(out);
+            self.frame.closed = true;
+        }
+        self.frame.opened = true;
+        true
+    }
+
+    fn text_after_end(&mut self, span: Span, out: &mut Batch) -> bool {
+        if !std::mem::replace(&mut self.frame.after_end, true) {
+            out.report(Fault::TextAfterEnd, span);
+        }
+        true
+    }
+
+    /// A block after the program's end: it is never reached.
+    pub(super) fn after_end(&mut self, src: Source, out: &mut Batch) {
+        if self.block.words.is_empty() && self.block.faults.is_empty() && self.block.skip == 0 {
+            return self.lower.block(&self.block, src, out);
+        }
+        self.text_after_end(self.block.span, out);
+    }
+
+    /// A program number at the head of a block; `true` if the block is over with it.
+    pub(super) fn program_word(&mut self, src: Source, out: &mut Batch) -> bool {
+        let first = self.block.words.first().copied();
+        let Some(word) = first.filter(|w| w.letter != 0 && self.frame.number.contains(&w.letter)) else {
+            return false;
+        };
+        let number = match word.value {
+            Value::Number(d) if !d.point && d.mantissa > 0 => u32::try_from(d.mantissa).ok(),
+            Value::Number(_) | Value::None => None,
+        };
+        let Some(number) = number else {
+            out.report(Fault::OutOfRange { word: src.text(word.span) }, word.span);
+            self.frame.faulty = true;
+            return true;
+        };
+        self.begin_program(number, word, src, out);
+        self.block.words.remove(0);
+        if self.frame.title && !self.block.comments.is_empty() {
+            self.block.comments.remove(0);
+        }
+        self.block.words.is_empty()
+            && self.block.comments.is_empty()
+            && self.block.skip == 0
+            && self.block.faults.is_empty()
+    }
+
+    fn begin_program(&mut self, number: u32, word: Word, src: Source, out: &mut Batch) {
+        let title: Option<Text> = match self.block.comments.first() {
+            Some(&comment) if self.frame.title => Some(decode(src.bytes(comment))),
+            Some(_) | None => None,
+        };
+        if self.frame.numbers.contains(&number) {
+            out.report(Fault::ProgramTwice { name: number.to_string().into() }, word.span);
+            self.frame.faulty = true;
+        }
+        let is_main = self.frame.numbers.is_empty() && !self.frame.blocks;
+        self.frame.numbers.push(number);
+        if is_main {
+            out.name.number = Some(number);
+            out.name.title = title;
+            return;
+        }
+        self.end_of_program(out);
+        self.lower.sub = Some(Procedure { name: number.to_string().into(), title, ..Procedure::default() });
+        self.lower.ended = false;
+        self.lower.state = State::lost();
+        self.lower.refresh();
+        out.whole = true;
+    }
+
+    /// The program that is being read is over.
+    pub(super) fn end_of_program(&mut self, out: &mut Batch) {
+        if self.frame.closed {
+            return;
+        }
+        let in_sub = self.lower.sub.is_some();
+        let expected = in_sub || self.frame.blocks;
+        if expected && !self.lower.ended && !self.frame.faulty {
+            let end = self.frame.end;
+            let at = match self.lower.target(out).last() {
+                Some(stmt) => stmt.span,
+                None => Span::new(end.saturating_sub(1), end),
+            };
+            out.report(Fault::NoProgramEnd, at);
+        }
+        if let Some(procedure) = self.lower.sub.take() {
+            out.procedures.push(procedure);
+        }
+        self.lower.ended = true;
+    }
+
+    /// The whole text is over.
+    pub(super) fn end_of_text(&mut self, out: &mut Batch) {
+        if !self.frame.blocks && !self.frame.faulty {
+            out.report(Fault::EmptyProgram, Span::new(0, 0));
+        }
+    }
+
+    /// Signs that no text has; many of them, and it is none.
+    pub(super) fn control_signs(&mut self, out: &mut Batch) {
+        let found = self.block.faults.iter().find_map(|(fault, span)| match fault {
+            Fault::UnexpectedCharacter { found } if found.is_control() => Some(*span),
+            _ => None,
+        });
+        if let Some(span) = found {
+            self.frame.control_signs += 1;
+            if self.frame.control_signs > MOST_CONTROL_SIGNS {
+                self.not_text(span, out);
+            }
+        }
+    }
+
+    /// This is no text: nothing more is read.
+    pub(super) fn not_text(&mut self, span: Span, out: &mut Batch) {
+        self.frame.is_binary = true;
+        self.frame.faulty = true;
+        out.report(Fault::NotText, span);
+    }
+
+    /// The letter O where a zero is meant: as the number of a letter that has none (`GOX-15.`,
+    /// `GZO`), or without a number behind another word's digits (`X1O`).
+    pub(super) fn check_letters(&mut self, src: Source) {
+        let block = &mut self.block;
+        for pair in block.words.windows(2) {
+            let (word, next) = (&pair[0], &pair[1]);
+            let is_number = word.value == Value::None;
+            let adjoining = word.span.end == next.span.start && next.value == Value::None;
+            if next.letter == b'O' && (is_number || adjoining) {
+                debug_assert!(!src.bytes(next.span).is_empty());
+                let letter = Span::new(next.span.start, next.span.start + 1);
+                block.faults.push((Fault::LetterOForZero, letter));
+            }
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! The reader of the word-address family: all dialects of letters and numbers, told apart by their
+//! dictionaries alone.
+//!
+//! A line goes to the recogniser of plain blocks first (`plain`), and to the lexer (`token`) and
+//! the grammar (`block.lalrpop`) if it is not one. Its words are then lowered to statements
+//! (`lower` and its neighbours) with what the program has said so far (`facts`).
+//!
+//! Reading never fails: a block with a fault gives diagnostics and no statements, and reading goes
+//! on at the next one. What a dictionary does not have is refused, never skipped.
+//!
+//! Not here: what execution makes of a program, and everything about files.
+
+mod block;
+mod call;
+mod cycle;
+mod facts;
+mod fast;
+mod frame;
+mod lower;
+mod motion;
+mod number;
+mod plain;
+mod token;
+
+use ncc_dialects::Settings;
+use ncc_ir::diag::Fault;
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use block::Block;
+use frame::Frame;
+use lower::Lower;
+use token::Signs;
+
+/// A piece of the source with the place of its first byte.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source<'s> {
+    text: &'s [u8],
+    base: u32,
+}
+
+impl Source<'_> {
+    /// The bytes of a span.
+    fn bytes(&self, span: Span) -> &[u8] {
+        let at = |place: u32| place.saturating_sub(self.base) as usize;
+        self.text.get(at(span.start)..at(span.end)).unwrap_or_default()
+    }
+
+    /// The text of a span.
+    fn text(&self, span: Span) -> Box<str> {
+        String::from_utf8_lossy(self.bytes(span)).into()
+    }
+}
+
+/// Reads one text, piece by piece.
+#[derive(Debug)]
+pub struct Reader {
+    lower: Lower,
+    frame: Frame,
+    signs: Signs,
+    block: Block,
+    /// Longest block, in bytes.
+    longest: usize,
+}
+
+impl Reader {
+    /// A reader of one text. With `assume`, what the program relies on and never says is taken
+    /// from the dictionary and reported; without, it stays open and nothing is reported of it.
+    pub fn new(settings: Settings, assume: bool) -> Reader {
+        let dialect = settings.dialect;
+        Reader {
+            signs: Signs::new(dialect),
+            frame: Frame::new(dialect),
+            longest: match dialect.block.longest {
+                0 => usize::MAX,
+                longest => longest as usize,
+            },
+            lower: Lower::new(settings, assume),
+            block: Block::default(),
+        }
+    }
+
+    /// Reads further whole lines; `base` is the place of their first byte in the source.
+    pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        if self.frame.is_binary {
+            return;
+        }
+        if let Some(at) = memchr::memchr(0, text) {
+            let at = base + at as u32;
+            return self.not_text(Span::new(at, at + 1), out);
+        }
+        let src = Source { text, base };
+        let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
+        self.frame.end = base + text.len() as u32;
+        while at < text.len() {
+            if !self.frame.closed && !self.lower.ended
+                && let Some(end) = plain::read(text, at, base, &mut self.block.words)
+                    && end - at <= self.longest {
+                        if !self.lower.fast_move(&self.block.words, out) {
+                            self.plain_block(at, end, src, out);
+                        }
+                        at = end + 1;
+                        continue;
+                    }
+            let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |len| at + len);
+            self.line(at, end, src, out);
+            if self.frame.is_binary {
+                return;
+            }
+            at = end + 1;
+        }
+    }
+
+    /// A line that is too long to be handed over: only its place is known.
+    pub fn too_long(&mut self, span: Span, out: &mut Batch) {
+        let limit = self.longest.min(u32::MAX as usize) as u32;
+        out.report(Fault::BlockTooLong { limit }, span);
+        self.frame.faulty = true;
+        self.frame.end = self.frame.end.max(span.end);
+        self.lower.forgive();
+        self.lower.refresh();
+    }
+
+    /// The end of the text.
+    pub fn finish(&mut self, out: &mut Batch) {
+        if !self.frame.is_binary {
+            self.end_of_program(out);
+            self.end_of_text(out);
+        }
+    }
+
+    /// A block that the recogniser has read.
+    fn plain_block(&mut self, start: usize, end: usize, src: Source, out: &mut Batch) {
+        let words = std::mem::take(&mut self.block.words);
+        self.block.clear();
+        self.block.words = words;
+        if let (Some(first), Some(last)) = (self.block.words.first(), self.block.words.last()) {
+            self.block.span = Span::new(first.span.start, last.span.end);
+        }
+        debug_assert!(start < end);
+        self.meaning(src, out);
+    }
+
+    /// A line that is not plain.
+    fn line(&mut self, start: usize, mut end: usize, src: Source, out: &mut Batch) {
+        while end > start && src.text[end - 1] == b'\r' {
+            end -= 1;
+        }
+        let span = Span::new(src.base + start as u32, src.base + end as u32);
+        if end - start > self.longest {
+            return self.too_long(span, out);
+        }
+        let line = &src.text[start..end];
+        if self.framing(line, span, out) {
+            return;
+        }
+        let base = src.base + start as u32;
+        let mut from = 0;
+        loop {
+            self.block.clear();
+            let next = block::parse(line, from, base, self.signs, &mut self.block);
+            self.block.span = trimmed(src, self.block.span);
+            self.check_letters(src);
+            self.control_signs(out);
+            if self.frame.is_binary {
+                return;
+            }
+            self.meaning(src, out);
+            match next {
+                // A sign at the very end of the line ends the block with it.
+                Some(at) if !line[at..].iter().all(|b| b.is_ascii_whitespace()) => from = at,
+                Some(_) | None => return,
+            }
+        }
+    }
+
+    /// A block, whichever way it was read.
+    fn meaning(&mut self, src: Source, out: &mut Batch) {
+        if self.program_word(src, out) {
+            return;
+        }
+        if self.lower.ended {
+            return self.after_end(src, out);
+        }
+        self.frame.blocks |= !self.block.words.is_empty() || self.block.skip != 0;
+        self.frame.faulty |= !self.block.faults.is_empty();
+        self.lower.block(&self.block, src, out);
+        self.frame.faulty |= self.lower.now.failed;
+    }
+}
+
+/// A span without blanks at its ends.
+fn trimmed(src: Source, span: Span) -> Span {
+    let bytes = src.bytes(span);
+    let lead = bytes.iter().take_while(|b| b.is_ascii_whitespace()).count() as u32;
+    let trail = bytes.iter().rev().take_while(|b| b.is_ascii_whitespace()).count() as u32;
+    match lead as usize == bytes.len() {
+        true => Span::new(span.start, span.start),
+        false => Span::new(span.start + lead, span.end - trail),
+    }
+}

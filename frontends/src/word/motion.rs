@@ -1,0 +1,224 @@
+//! Lowering of moves: lines, arcs and bare axis words.
+//!
+//! Not here: holes, which are cycles' business.
+
+use ncc_dialects::{Meaning, Quantity, Role};
+use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, Turn};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::facts::{InForce, Know};
+use super::lower::{Code, Lower, Words, motion_of};
+use crate::Batch;
+
+impl Lower {
+    /// Codes of motion, cycles and patterns, with the block's axis words.
+    pub(super) fn motion_codes(
+        &mut self,
+        codes: &[Code],
+        dwell: bool,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let find = |wanted: fn(Meaning) -> bool| codes.iter().find(|c| wanted(c.meaning));
+        let cycle = find(|m| m == Meaning::StartCycle);
+        let pattern = find(|m| m == Meaning::Pattern);
+        if let Some(end) = find(|m| m == Meaning::EndCycle) {
+            self.push(end.span, Op::EndCycle, out);
+            self.state.cycle = InForce::None;
+            self.state.after_cycle = true;
+        }
+        let motion = codes.iter().find_map(|c| Some((c, motion_of(c.meaning)?)));
+        if let Some((code, motion)) = motion {
+            // With a cycle's code after it, it only says what is in force when the cycle is over.
+            let excluded = pattern.or_else(|| cycle.filter(|c| c.at < code.at));
+            if let Some(other) = excluded {
+                let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(code.span) };
+                self.now.failed = true;
+                out.diagnostics.push(Diagnostic { fault, span: code.span, related: vec![other.span] });
+            }
+            if cycle.is_none() && pattern.is_none() {
+                if matches!(self.state.cycle, InForce::Active(_)) {
+                    self.push(code.span, Op::EndCycle, out);
+                }
+                self.state.cycle = InForce::None;
+            }
+            self.state.motion = Know::Said(motion);
+            self.state.after_cycle = false;
+        }
+        if let (Some(cycle), Some(pattern)) = (cycle, pattern) {
+            let fault = Fault::CodesExclude { first: src.text(cycle.span), second: src.text(pattern.span) };
+            return self.fault(fault, pattern.span, out);
+        }
+        match (cycle, pattern) {
+            (Some(code), _) => self.start_cycle(code, dwell, block, words, src, out),
+            (None, Some(code)) => self.pattern(code, block, words, src, out),
+            (None, None) => match &self.state.cycle {
+                InForce::Active(_) => self.in_cycle(dwell, block, words, src, out),
+                InForce::None | InForce::Lost if dwell => {}
+                InForce::Lost => self.position(block, words, src, out),
+                InForce::None => self.plain_motion(motion.is_some(), block, words, src, out),
+            },
+        }
+    }
+
+    /// Axis words outside cycles.
+    fn plain_motion(&mut self, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
+        let arc_now = matches!(self.state.motion.value(), Some(Motion::Arc(_)));
+        if !(self.has_axis_word(words) || arc_now && self.has_arc_word(words)) {
+            return;
+        }
+        match self.motion(block, out) {
+            Err(()) => self.give_up(words),
+            Ok(None | Some(Motion::Cycle)) => self.position(block, words, src, out),
+            Ok(Some(Motion::Traverse)) => {
+                let to = self.point(None, block, words, src, out);
+                self.push(block, Op::StraightTraverse(Move { to, said }), out);
+            }
+            Ok(Some(Motion::Feed)) => {
+                self.rely_on_feed(block, out);
+                let to = self.point(None, block, words, src, out);
+                self.push(block, Op::StraightFeed(Move { to, said }), out);
+            }
+            Ok(Some(Motion::Arc(turn))) => {
+                self.rely_on_feed(block, out);
+                self.arc(turn, said, block, words, src, out);
+            }
+        }
+    }
+
+    /// A refused block: its words are not blamed as well.
+    fn give_up(&mut self, words: &mut Words) {
+        self.now.failed = true;
+        for axis in Axis::ALL {
+            words.take(axis.letter());
+        }
+    }
+
+    /// Axis words that do whatever is in force when the program runs.
+    fn position(&mut self, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
+        if self.has_axis_word(words) {
+            let to = self.point(None, block, words, src, out);
+            self.push(block, Op::Position(Move { to, said: false }), out);
+        }
+    }
+
+    /// Whether an axis word is left.
+    pub(super) fn has_axis_word(&self, words: &Words) -> bool {
+        Axis::ALL.iter().any(|&a| self.axis_row(a).is_some() && words.get(a.letter()).is_some())
+    }
+
+    fn has_arc_word(&self, words: &Words) -> bool {
+        [Role::CentreX, Role::CentreY, Role::CentreZ, Role::Radius]
+            .into_iter()
+            .any(|role| self.letter(role).is_some_and(|l| words.get(l).is_some()))
+    }
+
+    /// A move at feed relies on a feed.
+    pub(super) fn rely_on_feed(&mut self, block: Span, out: &mut Batch) {
+        if let Some(feed) = self.state.cycle_feed.take() {
+            self.push(block, Op::SetFeedRate(Expr::Num(feed)), out);
+        }
+        if self.state.feed == Know::Unsaid {
+            self.fault(Fault::NoFeed, block, out);
+        }
+    }
+
+    /// The axis words that are left, but for one axis.
+    pub(super) fn point(
+        &mut self,
+        without: Option<u8>,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Point {
+        let mut to = Point::default();
+        for axis in Axis::ALL {
+            let letter = axis.letter();
+            if Some(letter) == without {
+                continue;
+            }
+            let Some(row) = self.axis_row(axis) else {
+                continue;
+            };
+            if let Some(word) = words.take(letter) {
+                let distance = self.distance(word.span, out);
+                if let Some(num) = self.number(&word, row.quantity, src, out) {
+                    to.set(axis, Coord { value: Expr::Num(num), distance });
+                }
+            }
+        }
+        let with_z = to.get(Axis::Z).is_some() || without.is_some();
+        self.rely_on_frames(with_z, block, out);
+        to
+    }
+
+    fn arc(&mut self, turn: Turn, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
+        let rules = &self.settings.dialect.arc;
+        let plane = self.plane(block, out);
+        let to = self.point(None, block, words, src, out);
+        if let (Fact::Known(plane), false) = (plane, rules.helix) {
+            let normal = plane.axes().2;
+            if to.get(normal).is_some() {
+                let code = char::from(normal.letter()).to_string().into();
+                let name = "arc with a third axis".into();
+                self.fault(Fault::NotSupported { code, name }, block, out);
+            }
+        }
+        let radius = self.take_role(Role::Radius, words);
+        let mut centre = [None, None, None];
+        for (place, role) in [Role::CentreX, Role::CentreY, Role::CentreZ].into_iter().enumerate() {
+            // The word along the normal is left, and blamed as one that nothing uses.
+            if matches!(plane, Fact::Known(p) if p.axes().2 as usize == place) {
+                continue;
+            }
+            if let Some(word) = self.take_role(role, words) {
+                centre[place] = self.number(&word, Quantity::Length, src, out).map(Expr::Num);
+            }
+        }
+        let by_centre = centre.iter().any(Option::is_some);
+        let centre = match radius {
+            Some(word) if by_centre => {
+                return self.fault(Fault::ArcCentreAndRadius, word.span, out);
+            }
+            Some(word) => {
+                if no_way(plane, &to) {
+                    self.fault(Fault::ArcRadiusNoWay, block, out);
+                }
+                match self.number(&word, Quantity::Length, src, out) {
+                    Some(num) => Centre::Radius(Expr::Num(num)),
+                    None => return,
+                }
+            }
+            None if by_centre => {
+                let from = if rules.centre_absolute { CentreFrom::Zero } else { CentreFrom::Start };
+                Centre::Point { words: centre, from }
+            }
+            None if self.now.failed => return,
+            None => return self.fault(Fault::ArcWithoutCentre, block, out),
+        };
+        self.push(block, Op::ArcFeed(Arc { plane, turn, to, centre, turns: 0, said }), out);
+    }
+
+    /// Whether words are incremental where the dialect's cycles are not known to take them.
+    pub(super) fn incremental_unknown(&self, distance: Fact<Distance>) -> bool {
+        distance == Fact::Known(Distance::Incremental) && !self.settings.dialect.cycles.incremental
+    }
+}
+
+/// Whether an arc by radius has no end point in its plane.
+fn no_way(plane: Fact<Plane>, to: &Point) -> bool {
+    match plane {
+        Fact::Known(plane) => {
+            let (first, second, _) = plane.axes();
+            to.get(first).is_none() && to.get(second).is_none()
+        }
+        Fact::Entry => to.is_empty(),
+    }
+}

@@ -1,0 +1,170 @@
+//! Numbers of words: from digits to a literal with its unit, by the dictionary's number rules.
+//!
+//! A number without a decimal point is read by the dialect's rule, and a rule that is in doubt is
+//! reported once for each kind of quantity. Nothing is rounded.
+
+use ncc_dialects::{Bare, Quantity};
+use ncc_ir::canon::{Fact, Units};
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::block::{Digits, Value, Word};
+use super::lower::Lower;
+use crate::Batch;
+
+/// Units of a program as far as they matter to numbers whose unit is open.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct UnitsSeen {
+    /// The units that the program has said.
+    pub(super) only: Option<Units>,
+    /// Whether it has said both.
+    pub(super) mixed: bool,
+    /// The first number that was scaled by `only` though the units in force there are open.
+    pub(super) relied: Option<Span>,
+}
+
+impl Lower {
+    /// The literal of a word; `None` if it is refused (reported).
+    pub(super) fn number(
+        &mut self,
+        word: &Word,
+        quantity: Quantity,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let digits = match word.value {
+            Value::Number(digits) => digits,
+            Value::None => Digits { mantissa: 0, scale: 0, point: false },
+        };
+        let rules = self.rules[quantity as usize];
+        if rules.unsigned && digits.mantissa < 0 {
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+        }
+        let (unit, units) = match quantity {
+            Quantity::Length | Quantity::Feed => {
+                let units = self.units(word.span, out);
+                (unit_of(units), units)
+            }
+            Quantity::Angle => (Unit::Degree, Fact::Entry),
+            Quantity::Seconds => (Unit::Second, Fact::Entry),
+            Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => {
+                if digits.point {
+                    return self.refuse(Fault::PointNotAllowed { word: src.text(word.span) }, word.span, out);
+                }
+                if quantity == Quantity::Milliseconds {
+                    return Some(Num {
+                        mantissa: digits.mantissa,
+                        scale: 3,
+                        point: true,
+                        unit: Unit::Second,
+                    });
+                }
+                (Unit::One, Fact::Entry)
+            }
+        };
+        let mut num = Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit };
+        if !num.point && num.mantissa != 0 {
+            match rules.bare {
+                Bare::Units => {}
+                Bare::UnitsUnsure => self.assume_bare(word, num, quantity, src, out),
+                Bare::Increments => {
+                    let by_units = unit == Unit::Mm || unit == Unit::Inch || unit == Unit::Entry;
+                    let shift = match rules.increment_inch.filter(|_| by_units) {
+                        Some(inch) if inch != rules.increment => {
+                            match self.units_of_increment(units, word.span, out)? {
+                                Units::Mm => rules.increment,
+                                Units::Inch => inch,
+                            }
+                        }
+                        Some(_) | None => rules.increment,
+                    };
+                    if shift > 0 {
+                        if !self.calculator {
+                            num.scale = shift;
+                            num.point = true;
+                        }
+                        if !self.settings.is_chosen("decimal_point") {
+                            self.assume_bare(word, num, quantity, src, out);
+                        }
+                    }
+                }
+            }
+        }
+        let plainly_in_range = num.mantissa.unsigned_abs() < 10_000_000 && num.scale <= 8;
+        if !plainly_in_range && (num.nanos(false).is_none() || num.nanos(true).is_none()) {
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+        }
+        Some(num)
+    }
+
+    /// A whole number of a word, not negative.
+    pub(super) fn whole(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<u32> {
+        let num = self.number(word, Quantity::Integer, src, out)?;
+        match u32::try_from(num.mantissa) {
+            Ok(whole) => Some(whole),
+            Err(_) => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+        }
+    }
+
+    fn assume_bare(&mut self, word: &Word, num: Num, quantity: Quantity, src: Source, out: &mut Batch) {
+        let bit = 1u8 << quantity as u8;
+        if self.assume && self.reported.bare & bit == 0 {
+            self.reported.bare |= bit;
+            let value = spell(num).into();
+            out.report(Fault::AssumedBareNumber { word: src.text(word.span), value }, word.span);
+        }
+    }
+
+    /// The units whose increment a number without a point counts.
+    fn units_of_increment(&mut self, units: Fact<Units>, at: Span, out: &mut Batch) -> Option<Units> {
+        if let Fact::Known(units) = units {
+            return Some(units);
+        }
+        // Open here, but if the whole text says only one kind of units, it is that one.
+        match self.units_seen.only {
+            Some(units) if !self.units_seen.mixed => {
+                self.units_seen.relied.get_or_insert(at);
+                Some(units)
+            }
+            Some(_) | None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
+        }
+    }
+
+    /// The program says units.
+    pub(super) fn see_units(&mut self, units: Units, out: &mut Batch) {
+        let seen = &mut self.units_seen;
+        if *seen.only.get_or_insert(units) != units {
+            seen.mixed = true;
+            if let Some(at) = seen.relied.take() {
+                out.report(Fault::EntryFactNeeded { fact: ModeName::Units }, at);
+            }
+        }
+    }
+}
+
+/// The unit of a length.
+pub(super) fn unit_of(units: Fact<Units>) -> Unit {
+    match units {
+        Fact::Known(Units::Mm) => Unit::Mm,
+        Fact::Known(Units::Inch) => Unit::Inch,
+        Fact::Entry => Unit::Entry,
+    }
+}
+
+/// A literal for people.
+fn spell(num: Num) -> String {
+    let sign = if num.mantissa < 0 { "-" } else { "" };
+    let digits = format!("{:0width$}", num.mantissa.unsigned_abs(), width = usize::from(num.scale) + 1);
+    let (whole, part) = digits.split_at(digits.len() - usize::from(num.scale));
+    let point = if part.is_empty() { "" } else { "." };
+    let unit = match num.unit {
+        Unit::One | Unit::Entry => "",
+        Unit::Mm => " mm",
+        Unit::Inch => " inch",
+        Unit::Degree => " degrees",
+        Unit::Second => " s",
+    };
+    format!("{sign}{whole}{point}{part}{unit}")
+}

@@ -1,0 +1,344 @@
+//! Tokens of a block: a logos lexer over bytes, and the reading of its tokens that depends on the
+//! dictionary (what opens a comment, what ends a block, whether the control has variables).
+//!
+//! Comments may stand between any two tokens; they are set aside here, so that the grammar does
+//! not meet them. Not here: what words mean, and the lines of a program.
+
+use logos::Logos;
+use ncc_dialects::Dialect;
+use ncc_ir::diag::Fault;
+
+use super::block::Digits;
+
+/// What of the dictionary the lexer needs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Signs {
+    /// First byte of a comment; 0 for none.
+    comment: u8,
+    /// Last byte of a comment; 0 if the line's end closes it.
+    close: u8,
+    /// Ends a block before the line's end; 0 for none.
+    end: u8,
+    /// Marks what can be skipped; 0 for none.
+    skip: u8,
+    /// Letter of the block number; 0 for none.
+    pub(super) number: u8,
+    /// Whether variables and expressions are read (to be refused by name).
+    macros: bool,
+}
+
+impl Signs {
+    pub(super) fn new(dialect: &Dialect) -> Signs {
+        let first = |text: &str| text.bytes().next().unwrap_or(0);
+        Signs {
+            comment: first(&dialect.comment.open),
+            close: first(&dialect.comment.close),
+            end: first(&dialect.block.end),
+            skip: first(&dialect.block.skip),
+            number: dialect.block.number.map_or(0, |c| c as u8),
+            macros: dialect.program.macros,
+        }
+    }
+}
+
+/// A token as the bytes alone show it.
+#[derive(Clone, Copy, Debug, Logos, PartialEq)]
+#[logos(utf8 = false, skip r"[ \t]+")]
+enum Raw {
+    #[regex("[A-Za-z]")]
+    Letter,
+    #[regex(r"[0-9]+\.?[0-9]*|\.[0-9]+")]
+    Number,
+    #[regex(r"[-+*/#=,:;()\[\]<]")]
+    Sign,
+    #[regex(r"_[A-Za-z0-9_]+")]
+    System,
+}
+
+/// A token as the grammar takes it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(missing_docs)] // The names are the meaning.
+pub(crate) enum Token {
+    Letter(u8),
+    Number(Digits),
+    Plus,
+    Minus,
+    Star,
+    Slash,
+    Skip,
+    Hash,
+    Equals,
+    Comma,
+    Colon,
+    Open,
+    Close,
+    /// A program's name, `<...>`.
+    Name,
+    /// The name of a system variable, `_DATE`.
+    System,
+    If,
+    While,
+    Then,
+    Goto,
+    Do,
+    End,
+    /// Output of text and setting of names: the rest of the block.
+    Print,
+    Function,
+    Compare,
+    /// OR and XOR.
+    Or,
+    /// AND and MOD.
+    And,
+}
+
+/// Why there is no block.
+#[derive(Clone, Debug)]
+pub(crate) struct Refusal {
+    pub(crate) fault: Fault,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
+}
+
+/// Words of the macro language that stand where a statement does, longest first.
+const STATEMENTS: &[(&[u8], Token)] = &[
+    (b"WHILE", Token::While),
+    (b"THEN", Token::Then),
+    (b"GOTO", Token::Goto),
+    (b"POPEN", Token::Print),
+    (b"PCLOS", Token::Print),
+    (b"DPRNT", Token::Print),
+    (b"BPRNT", Token::Print),
+    (b"SETVN", Token::Print),
+    (b"WH", Token::While),
+    (b"IF", Token::If),
+    (b"END", Token::End),
+    (b"DO", Token::Do),
+];
+
+/// Words of the macro language that stand in expressions, longest first.
+const OPERATORS: &[(&[u8], Token)] = &[
+    (b"ROUND", Token::Function),
+    (b"ASIN", Token::Function),
+    (b"ACOS", Token::Function),
+    (b"ATAN", Token::Function),
+    (b"SQRT", Token::Function),
+    (b"SIN", Token::Function),
+    (b"COS", Token::Function),
+    (b"TAN", Token::Function),
+    (b"ABS", Token::Function),
+    (b"FIX", Token::Function),
+    (b"FUP", Token::Function),
+    (b"EXP", Token::Function),
+    (b"POW", Token::Function),
+    (b"BIN", Token::Function),
+    (b"BCD", Token::Function),
+    (b"ADP", Token::Function),
+    (b"PRM", Token::Function),
+    (b"LN", Token::Function),
+    (b"XOR", Token::Or),
+    (b"OR", Token::Or),
+    (b"AND", Token::And),
+    (b"MOD", Token::And),
+    (b"EQ", Token::Compare),
+    (b"NE", Token::Compare),
+    (b"GT", Token::Compare),
+    (b"GE", Token::Compare),
+    (b"LT", Token::Compare),
+    (b"LE", Token::Compare),
+];
+
+/// The tokens of one block.
+pub(crate) struct Tokens<'t> {
+    raw: logos::Lexer<'t, Raw>,
+    signs: Signs,
+    /// Open brackets.
+    depth: u32,
+    /// Whether an expression runs without brackets: after `=`.
+    assigned: bool,
+    /// Where the block has ended: at its end sign, or at the end of the text.
+    ended: Option<usize>,
+    comments: &'t mut Vec<(usize, usize)>,
+}
+
+impl<'t> Tokens<'t> {
+    /// The tokens of the block that begins at `from`; a line's end must not be in `line`.
+    pub(super) fn new(
+        line: &'t [u8],
+        from: usize,
+        signs: Signs,
+        comments: &'t mut Vec<(usize, usize)>,
+    ) -> Tokens<'t> {
+        let mut raw = Raw::lexer(line);
+        raw.bump(from);
+        Tokens { raw, signs, depth: 0, assigned: false, ended: None, comments }
+    }
+
+    /// Where the next block begins, once this one is over; `None` if the line is over.
+    pub(super) fn next_block(&self) -> Option<usize> {
+        self.ended.filter(|&at| at < self.raw.source().len())
+    }
+
+    fn refuse(&self, fault: Fault) -> Option<<Self as Iterator>::Item> {
+        let span = self.raw.span();
+        Some(Err(Refusal { fault, start: span.start, end: span.end }))
+    }
+
+    fn unexpected(&mut self) -> Option<<Self as Iterator>::Item> {
+        let start = self.raw.span().start;
+        let rest = &self.raw.source()[start..];
+        let (found, len) = first_char(rest);
+        // An error token of the lexer may be longer than one character.
+        Some(Err(Refusal { fault: Fault::UnexpectedCharacter { found }, start, end: start + len }))
+    }
+
+    /// Sets a comment aside; `Err` if it is not closed.
+    fn comment(&mut self) -> Result<(), Refusal> {
+        let start = self.raw.span().end;
+        let rest = self.raw.remainder();
+        if self.signs.close == 0 {
+            let end = start + rest.len();
+            self.raw.bump(rest.len());
+            self.comments.push((start, end));
+            return Ok(());
+        }
+        match memchr::memchr(self.signs.close, rest) {
+            Some(len) => {
+                self.raw.bump(len + 1);
+                self.comments.push((start, start + len));
+                Ok(())
+            }
+            None => {
+                self.raw.bump(rest.len());
+                Err(Refusal { fault: Fault::UnclosedComment, start: start - 1, end: start + rest.len() })
+            }
+        }
+    }
+
+    /// The key word that begins with the letter just read.
+    fn keyword(&mut self) -> Option<Token> {
+        let start = self.raw.span().start;
+        let rest = &self.raw.source()[start..];
+        let in_expression = self.depth > 0 || self.assigned;
+        let statements = if self.depth > 0 { &[] } else { STATEMENTS };
+        let operators = if in_expression { OPERATORS } else { &[] };
+        let fits = |word: &[u8]| rest.get(..word.len()).is_some_and(|t| t.eq_ignore_ascii_case(word));
+        let &(word, token) = statements.iter().chain(operators).find(|(word, token)| {
+            // `DO1`, `END1`: without its number the letters are words of their own.
+            let numbered = matches!(token, Token::Do | Token::End);
+            fits(word)
+                && (!numbered || rest.get(word.len()).is_some_and(|b| b.is_ascii_digit() || *b == b' '))
+        })?;
+        let all = match token {
+            Token::Print => self.rest_of_block(rest),
+            _ => word.len(),
+        };
+        self.raw.bump(all - 1);
+        Some(token)
+    }
+
+    fn rest_of_block(&self, rest: &[u8]) -> usize {
+        match self.signs.end {
+            0 => rest.len(),
+            end => memchr::memchr(end, rest).unwrap_or(rest.len()),
+        }
+    }
+
+    fn sign(&mut self, byte: u8) -> Option<<Self as Iterator>::Item> {
+        let signs = self.signs;
+        let token = match byte {
+            b'/' if self.depth > 0 || self.assigned => Token::Slash,
+            _ if byte == signs.skip => Token::Skip,
+            b'+' => Token::Plus,
+            b'-' => Token::Minus,
+            b',' => Token::Comma,
+            b':' => Token::Colon,
+            b'#' if signs.macros => Token::Hash,
+            b'*' if signs.macros => Token::Star,
+            b'=' if signs.macros => {
+                self.assigned = true;
+                Token::Equals
+            }
+            b'[' if signs.macros => {
+                self.depth += 1;
+                Token::Open
+            }
+            b']' if signs.macros => {
+                self.depth = self.depth.saturating_sub(1);
+                Token::Close
+            }
+            b'<' if signs.macros => match memchr::memchr(b'>', self.raw.remainder()) {
+                Some(len) => {
+                    self.raw.bump(len + 1);
+                    Token::Name
+                }
+                None => return self.unexpected(),
+            },
+            _ => return self.unexpected(),
+        };
+        Some(Ok(self.spanned(token)))
+    }
+
+    fn spanned(&self, token: Token) -> (usize, Token, usize) {
+        let span = self.raw.span();
+        (span.start, token, span.end)
+    }
+}
+
+impl Iterator for Tokens<'_> {
+    type Item = Result<(usize, Token, usize), Refusal>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.ended.is_some() {
+            return None;
+        }
+        loop {
+            let Some(raw) = self.raw.next() else {
+                self.ended = Some(self.raw.source().len());
+                return None;
+            };
+            let Ok(raw) = raw else {
+                return self.unexpected();
+            };
+            let byte = self.raw.slice()[0];
+            match raw {
+                Raw::Letter => {
+                    let keyword = if self.signs.macros { self.keyword() } else { None };
+                    let token = keyword.unwrap_or(Token::Letter(byte.to_ascii_uppercase()));
+                    return Some(Ok(self.spanned(token)));
+                }
+                Raw::Number => {
+                    return match Digits::parse(self.raw.slice()) {
+                        Some(digits) => Some(Ok(self.spanned(Token::Number(digits)))),
+                        None => {
+                            let text = String::from_utf8_lossy(self.raw.slice()).into();
+                            self.refuse(Fault::BadNumber { text })
+                        }
+                    };
+                }
+                Raw::System if self.signs.macros => return Some(Ok(self.spanned(Token::System))),
+                Raw::System => return self.unexpected(),
+                Raw::Sign if byte == self.signs.comment => {
+                    if let Err(refusal) = self.comment() {
+                        return Some(Err(refusal));
+                    }
+                }
+                Raw::Sign if byte == self.signs.end => {
+                    self.ended = Some(self.raw.span().end);
+                    return None;
+                }
+                Raw::Sign => return self.sign(byte),
+            }
+        }
+    }
+}
+
+/// The first character, as UTF-8 or else Latin-1, and its length in bytes.
+fn first_char(bytes: &[u8]) -> (char, usize) {
+    for len in 1..=bytes.len().min(4) {
+        if let Some(c) = std::str::from_utf8(&bytes[..len]).ok().and_then(|s| s.chars().next()) {
+            return (c, len);
+        }
+    }
+    (bytes.first().map_or(' ', |&b| char::from(b)), 1)
+}
