@@ -1,2 +1,451 @@
-//! Reader of the canonical stream.
+//! Reader of the canonical stream: one call a line, after NIST (Proctor, Kramer & Michaloski 1997;
+//! Kramer & Proctor 1998) in the print of the case study.
+//!
+//! ```text
+//! COMMENT("text")  MESSAGE("text")
+//! USE_LENGTH_UNITS(CANON_UNITS_MM | CANON_UNITS_INCHES)       millimetres at the start
+//! SELECT_PLANE(CANON_PLANE_XY | CANON_PLANE_XZ | CANON_PLANE_YZ)     XY at the start
+//! SET_FEED_MODE(CANON_PER_MINUTE | CANON_PER_REVOLUTION | CANON_INVERSE_TIME)
+//! SET_ORIGIN_OFFSETS(n)  CLEAR_ORIGIN_SHIFT()      ours: number of the work offset; no shift
+//! SET_FEED_RATE(f)  SET_SPINDLE_SPEED(s)  SELECT_TOOL(n)  CHANGE_TOOL(n)  DWELL(seconds)
+//! USE_TOOL_LENGTH_OFFSET(n)                        ours: entry of the length table, 0 for none
+//! STOP_CUTTER_RADIUS_COMPENSATION()
+//! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
+//! FLOOD_ON()  MIST_ON()  COOLANT_OFF()             ours: both at once
+//! STRAIGHT_TRAVERSE(x, y, z [, a, b, c])  STRAIGHT_FEED(x, y, z [, a, b, c])
+//! ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point [, a, b, c])
+//! PROGRAM_STOP()  OPTIONAL_PROGRAM_STOP()  PROGRAM_END()
+//! ```
+//!
+//! Coordinates are absolute in the program's frame; `_` is an axis that stays where it is. The axes
+//! of an arc are X Y, Z X or Y Z; its centre is absolute; rotation is positive counter-clockwise
+//! seen from the positive end of the normal, and counts the turns begun. `CHANGE_TOOL` names the
+//! tool selected, or nothing if that may have been skipped. `/` before a call, or `/2 ` with its
+//! level, marks it for block skip. Blank lines are kept.
+//!
+//! Lines are read one by one, straight moves by a recogniser of their own. After a fault the next
+//! line is read. Not here: whether the stream makes sense.
+
+mod lexer;
+mod lower;
+mod straight;
 pub(crate) mod text;
+
+use lalrpop_util::ParseError;
+use logos::Logos;
+use ncc_dialects::Settings;
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, Units};
+use ncc_ir::cycle::absolute;
+use ncc_ir::diag::{Diagnostic, Fault, ModeName};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
+use ncc_ir::source::Span;
+
+use self::lexer::{Argument, LexFault, Token};
+use crate::Batch;
+
+lalrpop_util::lalrpop_mod!(
+    #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused, private_interfaces)]
+    grammar,
+    "/canon/call.rs"
+);
+
+/// Most words of a line.
+const WORDS: usize = 64;
+
+/// Something with its place in the line.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Placed<T> {
+    /// What.
+    pub(crate) is: T,
+    /// First byte.
+    pub(crate) l: usize,
+    /// One past the last.
+    pub(crate) r: usize,
+}
+
+/// A call as written.
+#[derive(Debug)]
+pub(crate) struct Call {
+    /// The skip mark, with its level if that is written.
+    pub(crate) skip: Option<Placed<Option<Num>>>,
+    /// Place of the name.
+    pub(crate) name: Placed<()>,
+    /// What stands between the brackets.
+    pub(crate) arguments: Vec<Placed<Argument>>,
+    /// Place of the closing bracket.
+    pub(crate) close: usize,
+}
+
+/// The selected tool.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Selected {
+    None,
+    Tool(i64),
+    /// Its selection may have been skipped.
+    Unsure,
+}
+
+/// What the text has said so far.
+#[derive(Debug)]
+struct State {
+    units: Option<Units>,
+    plane: Option<Plane>,
+    selected: Selected,
+    /// Where the axes stand, as far as their words say.
+    stands: [Option<Num>; AXES],
+}
+
+impl State {
+    /// The unit of lengths.
+    #[inline]
+    fn length(&self) -> Unit {
+        match self.units {
+            Some(Units::Mm) => Unit::Mm,
+            Some(Units::Inch) => Unit::Inch,
+            None => Unit::Entry,
+        }
+    }
+
+    fn select(&mut self, tool: i64, skipped: bool) {
+        self.selected = if skipped { Selected::Unsure } else { Selected::Tool(tool) };
+    }
+
+    fn check_tool(&self, tool: i64) -> Result<(), Fault> {
+        match self.selected {
+            Selected::None => Err(Fault::NoToolSelected),
+            Selected::Tool(selected) if selected != tool => Err(Fault::CodesExclude {
+                first: format!("SELECT_TOOL({selected})").into(),
+                second: format!("CHANGE_TOOL({tool})").into(),
+            }),
+            Selected::Tool(_) | Selected::Unsure => Ok(()),
+        }
+    }
+
+    /// Whether an axis is known to stand where a word sends it.
+    fn stands_at(&self, axis: Axis, to: Option<&Coord>) -> bool {
+        let to = to.and_then(|coord| coord.value.literal());
+        let same = |a: Num, b: Num| {
+            (a.trimmed().mantissa, a.trimmed().scale) == (b.trimmed().mantissa, b.trimmed().scale)
+        };
+        to.zip(self.stands[axis as usize]).is_some_and(|(a, b)| a.unit == b.unit && same(a, b))
+    }
+
+    /// Takes note of what a statement leaves in force.
+    fn after(&mut self, op: &Op, skipped: bool) {
+        fn set<T: PartialEq>(fact: &mut Option<T>, value: T, skipped: bool) {
+            let value = Some(value);
+            *fact = if skipped && *fact != value { None } else { value };
+        }
+        match op {
+            Op::StraightTraverse(Move { to, .. }) | Op::StraightFeed(Move { to, .. }) => self.go(to, skipped),
+            Op::ArcFeed(arc) => self.go(&arc.to, skipped),
+            Op::UseLengthUnits(units) => {
+                set(&mut self.units, *units, skipped);
+                self.stands = [None; AXES];
+            }
+            Op::SelectPlane(plane) => set(&mut self.plane, *plane, skipped),
+            Op::SetOriginOffsets(_) | Op::ClearFrame(_) | Op::UseToolLengthOffset(_) => {
+                self.stands = [None; AXES];
+            }
+            Op::Comment(_)
+            | Op::NoEffect(_)
+            | Op::Blank
+            | Op::SetDistanceMode(_)
+            | Op::SetFeedMode(_)
+            | Op::SetReturnLevel(_)
+            | Op::SetFrame(..)
+            | Op::StopCutterRadiusCompensation
+            | Op::SetFeedRate(_)
+            | Op::SetSpindleSpeed(_)
+            | Op::SelectTool(_)
+            | Op::ChangeTool
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::Dwell(_)
+            | Op::Position(_)
+            | Op::StartCycle(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::EndCycle
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::ProgramEnd
+            | Op::Message(_)
+            | Op::Call(_)
+            | Op::Return
+            | Op::Assign(..)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_) => {}
+        }
+    }
+
+    fn go(&mut self, to: &Point, skipped: bool) {
+        for (stands, word) in self.stands.iter_mut().zip(&to.axes) {
+            if let Some(coord) = word {
+                *stands = coord.value.literal().filter(|_| !skipped);
+            }
+        }
+    }
+}
+
+/// Reads the canonical stream.
+#[derive(Debug)]
+pub struct Reader {
+    settings: Settings,
+    /// Whether facts that the text relies on are taken from the dictionary.
+    assume: bool,
+    state: State,
+    /// Facts that the text has said or that were taken for granted; for a user's text only.
+    said: Modes,
+    moved: bool,
+    /// Whether anything was found.
+    found: bool,
+    /// Whether the program has ended, and whether text after it was reported.
+    ended: bool,
+    after_end: bool,
+    end: u32,
+}
+
+impl Reader {
+    /// A reader. For a user's text (`assume`) the facts that it relies on are recorded.
+    pub fn new(settings: Settings, assume: bool) -> Reader {
+        Reader {
+            settings,
+            assume,
+            state: State {
+                units: Some(Units::Mm),
+                plane: Some(Plane::Xy),
+                selected: Selected::None,
+                stands: [None; AXES],
+            },
+            said: Modes::default(),
+            moved: !assume,
+            found: false,
+            ended: false,
+            after_end: false,
+            end: 0,
+        }
+    }
+
+    /// Reads whole lines; `base` is the place of their first byte.
+    pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        let mut rest = text;
+        let mut at = base;
+        while !rest.is_empty() {
+            let length = if self.moved && !self.ended && self.fast(rest, at, out) {
+                self.end.wrapping_sub(at) as usize
+            } else {
+                let newline = rest.iter().position(|&b| b == b'\n');
+                let line = &rest[..newline.unwrap_or(rest.len())];
+                self.line(line.strip_suffix(b"\r").unwrap_or(line), at, out);
+                newline.map_or(rest.len(), |n| n + 1)
+            };
+            at = at.wrapping_add(length as u32);
+            rest = &rest[length..];
+        }
+        self.end = at;
+    }
+
+    /// The end of the text.
+    pub fn finish(&mut self, out: &mut Batch) {
+        if !self.assume {
+            return;
+        }
+        let end = Span::new(self.end, self.end);
+        if !self.found {
+            out.diagnostics.push(Diagnostic::new(Fault::EmptyProgram, Span::new(0, self.end)));
+        } else if !self.ended {
+            out.diagnostics.push(Diagnostic::new(Fault::NoProgramEnd, end));
+        }
+    }
+
+    /// Reads a straight move at the start of the text, if there is one that the recogniser takes;
+    /// `end` is then the end of its line.
+    #[inline]
+    fn fast(&mut self, text: &[u8], at: u32, out: &mut Batch) -> bool {
+        let Some(found) = straight::straight(text) else { return false };
+        let length = self.state.length();
+        let mut to = Point::default();
+        for (place, n) in found.axes.into_iter().enumerate() {
+            if let Some(n) = n {
+                let n = Num { unit: if place < 3 { length } else { Unit::Degree }, ..n };
+                to.axes[place] = Some(absolute(n));
+                self.state.stands[place] = Some(n);
+            }
+        }
+        let m = Move { to, said: false };
+        let op = if found.traverse { Op::StraightTraverse(m) } else { Op::StraightFeed(m) };
+        let span = Span::new(at, at.wrapping_add(found.length as u32));
+        out.stmts.push(Stmt::new(span, op));
+        self.end = at.wrapping_add(found.line as u32);
+        true
+    }
+
+    fn line(&mut self, line: &[u8], at: u32, out: &mut Batch) {
+        let place = |l: usize, r: usize| Span::new(at.wrapping_add(l as u32), at.wrapping_add(r as u32));
+        let length = line.trim_ascii_end().len();
+        let start = length - line[..length].trim_ascii_start().len();
+        let result = match std::str::from_utf8(line) {
+            Ok(text) => self.call(text),
+            Err(e) => Err((Fault::NotText, e.valid_up_to(), e.valid_up_to() + 1)),
+        };
+        match result {
+            Ok((skip, op)) => {
+                let span = place(start, length);
+                let silent = matches!(op, Op::Blank | Op::Comment(_));
+                self.account(&op, skip.is_some(), span, silent, out);
+                self.state.after(&op, skip.is_some());
+                out.stmts.push(Stmt { skip, ..Stmt::new(span, op) });
+            }
+            Err((fault, l, r)) => {
+                self.found = true;
+                out.diagnostics.push(Diagnostic::new(fault, place(l, r)));
+            }
+        }
+    }
+
+    fn call(&mut self, text: &str) -> Result<(Option<u8>, Op), (Fault, usize, usize)> {
+        let words = Token::lexer(text).spanned().enumerate().map(|(count, (token, place))| match token {
+            _ if count >= WORDS => Err((0, text.len(), LexFault::Long)),
+            Ok(token) => Ok((place.start, token, place.end)),
+            Err(fault) => Err((place.start, place.end, fault)),
+        });
+        let Some(call) = grammar::LineParser::new().parse(words).map_err(|e| explain(e, text))? else {
+            return Ok((None, Op::Blank));
+        };
+        let skip = match &call.skip {
+            None => None,
+            Some(Placed { is: None, .. }) => Some(1),
+            Some(Placed { is: Some(Num { mantissa: level @ 1..=9, point: false, .. }), .. }) => {
+                Some(*level as u8)
+            }
+            Some(Placed { l, r, .. }) => {
+                return Err((Fault::OutOfRange { word: "skip level".into() }, *l, *r));
+            }
+        };
+        let op = lower::lower(call, text, &mut self.state, skip.is_some())?;
+        Ok((skip, op))
+    }
+
+    /// Keeps account of the facts that a user's text relies on, and of its end.
+    fn account(&mut self, op: &Op, skipped: bool, span: Span, silent: bool, out: &mut Batch) {
+        if silent {
+            return;
+        }
+        self.found = true;
+        if self.ended && !std::mem::replace(&mut self.after_end, true) && self.assume {
+            out.diagnostics.push(Diagnostic::new(Fault::TextAfterEnd, span));
+        }
+        self.ended |= matches!(op, Op::ProgramEnd) && !skipped;
+        if !self.assume {
+            return;
+        }
+        let moves = matches!(op, Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::ArcFeed(_));
+        let feeds = matches!(op, Op::SetFeedRate(_));
+        if !skipped {
+            self.said = said(self.said, op);
+        }
+        let said = self.said;
+        // Facts by definition are recorded without a word.
+        if (moves || feeds) && said.units.is_none() {
+            out.assumed.units = Some(Units::Mm);
+        }
+        if feeds && said.feed_mode.is_none() {
+            out.assumed.feed_mode = Some(FeedMode::PerMinute);
+        }
+        if matches!(op, Op::ArcFeed(_)) && said.plane.is_none() {
+            out.assumed.plane = Some(Plane::Xy);
+        }
+        if moves && !std::mem::replace(&mut self.moved, true) {
+            out.assumed.distance = Some(Distance::Absolute);
+            self.first_move(span, out);
+        }
+    }
+
+    /// What the first move relies on.
+    fn first_move(&self, span: Span, out: &mut Batch) {
+        let power_on = &self.settings.dialect.power_on;
+        let mut assume = |fact, value: String, always: bool| {
+            if !always {
+                let fault = Fault::AssumedMode { fact, value: value.into() };
+                out.diagnostics.push(Diagnostic::new(fault, span));
+            }
+        };
+        if self.said.work_offset.is_none()
+            && let Some(fact) = &power_on.work_offset
+        {
+            assume(ModeName::WorkOffset, fact.value.to_string(), fact.always);
+            out.assumed.work_offset = Some(fact.value);
+        }
+        if self.said.length_offset.is_none()
+            && let Some(fact) = &power_on.length_offset
+        {
+            assume(ModeName::LengthOffset, fact.value.to_string(), fact.always);
+            out.assumed.length_offset = Some(fact.value);
+        }
+        if self.said.no_origin_shift.is_none()
+            && let Some(fact) = &power_on.no_origin_shift
+        {
+            assume(ModeName::OriginShift, fact.value.to_string(), fact.always);
+            out.assumed.no_origin_shift = Some(fact.value);
+        }
+    }
+}
+
+/// What the text has said by itself, whatever its value.
+fn said(mut so_far: Modes, op: &Op) -> Modes {
+    if let Op::UseLengthUnits(units) = op {
+        so_far.units = Some(*units);
+    }
+    if let Op::SelectPlane(plane) = op {
+        so_far.plane = Some(*plane);
+    }
+    if let Op::SetFeedMode(mode) = op {
+        so_far.feed_mode = Some(*mode);
+    }
+    if let Op::SetOriginOffsets(number) = op {
+        so_far.work_offset = Some(*number);
+    }
+    if let Op::UseToolLengthOffset(_) = op {
+        so_far.length_offset = Some(0);
+    }
+    if let Op::ClearFrame(_) = op {
+        so_far.no_origin_shift = Some(true);
+    }
+    so_far
+}
+
+/// The fault of a line that could not be parsed, with its place in the line.
+fn explain(error: ParseError<usize, Token, (usize, usize, LexFault)>, text: &str) -> (Fault, usize, usize) {
+    let syntax = |l: usize, r: usize, found: &str, expected: &[String]| {
+        let names: Vec<_> = expected.iter().map(|e| e.trim_matches('"')).collect();
+        let quoted = |n: &&str| if n.len() > 1 { (*n).to_owned() } else { format!("`{n}`") };
+        let expected = names.iter().map(quoted).collect::<Vec<_>>().join(", ");
+        (Fault::Syntax { found: found.into(), expected: expected.into() }, l, r)
+    };
+    match error {
+        ParseError::UnrecognizedToken { token: (l, _, r), expected } => syntax(l, r, &text[l..r], &expected),
+        ParseError::ExtraToken { token: (l, _, r) } => syntax(l, r, &text[l..r], &["end of line".to_owned()]),
+        ParseError::UnrecognizedEof { expected, .. } => {
+            let end = text.trim_end().len();
+            syntax(end, end, "end of line", &expected)
+        }
+        ParseError::InvalidToken { location } => (Fault::NotText, location, location),
+        ParseError::User { error: (l, r, fault) } => match fault {
+            LexFault::Number => (Fault::BadNumber { text: text[l..r].into() }, l, r),
+            LexFault::Escape => syntax(l, r, &text[l..r], &["a text without other escapes".to_owned()]),
+            LexFault::Long => syntax(l, r, "too many words", &[format!("at most {WORDS}")]),
+            LexFault::Character => match text[l..].chars().next() {
+                Some('"') => (Fault::UnclosedComment, l, text.trim_end().len()),
+                Some(found) => (Fault::UnexpectedCharacter { found }, l, l + found.len_utf8()),
+                None => (Fault::NotText, l, r),
+            },
+        },
+    }
+}

@@ -59,8 +59,8 @@ const WORDS: usize = 1000;
 const DEPTH: usize = 100;
 
 /// Reads the `ir` text.
+#[derive(Debug)]
 pub struct Reader {
-    parser: grammar::LineParser,
     /// Whether this is a user's text, which must say its version.
     strict: bool,
     /// Whether a line with anything on it was read.
@@ -76,6 +76,7 @@ pub struct Reader {
 }
 
 /// An open body.
+#[derive(Debug)]
 struct Frame {
     opened: Span,
     owner: Owner,
@@ -83,6 +84,7 @@ struct Frame {
 }
 
 /// What a body belongs to.
+#[derive(Debug)]
 enum Owner {
     Procedure(Procedure),
     Control(Stmt),
@@ -95,15 +97,7 @@ enum Owner {
 impl Reader {
     /// A reader. A user's text (`assume`) must begin with its version.
     pub fn new(_settings: Settings, assume: bool) -> Reader {
-        Reader {
-            parser: grammar::LineParser::new(),
-            strict: assume,
-            begun: !assume,
-            found: false,
-            skip: None,
-            open: Vec::new(),
-            end: 0,
-        }
+        Reader { strict: assume, begun: !assume, found: false, skip: None, open: Vec::new(), end: 0 }
     }
 
     /// Reads whole lines; `base` is the place of their first byte.
@@ -163,7 +157,7 @@ impl Reader {
             Ok(token) => Ok((place.start, token, place.end)),
             Err(fault) => Err(Refusal::Word(place.start, place.end, fault)),
         });
-        self.parser.parse(words).map_err(|e| explain(e, text))
+        grammar::LineParser::new().parse(words).map_err(|e| explain(e, text))
     }
 
     /// Puts a line in its place.

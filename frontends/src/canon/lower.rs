@@ -1,0 +1,221 @@
+//! From a call to a statement: names, numbers of arguments, what each argument is.
+
+use ncc_ir::canon::{Axis, Fact, FeedMode, Plane, Turn, Units};
+use ncc_ir::cycle::absolute;
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Arc, Centre, CentreFrom, FrameSlot, Move, Op, Point, Text};
+
+use super::lexer::Argument;
+use super::{Call, Placed, State};
+
+/// A fault and its place in the line.
+type Refused = (Fault, usize, usize);
+
+/// The arguments of a call, taken one after the other.
+struct Arguments<'a> {
+    rest: std::vec::IntoIter<Placed<Argument>>,
+    text: &'a str,
+    call: &'a str,
+    close: usize,
+}
+
+impl Arguments<'_> {
+    fn next(&mut self, word: &str) -> Result<Placed<Argument>, Refused> {
+        let missing = || Fault::WordMissing { code: self.call.into(), word: word.into() };
+        self.rest.next().ok_or_else(|| (missing(), self.close, self.close + 1))
+    }
+
+    fn wrong(&self, found: &Placed<Argument>, expected: &str) -> Refused {
+        let fault = Fault::Syntax { found: self.text[found.l..found.r].into(), expected: expected.into() };
+        (fault, found.l, found.r)
+    }
+
+    /// A number in a unit.
+    fn number(&mut self, word: &str, unit: Unit) -> Result<Expr, Refused> {
+        let found = self.next(word)?;
+        match found.is {
+            Argument::Number(n) => Ok(Expr::Num(Num { unit, ..n })),
+            Argument::Text(_) | Argument::Name | Argument::Nothing => Err(self.wrong(&found, "a number")),
+        }
+    }
+
+    /// The coordinate of an axis, or `_`.
+    fn coordinate(&mut self, axis: Axis, length: Unit, to: &mut Point) -> Result<(), Refused> {
+        let letter = char::from(axis.letter().to_ascii_lowercase());
+        let found = self.next(letter.encode_utf8(&mut [0; 4]))?;
+        match found.is {
+            Argument::Number(n) => {
+                let unit = if axis.is_rotary() { Unit::Degree } else { length };
+                to.set(axis, absolute(Num { unit, ..n }));
+                Ok(())
+            }
+            Argument::Nothing => Ok(()),
+            Argument::Text(_) | Argument::Name => Err(self.wrong(&found, "a number, `_`")),
+        }
+    }
+
+    /// The three rotary axes, if they are there.
+    fn rotary(&mut self, to: &mut Point) -> Result<(), Refused> {
+        if self.rest.len() > 0 {
+            for axis in [Axis::A, Axis::B, Axis::C] {
+                self.coordinate(axis, Unit::Degree, to)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A whole number that is no less than zero, with its place.
+    fn count(&mut self, word: &str) -> Result<Placed<i64>, Refused> {
+        let found = self.next(word)?;
+        match found.is {
+            Argument::Number(Num { mantissa, point: false, .. }) if mantissa >= 0 => {
+                Ok(Placed { is: mantissa, l: found.l, r: found.r })
+            }
+            Argument::Number(_) => Err((Fault::OutOfRange { word: word.into() }, found.l, found.r)),
+            Argument::Text(_) | Argument::Name | Argument::Nothing => {
+                Err(self.wrong(&found, "a whole number"))
+            }
+        }
+    }
+
+    fn text(&mut self) -> Result<Text, Refused> {
+        let found = self.next("text")?;
+        match found.is {
+            Argument::Text(text) => Ok(text),
+            Argument::Number(_) | Argument::Name | Argument::Nothing => Err(self.wrong(&found, "a text")),
+        }
+    }
+
+    /// One of several names.
+    fn one_of<T: Copy>(&mut self, word: &str, names: &[(&str, T)]) -> Result<T, Refused> {
+        let found = self.next(word)?;
+        if found.is == Argument::Name {
+            let name = &self.text[found.l..found.r];
+            if let Some((_, value)) = names.iter().find(|(n, _)| *n == name) {
+                return Ok(*value);
+            }
+        }
+        let expected: Vec<String> = names.iter().map(|(n, _)| format!("`{n}`")).collect();
+        Err(self.wrong(&found, &expected.join(", ")))
+    }
+
+    fn end(&mut self) -> Result<(), Refused> {
+        match self.rest.next() {
+            Some(found) => Err(self.wrong(&found, "`)`")),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The statement of a call.
+pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) -> Result<Op, Refused> {
+    let name = &text[call.name.l..call.name.r];
+    let mut args = Arguments { rest: call.arguments.into_iter(), text, call: name, close: call.close };
+    let length = state.length();
+    let op = match name {
+        "STRAIGHT_TRAVERSE" | "STRAIGHT_FEED" => {
+            let mut to = Point::default();
+            for axis in [Axis::X, Axis::Y, Axis::Z] {
+                args.coordinate(axis, length, &mut to)?;
+            }
+            args.rotary(&mut to)?;
+            let m = Move { to, said: false };
+            if name == "STRAIGHT_FEED" { Op::StraightFeed(m) } else { Op::StraightTraverse(m) }
+        }
+        "ARC_FEED" => Op::ArcFeed(arc(&mut args, length, state)?),
+        "SET_FEED_RATE" => Op::SetFeedRate(args.number("rate", length)?),
+        "SET_SPINDLE_SPEED" => Op::SetSpindleSpeed(args.number("speed", Unit::One)?),
+        "DWELL" => Op::Dwell(args.number("seconds", Unit::Second)?),
+        "SELECT_TOOL" => {
+            let tool = args.count("tool")?.is;
+            state.select(tool, skipped);
+            Op::SelectTool(Expr::int(tool))
+        }
+        "CHANGE_TOOL" => {
+            if args.rest.len() > 0 {
+                let tool = args.count("tool")?;
+                state.check_tool(tool.is).map_err(|fault| (fault, tool.l, tool.r))?;
+            }
+            Op::ChangeTool
+        }
+        "USE_TOOL_LENGTH_OFFSET" => Op::UseToolLengthOffset(Expr::int(args.count("entry")?.is)),
+        "SET_ORIGIN_OFFSETS" => {
+            let n = args.count("number")?;
+            let fault = || (Fault::OutOfRange { word: "number".into() }, n.l, n.r);
+            Op::SetOriginOffsets(u16::try_from(n.is).map_err(|_| fault())?)
+        }
+        "USE_LENGTH_UNITS" => Op::UseLengthUnits(
+            args.one_of("units", &[("CANON_UNITS_MM", Units::Mm), ("CANON_UNITS_INCHES", Units::Inch)])?,
+        ),
+        "SELECT_PLANE" => Op::SelectPlane(args.one_of(
+            "plane",
+            &[("CANON_PLANE_XY", Plane::Xy), ("CANON_PLANE_XZ", Plane::Zx), ("CANON_PLANE_YZ", Plane::Yz)],
+        )?),
+        "SET_FEED_MODE" => Op::SetFeedMode(args.one_of(
+            "mode",
+            &[
+                ("CANON_PER_MINUTE", FeedMode::PerMinute),
+                ("CANON_PER_REVOLUTION", FeedMode::PerRevolution),
+                ("CANON_INVERSE_TIME", FeedMode::InverseTime),
+            ],
+        )?),
+        "COMMENT" => Op::Comment(args.text()?),
+        "MESSAGE" => Op::Message(args.text()?),
+        "CLEAR_ORIGIN_SHIFT" => Op::ClearFrame(FrameSlot::Shift),
+        "STOP_CUTTER_RADIUS_COMPENSATION" => Op::StopCutterRadiusCompensation,
+        "START_SPINDLE_CLOCKWISE" => Op::StartSpindleClockwise,
+        "START_SPINDLE_COUNTERCLOCKWISE" => Op::StartSpindleCounterclockwise,
+        "STOP_SPINDLE_TURNING" => Op::StopSpindleTurning,
+        "FLOOD_ON" => Op::FloodOn,
+        "MIST_ON" => Op::MistOn,
+        "COOLANT_OFF" => Op::CoolantOff,
+        "PROGRAM_STOP" => Op::ProgramStop,
+        "OPTIONAL_PROGRAM_STOP" => Op::OptionalProgramStop,
+        "PROGRAM_END" => Op::ProgramEnd,
+        _ => return Err((Fault::UnknownCode { code: name.into() }, call.name.l, call.name.r)),
+    };
+    args.end()?;
+    Ok(op)
+}
+
+/// `ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point, a, b, c)`
+fn arc(args: &mut Arguments<'_>, length: Unit, state: &State) -> Result<Arc, Refused> {
+    // After a change of plane that may be skipped the axes cannot be told.
+    let plane =
+        state.plane.ok_or_else(|| (Fault::EntryFactNeeded { fact: ModeName::Plane }, 0, args.close + 1))?;
+    let (first, second, normal) = plane.axes();
+    let mut to = Point::default();
+    args.coordinate(first, length, &mut to)?;
+    args.coordinate(second, length, &mut to)?;
+    let mut words = [None, None, None];
+    words[first as usize] = Some(args.number("first_axis", length)?);
+    words[second as usize] = Some(args.number("second_axis", length)?);
+    let rotation = args.next("rotation")?;
+    let (turn, turns) = match rotation.is {
+        Argument::Number(Num { mantissa, point: false, .. })
+            if mantissa != 0 && mantissa.unsigned_abs() <= u64::from(u32::MAX) =>
+        {
+            let turn = if mantissa < 0 { Turn::Clockwise } else { Turn::Counterclockwise };
+            (turn, (mantissa.unsigned_abs() - 1) as u32)
+        }
+        Argument::Number(_) => {
+            return Err((Fault::OutOfRange { word: "rotation".into() }, rotation.l, rotation.r));
+        }
+        Argument::Text(_) | Argument::Name | Argument::Nothing => {
+            return Err(args.wrong(&rotation, "a whole number"));
+        }
+    };
+    args.coordinate(normal, length, &mut to)?;
+    args.rotary(&mut to)?;
+    // An axis outside of the plane that ends where it stands makes no helix.
+    for axis in Axis::ALL {
+        let in_plane = axis == first || axis == second;
+        if !in_plane && to.get(axis).is_some() && state.stands_at(axis, to.get(axis)) {
+            to.axes[axis as usize] = None;
+        }
+    }
+    let centre = Centre::Point { words, from: CentreFrom::Zero };
+    Ok(Arc { plane: Fact::Known(plane), turn, to, centre, turns, said: false })
+}

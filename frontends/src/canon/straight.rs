@@ -1,0 +1,91 @@
+//! A recogniser for straight moves as the writer prints them, in front of the grammar.
+//!
+//! It takes `STRAIGHT_FEED(x, y, z)` and its kin with one blank after each comma and nothing else
+//! on the line, and leaves everything else untouched. A test holds it against the grammar.
+
+use ncc_ir::num::{Num, Unit};
+
+/// What a straight move says.
+pub(super) struct Straight {
+    /// Rapid, or at feed.
+    pub(super) traverse: bool,
+    /// Three or six coordinates, without unit.
+    pub(super) axes: [Option<Num>; 6],
+    /// Length of the call.
+    pub(super) length: usize,
+    /// Length of the call with its line end.
+    pub(super) line: usize,
+}
+
+/// Recognises a straight move at the start of the text.
+#[inline]
+pub(super) fn straight(text: &[u8]) -> Option<Straight> {
+    let (traverse, mut at) = if text.starts_with(b"STRAIGHT_FEED(") {
+        (false, 14)
+    } else if text.starts_with(b"STRAIGHT_TRAVERSE(") {
+        (true, 18)
+    } else {
+        return None;
+    };
+    let mut axes = [None; 6];
+    let mut count = 0;
+    loop {
+        let slot = axes.get_mut(count)?;
+        count += 1;
+        if text.get(at) == Some(&b'_') {
+            at += 1;
+        } else {
+            let (n, length) = number(text.get(at..)?)?;
+            *slot = Some(n);
+            at += length;
+        }
+        match text.get(at)? {
+            b',' if text.get(at + 1) == Some(&b' ') => at += 2,
+            b')' => break,
+            _ => return None,
+        }
+    }
+    let length = at + 1;
+    let line = match text.get(length..)? {
+        [b'\n', ..] => length + 1,
+        [b'\r', b'\n', ..] => length + 2,
+        _ => return None,
+    };
+    (count == 3 || count == 6).then_some(Straight { traverse, axes, length, line })
+}
+
+/// A number with digits before the point and after it.
+#[inline]
+fn number(text: &[u8]) -> Option<(Num, usize)> {
+    let negative = text.first() == Some(&b'-');
+    let start = usize::from(negative);
+    let mut at = start;
+    let mut mantissa = 0i64;
+    while let Some(digit @ b'0'..=b'9') = text.get(at) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(i64::from(digit - b'0'));
+        at += 1;
+    }
+    if at == start || text.get(at) != Some(&b'.') {
+        return None;
+    }
+    at += 1;
+    let point = at;
+    while let Some(digit @ b'0'..=b'9') = text.get(at) {
+        mantissa = mantissa.wrapping_mul(10).wrapping_add(i64::from(digit - b'0'));
+        at += 1;
+    }
+    let scale = at - point;
+    // 18 digits cannot overflow; rarer numbers are the grammar's.
+    if scale == 0 || at - start > 19 {
+        return None;
+    }
+    let mut n = Num { mantissa, scale: scale as u8, point: true, unit: Unit::One };
+    if scale == 1 && text[at - 1] == b'0' {
+        n.mantissa /= 10;
+        n.scale = 0;
+    }
+    if negative {
+        n.mantissa = -n.mantissa;
+    }
+    Some((n, at))
+}
