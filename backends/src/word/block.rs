@@ -1,0 +1,250 @@
+//! The block that is being put together: what stands in it, in which order it is written, and
+//! whether one more statement fits.
+
+use super::codes::Code;
+use super::number::{self, Shaped};
+
+/// Parts of a block, in the order in which a move is written; in a cycle's call the offset stands
+/// before the motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// Codes of settings, dwell and cycle end, with their own words.
+    Mode,
+    /// Motion, cycle and pattern codes.
+    Motion,
+    /// The length offset and its entry.
+    Offset,
+    /// Axis, centre and cycle words.
+    Axes,
+    /// The feed.
+    Feed,
+    /// Speed, tool, M codes, the words of a call.
+    Tail,
+}
+
+const PARTS: usize = 6;
+
+/// Place of a statement in the order of one block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Rank {
+    Setting,
+    Feed,
+    Speed,
+    Tool,
+    ToolChange,
+    SpindleOn,
+    Coolant,
+    Dwell,
+    Offset,
+    CycleEnd,
+    Motion,
+    SpindleOff,
+    CoolantOff,
+    Stop,
+    Call,
+}
+
+/// What a statement takes of a block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Need {
+    rank: Rank,
+    g: u8,
+    m: u8,
+    groups: u64,
+    letters: u32,
+    /// Two codes of one group in the need itself.
+    clash: bool,
+}
+
+/// The bit of an address letter.
+fn bit(letter: u8) -> u32 {
+    1 << (letter.wrapping_sub(b'A') & 31)
+}
+
+impl Need {
+    pub(super) fn new(rank: Rank) -> Need {
+        Need { rank, g: 0, m: 0, groups: 0, letters: 0, clash: false }
+    }
+
+    pub(super) fn code(mut self, code: Option<Code>) -> Need {
+        if let Some(code) = code {
+            if code.is_g() {
+                self.g += 1;
+            } else {
+                self.m += 1;
+            }
+            self.clash |= self.groups & code.group != 0;
+            self.groups |= code.group;
+        }
+        self
+    }
+
+    pub(super) fn letter(mut self, letter: u8) -> Need {
+        self.letters |= bit(letter);
+        self
+    }
+}
+
+/// A block under construction.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    parts: [Vec<u8>; PARTS],
+    pub comment: Vec<u8>,
+    /// Lines of comment that follow the block.
+    pub after: Vec<u8>,
+    pub number: Option<u32>,
+    pub skip: Option<u8>,
+    /// Whether the motion is a cycle's call.
+    pub calls_up: bool,
+    blanks: bool,
+    most_g: u8,
+    most_m: u8,
+    g: u8,
+    m: u8,
+    groups: u64,
+    letters: u32,
+    rank: Option<Rank>,
+}
+
+impl Block {
+    /// An empty block; 0 of `most_g` or `most_m` is no limit.
+    pub(super) fn new(blanks: bool, most_g: u8, most_m: u8) -> Block {
+        Block {
+            parts: Default::default(),
+            comment: Vec::new(),
+            after: Vec::new(),
+            number: None,
+            skip: None,
+            calls_up: false,
+            blanks,
+            most_g,
+            most_m,
+            g: 0,
+            m: 0,
+            groups: 0,
+            letters: 0,
+            rank: None,
+        }
+    }
+
+    /// Whether no word stands in it.
+    pub(super) fn is_empty(&self) -> bool {
+        self.parts.iter().all(Vec::is_empty)
+    }
+
+    /// Whether an address letter stands in it.
+    pub(super) fn has(&self, letter: u8) -> bool {
+        self.letters & bit(letter) != 0
+    }
+
+    /// Whether the block can take a statement and still be read in the order of its statements.
+    pub(super) fn fits(&self, need: &Need) -> bool {
+        let Some(rank) = self.rank else { return true };
+        let ordered = rank < need.rank || (rank == need.rank && rank == Rank::Setting);
+        // A dwell takes over letters of the block, so no motion goes with it.
+        let dwell = rank == Rank::Dwell && (Rank::Offset..=Rank::Motion).contains(&need.rank);
+        // A call's words stand alone with their code.
+        let call = need.rank == Rank::Call && self.letters != 0;
+        ordered
+            && !dwell
+            && !call
+            && self.groups & need.groups == 0
+            && self.letters & need.letters == 0
+            && (self.most_g == 0 || self.g + need.g <= self.most_g || need.g == 0)
+            && (self.most_m == 0 || self.m + need.m <= self.most_m || need.m == 0)
+    }
+
+    /// Whether a statement fits into a block at all.
+    pub(super) fn possible(&self, need: &Need) -> bool {
+        !need.clash
+            && (self.most_g == 0 || need.g <= self.most_g)
+            && (self.most_m == 0 || need.m <= self.most_m)
+    }
+
+    /// Whether the feed may go over to the next block, which is a motion.
+    pub(super) fn feed_can_wait(&self, need: &Need) -> bool {
+        need.rank == Rank::Motion
+            && self.rank.is_some_and(|r| r < Rank::Motion)
+            && !self.parts[Part::Feed as usize].is_empty()
+            && need.letters & self.feed_letter() == 0
+    }
+
+    fn feed_letter(&self) -> u32 {
+        self.parts[Part::Feed as usize].first().map_or(0, |l| bit(*l))
+    }
+
+    /// Takes the feed out.
+    pub(super) fn take_feed(&mut self) -> Vec<u8> {
+        self.letters &= !self.feed_letter();
+        std::mem::take(&mut self.parts[Part::Feed as usize])
+    }
+
+    /// Puts a feed in that [`Block::take_feed`] took out.
+    pub(super) fn put_feed(&mut self, feed: Vec<u8>) {
+        self.parts[Part::Feed as usize] = feed;
+        self.letters |= self.feed_letter();
+        self.rank = self.rank.max(Some(Rank::Feed));
+    }
+
+    /// Notes what a statement takes.
+    pub(super) fn take(&mut self, need: &Need) {
+        self.rank = Some(need.rank);
+        self.g += need.g;
+        self.m += need.m;
+        self.groups |= need.groups;
+        self.letters |= need.letters;
+    }
+
+    fn part(&mut self, part: Part) -> &mut Vec<u8> {
+        let to = &mut self.parts[part as usize];
+        if self.blanks && !to.is_empty() {
+            to.push(b' ');
+        }
+        to
+    }
+
+    pub(super) fn code(&mut self, part: Part, code: &Code) {
+        let text = code.text();
+        self.part(part).extend_from_slice(text);
+    }
+
+    pub(super) fn word(&mut self, part: Part, letter: u8, value: Shaped) {
+        let to = self.part(part);
+        to.push(letter);
+        number::append(to, value);
+    }
+
+    /// A word with digits of its own.
+    pub(super) fn digits(&mut self, part: Part, letter: u8, digits: &str) {
+        let to = self.part(part);
+        to.push(letter);
+        to.extend_from_slice(digits.as_bytes());
+    }
+
+    /// Appends the words to a line and empties the block, all but its skip level.
+    pub(super) fn write(&mut self, to: &mut Vec<u8>, mut blank: bool) {
+        let order = match self.calls_up {
+            true => [Part::Mode, Part::Offset, Part::Motion, Part::Axes, Part::Feed, Part::Tail],
+            false => [Part::Mode, Part::Motion, Part::Offset, Part::Axes, Part::Feed, Part::Tail],
+        };
+        for part in order {
+            let from = &mut self.parts[part as usize];
+            if !from.is_empty() {
+                if blank && self.blanks {
+                    to.push(b' ');
+                }
+                to.append(from);
+                blank = true;
+            }
+        }
+        if !self.comment.is_empty() {
+            if blank && self.blanks {
+                to.push(b' ');
+            }
+            to.append(&mut self.comment);
+        }
+        self.number = None;
+        self.calls_up = false;
+        (self.g, self.m, self.groups, self.letters, self.rank) = (0, 0, 0, 0, None);
+    }
+}

@@ -1,0 +1,309 @@
+//! The words of a dictionary, looked up once.
+//!
+//! A row counts only if its word reads back to the same meaning, so every code here was found by
+//! its meaning and checked by its number. Not here: when a word is written.
+
+use ncc_dialects::{Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
+use ncc_ir::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::program::FrameSlot;
+
+use super::number::Format;
+
+/// A G or M code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Code {
+    text: [u8; 8],
+    len: u8,
+    /// One bit for its modal group, 0 for a one-shot.
+    pub group: u64,
+}
+
+impl Code {
+    pub(super) fn text(&self) -> &[u8] {
+        &self.text[..usize::from(self.len)]
+    }
+
+    /// Whether it is a G code.
+    pub(super) fn is_g(&self) -> bool {
+        self.text[0] == b'G'
+    }
+}
+
+/// An address letter and the form of its numbers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Letter {
+    pub letter: u8,
+    pub format: Format,
+}
+
+/// A word that says how long to dwell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Dwell {
+    pub word: Letter,
+    pub milliseconds: bool,
+}
+
+/// A canned cycle's words.
+#[derive(Clone, Debug)]
+pub(super) struct CycleCode {
+    pub kind: String,
+    pub code: Code,
+    pub depth: Letter,
+    pub retract: Letter,
+    pub dwell: Option<Dwell>,
+    pub peck: Option<Letter>,
+}
+
+/// A bolt circle's words.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CircleCode {
+    pub code: Code,
+    pub first: [Letter; 2],
+    pub centre: [Letter; 2],
+    pub step: Letter,
+    pub count: Letter,
+}
+
+/// A grid's words.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GridCode {
+    pub code: Code,
+    pub pitch: [Letter; 2],
+    pub counts: [Letter; 2],
+    pub serpentine: bool,
+}
+
+/// A call's words: the number, and the count where it has a letter of its own.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct CallCode {
+    pub code: Code,
+    pub number: u8,
+    pub count: Option<u8>,
+}
+
+/// Every word that can be written. `None` where the dialect has none.
+#[derive(Clone, Debug)]
+pub(super) struct Codes {
+    pub traverse: Option<Code>,
+    pub feed: Option<Code>,
+    pub arcs: [Option<Code>; 2],
+    pub dwell: Option<(Code, Dwell)>,
+    pub units: [Option<Code>; 2],
+    pub distance: [Option<Code>; 2],
+    pub plane: [Option<Code>; 3],
+    pub feed_mode: [Option<Code>; 3],
+    pub level: [Option<Code>; 2],
+    /// By number of the work offset, less one.
+    pub origins: Vec<Option<Code>>,
+    pub no_shift: Option<Code>,
+    pub no_compensation: Option<Code>,
+    pub length: Option<Code>,
+    pub no_length: Option<Code>,
+    pub end_cycle: Option<Code>,
+    pub spindle_clockwise: Option<Code>,
+    pub spindle_counterclockwise: Option<Code>,
+    pub spindle_stop: Option<Code>,
+    pub change_tool: Option<Code>,
+    pub flood: Option<Code>,
+    pub mist: Option<Code>,
+    pub coolant_off: Option<Code>,
+    pub stop: Option<Code>,
+    pub optional_stop: Option<Code>,
+    pub end: Option<Code>,
+    pub call: Option<CallCode>,
+    pub back: Option<Code>,
+    pub no_effect: Vec<(String, Code)>,
+    pub cycles: Vec<CycleCode>,
+    pub circle: Option<CircleCode>,
+    pub grid: Option<GridCode>,
+    /// In the order of [`Axis::ALL`].
+    pub axes: [Option<Letter>; 6],
+    pub centre: [Option<Letter>; 3],
+    pub radius: Option<Letter>,
+    pub feed_word: Option<Letter>,
+    pub speed: Option<Letter>,
+    pub tool: Option<Letter>,
+    /// Entry of the length table, for a code of the block.
+    pub entry: Option<Letter>,
+    /// Entry of the length table, taken up by the word itself.
+    pub corrector: Option<Letter>,
+}
+
+/// Looks rows up, and gives every modal group a bit.
+struct Finder<'d> {
+    dialect: &'d Dialect,
+    groups: Vec<&'d str>,
+}
+
+impl<'d> Finder<'d> {
+    fn code(&self, meaning: Meaning) -> Option<Code> {
+        self.row(&self.dialect.code_for(meaning)?.code, meaning)
+    }
+
+    /// The code of a row, if its number reads back to the meaning.
+    fn row(&self, code: &str, meaning: Meaning) -> Option<Code> {
+        let letter = *code.as_bytes().first()?;
+        let (whole, tenth) = code.get(1..)?.split_once('.').unwrap_or((&code[1..], "0"));
+        let tenths = whole.parse::<u32>().ok()? * 10 + tenth.parse::<u32>().ok()?;
+        let row = self.dialect.code_row(letter, tenths)?;
+        if row.means != Some(meaning) || !row.write || code.len() > 8 {
+            return None;
+        }
+        let group = self.groups.iter().position(|g| *g == row.group).filter(|_| !row.group.is_empty());
+        let mut text = [0; 8];
+        text[..code.len()].copy_from_slice(code.as_bytes());
+        Some(Code { text, len: code.len() as u8, group: group.map_or(0, |g| 1 << g.min(63)) })
+    }
+
+    fn format(&self, quantity: Quantity) -> Format {
+        let counts = matches!(quantity, Quantity::Integer);
+        Format::new(self.dialect.numbers(quantity), counts)
+    }
+
+    fn letter(&self, letter: char, quantity: Quantity) -> Option<Letter> {
+        let letter = u8::try_from(letter).ok().filter(u8::is_ascii_uppercase)?;
+        Some(Letter { letter, format: self.format(quantity) })
+    }
+
+    fn role(&self, role: Role) -> Option<Letter> {
+        let row = self.dialect.address.iter().find(|a| a.role == role)?;
+        self.letter(row.letter, row.quantity)
+    }
+
+    fn dwell(&self, word: DwellWord) -> Option<Dwell> {
+        let milliseconds = word.quantity == Quantity::Milliseconds;
+        Some(Dwell { word: self.letter(word.letter, word.quantity)?, milliseconds })
+    }
+
+    fn cycles(&self) -> Vec<CycleCode> {
+        let rows = self.dialect.cycle.iter();
+        rows.filter_map(|row| {
+            Some(CycleCode {
+                kind: row.kind.clone(),
+                code: self.row(&row.code, Meaning::StartCycle)?,
+                depth: self.letter(row.depth, Quantity::Length)?,
+                retract: self.letter(row.retract, Quantity::Length)?,
+                dwell: match row.dwell {
+                    Some(word) => Some(self.dwell(word)?),
+                    None => None,
+                },
+                peck: match row.peck {
+                    Some(letter) => Some(self.letter(letter, Quantity::Length)?),
+                    None => None,
+                },
+            })
+        })
+        .collect()
+    }
+
+    fn circle(&self) -> Option<CircleCode> {
+        self.dialect.pattern.iter().find_map(|row| match row {
+            PatternRow::Circle { code, first, centre, step, count, .. } => Some(CircleCode {
+                code: self.row(code, Meaning::Pattern)?,
+                first: self.pair(*first, Quantity::Length)?,
+                centre: self.pair(*centre, Quantity::Length)?,
+                step: self.letter(*step, Quantity::Angle)?,
+                count: self.letter(*count, Quantity::Integer)?,
+            }),
+            PatternRow::Grid { .. } => None,
+        })
+    }
+
+    fn grid(&self) -> Option<GridCode> {
+        self.dialect.pattern.iter().find_map(|row| match row {
+            PatternRow::Grid { code, pitch, counts, serpentine, .. } => Some(GridCode {
+                code: self.row(code, Meaning::Pattern)?,
+                pitch: self.pair(*pitch, Quantity::Length)?,
+                counts: self.pair(*counts, Quantity::Integer)?,
+                serpentine: *serpentine,
+            }),
+            PatternRow::Circle { .. } => None,
+        })
+    }
+
+    fn pair(&self, letters: [char; 2], quantity: Quantity) -> Option<[Letter; 2]> {
+        Some([self.letter(letters[0], quantity)?, self.letter(letters[1], quantity)?])
+    }
+
+    fn call(&self) -> Option<CallCode> {
+        let row = self.dialect.code_for(Meaning::Call)?;
+        let mut words = row.words.bytes();
+        Some(CallCode { code: self.code(Meaning::Call)?, number: words.next()?, count: words.next() })
+    }
+
+    fn dwell_code(&self) -> Option<(Code, Dwell)> {
+        let row = self.dialect.code_for(Meaning::Dwell)?;
+        Some((self.code(Meaning::Dwell)?, self.dwell(*row.dwell.first()?)?))
+    }
+}
+
+impl Codes {
+    pub(super) fn new(dialect: &Dialect) -> Codes {
+        let mut groups: Vec<&str> = dialect.code.iter().map(|row| row.group.as_str()).collect();
+        groups.sort_unstable();
+        groups.dedup();
+        let find = Finder { dialect, groups };
+        let code = |meaning| find.code(meaning);
+        let last = dialect.code.iter().filter_map(|row| match row.means {
+            Some(Meaning::SetOriginOffsets(n)) => Some(n),
+            _ => None,
+        });
+        let last = last.max().unwrap_or(0);
+        let axis = |axis: Axis| {
+            let row = dialect.address_row(axis.letter()).filter(|row| row.role == Role::Axis)?;
+            find.letter(row.letter, row.quantity)
+        };
+        Codes {
+            traverse: code(Meaning::StraightTraverse),
+            feed: code(Meaning::StraightFeed),
+            arcs: [Turn::Clockwise, Turn::Counterclockwise].map(|t| code(Meaning::ArcFeed(t))),
+            dwell: find.dwell_code(),
+            units: [Units::Mm, Units::Inch].map(|u| code(Meaning::UseLengthUnits(u))),
+            distance: [Distance::Absolute, Distance::Incremental].map(|d| code(Meaning::SetDistanceMode(d))),
+            plane: [Plane::Xy, Plane::Zx, Plane::Yz].map(|p| code(Meaning::SelectPlane(p))),
+            feed_mode: [FeedMode::PerMinute, FeedMode::PerRevolution, FeedMode::InverseTime]
+                .map(|f| code(Meaning::SetFeedMode(f))),
+            level: [ReturnLevel::Initial, ReturnLevel::Retract].map(|l| code(Meaning::SetReturnLevel(l))),
+            origins: (1..=last).map(|n| code(Meaning::SetOriginOffsets(n))).collect(),
+            no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
+            no_compensation: code(Meaning::StopCutterRadiusCompensation),
+            length: code(Meaning::UseToolLengthOffset),
+            no_length: code(Meaning::CancelToolLengthOffset),
+            end_cycle: code(Meaning::EndCycle),
+            spindle_clockwise: code(Meaning::StartSpindleClockwise),
+            spindle_counterclockwise: code(Meaning::StartSpindleCounterclockwise),
+            spindle_stop: code(Meaning::StopSpindleTurning),
+            change_tool: code(Meaning::ChangeTool),
+            flood: code(Meaning::FloodOn),
+            mist: code(Meaning::MistOn),
+            coolant_off: code(Meaning::CoolantOff),
+            stop: code(Meaning::ProgramStop),
+            optional_stop: code(Meaning::OptionalProgramStop),
+            end: code(Meaning::ProgramEnd),
+            call: find.call(),
+            back: code(Meaning::Return),
+            no_effect: dialect
+                .code
+                .iter()
+                .filter(|row| row.means == Some(Meaning::NoEffect))
+                .filter_map(|row| Some((row.code.clone(), find.row(&row.code, Meaning::NoEffect)?)))
+                .collect(),
+            cycles: find.cycles(),
+            circle: find.circle(),
+            grid: find.grid(),
+            axes: Axis::ALL.map(axis),
+            centre: [Role::CentreX, Role::CentreY, Role::CentreZ].map(|r| find.role(r)),
+            radius: find.role(Role::Radius),
+            feed_word: find.role(Role::Feed),
+            speed: find.role(Role::Speed),
+            tool: find.role(Role::Tool),
+            entry: find.role(Role::LengthEntry),
+            corrector: find.role(Role::Corrector),
+        }
+    }
+
+    /// The row of a cycle: of its kind, with a word for the dwell if and only if there is one.
+    pub(super) fn cycle(&self, kind: &str, dwell: bool) -> Option<&CycleCode> {
+        self.cycles.iter().find(|c| c.kind == kind && c.dwell.is_some() == dwell)
+    }
+}

@@ -1,0 +1,250 @@
+//! Comments in the characters that a control shows.
+//!
+//! Letters become capitals, accents and other alphabets are transliterated, signs are replaced by
+//! those that the dictionary lists. Nothing that could end a comment or a program comes through.
+
+use ncc_dialects::CommentRules;
+
+/// Writes comments; keeps its memory between them.
+#[derive(Clone, Debug)]
+pub(super) struct Comments {
+    open: String,
+    close: String,
+    upper_ascii: bool,
+    signs: String,
+    longest: usize,
+    shown: String,
+}
+
+impl Comments {
+    pub(super) fn new(rules: &CommentRules) -> Comments {
+        Comments {
+            open: rules.open.clone(),
+            close: rules.close.clone(),
+            upper_ascii: rules.upper_ascii,
+            signs: rules.signs.clone(),
+            longest: rules.longest,
+            shown: String::new(),
+        }
+    }
+
+    /// Appends a comment to `line`, and to `after`, one line each, what is too long for it.
+    /// Returns whether it reads otherwise than the text.
+    pub(super) fn write(&mut self, text: &str, line: &mut Vec<u8>, after: &mut Vec<u8>, eol: &[u8]) -> bool {
+        self.shown.clear();
+        for c in text.chars() {
+            self.show(c);
+        }
+        let mut changed = self.shown != text;
+        let mut rest = self.shown.as_str();
+        let mut first = true;
+        loop {
+            let (piece, next) = cut(rest, self.longest);
+            let to = if first { &mut *line } else { &mut *after };
+            to.extend_from_slice(self.open.as_bytes());
+            to.extend_from_slice(piece.as_bytes());
+            to.extend_from_slice(self.close.as_bytes());
+            if !first {
+                after.extend_from_slice(eol);
+            }
+            let Some(next) = next else {
+                return changed;
+            };
+            rest = next;
+            first = false;
+            changed = true;
+        }
+    }
+
+    fn show(&mut self, c: char) {
+        if !self.upper_ascii {
+            let closes = !self.close.is_empty() && (self.open.contains(c) || self.close.contains(c));
+            self.shown.push(if c.is_control() || closes { ' ' } else { c });
+            return;
+        }
+        if self.shows(c) {
+            return self.shown.push(c);
+        }
+        if c.is_ascii_lowercase() {
+            return self.shown.push(c.to_ascii_uppercase());
+        }
+        let instead = stand_in(c);
+        if instead.chars().all(|c| self.shows(c)) {
+            self.shown.push_str(instead);
+        } else {
+            self.shown.push(' ');
+        }
+    }
+
+    fn shows(&self, c: char) -> bool {
+        c.is_ascii_uppercase() || c.is_ascii_digit() || c == ' ' || self.signs.contains(c)
+    }
+}
+
+/// The first piece of a text, at a blank if there is one in its second half, and what remains.
+fn cut(text: &str, longest: usize) -> (&str, Option<&str>) {
+    let Some((end, _)) = text.char_indices().nth(longest).filter(|_| longest > 0) else {
+        return (text, None);
+    };
+    match text[..end].rfind(' ').filter(|at| *at > end / 2) {
+        Some(at) => (&text[..at], Some(&text[at + 1..])),
+        None => (&text[..end], Some(&text[end..])),
+    }
+}
+
+/// What stands for a character that a control with capitals alone cannot show. Signs first, then
+/// Latin letters with accents (Latin-1, Latin Extended-A), Greek and Cyrillic.
+fn stand_in(c: char) -> &'static str {
+    match c {
+        '(' | '[' | '{' => "-",
+        ')' | ']' | '}' => "",
+        '%' => " PCT",
+        '#' => "NO.",
+        '&' => "+",
+        '@' => "AT",
+        ';' => ",",
+        '!' | '?' => ".",
+        '<' => " LT ",
+        '>' => " GT ",
+        '\\' | '|' => "/",
+        '~' | '–' | '—' | '‐' | '‑' | '−' | '·' | '•' => "-",
+        '\'' | '`' | '´' | '’' | '‘' => "",
+        '"' | '“' | '”' | '„' | '«' | '»' | '^' | '$' | '\t' | '\u{a0}' => " ",
+        '…' => "...",
+        '°' | 'º' => " DEG",
+        'ª' => "A",
+        '±' => "+-",
+        '×' => "X",
+        '÷' => "/",
+        '¹' => "1",
+        '²' => "2",
+        '³' => "3",
+        '¼' => "1/4",
+        '½' => "1/2",
+        '¾' => "3/4",
+        'µ' | 'μ' => "U",
+        'À'..='Ã' | 'Å' | 'à'..='ã' | 'å' | 'Ā'..='ą' => "A",
+        'Ä' | 'ä' | 'Æ' | 'æ' => "AE",
+        'Ç' | 'ç' | 'Ć'..='č' => "C",
+        'Ð' | 'ð' | 'Ď'..='đ' => "D",
+        'È'..='Ë' | 'è'..='ë' | 'Ē'..='ě' => "E",
+        'Ĝ'..='ģ' => "G",
+        'Ĥ'..='ħ' => "H",
+        'Ì'..='Ï' | 'ì'..='ï' | 'Ĩ'..='ı' => "I",
+        'Ĳ' | 'ĳ' => "IJ",
+        'Ĵ' | 'ĵ' => "J",
+        'Ķ'..='ĸ' => "K",
+        'Ĺ'..='ł' => "L",
+        'Ñ' | 'ñ' | 'Ń'..='ŋ' => "N",
+        'Ò'..='Õ' | 'Ø' | 'ò'..='õ' | 'ø' | 'Ō'..='ő' => "O",
+        'Ö' | 'ö' | 'Œ' | 'œ' => "OE",
+        'Ŕ'..='ř' => "R",
+        'ß' | 'ẞ' => "SS",
+        'Ś'..='š' | 'Ș' | 'ș' => "S",
+        'Þ' | 'þ' => "TH",
+        'Ţ'..='ŧ' | 'Ț' | 'ț' => "T",
+        'Ù'..='Û' | 'ù'..='û' | 'Ũ'..='ų' => "U",
+        'Ü' | 'ü' => "UE",
+        'Ŵ' | 'ŵ' => "W",
+        'Ý' | 'ý' | 'ÿ' | 'Ŷ'..='Ÿ' => "Y",
+        'Ź'..='ž' => "Z",
+        _ => other_alphabet(c),
+    }
+}
+
+fn other_alphabet(c: char) -> &'static str {
+    match c {
+        'А' | 'а' | 'Α' | 'α' => "A",
+        'Б' | 'б' | 'Β' | 'β' => "B",
+        'В' | 'в' => "V",
+        'Г' | 'г' | 'Γ' | 'γ' => "G",
+        'Д' | 'д' | 'Δ' | 'δ' => "D",
+        'Е' | 'е' | 'Э' | 'э' | 'Ε' | 'ε' => "E",
+        'Ё' | 'ё' => "YO",
+        'Ж' | 'ж' => "ZH",
+        'З' | 'з' | 'Ζ' | 'ζ' => "Z",
+        'И' | 'и' | 'Ι' | 'ι' | 'Η' | 'η' => "I",
+        'Й' | 'й' | 'Ы' | 'ы' | 'Υ' | 'υ' => "Y",
+        'К' | 'к' | 'Κ' | 'κ' => "K",
+        'Л' | 'л' | 'Λ' | 'λ' => "L",
+        'М' | 'м' | 'Μ' => "M",
+        'Н' | 'н' | 'Ν' | 'ν' => "N",
+        'О' | 'о' | 'Ο' | 'ο' | 'Ω' | 'ω' => "O",
+        'П' | 'п' | 'Π' | 'π' => "P",
+        'Р' | 'р' | 'Ρ' | 'ρ' => "R",
+        'С' | 'с' | 'Σ' | 'σ' | 'ς' => "S",
+        'Т' | 'т' | 'Τ' | 'τ' => "T",
+        'У' | 'у' => "U",
+        'Ф' | 'ф' | 'Φ' | 'φ' => "F",
+        'Х' | 'х' | 'Χ' | 'χ' => "KH",
+        'Ц' | 'ц' => "TS",
+        'Ч' | 'ч' => "CH",
+        'Ш' | 'ш' => "SH",
+        'Щ' | 'щ' => "SHCH",
+        'Ъ' | 'ъ' | 'Ь' | 'ь' => "",
+        'Ю' | 'ю' => "YU",
+        'Я' | 'я' => "YA",
+        'Θ' | 'θ' => "TH",
+        'Ξ' | 'ξ' => "X",
+        'Ψ' | 'ψ' => "PS",
+        '⌀' | '∅' => "D",
+        c if c.is_control() => " ",
+        // Something was here: a reader of the comment is to see that.
+        _ => "*",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn capitals(longest: usize) -> Comments {
+        Comments::new(&CommentRules {
+            open: "(".into(),
+            close: ")".into(),
+            upper_ascii: true,
+            signs: ".,=_-+/*:".into(),
+            longest,
+            source: String::new(),
+        })
+    }
+
+    fn written(comments: &mut Comments, text: &str) -> (String, String, bool) {
+        let (mut line, mut after) = (Vec::new(), Vec::new());
+        let changed = comments.write(text, &mut line, &mut after, b"\n");
+        (String::from_utf8(line).expect("text"), String::from_utf8(after).expect("text"), changed)
+    }
+
+    #[test]
+    fn accents_become_capitals() {
+        let mut c = capitals(60);
+        assert_eq!(written(&mut c, "FURAÇÃO 3mm :"), ("(FURACAO 3MM :)".into(), "".into(), true));
+        assert_eq!(written(&mut c, "FACEAMENTO:"), ("(FACEAMENTO:)".into(), "".into(), false));
+        assert!(written(&mut c, "mm").2);
+        assert_eq!(written(&mut c, "Größe ÄÖÜ Łódź").0, "(GROESSE AEOEUE LODZ)");
+        assert_eq!(written(&mut c, "сверло Ø8").0, "(SVERLO O8)");
+        assert_eq!(written(&mut c, "日").0, "(*)");
+    }
+
+    #[test]
+    fn nothing_ends_the_comment_or_the_program() {
+        let mut c = capitals(60);
+        assert_eq!(written(&mut c, "FACE (TOP) 50%").0, "(FACE -TOP 50 PCT)");
+        assert_eq!(written(&mut c, "A\nB;C").0, "(A B,C)");
+        assert_eq!(written(&mut c, "").0, "()");
+    }
+
+    #[test]
+    fn long_comments_go_on() {
+        let mut c = capitals(10);
+        assert_eq!(written(&mut c, "ONE TWO THREE"), ("(ONE TWO)".into(), "(THREE)\n".into(), true));
+        assert_eq!(written(&mut c, "ABCDEFGHIJKL"), ("(ABCDEFGHIJ)".into(), "(KL)\n".into(), true));
+    }
+
+    #[test]
+    fn a_comment_to_the_end_of_the_line_keeps_its_characters() {
+        let mut c = Comments::new(&CommentRules { open: ";".into(), ..CommentRules::default() });
+        assert_eq!(written(&mut c, "FURAÇÃO (3mm)"), (";FURAÇÃO (3mm)".into(), "".into(), false));
+        assert_eq!(written(&mut c, "A\rB"), (";A B".into(), "".into(), true));
+    }
+}

@@ -1,0 +1,480 @@
+//! Canned cycles and patterns of holes.
+//!
+//! Some controls make a hole with the block that calls the cycle up, others do not. For the first
+//! kind a call is held back until its first position; a cycle that ends before leaves nothing but
+//! its feed.
+
+use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Coord, Move, Point, Stmt};
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::codes::{Code, CycleCode, Letter};
+use super::modes::{Inserted, Setting, cannot};
+use super::number::{self, Shaped};
+use super::{Sink, Writer};
+
+/// A cycle that the program has in force.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    pub cycle: Cycle,
+    /// Whether the text has called it up, on every way.
+    pub in_text: bool,
+    /// Skip level of its call.
+    skip: Option<u8>,
+    /// Block number of its call, if that block has not been written.
+    number: Option<u32>,
+    /// The cycle that the text had in force when this one was called up, so that words which have
+    /// not changed need not be written.
+    before: Option<Box<Cycle>>,
+    /// The feed that the text states for it.
+    pub feed: Option<Expr>,
+}
+
+/// Words of a cycle's call; of a change of the cycle in force, those that change.
+struct CallWords {
+    code: Option<Code>,
+    level: Option<Code>,
+    depth: Option<(Letter, Coord)>,
+    retract: Option<(Letter, Coord)>,
+    peck: Option<(u8, Shaped)>,
+    dwell: Option<(u8, Shaped)>,
+    feed: Option<(u8, Shaped)>,
+}
+
+impl Writer {
+    pub(super) fn start_cycle(&mut self, cycle: &Cycle, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let mut held = Held {
+            cycle: cycle.clone(),
+            in_text: false,
+            skip: stmt.skip,
+            number: None,
+            before: None,
+            feed: None,
+        };
+        match self.held.take() {
+            Some(before) if before.in_text && self.force.motion == Some(Motion::Cycle) => {
+                held.feed = before.feed;
+                held.before = Some(Box::new(before.cycle));
+            }
+            Some(before) if before.skip.is_none() && !before.in_text => {
+                // Its feed stays in force though it has made no hole.
+                held.cycle.feed = held.cycle.feed.or(before.cycle.feed);
+                (held.before, held.feed) = (before.before, before.feed);
+            }
+            Some(_) | None => {}
+        }
+        if !self.dialect.cycles.hole_on_definition {
+            return self.call_up(held, None, true, stmt, sink);
+        }
+        // A cycle without a row is a fault here, not at its first hole.
+        self.cycle_code(cycle)?;
+        held.number = self.block.number.filter(|_| self.block.is_empty());
+        self.held = Some(held);
+        Ok(())
+    }
+
+    /// A hole at a position.
+    pub(super) fn hole(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let with_call = self.dialect.cycles.hole_on_definition;
+        let in_force = self.force.motion == Some(Motion::Cycle);
+        match self.held.take() {
+            Some(held) if !held.in_text || !in_force || (with_call && to.to.is_empty()) => {
+                if held.skip.is_some() && held.skip != stmt.skip {
+                    return Err(cannot("a cycle whose call can be skipped and its holes cannot"));
+                }
+                let at = with_call.then_some(&to.to);
+                self.call_up(held, at, to.said, stmt, sink)?;
+                if with_call {
+                    return Ok(());
+                }
+            }
+            Some(held) => self.held = Some(held),
+            None if in_force => {}
+            None => return Err(cannot("a hole of a cycle that is not known")),
+        }
+        if to.to.is_empty() {
+            let to = self.stand_words(stmt.span)?;
+            return self.hole_words(&to, stmt.span, sink);
+        }
+        self.hole_words(&to.to, stmt.span, sink)
+    }
+
+    fn hole_words(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let mut inserted = Inserted::default();
+        self.need_distance(to.axes.iter().flatten(), &mut inserted)?;
+        let need = self.point_need(Need::new(Rank::Motion), to)?;
+        self.admit_with(need, inserted, sink)?;
+        self.point(to, span, sink)
+    }
+
+    /// Words for the position where the tool stands, on a control that needs some for a hole.
+    fn stand_words(&self, _: Span) -> Result<Point, Fault> {
+        let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.force.plane);
+        let (first, second, _) = plane.unwrap_or(Plane::Xy).axes();
+        let distance = self.force.distance;
+        let absolute = Some(ncc_ir::canon::Distance::Absolute);
+        if distance != absolute {
+            return Err(cannot("a hole where the tool stands, in incremental coordinates"));
+        }
+        let unit = match self.force.units {
+            Some(ncc_ir::canon::Units::Inch) => Unit::Inch,
+            Some(ncc_ir::canon::Units::Mm) => Unit::Mm,
+            None => return Err(cannot("a position in a unit that is not known")),
+        };
+        let mut to = Point::default();
+        for axis in [first, second] {
+            let letter = self.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
+            let n = number::from_nanos(self.stands(axis)?, &letter.format, unit);
+            to.set(axis, Coord { value: Expr::Num(n), distance: distance.into() });
+        }
+        Ok(to)
+    }
+
+    pub(super) fn end_cycle(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let held = self.held.take().filter(|h| !h.in_text);
+        let dropped = held.is_some() && self.dialect.cycles.hole_on_definition;
+        if let Some(feed) = held.and_then(|h| h.cycle.feed) {
+            let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
+            let value = self.value(&letter, &feed, span, sink)?;
+            self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
+            self.block.word(Part::Feed, letter.letter, value);
+        }
+        let other_motion = self.force.motion.is_some_and(|m| m != Motion::Cycle);
+        if dropped && other_motion {
+            return Ok(());
+        }
+        let code = self.setting(Setting::NoCycle)?.ok_or_else(|| cannot("the end of a cycle"))?;
+        self.admit(&Need::new(Rank::CycleEnd).code(Some(code)), sink)?;
+        self.block.code(Part::Mode, &code);
+        self.now_in_force(Setting::NoCycle);
+        Ok(())
+    }
+
+    /// The row of a cycle.
+    fn cycle_code(&self, cycle: &Cycle) -> Result<&CycleCode, Fault> {
+        let dwell = match &cycle.kind {
+            CycleKind::Drill => None,
+            CycleKind::DrillDwell { dwell } => Some(dwell),
+            CycleKind::DrillPeck { dwell, clearance, .. } => {
+                if *clearance != Clearance::Parameter {
+                    return Err(cannot("the clearance of a peck, which is a parameter of the machine"));
+                }
+                dwell.as_ref()
+            }
+            CycleKind::Bore { dwell } => dwell.as_ref(),
+        };
+        let code = self.codes.cycle(cycle.kind.name(), dwell.is_some());
+        code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
+    }
+
+    /// Calls a held cycle up without a hole, before what relies on it being in force.
+    pub(super) fn call_up_now(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.dialect.cycles.hole_on_definition || self.held.as_ref().is_none_or(|h| h.in_text) {
+            return Ok(());
+        }
+        if self.dialect.cycles.repeat.is_none() {
+            return Err(cannot("a cycle that is called up without a hole"));
+        }
+        let Some(held) = self.held.take() else { return Ok(()) };
+        let (number, split) = (self.block.number.take(), self.split);
+        self.flush(false, sink);
+        self.call_up(held, None, true, stmt, sink)?;
+        self.flush(false, sink);
+        (self.block.number, self.split) = (number, split);
+        Ok(())
+    }
+
+    /// Writes the call of a cycle, with the first position in its block if `at` says one. Unless the
+    /// block is to say the code, a change of the cycle in force is written by the words that change.
+    fn call_up(
+        &mut self,
+        mut held: Held,
+        at: Option<&Point>,
+        said: bool,
+        stmt: &Stmt,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let mut inserted = Inserted::default();
+        let cycle = &held.cycle;
+        let coords = at.into_iter().flat_map(|p| p.axes.iter().flatten());
+        self.need_distance(coords.chain([&cycle.retract, &cycle.depth]), &mut inserted)?;
+        self.need_plane(cycle.plane, &mut inserted)?;
+        let words = self.call_words(&held, at, said, stmt.span, sink)?;
+        let mut need = Need::new(Rank::Motion).code(words.level).code(words.code);
+        for (letter, _) in [&words.depth, &words.retract].into_iter().flatten() {
+            need = need.letter(letter.letter);
+        }
+        for (letter, _) in [words.peck, words.dwell, words.feed].iter().flatten() {
+            need = need.letter(*letter);
+        }
+        if let Some(at) = at {
+            let depth = self.cycle_code(&held.cycle)?.depth.letter;
+            let along = |axis: &Axis| at.get(*axis).is_some() && axis.letter() == depth;
+            if Axis::ALL.iter().any(along) {
+                return Err(cannot("a hole position along the drilling axis"));
+            }
+            need = self.point_need(need, at)?;
+        }
+        // Where the call makes a hole, none is made by counting to zero.
+        let none = match (at, self.dialect.cycles.hole_on_definition, self.dialect.cycles.repeat) {
+            (None, true, Some(letter)) => Some(letter as u8),
+            _ => None,
+        };
+        if let Some(letter) = none {
+            need = need.letter(letter);
+        }
+        self.admit_with(need, inserted, sink)?;
+        if self.block.number.is_none() {
+            self.block.number = held.number.take();
+        }
+        self.block.calls_up = true;
+        for code in [&words.level, &words.code].into_iter().flatten() {
+            self.block.code(Part::Motion, code);
+        }
+        self.call_axes(at, words.depth.as_ref(), stmt.span, sink)?;
+        if let Some((letter, coord)) = &words.retract {
+            let retract = self.value(letter, &coord.value, stmt.span, sink)?;
+            self.block.word(Part::Axes, letter.letter, retract);
+        }
+        for (letter, value) in [words.peck, words.dwell].into_iter().flatten() {
+            self.block.word(Part::Axes, letter, value);
+        }
+        if let Some((letter, value)) = words.feed {
+            self.block.word(Part::Feed, letter, value);
+        }
+        if let Some(letter) = none {
+            self.block.digits(Part::Tail, letter, "0");
+        }
+        self.force.motion = Some(Motion::Cycle);
+        held.in_text = stmt.skip.is_none() || stmt.skip == held.skip;
+        held.before = None;
+        if stmt.skip.is_none() {
+            held.feed = held.cycle.feed.take().or(held.feed);
+        }
+        self.held = Some(held);
+        Ok(())
+    }
+
+    /// The words of a call, all but those of its position.
+    fn call_words(
+        &mut self,
+        held: &Held,
+        at: Option<&Point>,
+        said: bool,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<CallWords, Fault> {
+        let cycle = &held.cycle;
+        let row = self.cycle_code(cycle)?.clone();
+        let plane = cycle.plane.known().or(self.force.plane);
+        if plane.is_some_and(|p| p.axes().2 != Axis::Z) {
+            return Err(cannot("a cycle along another axis than Z"));
+        }
+        let (peck, dwell) = match &cycle.kind {
+            CycleKind::Drill => (None, None),
+            CycleKind::DrillDwell { dwell } => (None, Some(dwell)),
+            CycleKind::DrillPeck { peck, dwell, .. } => (Some(peck), dwell.as_ref()),
+            CycleKind::Bore { dwell } => (None, dwell.as_ref()),
+        };
+        // A change keeps code and plane, and needs a word that makes a hole.
+        let moves = at.is_some_and(|p| !p.is_empty());
+        let before = held.before.as_deref().filter(|b| {
+            !said
+                && moves
+                && self.dialect.cycles.retained
+                && self.force.motion == Some(Motion::Cycle)
+                && b.plane == cycle.plane
+                && self.cycle_code(b).is_ok_and(|r| r.code == row.code)
+        });
+        let same_kind = before.is_some_and(|b| b.kind == cycle.kind);
+        let peck = match (row.peck, peck.filter(|_| !same_kind)) {
+            (Some(letter), Some(peck)) => Some((letter.letter, self.value(&letter, peck, span, sink)?)),
+            _ => None,
+        };
+        let dwell = match (row.dwell, dwell.filter(|_| !same_kind)) {
+            (Some(word), Some(dwell)) => {
+                Some((word.word.letter, self.dwell_value(&word, dwell, span, sink)?))
+            }
+            _ => None,
+        };
+        let stated = before.and(held.feed.as_ref());
+        let feed = match (cycle.feed.as_ref().filter(|f| Some(*f) != stated), self.codes.feed_word) {
+            (Some(feed), Some(letter)) => Some((letter.letter, self.value(&letter, feed, span, sink)?)),
+            (Some(_), None) => return Err(cannot("a feed")),
+            (None, _) => None,
+        };
+        let same_depth = before.is_some_and(|b| b.depth == cycle.depth);
+        let same_retract = before.is_some_and(|b| b.retract == cycle.retract);
+        let level = match before {
+            Some(b) if b.return_level == cycle.return_level && self.force.level == b.return_level.known() => {
+                None
+            }
+            Some(_) | None => self.level_code(cycle.return_level)?,
+        };
+        Ok(CallWords {
+            code: before.is_none().then_some(row.code),
+            level,
+            depth: (!same_depth).then(|| (row.depth, cycle.depth.clone())),
+            retract: (!same_retract).then(|| (row.retract, cycle.retract.clone())),
+            peck,
+            dwell,
+            feed,
+        })
+    }
+
+    /// The code of a cycle's return level, where it has to be stated.
+    fn level_code(&mut self, level: Fact<ReturnLevel>) -> Result<Option<Code>, Fault> {
+        let fixed = self.dialect.cycles.return_level.map(ReturnLevel::from);
+        match (level, fixed) {
+            (Fact::Known(level), Some(fixed)) if level == fixed => Ok(None),
+            (Fact::Known(_), Some(_)) => Err(cannot("a cycle that returns to the other level")),
+            (Fact::Entry, Some(_)) => Err(cannot("a cycle whose return level is the caller's")),
+            (Fact::Entry, None) if self.force.our_level => {
+                Err(cannot("a cycle whose return level is not known"))
+            }
+            (Fact::Entry, None) => Ok(None),
+            (Fact::Known(level), None) if self.force.level == Some(level) && !self.force.our_level => {
+                Ok(None)
+            }
+            (Fact::Known(level), None) => {
+                let code = self.setting(Setting::Level(level))?;
+                self.force.level = Some(level);
+                self.force.our_level = true;
+                Ok(code)
+            }
+        }
+    }
+
+    /// The axis words of a call in the order of the axes, the bottom among them.
+    fn call_axes(
+        &mut self,
+        at: Option<&Point>,
+        mut depth: Option<&(Letter, Coord)>,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        for axis in Axis::ALL {
+            if let Some((letter, coord)) = depth.take_if(|(l, _)| l.letter <= axis.letter() || axis > Axis::Z)
+            {
+                let value = self.value(letter, &coord.value, span, sink)?;
+                self.block.word(Part::Axes, letter.letter, value);
+            }
+            if let Some(coord) = at.and_then(|p| p.get(axis)) {
+                self.axis_word(axis, coord, span, sink)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A pattern of holes with the cycle in force.
+    pub(super) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        match self.held.take() {
+            Some(held) if self.dialect.cycles.hole_on_definition => {
+                self.held = Some(held);
+                return Err(cannot("a pattern of holes"));
+            }
+            Some(held) if !held.in_text || self.force.motion != Some(Motion::Cycle) => {
+                self.call_up(held, None, true, stmt, sink)?;
+            }
+            Some(held) => self.held = Some(held),
+            None => return Err(cannot("holes of a cycle that is not known")),
+        }
+        match pattern {
+            Pattern::Circle { centre, first, step, count } => {
+                self.circle(centre.as_ref(), first, step, *count, stmt.span, sink)
+            }
+            Pattern::Grid { columns, rows, serpentine } => {
+                self.grid(columns, rows, *serpentine, stmt.span, sink)
+            }
+        }
+    }
+
+    fn circle(
+        &mut self,
+        centre: Option<&[Coord; 2]>,
+        first: &[Coord; 2],
+        step: &Expr,
+        count: u32,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let row = self.codes.circle.ok_or_else(|| cannot("a bolt circle"))?;
+        if centre.is_none() && self.options.circle_about_zero {
+            let zero = self.stands(Axis::X)? == 0 && self.stands(Axis::Y)? == 0;
+            if !zero {
+                return Err(cannot("a bolt circle about where the tool stands"));
+            }
+        }
+        let mut inserted = Inserted::default();
+        self.need_distance(first.iter().chain(centre.into_iter().flatten()), &mut inserted)?;
+        let mut words = Vec::with_capacity(6);
+        for (letter, coord) in row.first.iter().zip(first) {
+            words.push((letter.letter, self.value(letter, &coord.value, span, sink)?));
+        }
+        for (letter, coord) in row.centre.iter().zip(centre.into_iter().flatten()) {
+            words.push((letter.letter, self.value(letter, &coord.value, span, sink)?));
+        }
+        let step = match (step.literal(), self.options.circle_clockwise) {
+            (Some(n), true) => Expr::Num(Num { mantissa: n.mantissa.saturating_neg(), ..n }),
+            _ => step.clone(),
+        };
+        words.push((row.step.letter, self.value(&row.step, &step, span, sink)?));
+        words.push((row.count.letter, self.value(&row.count, &Expr::int(count.into()), span, sink)?));
+        self.pattern_block(row.code, &words, inserted, sink)
+    }
+
+    fn grid(
+        &mut self,
+        columns: &Row,
+        rows: &Row,
+        serpentine: bool,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let row = self.codes.grid.ok_or_else(|| cannot("a grid of holes"))?;
+        let (x, y) = (Axis::from_letter(row.pitch[0].letter), Axis::from_letter(row.pitch[1].letter));
+        // The order of the holes shows only where there is more than one row.
+        let order = serpentine == row.serpentine || rows.count <= 1 || columns.count <= 1;
+        if Some(columns.axis) != x || Some(rows.axis) != y || !order {
+            return Err(cannot("a grid in this order"));
+        }
+        let mut words = Vec::with_capacity(4);
+        for (letter, line) in row.pitch.iter().zip([columns, rows]) {
+            let pitch = match (line.pitch.literal(), self.options.grid_extent) {
+                (Some(n), true) => {
+                    let steps = i64::from(line.count.saturating_sub(1));
+                    let mantissa = n.mantissa.checked_mul(steps);
+                    let too_far = || Fault::TargetRange { word: number::spell(letter.letter, n) };
+                    Expr::Num(Num { mantissa: mantissa.ok_or_else(too_far)?, ..n })
+                }
+                _ => line.pitch.clone(),
+            };
+            words.push((letter.letter, self.value(letter, &pitch, span, sink)?));
+        }
+        for (letter, line) in row.counts.iter().zip([columns, rows]) {
+            words.push((letter.letter, self.value(letter, &Expr::int(line.count.into()), span, sink)?));
+        }
+        self.pattern_block(row.code, &words, Inserted::default(), sink)
+    }
+
+    fn pattern_block(
+        &mut self,
+        code: Code,
+        words: &[(u8, Shaped)],
+        inserted: Inserted,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let need = words.iter().fold(Need::new(Rank::Motion).code(Some(code)), |n, (l, _)| n.letter(*l));
+        self.admit_with(need, inserted, sink)?;
+        self.block.code(Part::Motion, &code);
+        for (letter, value) in words {
+            self.block.word(Part::Axes, *letter, *value);
+        }
+        Ok(())
+    }
+}

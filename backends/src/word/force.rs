@@ -1,0 +1,41 @@
+//! What is in force in the text that has been written, as far as the text itself says it.
+
+use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Units};
+
+/// Modes of the written text. `None` is not known: at the start, after a call, where ways meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct InForce {
+    pub motion: Option<Motion>,
+    pub distance: Option<Distance>,
+    pub units: Option<Units>,
+    pub plane: Option<Plane>,
+    pub feed_mode: Option<FeedMode>,
+    pub level: Option<ReturnLevel>,
+    /// Whether the distance mode was put in by this writer, so that statements which take what the
+    /// source has in force cannot be written.
+    pub our_distance: bool,
+    /// The same for the plane.
+    pub our_plane: bool,
+    /// The same for the return level; one of ours is stated again with every call of a cycle.
+    pub our_level: bool,
+}
+
+impl InForce {
+    /// What holds if the block between `before` and now may have been skipped.
+    pub(super) fn join(&mut self, before: &InForce) {
+        fn both<T: PartialEq>(a: &mut Option<T>, b: &Option<T>) {
+            if a != b {
+                *a = None;
+            }
+        }
+        both(&mut self.motion, &before.motion);
+        both(&mut self.distance, &before.distance);
+        both(&mut self.units, &before.units);
+        both(&mut self.plane, &before.plane);
+        both(&mut self.feed_mode, &before.feed_mode);
+        both(&mut self.level, &before.level);
+        self.our_distance |= before.our_distance;
+        self.our_plane |= before.our_plane;
+        self.our_level |= before.our_level;
+    }
+}

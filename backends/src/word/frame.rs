@@ -1,0 +1,112 @@
+//! The frame of a program: what stands before the first block, between procedures and at the end.
+
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::{Op, Procedure};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+use super::modes::cannot;
+use super::{Sink, Writer};
+use crate::Head;
+
+/// Number of a program whose source has none.
+const FIRST_PROGRAM: u32 = 1;
+
+impl Writer {
+    /// The text that goes before all the rest: the frame's mark, number and title, and the comment
+    /// for the operator. A title that the dialect has no place for becomes a comment.
+    pub fn head(&self, head: &Head, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        let rules = &self.dialect.program;
+        if !rules.frame.is_empty() {
+            out.extend_from_slice(rules.frame.as_bytes());
+            out.extend_from_slice(self.eol);
+        }
+        let title = head.name.title.as_deref();
+        if let Some(letter) = rules.number {
+            let number = head.name.number.unwrap_or(FIRST_PROGRAM);
+            self.program_line(letter, number, title.filter(|_| rules.title), out);
+        }
+        if rules.number.is_none() || !rules.title {
+            let number = head.name.number.filter(|_| rules.number.is_none());
+            let kept = match (number, title) {
+                (Some(number), Some(title)) => Some(format!("{number} {title}")),
+                (Some(number), None) => Some(number.to_string()),
+                (None, Some(title)) => Some(title.to_owned()),
+                (None, None) => None,
+            };
+            if let Some(kept) = kept {
+                self.comment_line(&kept, out);
+                diags.push(Diagnostic::new(Fault::NameAsComment, Span::default()));
+            }
+        }
+        for line in &head.lines {
+            self.comment_line(line, out);
+        }
+    }
+
+    fn comment_line(&self, text: &str, out: &mut Vec<u8>) {
+        let (mut line, mut after) = (Vec::new(), Vec::new());
+        self.comments.clone().write(text, &mut line, &mut after, self.eol);
+        out.append(&mut line);
+        out.extend_from_slice(self.eol);
+        out.append(&mut after);
+    }
+
+    fn program_line(&self, letter: char, number: u32, title: Option<&str>, out: &mut Vec<u8>) {
+        let digits = self.dialect.program.number_digits;
+        out.extend_from_slice(format!("{letter}{number:0digits$}").as_bytes());
+        match title {
+            Some(title) => {
+                if self.dialect.block.blanks {
+                    out.push(b' ');
+                }
+                self.comment_line(title, out);
+            }
+            None => out.extend_from_slice(self.eol),
+        }
+    }
+
+    /// Writes a subprogram, after all of the main procedure.
+    pub fn procedure(&mut self, p: &Procedure, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        let mut sink = Sink { out, diags };
+        self.no_event(&mut sink);
+        let span = p.body.first().map_or(Span::default(), |s| s.span);
+        let number = match self.dialect.program.number.filter(|_| self.dialect.program.subprograms) {
+            None => Err(cannot("a subprogram")),
+            Some(_) if !p.parameters.is_empty() => Err(cannot("a subprogram with parameters")),
+            Some(letter) => self.program_number(&p.name).map(|number| (letter, number)),
+        };
+        match number {
+            Ok((letter, number)) => self.program_line(letter, number, p.title.as_deref(), sink.out),
+            Err(fault) => return sink.report(fault, span),
+        }
+        self.forget();
+        self.tracker = Tracker::default();
+        self.body(&p.body, &mut sink);
+        let ends =
+            p.body.iter().rev().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)));
+        if !ends.is_some_and(|s| matches!(s.op, Op::Return | Op::ProgramEnd) && s.skip.is_none()) {
+            let end = ncc_ir::program::Stmt::new(p.body.last().map_or(span, |s| s.span), Op::Return);
+            self.body(&[end], &mut sink);
+        }
+    }
+
+    /// Writes the end marks. A program that does not say its own end is left so.
+    pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        let mut sink = Sink { out, diags };
+        self.no_event(&mut sink);
+        let frame = &self.dialect.program.frame;
+        if !frame.is_empty() {
+            sink.out.extend_from_slice(frame.as_bytes());
+            sink.out.extend_from_slice(self.eol);
+        }
+        if let Some(span) = self.first_left.take() {
+            sink.report(Fault::NumbersLeftOut { count: self.numbers_left }, span);
+        }
+        if let Some((units, span)) = self.units_relied
+            && self.units_stated[1 - units as usize]
+        {
+            sink.report(cannot("lengths in a unit that the caller decides"), span);
+        }
+    }
+}

@@ -1,0 +1,328 @@
+//! The back-end of the word-address family: blocks of letters and numbers.
+//!
+//! Everything that differs from control to control comes from the dictionary. Statements of one
+//! block are written as one block where the control can read it so, in the order in which posts
+//! write words. What the dictionary has no word for is a fault at the statement, never silent.
+//!
+//! Not here: expanding what a control cannot say (passes), and judging the result (verification).
+
+mod block;
+mod codes;
+mod comment;
+mod cycles;
+mod force;
+mod frame;
+mod modes;
+mod motion;
+mod number;
+mod plain;
+mod start;
+mod statement;
+
+use ncc_dialects::{Dialect, Settings};
+use ncc_ir::canon::{AXES, Axis, Modes, Units};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::num::Nanos;
+use ncc_ir::program::{Op, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+use crate::{Layout, Numbering};
+use block::{Block, Need};
+use codes::Codes;
+use comment::Comments;
+use cycles::Held;
+use force::InForce;
+use start::Preamble;
+
+/// Highest block number (FANUC 16-C: N1 to N99999); numbering begins again after it.
+const HIGHEST_NUMBER: u32 = 99_999;
+
+/// Where a piece of the program goes.
+struct Sink<'a> {
+    out: &'a mut Vec<u8>,
+    diags: &'a mut Vec<Diagnostic>,
+}
+
+impl Sink<'_> {
+    fn report(&mut self, fault: Fault, span: Span) {
+        self.diags.push(Diagnostic::new(fault, span));
+    }
+}
+
+/// Choices of the dictionary's options that decide how a word reads back.
+#[derive(Clone, Copy, Debug)]
+struct Options {
+    /// The corrector word takes up a length; else it means nothing and cannot carry one.
+    corrector_counts: bool,
+    /// A bolt circle's positive step is clockwise.
+    circle_clockwise: bool,
+    /// A bolt circle without centre words is about program zero; else about where the tool stands.
+    circle_about_zero: bool,
+    /// A grid's words are the whole extent of a row; else the pitch.
+    grid_extent: bool,
+}
+
+/// Writes a program in a word-address dialect.
+#[derive(Clone, Debug)]
+pub struct Writer {
+    dialect: &'static Dialect,
+    options: Options,
+    numbering: Numbering,
+    eol: &'static [u8],
+    codes: Codes,
+    comments: Comments,
+    block: Block,
+    force: InForce,
+    tracker: Tracker,
+    /// What the written position lags behind the program's, by rounding; nanos per axis.
+    residue: [Nanos; AXES],
+    /// Whether any residue is not zero.
+    residual: bool,
+    held: Option<Held>,
+    preamble: Option<Preamble>,
+    /// Facts taken for granted that were known at the last piece.
+    assumed: Modes,
+    /// Whether facts of the program's start may have been changed unseen (a call, a skipped block).
+    lost: bool,
+    stated: Modes,
+    next_number: u32,
+    numbers_left: u32,
+    first_left: Option<Span>,
+    /// Whether the source block at hand had to be split.
+    split: bool,
+    /// A length offset in the block at hand that needs a Z word beside it.
+    offset_waits: Option<Span>,
+    /// Units that the text states anywhere.
+    units_stated: [bool; 2],
+    /// A literal that relies on one unit being in force throughout, and where.
+    units_relied: Option<(Units, Span)>,
+    line: [u8; plain::LINE],
+}
+
+impl Writer {
+    /// A writer for a dialect of the word-address family.
+    pub fn new(settings: Settings, layout: Layout) -> Writer {
+        let dialect = settings.dialect;
+        let rules = &dialect.block;
+        let next_number = match layout.numbering {
+            Numbering::Every { first, .. } => first,
+            Numbering::Off | Numbering::Keep => 0,
+        };
+        Writer {
+            dialect,
+            options: Options {
+                corrector_counts: settings.get("o_word") != "ignore",
+                circle_clockwise: settings.get("g24_direction") == "cw",
+                circle_about_zero: settings.get("g24_centre") == "zero",
+                grid_extent: settings.get("g25_xy") == "extent",
+            },
+            numbering: match rules.number {
+                Some(_) => layout.numbering,
+                None => Numbering::Off,
+            },
+            eol: if layout.crlf { b"\r\n" } else { b"\n" },
+            codes: Codes::new(dialect),
+            comments: Comments::new(&dialect.comment),
+            block: Block::new(rules.blanks, rules.g_codes, rules.m_codes),
+            force: InForce::default(),
+            tracker: Tracker::default(),
+            residue: [0; AXES],
+            residual: false,
+            held: None,
+            preamble: (!dialect.safe_start.is_empty()).then(Preamble::default),
+            assumed: Modes::default(),
+            lost: false,
+            stated: Modes::default(),
+            next_number,
+            numbers_left: 0,
+            first_left: None,
+            split: false,
+            offset_waits: None,
+            units_stated: [false; 2],
+            units_relied: None,
+            line: [0; plain::LINE],
+        }
+    }
+
+    /// Writes statements of the main procedure, in pieces of whole blocks. `assumed` holds the facts
+    /// that the source relies on without having said them; it may grow from piece to piece.
+    pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        let mut sink = Sink { out, diags };
+        self.take_for_granted(assumed);
+        self.body(stmts, &mut sink);
+    }
+
+    /// Facts that the written text states by itself, in its safe start line.
+    pub fn stated(&self) -> Modes {
+        self.stated
+    }
+
+    /// Where the axes stand before the first statement, in program coordinates, as far as the user
+    /// has said it.
+    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
+        self.tracker.position = *start;
+    }
+
+    fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        let mut at = 0;
+        while at < stmts.len() {
+            let mut end = at + 1;
+            while end < stmts.len() && stmts[end].joined {
+                end += 1;
+            }
+            let block = &stmts[at..end];
+            if !self.plain_block(block, sink.out) {
+                self.source_block(block, sink);
+            }
+            at = end;
+        }
+    }
+
+    /// Writes the statements of one block of the source.
+    fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        let Some(first) = stmts.first() else { return };
+        self.split = false;
+        self.block.number = first.number;
+        self.number_seen(first);
+        for stmt in stmts {
+            self.one(stmt, sink);
+        }
+        self.flush(false, sink);
+        if self.split {
+            let span = stmts.iter().fold(first.span, |span, s| span.to(s.span));
+            sink.report(Fault::BlockSplit, span);
+        }
+    }
+
+    fn one(&mut self, stmt: &Stmt, sink: &mut Sink) {
+        if stmt.skip != self.block.skip && !self.block.is_empty() {
+            self.flush(false, sink);
+        }
+        self.block.skip = stmt.skip;
+        let before = self.force;
+        let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
+        let written = match stmt.skip {
+            Some(_) if !silent && self.skip_mark(stmt.skip).is_none() => {
+                Err(Fault::CannotSay { what: "a block that can be skipped on a switch of its own".into() })
+            }
+            _ => self.statement(stmt, sink),
+        };
+        if let Err(fault) = written {
+            sink.report(fault, stmt.span);
+        }
+        if let Some(comment) = &stmt.comment {
+            self.comment(comment, stmt.span, sink);
+        }
+        self.tracker.step(stmt);
+        if stmt.skip.is_some() {
+            self.force.join(&before);
+            self.lost = true;
+            self.residue = [0; AXES];
+            self.residual = false;
+        }
+    }
+
+    fn comment(&mut self, text: &str, span: Span, sink: &mut Sink) {
+        let block = &mut self.block;
+        if self.comments.write(text, &mut block.comment, &mut block.after, self.eol) {
+            sink.report(Fault::CommentReformatted, span);
+        }
+    }
+
+    /// Makes room for a statement: in the block at hand, or else in a new one.
+    fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.block.possible(need) {
+            return Err(Fault::CannotSay { what: "these codes in one block".into() });
+        }
+        if !self.block.fits(need) {
+            let feed = self.block.feed_can_wait(need).then(|| self.block.take_feed());
+            if !self.block.is_empty() {
+                self.flush(false, sink);
+                self.split = true;
+            }
+            if let Some(feed) = feed {
+                self.block.put_feed(feed);
+            }
+        }
+        self.block.take(need);
+        Ok(())
+    }
+
+    /// Ends the block; `even_empty` writes the line of an empty one.
+    fn flush(&mut self, even_empty: bool, sink: &mut Sink) {
+        let empty = self.block.is_empty();
+        if empty && self.block.comment.is_empty() && !even_empty {
+            if !self.block.after.is_empty() {
+                let to = self.preamble.as_mut().map_or(&mut *sink.out, |p| &mut p.held);
+                to.append(&mut self.block.after);
+            }
+            return;
+        }
+        if let Some(span) = self.offset_waits.take()
+            && !self.block.has(Axis::Z.letter())
+        {
+            sink.report(modes::cannot("a length offset in a block without Z"), span);
+        }
+        let number = match self.numbering {
+            Numbering::Off => None,
+            Numbering::Keep => self.block.number,
+            Numbering::Every { .. } if empty => None,
+            Numbering::Every { first, step } => Some(self.count_number(first, step)),
+        };
+        let mark = self.skip_mark(self.block.skip);
+        let to = self.preamble.as_mut().map_or(&mut *sink.out, |p| &mut p.held);
+        if let Some((mark, level)) = mark {
+            to.extend_from_slice(mark.as_bytes());
+            if let Some(level) = level {
+                to.push(b'0' + level);
+                if self.dialect.block.blanks {
+                    to.push(b' ');
+                }
+            }
+        }
+        if let (Some(number), Some(letter)) = (number, self.dialect.block.number) {
+            to.push(letter as u8);
+            to.extend_from_slice(number.to_string().as_bytes());
+        }
+        self.block.write(to, number.is_some());
+        to.extend_from_slice(self.eol);
+        to.append(&mut self.block.after);
+    }
+
+    fn count_number(&mut self, first: u32, step: u32) -> u32 {
+        let number = self.next_number;
+        let next = number.saturating_add(step);
+        self.next_number = if next > HIGHEST_NUMBER { first } else { next };
+        number
+    }
+
+    /// The mark of a skip level, and its digit if it needs one; `None` if there is no such mark.
+    fn skip_mark(&self, level: Option<u8>) -> Option<(&'static str, Option<u8>)> {
+        let rules = &self.dialect.block;
+        let level = level?;
+        match (rules.skip.as_str(), level) {
+            ("", _) => None,
+            (mark, 1) => Some((mark, None)),
+            (mark, 2..=9) if level <= rules.skip_levels => Some((mark, Some(level))),
+            _ => None,
+        }
+    }
+
+    /// Notes a block number of the source that is not written.
+    fn number_seen(&mut self, stmt: &Stmt) {
+        if stmt.number.is_some() && self.numbering == Numbering::Off {
+            self.numbers_left = self.numbers_left.saturating_add(1);
+            self.first_left.get_or_insert(stmt.span);
+        }
+    }
+
+    /// Forgets everything that is in force: after a call, at a procedure's start.
+    fn forget(&mut self) {
+        self.force = InForce::default();
+        self.held = None;
+        self.residue = [0; AXES];
+        self.residual = false;
+        self.lost = true;
+    }
+}

@@ -1,0 +1,295 @@
+//! Settings: units, plane, distance, feed mode, return level, work offset, and what is switched
+//! off. Written where the source says them, also if redundant.
+
+use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Units};
+use ncc_ir::diag::Fault;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Coord, FrameSlot, Op};
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::codes::Code;
+use super::{Sink, Writer};
+
+/// A fault for what there is no word for.
+pub(super) fn cannot(what: impl Into<Box<str>>) -> Fault {
+    Fault::CannotSay { what: what.into() }
+}
+
+/// A setting: a statement that moves nothing and stays in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Setting {
+    Units(Units),
+    Distance(Distance),
+    Plane(Plane),
+    FeedMode(FeedMode),
+    Level(ReturnLevel),
+    Origin(u16),
+    NoShift,
+    NoCompensation,
+    NoLength,
+    NoCycle,
+}
+
+impl Setting {
+    /// The setting that a statement is; cycle ends and cancelled length offsets count too.
+    pub(super) fn of(op: &Op) -> Option<Setting> {
+        Some(match op {
+            Op::UseLengthUnits(u) => Setting::Units(*u),
+            Op::SetDistanceMode(d) => Setting::Distance(*d),
+            Op::SelectPlane(p) => Setting::Plane(*p),
+            Op::SetFeedMode(f) => Setting::FeedMode(*f),
+            Op::SetReturnLevel(l) => Setting::Level(*l),
+            Op::SetOriginOffsets(n) => Setting::Origin(*n),
+            Op::ClearFrame(FrameSlot::Shift) => Setting::NoShift,
+            Op::StopCutterRadiusCompensation => Setting::NoCompensation,
+            Op::UseToolLengthOffset(e) if e.literal().is_some_and(Num::is_zero) => Setting::NoLength,
+            Op::EndCycle => Setting::NoCycle,
+            Op::ClearFrame(_)
+            | Op::UseToolLengthOffset(_)
+            | Op::Comment(_)
+            | Op::NoEffect(_)
+            | Op::Blank
+            | Op::SetFrame(..)
+            | Op::SetFeedRate(_)
+            | Op::SetSpindleSpeed(_)
+            | Op::SelectTool(_)
+            | Op::ChangeTool
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::Dwell(_)
+            | Op::StraightTraverse(_)
+            | Op::StraightFeed(_)
+            | Op::ArcFeed(_)
+            | Op::Position(_)
+            | Op::StartCycle(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::ProgramEnd
+            | Op::Message(_)
+            | Op::Call(_)
+            | Op::Return
+            | Op::Assign(..)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_) => return None,
+        })
+    }
+}
+
+fn said(code: Option<Code>, what: &str) -> Result<Option<Code>, Fault> {
+    code.map(Some).ok_or_else(|| cannot(what))
+}
+
+/// Codes that have to be put in before a statement can mean what it means.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Inserted {
+    distance: Option<Code>,
+    plane: Option<Code>,
+}
+
+impl Writer {
+    /// The code of a setting; `None` in `Ok` where the target needs no word for it, because it has
+    /// that one state alone.
+    pub(super) fn setting(&self, setting: Setting) -> Result<Option<Code>, Fault> {
+        let codes = &self.codes;
+        match setting {
+            Setting::Units(u) => said(codes.units[u as usize], "this unit of length"),
+            Setting::Distance(Distance::Absolute) => said(codes.distance[0], "absolute coordinates"),
+            Setting::Distance(Distance::Incremental) => said(codes.distance[1], "incremental coordinates"),
+            Setting::Plane(p) => said(codes.plane[p as usize], "this plane"),
+            Setting::FeedMode(f) => match codes.feed_mode[f as usize] {
+                Some(code) => Ok(Some(code)),
+                None if self.only_feed_mode() == Some(f) => Ok(None),
+                None => Err(cannot(match f {
+                    FeedMode::PerMinute => "feed per minute",
+                    FeedMode::PerRevolution => "feed per revolution",
+                    FeedMode::InverseTime => "inverse-time feed",
+                })),
+            },
+            Setting::Level(l) => match codes.level[l as usize] {
+                Some(code) => Ok(Some(code)),
+                // Where the level is fixed, the cycle itself carries it.
+                None if self.dialect.cycles.return_level.is_some() => Ok(None),
+                None => Err(cannot("the return level of cycles")),
+            },
+            Setting::Origin(n) => {
+                let code = usize::from(n).checked_sub(1).and_then(|at| codes.origins.get(at));
+                match code.copied().flatten() {
+                    Some(code) => Ok(Some(code)),
+                    // A control with one work offset has no word for it.
+                    None if self.dialect.caps.work_offsets == 0 => Ok(None),
+                    None => Err(cannot(format!("work offset {n}"))),
+                }
+            }
+            // Without a word for it, none can be on: no statement that is written sets one.
+            Setting::NoShift => Ok(codes.no_shift),
+            Setting::NoCompensation => Ok(codes.no_compensation),
+            Setting::NoLength => Ok(codes.no_length),
+            Setting::NoCycle => Ok(codes.end_cycle),
+        }
+    }
+
+    /// The feed mode of a control that has only one.
+    fn only_feed_mode(&self) -> Option<FeedMode> {
+        self.dialect.power_on.feed_mode.as_ref().filter(|f| f.always).map(|f| f.value.into())
+    }
+
+    /// Writes a setting in its place.
+    pub(super) fn write_setting(&mut self, setting: Setting, sink: &mut Sink) -> Result<(), Fault> {
+        if let Some(code) = self.setting(setting)? {
+            self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
+            self.block.code(Part::Mode, &code);
+        }
+        self.now_in_force(setting);
+        Ok(())
+    }
+
+    /// Notes a setting that the text states, or need not state.
+    pub(super) fn now_in_force(&mut self, setting: Setting) {
+        match setting {
+            Setting::Units(u) => {
+                self.force.units = Some(u);
+                self.units_stated[u as usize] = true;
+            }
+            Setting::Distance(d) => {
+                self.force.distance = Some(d);
+                self.force.our_distance = false;
+            }
+            Setting::Plane(p) => {
+                self.force.plane = Some(p);
+                self.force.our_plane = false;
+            }
+            Setting::FeedMode(f) => self.force.feed_mode = Some(f),
+            Setting::Level(l) => {
+                self.force.level = Some(l);
+                self.force.our_level = false;
+            }
+            // The code of a cycle's end leaves the motion to be said again.
+            Setting::NoCycle => self.force.motion = None,
+            Setting::Origin(_) | Setting::NoShift | Setting::NoCompensation | Setting::NoLength => {}
+        }
+    }
+
+    /// Takes over facts that the source took for granted, where this control has them at its own
+    /// power-on as well and nothing in the text can have changed them.
+    pub(super) fn take_for_granted(&mut self, assumed: &Modes) {
+        if self.lost {
+            return;
+        }
+        let power_on = &self.dialect.power_on;
+        fn both<T: Copy + PartialEq>(force: &mut Option<T>, assumed: Option<T>, here: Option<T>) {
+            if force.is_none() && assumed.is_some() && assumed == here {
+                *force = assumed;
+            }
+        }
+        if self.dialect.safe_start.is_empty() {
+            let force = &mut self.force;
+            both(&mut force.units, assumed.units, power_on.units.as_ref().map(|f| f.value.into()));
+            both(&mut force.distance, assumed.distance, power_on.distance.as_ref().map(|f| f.value.into()));
+            both(&mut force.plane, assumed.plane, power_on.plane.as_ref().map(|f| f.value.into()));
+        }
+        self.assumed = *assumed;
+    }
+
+    /// The distance mode that coordinates need, put in if it is not in force.
+    ///
+    /// # Errors
+    /// Absolute and incremental words together, or words in the source's own mode where the text
+    /// has another.
+    pub(super) fn need_distance<'a>(
+        &mut self,
+        coords: impl Iterator<Item = &'a Coord>,
+        inserted: &mut Inserted,
+    ) -> Result<(), Fault> {
+        let mut wanted = None;
+        let mut inherits = false;
+        for coord in coords {
+            match coord.distance {
+                Fact::Known(d) if wanted.is_some_and(|w| w != d) => {
+                    return Err(cannot("absolute and incremental words in one block"));
+                }
+                Fact::Known(d) => wanted = Some(d),
+                Fact::Entry => inherits = true,
+            }
+        }
+        if inherits && (self.force.our_distance || (wanted.is_some() && wanted != self.force.distance)) {
+            return Err(cannot("words in a distance mode that is not known"));
+        }
+        if let Some(d) = wanted.filter(|d| self.force.distance != Some(*d)) {
+            inserted.distance = self.setting(Setting::Distance(d))?;
+            self.force.distance = Some(d);
+            self.force.our_distance = true;
+        }
+        Ok(())
+    }
+
+    /// The plane that a statement needs, put in if it is not in force.
+    pub(super) fn need_plane(&mut self, plane: Fact<Plane>, inserted: &mut Inserted) -> Result<(), Fault> {
+        match plane {
+            Fact::Known(p) if self.force.plane != Some(p) => {
+                inserted.plane = self.setting(Setting::Plane(p))?;
+                self.force.plane = Some(p);
+                self.force.our_plane = true;
+                Ok(())
+            }
+            Fact::Entry if self.force.our_plane => Err(cannot("a plane that is not known")),
+            Fact::Known(_) | Fact::Entry => Ok(()),
+        }
+    }
+
+    /// Makes room for a statement together with the codes put in for it.
+    pub(super) fn admit_with(
+        &mut self,
+        need: Need,
+        inserted: Inserted,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let together = need.code(inserted.distance).code(inserted.plane);
+        let codes = [inserted.plane, inserted.distance];
+        if self.block.possible(&together) {
+            self.admit(&together, sink)?;
+            codes.iter().flatten().for_each(|code| self.block.code(Part::Mode, code));
+            return Ok(());
+        }
+        for code in codes.into_iter().flatten() {
+            self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
+            self.block.code(Part::Mode, &code);
+        }
+        self.admit(&need, sink)
+    }
+
+    /// Checks that a literal's unit is the one in force in the text.
+    pub(super) fn check_unit(&mut self, n: Num, span: Span) -> Result<(), Fault> {
+        let units = match n.unit {
+            Unit::Mm => Units::Mm,
+            Unit::Inch => Units::Inch,
+            Unit::One | Unit::Entry | Unit::Degree | Unit::Second => return Ok(()),
+        };
+        let other = match units {
+            Units::Mm => Units::Inch,
+            Units::Inch => Units::Mm,
+        };
+        let known = match self.force.units {
+            Some(in_force) => in_force == units,
+            // Not known here, but the text states one unit and never another.
+            None => self.units_stated[units as usize] && !self.units_stated[other as usize],
+        };
+        if !known && !n.is_zero() {
+            return Err(match units {
+                Units::Mm => cannot("millimetres where they are not known to be in force"),
+                Units::Inch => cannot("inches where they are not known to be in force"),
+            });
+        }
+        if self.force.units.is_none() {
+            self.units_relied.get_or_insert((units, span));
+        }
+        Ok(())
+    }
+}

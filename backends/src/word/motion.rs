@@ -1,0 +1,331 @@
+//! Moves: straight, arcs, and positions that do what is in force.
+//!
+//! Axis words are exactly those of the statement. An arc's centre is written in the dialect's own
+//! form, computed where it has to be from where the written text itself puts the tool.
+
+use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion, Units};
+use ncc_ir::diag::Fault;
+use ncc_ir::geometry;
+use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Stmt};
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::codes::Letter;
+use super::modes::{Inserted, cannot};
+use super::number::{self, Shaped};
+use super::statement::{rounded, unwritable};
+use super::{Sink, Writer};
+
+/// Words of an arc's centre or radius, ready to be written.
+type CentreWords = [Option<(u8, Shaped)>; 3];
+
+impl Writer {
+    /// A straight move, rapid or at feed.
+    pub(super) fn straight(
+        &mut self,
+        to: &Move,
+        rapid: bool,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let (motion, code) = match rapid {
+            true => (Motion::Traverse, self.codes.traverse),
+            false => (Motion::Feed, self.codes.feed),
+        };
+        let code = code.ok_or_else(|| cannot("a straight move"))?;
+        let mut inserted = Inserted::default();
+        self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
+        let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
+        let says = to.said || self.force.motion != Some(motion);
+        let need = if says { need.code(Some(code)) } else { need };
+        self.admit_with(need, inserted, sink)?;
+        if says {
+            self.block.code(Part::Motion, &code);
+        }
+        self.force.motion = Some(motion);
+        self.point(&to.to, span, sink)
+    }
+
+    /// Axis words that do whatever is in force.
+    pub(super) fn position(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.dialect.caps.inherits_motion {
+            return Err(cannot("a position that does what the caller has in force"));
+        }
+        self.call_up_now(stmt, sink)?;
+        let mut inserted = Inserted::default();
+        self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
+        let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
+        self.admit_with(need, inserted, sink)?;
+        self.point(&to.to, stmt.span, sink)
+    }
+
+    /// What the axis words of a point take of a block.
+    pub(super) fn point_need(&self, mut need: Need, to: &Point) -> Result<Need, Fault> {
+        for axis in Axis::ALL {
+            if to.get(axis).is_some() {
+                let letter = self.codes.axes[axis as usize];
+                let letter = letter.ok_or_else(|| cannot(format!("the axis {}", axis.letter() as char)))?;
+                need = need.letter(letter.letter);
+            }
+        }
+        Ok(need)
+    }
+
+    /// Writes the axis words of a point.
+    pub(super) fn point(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        for axis in Axis::ALL {
+            if let Some(coord) = to.get(axis) {
+                self.axis_word(axis, coord, span, sink)?;
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn axis_word(
+        &mut self,
+        axis: Axis,
+        coord: &Coord,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let Some(letter) = self.codes.axes[axis as usize] else { return Ok(()) };
+        let Some(n) = coord.value.literal() else {
+            return Err(cannot("a computed value"));
+        };
+        self.check_unit(n, span)?;
+        let shaped = self.coordinate(axis, &letter, n, coord.distance, span, sink)?;
+        self.block.word(Part::Axes, letter.letter, shaped);
+        Ok(())
+    }
+
+    /// A coordinate in the control's digits. What rounding leaves behind is kept, so that the errors
+    /// of incremental words do not add up.
+    fn coordinate(
+        &mut self,
+        axis: Axis,
+        letter: &Letter,
+        n: Num,
+        distance: Fact<Distance>,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Shaped, Fault> {
+        let at = axis as usize;
+        let fault = |why| unwritable(why, letter.letter, n);
+        let distance = distance.known().or(self.force.distance);
+        let before = match distance {
+            Some(Distance::Incremental) => self.residue[at],
+            Some(Distance::Absolute) | None => 0,
+        };
+        let plain = number::shape(n, &letter.format).map_err(fault)?;
+        let (shaped, residue) = if before == 0 {
+            let left = match plain.rounded {
+                true => difference(n, plain.num(n.unit)),
+                false => 0,
+            };
+            (plain, left)
+        } else {
+            let due = n.nanos(false).and_then(|v| v.checked_add(before));
+            let due = due.ok_or_else(|| cannot(number::spell(letter.letter, n)))?;
+            let near = number::from_nanos(due, &letter.format, n.unit);
+            let shaped = number::shape(near, &letter.format).map_err(fault)?;
+            // The digits of the source stay where the residue makes no difference to them.
+            let same = difference(n, near) == 0 && !plain.rounded;
+            let shaped = if same { plain } else { Shaped { rounded: true, ..shaped } };
+            (shaped, due - near.nanos(false).unwrap_or(due))
+        };
+        if shaped.rounded {
+            rounded(letter.letter, n, shaped, span, sink);
+        }
+        if self.residue[at] != residue {
+            self.residue[at] = residue;
+            self.residual = self.residue.iter().any(|r| *r != 0);
+        }
+        Ok(shaped)
+    }
+
+    /// Where the written text puts an axis.
+    pub(super) fn stands(&self, axis: Axis) -> Result<Nanos, Fault> {
+        let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
+        let at = self.tracker.position[axis as usize].ok_or_else(|| unknown.clone())?;
+        at.checked_sub(self.residue[axis as usize]).ok_or(unknown)
+    }
+
+    /// An arc or helix.
+    pub(super) fn arc(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let motion = Motion::Arc(arc.turn);
+        let code = self.codes.arcs[arc.turn as usize].ok_or_else(|| cannot("an arc"))?;
+        if arc.turns > 0 {
+            return Err(cannot("an arc of more than one turn"));
+        }
+        let mut inserted = Inserted::default();
+        self.need_distance(arc.to.axes.iter().flatten(), &mut inserted)?;
+        self.need_plane(arc.plane, &mut inserted)?;
+        if !self.dialect.arc.helix && self.leaves_plane(arc) {
+            return Err(cannot("an arc with a third axis"));
+        }
+        let start = self.residue;
+        let centre = self.centre(arc, span, sink)?;
+        let mut need = self.point_need(Need::new(Rank::Motion), &arc.to)?;
+        for (letter, _) in centre.iter().flatten() {
+            need = need.letter(*letter);
+        }
+        let says = arc.said || self.force.motion != Some(motion);
+        let need = if says { need.code(Some(code)) } else { need };
+        self.admit_with(need, inserted, sink)?;
+        if says {
+            self.block.code(Part::Motion, &code);
+        }
+        self.force.motion = Some(motion);
+        self.point(&arc.to, span, sink)?;
+        for (letter, value) in centre.into_iter().flatten() {
+            self.block.word(Part::Axes, letter, value);
+        }
+        self.check_vanished(arc, start)
+    }
+
+    /// Whether an arc has a word for a linear axis outside its plane.
+    fn leaves_plane(&self, arc: &Arc) -> bool {
+        let normal = arc.plane.known().or(self.force.plane).map(|p| p.axes().2);
+        arc.to.axes.iter().enumerate().any(|(at, word)| {
+            word.is_some() && (at > Axis::Z as usize || normal.is_some_and(|n| n as usize == at))
+        })
+    }
+
+    /// The words that say an arc's centre.
+    fn centre(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<CentreWords, Fault> {
+        let absolute = self.dialect.arc.centre_absolute;
+        match (&arc.centre, self.codes.radius) {
+            (Centre::Radius(radius), Some(letter)) => {
+                let value = self.value(&letter, radius, span, sink)?;
+                Ok([Some((letter.letter, value)), None, None])
+            }
+            (Centre::Point { words, from }, _) if absolute == (*from == CentreFrom::Zero) => {
+                let plane = arc.plane.known().or(self.force.plane);
+                let mut written = [None; 3];
+                for axis in [Axis::X, Axis::Y, Axis::Z] {
+                    let outside = plane.is_some_and(|p| p.axes().2 == axis);
+                    if let Some(word) = words[axis as usize].as_ref().filter(|_| !outside) {
+                        let letter = self.centre_letter(axis)?;
+                        written[axis as usize] =
+                            Some((letter.letter, self.value(&letter, word, span, sink)?));
+                    }
+                }
+                Ok(written)
+            }
+            (Centre::Point { .. } | Centre::Radius(_), _) => self.computed_centre(arc, span, sink),
+        }
+    }
+
+    /// A centre in the other form than the source's.
+    fn computed_centre(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<CentreWords, Fault> {
+        let plane = arc.plane.known().or(self.force.plane);
+        let plane = plane.ok_or_else(|| cannot("an arc in a plane that is not known"))?;
+        let (first, second, _) = plane.axes();
+        let absolute = self.dialect.arc.centre_absolute;
+        let unit = match self.force.units {
+            Some(Units::Mm) => Unit::Mm,
+            Some(Units::Inch) => Unit::Inch,
+            None => return Err(cannot("an arc's centre in a unit that is not known")),
+        };
+        let centre = match &arc.centre {
+            // Both from the start: a centre word becomes a difference or a sum, exactly.
+            Centre::Point { words, from } => {
+                let mut along = [0; 2];
+                for (to, axis) in along.iter_mut().zip([first, second]) {
+                    let word = match &words[axis as usize] {
+                        Some(word) => Some(self.length(word, span)?),
+                        None => None,
+                    };
+                    *to = match (from, word) {
+                        (CentreFrom::Start, word) => self.stands(axis)?.checked_add(word.unwrap_or(0)),
+                        (CentreFrom::Zero, Some(word)) => word.checked_sub(self.stands(axis)?),
+                        (CentreFrom::Zero, None) => Some(0),
+                    }
+                    .ok_or_else(|| cannot("a centre this far away"))?;
+                }
+                along
+            }
+            Centre::Radius(radius) => {
+                let radius = self.length(radius, span)?;
+                let start = [self.stands(first)?, self.stands(second)?];
+                let end = [self.arrives(arc, first)?, self.arrives(arc, second)?];
+                let centre = geometry::centre_by_radius(start, end, radius, arc.turn);
+                let centre = centre.map_err(|fault| match fault {
+                    geometry::ArcFault::NoWay => Fault::ArcRadiusNoWay,
+                    geometry::ArcFault::RadiusTooSmall
+                    | geometry::ArcFault::EndOffCircle(_)
+                    | geometry::ArcFault::NoRadius => Fault::ArcRadiusTooSmall,
+                })?;
+                match absolute {
+                    true => centre,
+                    false => [centre[0] - start[0], centre[1] - start[1]],
+                }
+            }
+        };
+        sink.report(Fault::ArcReformatted, span);
+        let mut written = [None; 3];
+        for (axis, along) in [first, second].into_iter().zip(centre) {
+            let letter = self.centre_letter(axis)?;
+            let n = number::from_nanos(along, &letter.format, unit);
+            let value = number::shape(n, &letter.format).map_err(|w| unwritable(w, letter.letter, n))?;
+            written[axis as usize] = Some((letter.letter, value));
+        }
+        Ok(written)
+    }
+
+    fn centre_letter(&self, axis: Axis) -> Result<Letter, Fault> {
+        let letter = self.codes.centre.get(axis as usize).copied().flatten();
+        letter.ok_or_else(|| cannot("an arc's centre"))
+    }
+
+    /// A length in nanos.
+    fn length(&mut self, value: &ncc_ir::expr::Expr, span: Span) -> Result<Nanos, Fault> {
+        let n = value.literal().ok_or_else(|| cannot("a computed value"))?;
+        self.check_unit(n, span)?;
+        let inch = self.force.units == Some(Units::Inch);
+        n.nanos(inch).ok_or_else(|| cannot(number::spell(b' ', n).trim_start()))
+    }
+
+    /// Where the written words of an arc put an axis.
+    fn arrives(&self, arc: &Arc, axis: Axis) -> Result<Nanos, Fault> {
+        let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
+        let Some(coord) = arc.to.get(axis) else { return self.stands(axis) };
+        let target = self.tracker.resolve(coord, self.tracker.position[axis as usize]);
+        let target = target.ok_or(unknown)?;
+        let Some(letter) = self.codes.axes[axis as usize] else { return Ok(target) };
+        let unit = coord.value.literal().map_or(Unit::Mm, |n| n.unit);
+        Ok(number::from_nanos(target, &letter.format, unit).nanos(false).unwrap_or(target))
+    }
+
+    /// An arc with an end of its own, whose rounded end is its start, would become a full circle or
+    /// nothing at all.
+    fn check_vanished(&self, arc: &Arc, start_residue: [Nanos; AXES]) -> Result<(), Fault> {
+        if start_residue == self.residue {
+            return Ok(());
+        }
+        let plane = arc.plane.known().or(self.force.plane);
+        let in_plane = |axis: Axis| plane.is_none_or(|p| p.axes().2 != axis);
+        let mut moved = false;
+        for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| in_plane(*a)) {
+            let at = axis as usize;
+            let Some(from) = self.tracker.position[at] else { return Ok(()) };
+            let to = arc.to.get(axis).map(|c| self.tracker.resolve(c, Some(from)));
+            let Some(to) = to.unwrap_or(Some(from)) else { return Ok(()) };
+            moved |= to != from;
+            if to - self.residue[at] != from - start_residue[at] {
+                return Ok(());
+            }
+        }
+        if moved { Err(Fault::ArcVanishes) } else { Ok(()) }
+    }
+}
+
+/// What is left of `n` when `written` stands for it.
+fn difference(n: Num, written: Num) -> Nanos {
+    match (n.nanos(false), written.nanos(false)) {
+        (Some(n), Some(written)) => n - written,
+        // Finer than a nano: what is left is finer than any control.
+        _ => 0,
+    }
+}

@@ -1,0 +1,155 @@
+//! Blocks that are nothing but a straight move, with or without a feed: nearly all of a large
+//! program. Written straight from the statement; anything unusual is left untouched to the general
+//! way, which writes the same text.
+
+use ncc_ir::canon::{Distance, Fact, Motion, Units};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Move, Op, Stmt};
+
+use super::Writer;
+use super::codes::Code;
+use super::number::{self, LONGEST, ROOM};
+use crate::Numbering;
+
+/// Room for a line: number, motion code, six axes, feed, line end, and what the last word touches.
+pub(super) const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
+
+impl Writer {
+    /// Writes a plain block, or returns `false` without having written or changed anything.
+    #[inline]
+    pub(super) fn plain_block(&mut self, stmts: &[Stmt], out: &mut Vec<u8>) -> bool {
+        let (stmt, feed) = match stmts {
+            [stmt] => (stmt, None),
+            [Stmt { op: Op::SetFeedRate(feed), skip: None, comment: None, .. }, stmt] => (stmt, Some(feed)),
+            _ => return false,
+        };
+        let (to, motion, code) = if let Op::StraightFeed(to) = &stmt.op {
+            (to, Motion::Feed, self.codes.feed)
+        } else if let Op::StraightTraverse(to) = &stmt.op {
+            (to, Motion::Traverse, self.codes.traverse)
+        } else {
+            return false;
+        };
+        let Some(code) = code else { return false };
+        if stmt.skip.is_some()
+            || stmt.comment.is_some()
+            || self.preamble.is_some()
+            || self.held.is_some()
+            || self.residual
+        {
+            return false;
+        }
+        let done = self.plain_move(stmts[0].number, to, motion, code, feed, out);
+        if done {
+            self.number_seen(&stmts[0]);
+        }
+        done
+    }
+
+    #[inline]
+    fn plain_move(
+        &mut self,
+        number: Option<u32>,
+        to: &Move,
+        motion: Motion,
+        code: Code,
+        feed: Option<&Expr>,
+        out: &mut Vec<u8>,
+    ) -> bool {
+        let blanks = usize::from(self.dialect.block.blanks);
+        let (Some(distance), Some(units)) = (self.force.distance, self.force.units) else {
+            return false;
+        };
+        let unit = match units {
+            Units::Mm => Unit::Mm,
+            Units::Inch => Unit::Inch,
+        };
+        let mut next = self.next_number;
+        let line = &mut self.line;
+        let mut at = 0;
+        match (self.numbering, self.dialect.block.number, number) {
+            (Numbering::Off, _, _) => {}
+            (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
+                line[0] = letter as u8;
+                at = number::whole(line, 1, number);
+                line[at] = b' ';
+                at += blanks;
+            }
+            (Numbering::Keep, _, None) => {}
+            (Numbering::Every { first, step }, Some(letter), _) if next < 100_000_000 => {
+                line[0] = letter as u8;
+                at = number::whole(line, 1, next);
+                line[at] = b' ';
+                at += blanks;
+                next = next.saturating_add(step);
+                if next > super::HIGHEST_NUMBER {
+                    next = first;
+                }
+            }
+            _ => return false,
+        }
+        let start = at;
+        if to.said || self.force.motion != Some(motion) {
+            let text = code.text();
+            line[at..at + text.len()].copy_from_slice(text);
+            at += text.len();
+            line[at] = b' ';
+            at += blanks;
+        }
+        let mut position = self.tracker.position;
+        for (axis, word) in to.to.axes.iter().enumerate() {
+            let Some(word) = word else { continue };
+            let (Expr::Num(n), Some(letter)) = (&word.value, &self.codes.axes[axis]) else {
+                return false;
+            };
+            if word.distance != Fact::Known(distance)
+                || !(n.unit == unit || (axis > 2 && n.unit == Unit::Degree))
+            {
+                return false;
+            }
+            let Some(shaped) = number::plain(*n, &letter.format) else { return false };
+            line[at] = letter.letter;
+            at = number::write(line, at + 1, shaped);
+            line[at] = b' ';
+            at += blanks;
+            position[axis] = put(*n, distance, position[axis]);
+        }
+        if at == start {
+            return false;
+        }
+        if let Some(feed) = feed {
+            let (Expr::Num(n), Some(letter)) = (feed, &self.codes.feed_word) else { return false };
+            let Some(shaped) = number::plain(*n, &letter.format) else { return false };
+            if n.unit != unit {
+                return false;
+            }
+            line[at] = letter.letter;
+            at = number::write(line, at + 1, shaped);
+            line[at] = b' ';
+            at += blanks;
+        }
+        at -= blanks;
+        line[at..at + self.eol.len()].copy_from_slice(self.eol);
+        at += self.eol.len();
+        out.extend_from_slice(&line[..at]);
+        self.next_number = next;
+        self.tracker.position = position;
+        if self.force.motion != Some(motion) {
+            self.force.motion = Some(motion);
+            self.tracker.modes.motion = Some(motion);
+            self.tracker.cycle = None;
+        }
+        true
+    }
+}
+
+/// Where a word puts an axis.
+#[inline(always)]
+fn put(n: Num, distance: Distance, from: Option<i64>) -> Option<i64> {
+    let value = n.nanos(false)?;
+    match distance {
+        Distance::Absolute => Some(value),
+        Distance::Incremental => from?.checked_add(value),
+    }
+}

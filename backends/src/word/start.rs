@@ -1,0 +1,189 @@
+//! The safe start: what a written program states before its first event.
+//!
+//! It says what the source says before its first event, then what the translation takes for
+//! granted; a fact that neither knows is left out. Comments that come before wait behind it.
+
+use ncc_dialects::SafeStart;
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Op, Stmt};
+
+use super::block::{Need, Part, Rank};
+use super::codes::Code;
+use super::modes::Setting;
+use super::{Sink, Writer};
+
+/// Most comment that waits for the safe start; more of it is written before.
+const MOST_HELD: usize = 1 << 16;
+
+/// The program up to its first event.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Preamble {
+    /// Facts that the source has stated.
+    said: Modes,
+    /// Codes that the source has stated and the safe start has no place for.
+    further: Vec<Code>,
+    /// Whether anything was absorbed.
+    any: bool,
+    /// Number of the first absorbed block.
+    number: Option<u32>,
+    /// Comments and blank lines.
+    pub held: Vec<u8>,
+}
+
+impl Writer {
+    /// Takes a statement before the first event; `Ok(false)` if it must be written.
+    pub(super) fn absorb(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<bool, Fault> {
+        let Some(held) = self.preamble.as_ref().map(|p| p.held.len()) else { return Ok(false) };
+        if matches!(stmt.op, Op::Comment(_) | Op::NoEffect(_) | Op::Blank) {
+            if held > MOST_HELD
+                && let Some(p) = &mut self.preamble
+            {
+                sink.out.append(&mut p.held);
+            }
+            return Ok(false);
+        }
+        let Some(setting) = Setting::of(&stmt.op).filter(|_| stmt.skip.is_none()) else {
+            self.start(sink);
+            return Ok(false);
+        };
+        let code = self.setting(setting)?;
+        let rows = &self.dialect.safe_start;
+        let Some(p) = &mut self.preamble else { return Ok(false) };
+        match setting {
+            Setting::Units(u) => p.said.units = Some(u),
+            Setting::Distance(d) => p.said.distance = Some(d),
+            Setting::Plane(plane) => p.said.plane = Some(plane),
+            Setting::FeedMode(f) => p.said.feed_mode = Some(f),
+            Setting::Origin(n) => p.said.work_offset = Some(n),
+            Setting::Level(l) => p.said.return_level = Some(l),
+            Setting::NoShift | Setting::NoCompensation | Setting::NoLength | Setting::NoCycle => {}
+        }
+        let row = row_of(setting);
+        p.any = true;
+        if p.number.is_none() {
+            p.number = stmt.number;
+        }
+        if let Some(code) = code.filter(|_| row.is_none_or(|row| !rows.contains(&row))) {
+            p.further.retain(|c| c.group == 0 || c.group != code.group);
+            p.further.push(code);
+        }
+        Ok(true)
+    }
+
+    /// Writes the safe start and what waits behind it, before the first event.
+    pub(super) fn start(&mut self, sink: &mut Sink) {
+        // What stands in the block at hand belongs to comments that come before.
+        let (number, skip) = (self.block.number, self.block.skip);
+        self.block.skip = None;
+        self.flush(false, sink);
+        let Some(preamble) = self.preamble.take() else { return };
+        let facts = Facts { said: &preamble.said, assumed: &self.assumed };
+        let units = facts.get(|m| m.units);
+        let plane = facts.get(|m| m.plane);
+        let distance = facts.get(|m| m.distance);
+        let feed_mode = facts.get(|m| m.feed_mode);
+        let origin = facts.get(|m| m.work_offset);
+        self.block.number = preamble.number;
+        let mut stated = Modes::default();
+        let mut own_block = None;
+        for row in &self.dialect.safe_start {
+            let setting = match row {
+                SafeStart::Units => units.map(Setting::Units),
+                SafeStart::Plane => plane.map(Setting::Plane),
+                SafeStart::Distance => distance.map(Setting::Distance),
+                SafeStart::FeedMode => feed_mode.map(Setting::FeedMode),
+                SafeStart::NoCompensation => Some(Setting::NoCompensation),
+                SafeStart::NoLengthOffset => Some(Setting::NoLength),
+                SafeStart::NoCycle => Some(Setting::NoCycle),
+                SafeStart::WorkOffset => {
+                    own_block = origin.map(Setting::Origin);
+                    None
+                }
+            };
+            if let Some(setting) = setting {
+                self.start_setting(setting, &mut stated, sink);
+            }
+        }
+        for code in preamble.further {
+            self.start_code(code, sink);
+        }
+        if let Some(level) = preamble.said.return_level {
+            self.now_in_force(Setting::Level(level));
+            stated.return_level = Some(level);
+        }
+        self.flush(false, sink);
+        if let Some(setting) = own_block {
+            self.start_setting(setting, &mut stated, sink);
+            self.flush(false, sink);
+        }
+        sink.out.extend_from_slice(&preamble.held);
+        self.stated = stated;
+        (self.block.number, self.block.skip) = (number, skip);
+        if self.block.number == preamble.number {
+            self.block.number = None;
+        }
+    }
+
+    fn start_setting(&mut self, setting: Setting, stated: &mut Modes, sink: &mut Sink) {
+        let Ok(Some(code)) = self.setting(setting) else { return };
+        self.start_code(code, sink);
+        self.now_in_force(setting);
+        match setting {
+            Setting::Units(u) => stated.units = Some(u),
+            Setting::Plane(p) => stated.plane = Some(p),
+            Setting::Distance(d) => stated.distance = Some(d),
+            Setting::FeedMode(f) => stated.feed_mode = Some(f),
+            Setting::Origin(n) => stated.work_offset = Some(n),
+            Setting::Level(l) => stated.return_level = Some(l),
+            Setting::NoLength => stated.length_offset = Some(0),
+            Setting::NoShift => stated.no_origin_shift = Some(true),
+            Setting::NoCompensation | Setting::NoCycle => {}
+        }
+    }
+
+    fn start_code(&mut self, code: Code, sink: &mut Sink) {
+        let need = Need::new(Rank::Setting).code(Some(code));
+        if self.admit(&need, sink).is_ok() {
+            self.block.code(Part::Mode, &code);
+        }
+        // The split of this block is not one of the source's.
+        self.split = false;
+    }
+
+    /// Writes what waits for a first event that did not come.
+    pub(super) fn no_event(&mut self, sink: &mut Sink) {
+        if self.preamble.as_ref().is_some_and(|p| p.any) {
+            self.start(sink);
+        } else if let Some(p) = self.preamble.take() {
+            sink.out.extend_from_slice(&p.held);
+        }
+    }
+}
+
+/// What the source says, else what is taken for granted.
+struct Facts<'a> {
+    said: &'a Modes,
+    assumed: &'a Modes,
+}
+
+impl Facts<'_> {
+    fn get<T>(&self, fact: impl Fn(&Modes) -> Option<T>) -> Option<T> {
+        fact(self.said).or_else(|| fact(self.assumed))
+    }
+}
+
+/// The row of the safe start that states a setting.
+fn row_of(setting: Setting) -> Option<SafeStart> {
+    match setting {
+        Setting::Units(_) => Some(SafeStart::Units),
+        Setting::Distance(_) => Some(SafeStart::Distance),
+        Setting::Plane(_) => Some(SafeStart::Plane),
+        Setting::FeedMode(_) => Some(SafeStart::FeedMode),
+        Setting::Origin(_) => Some(SafeStart::WorkOffset),
+        Setting::NoCompensation => Some(SafeStart::NoCompensation),
+        Setting::NoLength => Some(SafeStart::NoLengthOffset),
+        Setting::NoCycle => Some(SafeStart::NoCycle),
+        Setting::Level(_) | Setting::NoShift => None,
+    }
+}

@@ -1,0 +1,273 @@
+//! One statement: which words say it, and where they stand in the block.
+
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Call, Op, Stmt};
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::codes::{Code, Dwell, Letter};
+use super::modes::{Setting, cannot};
+use super::number::{self, Shaped, Unwritable};
+use super::{Sink, Writer};
+
+impl Writer {
+    /// Puts a statement into the block at hand, or into a new one if it does not fit.
+    ///
+    /// # Errors
+    /// The dialect cannot say it.
+    pub(super) fn statement(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        if self.preamble.is_some() && self.absorb(stmt, sink)? {
+            return Ok(());
+        }
+        let span = stmt.span;
+        let codes = &self.codes;
+        match &stmt.op {
+            Op::Comment(text) => {
+                self.comment(text, span, sink);
+                Ok(())
+            }
+            Op::NoEffect(name) => self.no_effect(name, span, sink),
+            Op::Blank => {
+                self.flush(true, sink);
+                Ok(())
+            }
+            Op::UseLengthUnits(_)
+            | Op::SetDistanceMode(_)
+            | Op::SelectPlane(_)
+            | Op::SetFeedMode(_)
+            | Op::SetReturnLevel(_)
+            | Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::StopCutterRadiusCompensation => match Setting::of(&stmt.op) {
+                Some(setting) => self.write_setting(setting, sink),
+                None => Err(cannot("clearing this frame")),
+            },
+            Op::SetFrame(..) => Err(cannot("a frame")),
+            Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
+            Op::SetSpindleSpeed(speed) => {
+                let letter = codes.speed;
+                self.number_word(Rank::Speed, letter, speed, "a spindle speed", span, sink)
+            }
+            Op::SelectTool(tool) => {
+                let letter = codes.tool;
+                self.number_word(Rank::Tool, letter, tool, "a tool number", span, sink)
+            }
+            Op::ChangeTool => self.m_code(Rank::ToolChange, codes.change_tool, "a tool change", sink),
+            Op::UseToolLengthOffset(entry) => self.length_offset(entry, span, sink),
+            Op::StartSpindleClockwise => {
+                self.m_code(Rank::SpindleOn, codes.spindle_clockwise, "a clockwise spindle", sink)
+            }
+            Op::StartSpindleCounterclockwise => {
+                let code = codes.spindle_counterclockwise;
+                self.m_code(Rank::SpindleOn, code, "a counter-clockwise spindle", sink)
+            }
+            Op::StopSpindleTurning => {
+                self.m_code(Rank::SpindleOff, codes.spindle_stop, "a spindle stop", sink)
+            }
+            Op::FloodOn => self.m_code(Rank::Coolant, codes.flood, "flood coolant", sink),
+            Op::MistOn => self.m_code(Rank::Coolant, codes.mist, "mist coolant", sink),
+            Op::CoolantOff => self.m_code(Rank::CoolantOff, codes.coolant_off, "coolant off", sink),
+            Op::Dwell(seconds) => self.dwell(seconds, span, sink),
+            Op::StraightTraverse(to) => self.straight(to, true, span, sink),
+            Op::StraightFeed(to) => self.straight(to, false, span, sink),
+            Op::ArcFeed(arc) => self.arc(arc, span, sink),
+            Op::Position(to) => self.position(to, stmt, sink),
+            Op::StartCycle(cycle) => self.start_cycle(cycle, stmt, sink),
+            Op::Hole(to) => self.hole(to, stmt, sink),
+            Op::Pattern(pattern) => self.pattern(pattern, stmt, sink),
+            Op::EndCycle => self.end_cycle(span, sink),
+            Op::ProgramStop => self.m_code(Rank::Stop, codes.stop, "a program stop", sink),
+            Op::OptionalProgramStop => self.m_code(Rank::Stop, codes.optional_stop, "an optional stop", sink),
+            Op::ProgramEnd => self.m_code(Rank::Stop, codes.end, "the program's end", sink),
+            Op::Message(_) => Err(cannot("a message to the operator")),
+            Op::Call(call) => self.call(call, stmt, sink),
+            Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
+            Op::Assign(..) => Err(cannot("an assignment to a variable")),
+            Op::Control(_) => Err(cannot("control of the program's flow")),
+            Op::Goto(_) => Err(cannot("a jump")),
+            Op::Label(_) => Err(cannot("a label")),
+        }
+    }
+
+    /// The value of a word in the control's digits.
+    ///
+    /// # Errors
+    /// It is computed, in another unit than the one in force, or out of range.
+    pub(super) fn value(
+        &mut self,
+        letter: &Letter,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Shaped, Fault> {
+        let Some(n) = value.literal() else {
+            return Err(cannot("a computed value"));
+        };
+        self.check_unit(n, span)?;
+        let shaped = number::shape(n, &letter.format).map_err(|why| unwritable(why, letter.letter, n))?;
+        if shaped.rounded {
+            rounded(letter.letter, n, shaped, span, sink);
+        }
+        Ok(shaped)
+    }
+
+    /// A word on its own.
+    fn number_word(
+        &mut self,
+        rank: Rank,
+        letter: Option<Letter>,
+        value: &Expr,
+        what: &str,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let letter = letter.ok_or_else(|| cannot(what))?;
+        let value = self.value(&letter, value, span, sink)?;
+        self.admit(&Need::new(rank).letter(letter.letter), sink)?;
+        self.block.word(Part::Tail, letter.letter, value);
+        Ok(())
+    }
+
+    fn m_code(&mut self, rank: Rank, code: Option<Code>, what: &str, sink: &mut Sink) -> Result<(), Fault> {
+        let code = code.ok_or_else(|| cannot(what))?;
+        self.admit(&Need::new(rank).code(Some(code)), sink)?;
+        self.block.code(Part::Tail, &code);
+        Ok(())
+    }
+
+    fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
+        let value = self.value(&letter, feed, span, sink)?;
+        self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
+        self.block.word(Part::Feed, letter.letter, value);
+        // A later feed takes the place of the one that a cycle brought.
+        if let Some(held) = &mut self.held {
+            held.cycle.feed = None;
+            held.feed = None;
+        }
+        Ok(())
+    }
+
+    /// A length offset: a code and its entry, or a word that takes it up by itself.
+    fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let none = entry.literal().is_some_and(|n| n.is_zero());
+        if let (true, Some(code)) = (none, self.codes.no_length) {
+            self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
+            self.block.code(Part::Mode, &code);
+            return Ok(());
+        }
+        if let (Some(code), Some(letter)) = (self.codes.length, self.codes.entry) {
+            let value = self.value(&letter, entry, span, sink)?;
+            self.admit(&Need::new(Rank::Offset).code(Some(code)).letter(letter.letter), sink)?;
+            self.block.code(Part::Offset, &code);
+            self.block.word(Part::Offset, letter.letter, value);
+            self.offset_waits = self.dialect.can.offset_with_z.then_some(span);
+            return Ok(());
+        }
+        let letter = self.codes.corrector.filter(|_| self.options.corrector_counts);
+        let letter = letter.ok_or_else(|| cannot("a length offset"))?;
+        let value = self.value(&letter, entry, span, sink)?;
+        self.admit(&Need::new(Rank::Offset).letter(letter.letter), sink)?;
+        self.block.word(Part::Offset, letter.letter, value);
+        Ok(())
+    }
+
+    fn dwell(&mut self, seconds: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let (code, dwell) = self.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        let value = self.dwell_value(&dwell, seconds, span, sink)?;
+        self.admit(&Need::new(Rank::Dwell).code(Some(code)).letter(dwell.word.letter), sink)?;
+        self.block.code(Part::Mode, &code);
+        self.block.word(Part::Mode, dwell.word.letter, value);
+        Ok(())
+    }
+
+    /// The value of a dwell word, in its own unit.
+    pub(super) fn dwell_value(
+        &mut self,
+        dwell: &Dwell,
+        seconds: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Shaped, Fault> {
+        let n = seconds.literal().ok_or_else(|| cannot("a computed value"))?;
+        if !dwell.milliseconds {
+            return self.value(&dwell.word, seconds, span, sink);
+        }
+        let letter = dwell.word.letter;
+        let range = || Fault::TargetRange { word: number::spell(letter, n) };
+        let (ms, lost) = number::milliseconds(n).ok_or_else(range)?;
+        let shaped = number::shape(ms, &dwell.word.format).map_err(|_| range())?;
+        if lost {
+            rounded(letter, n, shaped, span, sink);
+        }
+        Ok(shaped)
+    }
+
+    /// A word without effect: its own code, or a comment.
+    fn no_effect(&mut self, name: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let code = self.codes.no_effect.iter().find(|(own, _)| own == name).map(|(_, code)| *code);
+        let Some(code) = code else {
+            self.comment(name, span, sink);
+            return Ok(());
+        };
+        self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
+        self.block.code(Part::Mode, &code);
+        Ok(())
+    }
+
+    fn call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
+        if !call.arguments.is_empty() {
+            return Err(cannot("a call with arguments"));
+        }
+        self.call_up_now(stmt, sink)?;
+        let number = self.program_number(&call.name)?;
+        let packed = self.dialect.program.packed_call_digits as usize;
+        let out_of_range = || Fault::TargetRange { word: call.times.to_string().into() };
+        let mut need = Need::new(Rank::Call).code(Some(words.code)).letter(words.number);
+        let (digits, count) = match (call.times, packed, words.count) {
+            (0, ..) => return Err(cannot("a call that is made no times")),
+            (1, ..) => (number.to_string(), None),
+            (2..=9999, 1.., _) => (format!("{}{number:0>packed$}", call.times), None),
+            (2..=9999, 0, Some(letter)) => (number.to_string(), Some(letter)),
+            _ => return Err(out_of_range()),
+        };
+        if let Some(letter) = count {
+            need = need.letter(letter);
+        }
+        self.admit(&need, sink)?;
+        self.block.code(Part::Tail, &words.code);
+        self.block.digits(Part::Tail, words.number, &digits);
+        if let Some(letter) = count {
+            self.block.digits(Part::Tail, letter, &call.times.to_string());
+        }
+        // The subprogram may change everything.
+        self.forget();
+        Ok(())
+    }
+
+    /// The number of a subprogram, as its name says it.
+    pub(super) fn program_number(&self, name: &str) -> Result<u32, Fault> {
+        let number = name.parse::<u32>().ok().filter(|n| (1..=9999).contains(n));
+        number.ok_or_else(|| cannot(format!("a subprogram called {name}")))
+    }
+}
+
+/// The fault of a number that cannot be written.
+pub(super) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::num::Num) -> Fault {
+    let word = number::spell(letter, n);
+    match why {
+        Unwritable::Range => Fault::TargetRange { word },
+        Unwritable::NotWhole => cannot(format!("{word}, which is not a whole number")),
+        Unwritable::Fineness => cannot(format!("{word}, which is too fine in a unit that is not known")),
+    }
+}
+
+/// Reports a number that lost digits.
+pub(super) fn rounded(letter: u8, n: ncc_ir::num::Num, to: Shaped, span: Span, sink: &mut Sink) {
+    let mut written = vec![letter];
+    number::append(&mut written, to);
+    let written = String::from_utf8_lossy(&written).into_owned().into();
+    sink.report(Fault::Rounded { word: number::spell(letter, n), written }, span);
+}
