@@ -11,10 +11,10 @@ mod arguments;
 pub(crate) mod text;
 
 use ncc_dialects::{Quantity, Settings};
-use ncc_ir::canon::{Axis, Distance, FeedMode, Modes, Motion, Plane, Turn, Units};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Unit;
+use ncc_ir::num::{Nanos, Unit};
 use ncc_ir::program::{Arc, Centre, CentreFrom, FrameSlot, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -33,12 +33,13 @@ struct Decimals {
 }
 
 /// Writes the canonical stream.
-#[derive(Debug)]
 pub struct Writer {
     eol: &'static [u8],
     decimals: Decimals,
     /// What the program itself knows.
     at: Tracker,
+    /// Where the axes stand before the first statement.
+    start: [Option<Nanos>; AXES],
     /// What the text has in force; `None` after a setting that may be skipped.
     units: Option<Units>,
     plane: Option<Plane>,
@@ -53,11 +54,6 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Says where the axes stand before the program starts, in its own frame.
-    pub fn stand_at(&mut self, start: &[Option<ncc_ir::num::Nanos>; ncc_ir::canon::AXES]) {
-        self.at.position = *start;
-    }
-
     /// A writer. The text has no block numbers, whatever the layout says.
     pub fn new(settings: Settings, layout: Layout) -> Writer {
         let numbers = |quantity| settings.dialect.numbers(quantity);
@@ -73,6 +69,7 @@ impl Writer {
             eol: if layout.crlf { b"\r\n" } else { b"\n" },
             decimals,
             at: Tracker::default(),
+            start: [None; AXES],
             units: Some(Units::Mm),
             plane: Some(Plane::Xy),
             feed_mode: Some(FeedMode::PerMinute),
@@ -83,10 +80,15 @@ impl Writer {
         }
     }
 
+    /// Says where the axes stand before the program starts, in its own frame.
+    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
+        self.start = *start;
+    }
+
     /// Writes statements of the main procedure.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         if !std::mem::replace(&mut self.begun, true) {
-            self.at = Tracker::new(*assumed);
+            self.at = Tracker { position: self.start, ..Tracker::new(*assumed) };
         }
         for stmt in stmts {
             self.stmt(stmt, assumed, out, diags);

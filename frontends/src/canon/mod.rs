@@ -195,7 +195,6 @@ impl State {
 }
 
 /// Reads the canonical stream.
-#[derive(Debug)]
 pub struct Reader {
     settings: Settings,
     /// Whether facts that the text relies on are taken from the dictionary.

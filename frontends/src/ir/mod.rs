@@ -59,7 +59,6 @@ const WORDS: usize = 1000;
 const DEPTH: usize = 100;
 
 /// Reads the `ir` text.
-#[derive(Debug)]
 pub struct Reader {
     /// Whether this is a user's text, which must say its version.
     strict: bool,
