@@ -75,7 +75,7 @@ fn program(batch: Batch) -> Program {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(512))]
+    #![proptest_config(ProptestConfig::with_cases(192))]
 
     #[test]
     fn a_program_is_read_back_as_it_was_written(p in any::program(), crlf: bool, pieces in 1usize..50) {
