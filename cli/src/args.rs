@@ -62,6 +62,8 @@ pub enum Verb {
     Translate(Box<Translate>),
     /// List the dialects, or show one: its words, options, sources
     Dialects(Dialects),
+    /// List the rewriting passes, in the order in which they are run
+    Passes,
     /// Explain a message by its code
     Explain(Explain),
     /// Print completions for a shell
@@ -104,7 +106,7 @@ pub struct Translate {
     /// Write the program to this file instead of stdout; it appears whole or not at all
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,
-    /// Block numbers: none, those of the source, or new ones
+    /// Block numbers: none, those of the source, or new ones [default: keep]
     #[arg(
         long,
         value_name = "off|keep|FIRST:STEP",
@@ -114,8 +116,16 @@ pub struct Translate {
         help_heading = "How the result looks"
     )]
     pub number: Numbering,
-    /// Line ends
-    #[arg(long, value_enum, default_value_t = Eol::Keep, help_heading = "How the result looks")]
+    /// Line ends; `keep` is those of the source's first line [default: keep]
+    #[arg(
+        long,
+        value_name = "keep|lf|crlf",
+        value_enum,
+        default_value_t = Eol::Keep,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "How the result looks"
+    )]
     pub eol: Eol,
     /// Program number, where the target has one
     #[arg(
@@ -162,11 +172,27 @@ pub struct Translate {
     /// Say errors only
     #[arg(short, long, help_heading = "What is reported")]
     pub quiet: bool,
-    /// Form of the messages on stderr
-    #[arg(long, value_enum, default_value_t = Format::Human, help_heading = "What is reported")]
+    /// Messages for people, or as JSON, one object a line [default: human]
+    #[arg(
+        long,
+        value_name = "human|json",
+        value_enum,
+        default_value_t = Format::Human,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "What is reported"
+    )]
     pub format: Format,
-    /// Colour of the messages
-    #[arg(long, value_enum, default_value_t = Color::Auto, help_heading = "What is reported")]
+    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
+    #[arg(
+        long,
+        value_name = "auto|always|never",
+        value_enum,
+        default_value_t = Color::Auto,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "What is reported"
+    )]
     pub color: Color,
 }
 
@@ -226,7 +252,7 @@ pub enum Format {
 /// Colour of the messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Color {
-    /// If stderr is a terminal and NO_COLOR is not set
+    /// If somebody can see it
     Auto,
     /// Yes
     Always,
@@ -335,7 +361,7 @@ mod tests {
         for dialect in ncc_dialects::builtins() {
             let id = dialect.id.as_str();
             let verb = command.get_subcommands().any(|verb| verb.get_name() == id);
-            assert!(!verb && !["auto", "help", "passes", "to"].contains(&id), "{id}");
+            assert!(!verb && !["auto", "help", "to"].contains(&id), "{id}");
             assert!(crate::sugar::is_name(id), "{id} cannot be written in `A:B`");
         }
     }

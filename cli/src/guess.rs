@@ -73,15 +73,13 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     }
     found.retain(|(_, evidence)| !evidence.speaks_for.is_empty());
     found.sort_by_key(|(_, e)| (e.against.len(), usize::MAX - e.speaks_for.len()));
-    let clear = match found.as_slice() {
-        [] => false,
-        [(_, only)] => only.against.is_empty() || only.against.len() * 2 < only.speaks_for.len(),
-        // One that explains everything, or nearly, beside others that cannot.
-        [(_, best), (_, next), ..] => {
-            best.against.len() < next.against.len()
-                && (best.against.is_empty() || best.against.len() * 3 <= next.against.len())
-        }
-    };
+    let others = found.get(1).map_or(usize::MAX, |(_, next)| next.against.len());
+    let clear = found.first().is_some_and(|(_, best)| match best.against.len() {
+        0 => others > 0,
+        // One mistake in a program that cannot be anything else.
+        1 => others >= 4 && best.speaks_for.len() >= 3,
+        _ => false,
+    });
     match found.first() {
         Some((dialect, evidence)) if clear => Guess::Sure(dialect, Evidence::list(&evidence.speaks_for)),
         Some(_) | None => {
@@ -93,7 +91,13 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
 fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
     let mut evidence = Evidence::default();
     let lines = text.split(|b| *b == b'\n').map(<[u8]>::trim_ascii).enumerate().map(|(i, l)| (i + 1, l));
+    let mut frames = 0;
     for (number, line) in lines.filter(|(_, line)| !line.is_empty()) {
+        // What follows the end of the frame is no program any more.
+        frames += usize::from(!dialect.program.frame.is_empty() && line == dialect.program.frame.as_bytes());
+        if frames == 2 {
+            break;
+        }
         match dialect.family {
             Family::Word => word_line(dialect, number, line, &mut evidence),
             Family::Canon => canon_line(number, line, &mut evidence),
@@ -132,6 +136,9 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evide
         return;
     }
     let Some(code) = without_comment(dialect, number, line, evidence) else { return };
+    if dialect.program.macros && code.iter().any(|b| b"#[=".contains(b)) {
+        return;
+    }
     let mut at = 0;
     let mut alone = 0;
     while at < code.len() {
@@ -233,7 +240,7 @@ fn without_comment(
             return None;
         }
         if rest[0] == b';' {
-            if dialect.block.end != ";" || !rest[1..].trim_ascii().is_empty() {
+            if dialect.block.end != ";" || rest.iter().any(|b| !b"; ".contains(b)) {
                 evidence.con(number, "`;` before a text".to_owned());
             }
             break;
@@ -276,7 +283,16 @@ mod tests {
 
     #[test]
     fn what_fits_several_is_not_chosen() {
-        for text in ["", "\n\n", "G0 X1.\nM30\n", "hello world\n", "\0\0\0\0", "X1 Y2\n"] {
+        for text in [
+            "",
+            "\n\n",
+            "G0 X1.\nM30\n",
+            "hello world\n",
+            "\0\0\0\0",
+            "X1 Y2\n",
+            // Sinumerik, which no dictionary here explains.
+            ";FLANGE\nG710 G17 G90\nT1 D1\nMCALL CYCLE81(3,3,0,-6)\nX=R1+5\nM30\n",
+        ] {
             assert_eq!(id(text), None, "{text:?}");
         }
     }

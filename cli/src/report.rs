@@ -53,6 +53,34 @@ impl Serialize for Options<'_> {
     }
 }
 
+/// What became of a translation, as a line of `--format json`.
+#[derive(Serialize)]
+pub struct Summary<'a> {
+    result: &'static str,
+    verification: Option<Verification>,
+    verdicts: Counts<'a>,
+}
+
+impl<'a> Summary<'a> {
+    /// Of this outcome.
+    pub fn of(outcome: &'a Outcome) -> Summary<'a> {
+        Summary {
+            result: match (outcome.release, outcome.verified) {
+                (Ok(()), Some(_)) => "verified",
+                (Ok(()), None) => "unverified",
+                (Err(Failure::Refused), _) => "refused",
+                (Err(Failure::VerificationFailed), _) => "verification failed",
+            },
+            verification: outcome.verified.map(|v| Verification {
+                worlds: v.worlds,
+                skip_settings: v.skip_settings,
+                events: v.events,
+            }),
+            verdicts: Counts(outcome),
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct Verification {
     worlds: u32,
@@ -132,23 +160,13 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     )?;
     let bytes = if outcome.release.is_ok() { outcome.output.bytes() } else { 0 };
     map.serialize_entry("target", &Target { dialect: &job.to.dialect.id, options: Options(&job.to), bytes })?;
-    let result = match (outcome.release, outcome.verified) {
-        (Ok(()), Some(_)) => "verified",
-        (Ok(()), None) => "unverified",
-        (Err(Failure::Refused), _) => "refused",
-        (Err(Failure::VerificationFailed), _) => "verification failed",
-    };
-    map.serialize_entry("result", result)?;
-    let verification = outcome.verified.map(|v| Verification {
-        worlds: v.worlds,
-        skip_settings: v.skip_settings,
-        events: v.events,
-    });
-    map.serialize_entry("verification", &verification)?;
+    let summary = Summary::of(outcome);
+    map.serialize_entry("result", summary.result)?;
+    map.serialize_entry("verification", &summary.verification)?;
     let names = |verdicts: &[Verdict]| verdicts.iter().map(|v| v.name()).collect::<Vec<_>>();
     map.serialize_entry("allow", &names(&job.allow))?;
     map.serialize_entry("deny", &names(&job.deny))?;
-    map.serialize_entry("verdicts", &Counts(outcome))?;
+    map.serialize_entry("verdicts", &summary.verdicts)?;
     map.serialize_entry("unconfirmed_rows", &unconfirmed(&outcome.diagnostics))?;
     map.serialize_entry("assumptions", &assumptions(job, &outcome.diagnostics))?;
     let entries = Entries { about: RefCell::new(about), diagnostics: &outcome.diagnostics };

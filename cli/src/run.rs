@@ -9,6 +9,7 @@ use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{ColorChoice, StandardStream, WriteColor};
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, SettingError, Settings, builtin, builtins};
+use ncc_ir::passes::PASSES;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Translate, Verb};
 use crate::files::{self, Destination, Source};
@@ -39,6 +40,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
                 dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
             }
         },
+        Verb::Passes => print(&passes()),
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),
             None => Err(Problem::usage(
@@ -88,7 +90,7 @@ fn clap_says(error: &clap::Error, arguments: &[OsString], err: &mut StandardStre
     {
         let is_dialect = builtin(word).is_some();
         let message = match is_dialect {
-            true => format!("`{word}`, and what more?"),
+            true => format!("translate from {word} into what?"),
             false => format!("`{word}` is neither a command nor a dialect"),
         };
         let help = vec![
@@ -202,7 +204,11 @@ fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn Wr
     };
     match args.format {
         Format::Json => {
-            json::print(&mut crate::problem::as_write(err), about, &outcome.diagnostics, loudness)?
+            let mut out = crate::problem::as_write(err);
+            json::print(&mut out, about, &outcome.diagnostics, loudness)?;
+            if loudness != Loudness::Quiet {
+                json::line(&mut out, &report::Summary::of(outcome))?;
+            }
         }
         Format::Human => {
             human::print(err, about, &outcome.diagnostics, loudness)?;
@@ -253,6 +259,11 @@ fn recognise(
             Err(Problem { exit: Exit::Usage, message, help })
         }
     }
+}
+
+fn passes() -> String {
+    let wide = PASSES.iter().map(|pass| pass.name.len()).max().unwrap_or(0);
+    PASSES.iter().map(|pass| format!("{:wide$}  {}\n", pass.name, pass.about)).collect()
 }
 
 fn ids() -> String {

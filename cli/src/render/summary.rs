@@ -45,12 +45,12 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
         (Ok(()), Some(verified)) => {
             write!(out, ", ")?;
             coloured(out, Color::Green, "verified")?;
-            let worlds = plural(verified.worlds.into(), "world");
-            write!(out, ": the same moves in {} {worlds}", verified.worlds)?;
-            if verified.skip_settings > 1 {
-                write!(out, " and {} block-skip settings", verified.skip_settings)?;
-            }
-            writeln!(out, ", {} events compared", verified.events)?;
+            let worlds = format!("{} {}", verified.worlds, plural(verified.worlds.into(), "world"));
+            let skips = match verified.skip_settings {
+                0 | 1 => String::new(),
+                n => format!(" and {n} settings of the block-skip switches"),
+            };
+            writeln!(out, ": the same {} events on both controls, in {worlds}{skips}", verified.events)?;
         }
         (Ok(()), None) => {
             write!(out, ", ")?;
@@ -72,11 +72,11 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
             let heading = if i == 0 { heading } else { "" };
             let colour = if heading == "lost" { Color::Red } else { Color::Yellow };
             write!(out, "  ")?;
-            coloured(out, colour, &format!("{heading:<12}"))?;
+            coloured(out, colour, &format!("{heading:<13}"))?;
             writeln!(out, "{} ({})", group.phrase, line_list(group, &lines))?;
         }
         if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
-            writeln!(out, "  {:<12}… and {more} more; --verbose or --report says all", "")?;
+            writeln!(out, "  {:<13}… and {more} more; --verbose or --report says all", "")?;
         }
     }
     Ok(())
@@ -90,13 +90,14 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
     match outcome.release {
         Err(Failure::VerificationFailed) => {
             coloured(out, Color::Red, "verification failed")?;
-            writeln!(out, ", nothing was written")
+            writeln!(out, "; nothing was written")
         }
         Err(Failure::Refused) | Ok(()) => {
             coloured(out, Color::Red, "not translated")?;
-            let errors = format!("{errors} {}", plural(errors, "error"));
-            let losses = format!("{losses} {}", plural(losses, "verdict"));
-            writeln!(out, ": {errors}, {losses} not allowed; nothing was written")
+            let count = |n: u64, noun: &str| (n > 0).then(|| format!("{n} {}", plural(n, noun)));
+            let losses = count(losses, "verdict").map(|verdicts| format!("{verdicts} that may not pass"));
+            let reasons: Vec<String> = [count(errors, "error"), losses].into_iter().flatten().collect();
+            writeln!(out, ": {}; nothing was written", reasons.join(", "))
         }
     }
 }

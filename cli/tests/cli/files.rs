@@ -1,0 +1,175 @@
+//! Which files are read, written, and left alone.
+
+use std::fs;
+
+use super::*;
+
+fn names(folder: &Path) -> Vec<String> {
+    let mut names: Vec<String> =
+        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn an_output_file_appears_whole() {
+    let folder = folder();
+    let folder = folder.path();
+    let plain = ncc(folder, &["mach9", "to", "fanuc", "good.cn"]).exits(0).out;
+    let done = ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "part.nc"]).exits(0);
+    assert_eq!(done.out, "");
+    assert_eq!(fs::read_to_string(folder.join("part.nc")).unwrap(), plain);
+    fs::write(folder.join("part.nc"), "OLD").unwrap();
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "part.nc"]).exits(0);
+    assert_eq!(fs::read_to_string(folder.join("part.nc")).unwrap(), plain);
+    assert_eq!(names(folder), ["bad.cn", "good.cn", "part.nc"]);
+}
+
+#[test]
+fn a_refused_program_leaves_the_old_output() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("part.nc"), "OLD").unwrap();
+    let done = ncc(folder, &["mach9", "to", "fanuc", "bad.cn", "-o", "part.nc"]).exits(1);
+    assert_eq!(done.out, "");
+    assert_eq!(fs::read_to_string(folder.join("part.nc")).unwrap(), "OLD");
+    ncc(folder, &["mach9", "to", "fanuc", "bad.cn", "-o", "new.nc"]).exits(1);
+    assert_eq!(names(folder), ["bad.cn", "good.cn", "part.nc"]);
+}
+
+#[test]
+fn a_source_is_never_written_over() {
+    let folder = folder();
+    let folder = folder.path();
+    fs::create_dir(folder.join("sub")).unwrap();
+    for name in ["good.cn", "./good.cn", "sub/../good.cn"] {
+        ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", name]).exits(2).says("is the source");
+        ncc(folder, &["mach9", "to", "fanuc", "good.cn", "--report", name]).exits(2).says("is the source");
+    }
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "x", "--report", "x"]).exits(2);
+    assert_eq!(fs::read_to_string(folder.join("good.cn")).unwrap(), GOOD);
+    assert_eq!(names(folder), ["bad.cn", "good.cn", "sub"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_lead_to_the_same_file() {
+    let folder = folder();
+    let folder = folder.path();
+    std::os::unix::fs::symlink("good.cn", folder.join("link.cn")).unwrap();
+    fs::hard_link(folder.join("good.cn"), folder.join("hard.cn")).unwrap();
+    for name in ["link.cn", "hard.cn"] {
+        ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", name]).exits(2).says("is the source");
+    }
+    std::os::unix::fs::symlink("real.nc", folder.join("out.nc")).unwrap();
+    fs::write(folder.join("real.nc"), "OLD").unwrap();
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "out.nc"]).exits(0);
+    assert!(fs::symlink_metadata(folder.join("out.nc")).unwrap().is_symlink());
+    assert!(fs::read_to_string(folder.join("real.nc")).unwrap().starts_with('%'));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_new_file_has_usual_permissions_and_an_old_one_keeps_its_own() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let folder = folder.path();
+    let mode = |name: &str| fs::metadata(folder.join(name)).unwrap().permissions().mode() & 0o777;
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "part.nc"]).exits(0);
+    assert_eq!(mode("part.nc"), mode("good.cn"));
+    fs::set_permissions(folder.join("part.nc"), fs::Permissions::from_mode(0o640)).unwrap();
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "part.nc"]).exits(0);
+    assert_eq!(mode("part.nc"), 0o640);
+}
+
+#[cfg(unix)]
+#[test]
+fn stdout_onto_the_source_is_refused() {
+    let folder = folder();
+    let mut command = command(NCC, folder.path(), &["mach9", "to", "fanuc", "good.cn"]);
+    command.stdout(fs::File::options().write(true).open(folder.path().join("good.cn")).unwrap());
+    finish(command).exits(2).says("the source itself");
+    assert_eq!(fs::read_to_string(folder.path().join("good.cn")).unwrap(), GOOD);
+}
+
+#[test]
+fn stdin_is_a_source() {
+    let folder = folder();
+    let folder = folder.path();
+    let done = ncc_with(folder, &["mach9", "to", "fanuc", "-"], GOOD.as_bytes())
+        .exits(0)
+        .says("<stdin>: mach9 to fanuc");
+    assert!(done.out.starts_with("%\nO"));
+    ncc_with(folder, &["mach9", "to", "fanuc", "-"], BAD.as_bytes()).exits(1).says("<stdin>:2:");
+    ncc_with(folder, &["mach9", "to", "fanuc", "-", "-o", "-"], GOOD.as_bytes()).exits(0);
+}
+
+#[test]
+fn files_that_cannot_be_used_are_exit_4() {
+    let folder = folder();
+    let folder = folder.path();
+    ncc(folder, &["mach9", "to", "fanuc", "none.cn"])
+        .exits(4)
+        .says("cannot read none.cn: there is no such file");
+    ncc(folder, &["mach9", "to", "fanuc", "."]).exits(4).says("it is a folder");
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "."]).exits(4).says("it is a folder");
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "no/part.nc"])
+        .exits(4)
+        .says("cannot write no/part.nc");
+    ncc(folder, &["mach9", "to", "fanuc", "good.cn", "--report", "no/r.json"]).exits(4);
+}
+
+#[test]
+fn a_file_without_any_program_is_a_clear_error() {
+    let folder = folder();
+    let folder = folder.path();
+    let binary: Vec<u8> = (0..=255u8).cycle().take(10_000).collect();
+    for (name, text) in [("empty.cn", b"".as_slice()), ("binary.cn", &binary), ("zeros.cn", &[0; 5000])] {
+        fs::write(folder.join(name), text).unwrap();
+        for from in ["mach9", "fanuc", "canon", "ir"] {
+            let done = ncc(folder, &[from, "to", "fanuc", name]).exits(1).says("error[NC");
+            assert_eq!(done.out, "", "{from} {name}");
+            assert!(done.err.len() < 100_000, "{from} {name}: {} bytes of messages", done.err.len());
+            assert!(!done.err.contains('\0') && !done.err.contains('\x1b'), "{from} {name}");
+        }
+    }
+}
+
+#[test]
+fn line_ends_are_kept_or_chosen() {
+    let folder = folder();
+    let folder = folder.path();
+    let run = |text: &str, eol: &[&str]| {
+        fs::write(folder.join("p.cn"), text).unwrap();
+        ncc(folder, &[&["mach9", "to", "fanuc", "p.cn"], eol].concat()).exits(0).out
+    };
+    let windows = GOOD.replace('\n', "\r\n");
+    let lf = run(GOOD, &[]);
+    assert!(!lf.contains('\r'));
+    assert_eq!(run(GOOD, &["--eol", "crlf"]), lf.replace('\n', "\r\n"));
+    let kept = run(&windows, &[]);
+    assert_eq!(kept.matches("\r\n").count(), kept.matches('\n').count());
+    assert!(!run(&windows, &["--eol", "lf"]).contains('\r'));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_stops_is_no_panic() {
+    let folder = folder();
+    let long = format!(
+        "G90\nG71\nG17\nT1M6\nO1S1000M3\nG0X0.Y0.\nZ5.\nG1Z-1.F100\n{}M2\n",
+        "X10.\nX0.\n".repeat(50_000)
+    );
+    fs::write(folder.path().join("long.cn"), long).unwrap();
+    let line = format!("{{ {NCC} mach9 to fanuc long.cn; echo $? >&2; }} | head -n 1");
+    let done = finish(command("sh", folder.path(), &["-c", &line])).exits(0);
+    assert_eq!(done.out, "%\n");
+    assert!(!done.err.contains("panicked") && !done.err.contains("Broken pipe"), "{}", done.err);
+    for closed in [">&-", "2>&-", ">&- 2>&-", "> /dev/full", "2> /dev/full"] {
+        for verb in ["mach9 to fanuc good.cn", "dialects", "--help", "explain NC0107", "nonsense"] {
+            let line = format!("{NCC} {verb} {closed}");
+            let done = finish(command("sh", folder.path(), &["-c", &line]));
+            assert!(done.code < 5 && !done.err.contains("panicked"), "{line}: {}", done.err);
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What is said on stderr, in which form, and what stops a translation.
+
+use super::*;
+
+#[test]
+fn a_good_translation_says_what_was_verified() {
+    let folder = folder();
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn"]).exits(0);
+    let first = done.err.lines().next().unwrap_or_default();
+    assert!(first.starts_with("good.cn: mach9 to fanuc, verified: the same "), "{}", done.err);
+    assert!(!done.err.contains('\x1b'), "colour without a terminal");
+    let quiet = ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--quiet"]).exits(0);
+    assert_eq!((quiet.err.as_str(), quiet.out), ("", done.out));
+    let unverified = ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--no-verify"]).exits(0);
+    assert!(unverified.err.contains("NOT VERIFIED") && unverified.out.contains("UNVERIFIED"));
+}
+
+#[test]
+fn the_case_study_reads_well() {
+    let folder = folder();
+    let teste = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpus/mach9/teste.cn");
+    std::fs::copy(teste, folder.path().join("teste.cn")).unwrap();
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "teste.cn"]).exits(0);
+    expect("teste-summary.txt", &done.err);
+    expect("teste.nc", &done.out);
+}
+
+#[test]
+fn an_error_shows_the_place_and_the_mend() {
+    let folder = folder();
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn"]).exits(1);
+    assert_eq!(done.out, "");
+    let done =
+        done.says("error[NC0107]").says("bad.cn:2:").says("│ GOX-15.").says("G0").says("nothing was written");
+    let quiet = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "-q"]).exits(1);
+    assert!(done.err.starts_with(&quiet.err) && quiet.err.contains("NC0107"));
+    let colour = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "--color", "always"]).exits(1);
+    assert!(colour.err.contains("\x1b["));
+}
+
+#[test]
+fn json_is_one_object_a_line() {
+    let folder = folder();
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "--format", "json"]).exits(1);
+    let lines: Vec<serde_json::Value> =
+        done.err.lines().map(|line| serde_json::from_str(line).expect(line)).collect();
+    let error = lines.iter().find(|l| l["code"] == "NC0107").expect("the error");
+    assert_eq!((&error["severity"], &error["place"]["line"]), (&"error".into(), &2.into()));
+    let start = error["place"]["start"].as_u64().unwrap() as usize;
+    let end = error["place"]["end"].as_u64().unwrap() as usize;
+    assert_eq!(error["place"]["text"], BAD[start..end]);
+    assert_eq!(lines.last().unwrap()["result"], "refused");
+    let usage = ncc(folder.path(), &["mach9", "to", "fanuc", "none.cn", "--format", "json"]).exits(4);
+    let line: serde_json::Value = serde_json::from_str(usage.err.trim_end()).unwrap();
+    assert_eq!(line["severity"], "error");
+}
+
+#[test]
+fn a_report_tells_everything() {
+    let folder = folder();
+    let report = |file: &str, code| -> serde_json::Value {
+        ncc(folder.path(), &["mach9", "to", "fanuc", file, "-q", "--report", "r.json"]).exits(code);
+        serde_json::from_slice(&std::fs::read(folder.path().join("r.json")).unwrap()).unwrap()
+    };
+    let good = report("good.cn", 0);
+    assert_eq!(good["ncc_report"], 1);
+    assert_eq!(good["source"]["name"], "good.cn");
+    assert_eq!(good["source"]["bytes"], GOOD.len());
+    assert_eq!(good["source"]["sha256"].as_str().unwrap().len(), 64);
+    assert_eq!(good["source"]["options"]["o_word"]["value"], "offset");
+    assert_eq!(good["target"]["dialect"], "fanuc");
+    assert_eq!(good["result"], "verified");
+    assert!(good["verification"]["worlds"].as_u64().unwrap() >= 2);
+    assert!(good["verification"]["events"].as_u64().unwrap() > 0);
+    assert!(good["verdicts"]["exact"].as_u64().unwrap() > 0);
+    assert!(!good["assumptions"].as_array().unwrap().is_empty());
+    let told = good["diagnostics"].as_array().unwrap();
+    assert!(told.iter().any(|d| d["verdict"] == "assumed" && d["place"]["line"].as_u64() > Some(0)));
+    let bad = report("bad.cn", 1);
+    assert_eq!((&bad["result"], &bad["target"]["bytes"]), (&"refused".into(), &0.into()));
+}
+
+#[test]
+fn a_verdict_can_be_denied() {
+    let folder = folder();
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--deny", "assumed"]).exits(1);
+    assert_eq!(done.out, "");
+    done.says("error[NC03").says("--deny assumed").says("may not pass");
+    // What is denied stops even if it is allowed too.
+    ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--deny", "assumed", "--allow", "assumed"])
+        .exits(1);
+}
+
+#[test]
+fn of_many_messages_twenty_of_a_kind_are_shown() {
+    let folder = folder();
+    std::fs::write(folder.path().join("many.cn"), "GOX-15.\n".repeat(50)).unwrap();
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "many.cn"]).exits(1);
+    assert_eq!(done.err.matches("error[NC0107]").count(), 20);
+    done.says("… and 30 more of NC0107");
+}
+
+#[test]
+fn an_unknown_dialect_of_a_text_is_not_guessed() {
+    let folder = folder();
+    std::fs::write(folder.path().join("p.nc"), "G0 X1.\nM30\n").unwrap();
+    let done = ncc(folder.path(), &["auto", "to", "ir", "p.nc"]).exits(2);
+    assert_eq!(done.out, "");
+    done.says("cannot be told for certain").says("name it: --from");
+    let done = ncc(folder.path(), &["auto", "to", "fanuc", "good.cn"]).exits(0);
+    done.says("good.cn: read as mach9: ");
+}
