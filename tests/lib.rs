@@ -8,3 +8,5 @@ pub mod expect;
 pub mod interpreter;
 pub mod page;
 pub mod plain;
+pub mod sketch;
+pub mod translate;

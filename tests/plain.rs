@@ -1,12 +1,14 @@
 //! Events in their plainest form, so that the second interpreter's, the compiler's and those of a
 //! book can be laid side by side. Millimetres, degrees, seconds, machine coordinates.
 
-use ncc_ir::canon::{Plane, Spindle as Turning, Turn};
+use ncc_ir::canon::{
+    Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
+};
 use ncc_ir::exec::{Event, Kind};
 use ncc_ir::num::Nanos;
 use ncc_ir::world::World;
 
-use crate::interpreter::{self, Machine, Setup, Spindle, What};
+use crate::interpreter::{self, Machine, PowerOn, Setup, Spindle, What};
 
 /// An event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,7 +74,25 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         length: Box::new(move |entry| mm(lengths.tool_length(entry))),
         skip: std::array::from_fn(|level| skip >> level & 1 == 1),
         peck_clearance: mm(world.peck_clearance),
+        power_on: PowerOn::default(),
     }
+}
+
+/// The plain world (0) or a generated one, with the usual modes at power-on: those that both
+/// interpreters take for granted.
+pub fn world(seed: u32) -> World {
+    let power_on = Modes {
+        motion: Some(Motion::Traverse),
+        distance: Some(Distance::Absolute),
+        units: Some(Units::Mm),
+        plane: Some(Plane::Xy),
+        feed_mode: Some(FeedMode::PerMinute),
+        return_level: Some(ReturnLevel::Initial),
+        work_offset: Some(1),
+        length_offset: Some(0),
+        no_origin_shift: Some(true),
+    };
+    World { power_on, ..World::generate(seed, &Modes::default()) }
 }
 
 fn mm(nanos: Nanos) -> f64 {
@@ -267,6 +287,8 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
     let run = match dialect {
         "mach9" => interpreter::mach9::run(text, setup),
         "fanuc" => interpreter::fanuc::run(text, setup),
+        "canon" => interpreter::canon::run(text, setup),
+        "ir" => interpreter::ir::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

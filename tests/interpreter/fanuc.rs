@@ -8,13 +8,14 @@ use super::{Halt, Hole, Machine, Setup, Spindle, What, characters};
 /// The program is wrong, out of scope, or says something that the notes leave open.
 pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     let programs = programs(&characters(text));
+    let modes = setup.power_on;
     let mut control = Control {
         m: Machine::new(setup),
-        motion: 0,
+        motion: modes.motion,
         cycle: None,
         kept: Kept::default(),
         initial: 0.0,
-        return_initial: true,
+        return_initial: modes.return_initial,
         depth: 0,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);

@@ -7,7 +7,9 @@
 //!
 //! Not here: speed, good messages, anything beyond the scope of the corpus.
 
+pub mod canon;
 pub mod fanuc;
+pub mod ir;
 pub mod mach9;
 
 /// X Y Z A B C; millimetres and degrees.
@@ -25,6 +27,41 @@ pub struct Setup {
     pub skip: [bool; 10],
     /// A Fanuc's parameter 5115, millimetres.
     pub peck_clearance: f64,
+    /// Modes at power-on.
+    pub power_on: PowerOn,
+}
+
+/// Modes at power-on.
+#[derive(Clone, Copy, Debug)]
+pub struct PowerOn {
+    /// Inches.
+    pub inch: bool,
+    /// Absolute words.
+    pub absolute: bool,
+    /// 17, 18, 19.
+    pub plane: u32,
+    /// Work offset.
+    pub offset: u32,
+    /// Length entry.
+    pub entry: u32,
+    /// G98 on a Fanuc.
+    pub return_initial: bool,
+    /// Motion code on a Fanuc: 0 to 3.
+    pub motion: u32,
+}
+
+impl Default for PowerOn {
+    fn default() -> PowerOn {
+        PowerOn {
+            inch: false,
+            absolute: true,
+            plane: 17,
+            offset: 1,
+            entry: 0,
+            return_initial: true,
+            motion: 0,
+        }
+    }
 }
 
 impl Setup {
@@ -36,6 +73,7 @@ impl Setup {
             length: Box::new(|_| 0.0),
             skip: [false; 10],
             peck_clearance: 1.0,
+            power_on: PowerOn::default(),
         }
     }
 }
@@ -168,17 +206,18 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// A machine that was just switched on: absolute, mm, XY.
+    /// A machine that was just switched on.
     pub fn new(setup: Setup) -> Machine {
+        let modes = setup.power_on;
         Machine {
             at: setup.start,
             setup,
             settled: [true; 6],
-            inch: false,
-            absolute: true,
-            plane: 17,
-            offset: 1,
-            entry: 0,
+            inch: modes.inch,
+            absolute: modes.absolute,
+            plane: modes.plane,
+            offset: modes.offset,
+            entry: modes.entry,
             feed: None,
             speed: None,
             spindle: Spindle::Stopped,

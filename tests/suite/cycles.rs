@@ -5,11 +5,12 @@
 
 use std::path::PathBuf;
 
+use ncc_tests::corpus;
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
 use ncc_tests::page::{self, Page};
 use ncc_tests::plain::{self, Happening, Plain, Tolerance};
-use ncc_tests::corpus;
+use ncc_tests::translate;
 
 /// A cited example.
 struct Cited {
@@ -94,6 +95,23 @@ fn the_second_interpreter_makes_the_cited_moves() {
         let setup = Setup { start: c.start, ..Setup::plain() };
         let result = plain::second(c.dialect, c.text.as_bytes(), setup).and_then(|machine| {
             let made = bare(plain::of_machine(&machine, c.start));
+            plain::compare(&joined(&c.moves), &joined(&made), c.within)
+        });
+        failures.check(&c.name, result);
+    }
+    failures.finish();
+}
+
+#[test]
+fn the_compiler_makes_the_cited_moves() {
+    let mut failures = Failures::default();
+    for c in cited() {
+        let result = translate::read(c.dialect, c.text.as_bytes()).and_then(|program| {
+            let mut world = plain::world(0);
+            world.start = c.start.map(|mm| (mm * 1e9).round() as i64);
+            world.peck_clearance = ncc_ir::num::ONE;
+            let events = translate::execute(&program, &world, 0)?;
+            let made = bare(plain::of_events(&events, c.start));
             plain::compare(&joined(&c.moves), &joined(&made), c.within)
         });
         failures.check(&c.name, result);

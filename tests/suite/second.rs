@@ -3,7 +3,8 @@
 use ncc_tests::corpus;
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
-use ncc_tests::plain;
+use ncc_tests::plain::{self, Tolerance};
+use ncc_tests::translate;
 
 /// Every word-address program of the corpus is in the second interpreter's scope.
 #[test]
@@ -21,5 +22,64 @@ fn runs_the_corpus() {
             }
         }
     }
+    failures.finish();
+}
+
+/// The compiler's reader and execution, and the second interpreter: the same events, in machine
+/// coordinates, in the plain world and in generated ones, with all skip switches off and all on.
+#[test]
+fn agrees_with_the_compiler_on_the_corpus() {
+    let mut failures = Failures::default();
+    for program in ["mach9", "fanuc"].into_iter().flat_map(corpus::of) {
+        let what = format!("{}/{}", program.dialect, program.file);
+        let Some(read) = failures.check(&what, translate::read(program.dialect, &program.text)) else { continue };
+        for world in [0, 1, 2].map(plain::world) {
+            for skip in [0, 0b10, 0x3fe] {
+                let second = plain::second(program.dialect, &program.text, plain::setup(&world, skip));
+                let start = world.start.map(|n| n as f64 / 1e9);
+                let result = second.and_then(|machine| {
+                    let events = translate::execute(&read, &world, skip)?;
+                    let (a, b) = (plain::of_machine(&machine, start), plain::of_events(&events, start));
+                    plain::compare(&a, &b, Tolerance::SAME)
+                });
+                failures.check(format!("{what} world {} skip {skip:b}", world.seed), result);
+            }
+        }
+    }
+    failures.finish();
+}
+
+/// What was emitted makes the source's moves: judged by the second interpreter alone.
+#[test]
+fn emitted_programs_make_the_same_moves() {
+    let mut failures = Failures::default();
+    let mut pairs = 0;
+    for program in ["mach9", "fanuc"].into_iter().flat_map(corpus::of) {
+        for to in ["mach9", "fanuc"] {
+            let what = format!("{}/{} to {to}", program.dialect, program.file);
+            let job = translate::job(program.dialect, to, &program.file);
+            let (outcome, text) = translate::translate(&job, &program.text);
+            if outcome.release.is_err() {
+                continue;
+            }
+            pairs += 1;
+            for world in [0, 1, 2].map(plain::world) {
+                let start = world.start.map(|n| n as f64 / 1e9);
+                let list = |dialect: &str, text: &[u8], skip| {
+                    let machine = plain::second(dialect, text, plain::setup(&world, skip))?;
+                    Ok::<_, String>(plain::of_machine(&machine, start))
+                };
+                for skip in [0, 0x3fe] {
+                    let result = list(program.dialect, &program.text, skip).and_then(|source| {
+                        plain::compare(&source, &list(to, &text, skip)?, Tolerance::ROUNDED)
+                    });
+                    if let Err(fault) = result {
+                        failures.add(&what, format!("{fault}\n{}", String::from_utf8_lossy(&text)));
+                    }
+                }
+            }
+        }
+    }
+    println!("{pairs} pairs");
     failures.finish();
 }

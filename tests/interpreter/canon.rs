@@ -1,0 +1,138 @@
+//! Straight-line programs of canonical functions, one call a line: `reference/canon.md` for the
+//! functions, their own description for the print (`_` for an axis that stays, `/` for block skip,
+//! numbers of work offsets and length entries).
+
+use super::{Halt, Machine, Setup, Spindle, What};
+
+/// Runs a program.
+///
+/// # Errors
+/// The program is wrong, or out of scope.
+pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    let mut m = Machine::new(setup);
+    // These hold at the start of every such text.
+    (m.inch, m.absolute, m.plane) = (false, true, 17);
+    for (index, line) in String::from_utf8_lossy(text).lines().enumerate() {
+        m.line = index + 1;
+        let line = line.trim();
+        let (level, line) = match line.strip_prefix('/') {
+            None => (0, line),
+            Some(rest) => {
+                let digits = rest.chars().take_while(char::is_ascii_digit).count();
+                (rest[..digits].parse().unwrap_or(1), rest[digits..].trim_start())
+            }
+        };
+        if line.is_empty() || (level > 0 && m.setup.skip[level]) {
+            continue;
+        }
+        let Some((name, rest)) = line.split_once('(') else { return m.halt("no call") };
+        if name == "COMMENT" {
+            continue;
+        }
+        let Some(arguments) = rest.strip_suffix(')') else { return m.halt("no closing bracket") };
+        let arguments: Vec<&str> = arguments.split(',').map(str::trim).filter(|a| !a.is_empty()).collect();
+        if call(&mut m, name, &arguments)? {
+            return Ok(m);
+        }
+    }
+    m.record(What::End);
+    Ok(m)
+}
+
+fn number(m: &Machine, text: &str) -> Result<f64, Halt> {
+    text.parse().or_else(|_| m.halt(format!("no number: {text}")))
+}
+
+fn only(m: &Machine, arguments: &[&str]) -> Result<f64, Halt> {
+    match arguments {
+        [one] => number(m, one),
+        _ => m.halt("one number is needed"),
+    }
+}
+
+/// Runs a call; true at the end of the program.
+fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
+    let unit = if m.inch { 25.4 } else { 1.0 };
+    match (name, a) {
+        ("STOP_CUTTER_RADIUS_COMPENSATION" | "CLEAR_ORIGIN_SHIFT", []) => {}
+        ("SET_FEED_MODE", ["CANON_PER_MINUTE"]) => {}
+        ("USE_LENGTH_UNITS", ["CANON_UNITS_MM"]) => m.inch = false,
+        ("USE_LENGTH_UNITS", ["CANON_UNITS_INCHES"]) => m.inch = true,
+        ("SELECT_PLANE", ["CANON_PLANE_XY"]) => m.plane = 17,
+        ("SELECT_PLANE", ["CANON_PLANE_XZ"]) => m.plane = 18,
+        ("SELECT_PLANE", ["CANON_PLANE_YZ"]) => m.plane = 19,
+        ("SET_ORIGIN_OFFSETS", _) => {
+            let offset = only(m, a)? as u32;
+            m.use_offset(offset);
+        }
+        ("SET_FEED_RATE", _) => m.feed = Some(only(m, a)? * unit),
+        ("SET_SPINDLE_SPEED", _) => m.speed = Some(only(m, a)?),
+        ("SELECT_TOOL", _) => m.selected = Some(only(m, a)? as u32),
+        ("CHANGE_TOOL", []) => m.change_tool()?,
+        ("CHANGE_TOOL", _) => {
+            let tool = only(m, a)? as u32;
+            if m.selected != Some(tool) {
+                return m.halt("another tool was selected");
+            }
+            m.change_tool()?;
+        }
+        ("USE_TOOL_LENGTH_OFFSET", _) => {
+            let entry = only(m, a)? as u32;
+            m.use_length(entry);
+        }
+        ("START_SPINDLE_CLOCKWISE", []) => m.turn(Spindle::Clockwise),
+        ("START_SPINDLE_COUNTERCLOCKWISE", []) => m.turn(Spindle::Counterclockwise),
+        ("STOP_SPINDLE_TURNING", []) => m.turn(Spindle::Stopped),
+        ("FLOOD_ON", []) => m.cool(true, m.coolant.1),
+        ("MIST_ON", []) => m.cool(m.coolant.0, true),
+        ("COOLANT_OFF", []) => m.cool(false, false),
+        ("DWELL", _) => {
+            let seconds = only(m, a)?;
+            m.record(What::Dwell(seconds));
+        }
+        ("STRAIGHT_TRAVERSE" | "STRAIGHT_FEED", _) if a.len() == 3 || a.len() == 6 => {
+            let to = place(m, a, [0, 1, 2, 3, 4, 5])?;
+            match name {
+                "STRAIGHT_TRAVERSE" => m.traverse(to),
+                _ => m.straight(to)?,
+            }
+        }
+        ("ARC_FEED", [end_1, end_2, centre_1, centre_2, rotation, along, rotary @ ..])
+            if rotary.is_empty() || rotary.len() == 3 =>
+        {
+            let (first, second, normal) = m.axes();
+            let mut ends = vec![*end_1, *end_2, *along];
+            ends.extend(rotary);
+            let centre = (
+                number(m, centre_1)? * unit + m.shift(first),
+                number(m, centre_2)? * unit + m.shift(second),
+            );
+            let rotation = number(m, rotation)?;
+            if rotation.abs() != 1.0 {
+                return m.halt("an arc of several turns, or of none");
+            }
+            let to = place(m, &ends, [first, second, normal, 3, 4, 5])?;
+            m.arc(to, centre, rotation < 0.0)?;
+        }
+        ("PROGRAM_STOP", []) => m.record(What::Stop),
+        ("OPTIONAL_PROGRAM_STOP", []) => m.record(What::OptionalStop),
+        ("PROGRAM_END", []) => {
+            m.record(What::End);
+            return Ok(true);
+        }
+        _ => return m.halt(format!("the call {name} with {} arguments", a.len())),
+    }
+    Ok(false)
+}
+
+/// A place of which each argument names an axis; `_` stays.
+fn place(m: &mut Machine, arguments: &[&str], axes: [usize; 6]) -> Result<super::Place, Halt> {
+    let mut words = [None; 6];
+    for (argument, axis) in arguments.iter().zip(axes) {
+        if *argument != "_" {
+            let unit = if m.inch && axis < 3 { 25.4 } else { 1.0 };
+            words[axis] = Some(number(m, argument)? * unit);
+        }
+    }
+    m.target(words)
+}

@@ -1,0 +1,102 @@
+//! Why a mutant that the verification lets pass makes the same cut.
+//!
+//! The verdict is never taken from the comparison that is being tested. Either the word itself is
+//! of a kind that no control acts upon (a comment, a block number, a program's name, text after the
+//! end), or the second interpreter, which shares nothing with the compiler, makes the same events
+//! of both texts, from several power-on states; the class then names what kind of word it was.
+
+use ncc_tests::interpreter::{PowerOn, Setup};
+use ncc_tests::plain::{self, Plain, Tolerance};
+
+use crate::words::{Change, Is, Mutant};
+
+/// A class of equivalent mutants, or why there is none.
+pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'static str, String> {
+    let old = &text[mutant.at.clone()];
+    if mutant.change != Change::Swapped {
+        match mutant.is {
+            Is::Text => return Ok("a comment, text or title"),
+            Is::Letter(b'N') => return Ok("a block number"),
+            Is::Name if old[0] == b'N' && old[1..].iter().all(u8::is_ascii_digit) => return Ok("a block number"),
+            _ => {}
+        }
+    }
+    if behind_the_end(dialect, text, mutant.at.start) {
+        return Ok("behind the end of the program");
+    }
+    the_same_moves(dialect, text, &mutant.text)?;
+    Ok(match (&mutant.change, mutant.is) {
+        (Change::Swapped, _) => "order of blocks without an event between",
+        (Change::Sign, _) if !old.iter().any(|b| (b'1'..=b'9').contains(b)) => "minus zero",
+        (_, Is::Letter(b'O')) if dialect == "fanuc" => "the program's number",
+        (Change::Sibling(_), Is::Letter(b'M')) => "a code that ends the program alike",
+        (Change::Sibling(_), Is::Letter(b'G') | Is::Name) => "a setting that nothing after it depends on",
+        (Change::Deleted, Is::Letter(b'G' | b'M')) => "a code that restates what is in force, or ends what is not",
+        (Change::Deleted, Is::Letter(b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')) => "an axis that stands there already",
+        (Change::Deleted, Is::Letter(b'I' | b'J' | b'K')) => "a centre word of zero",
+        (_, Is::Letter(b'F')) => "a feed that is in force, or that nothing is cut with",
+        (_, Is::Letter(b'S')) => "a speed that is in force, or that nothing turns with",
+        (_, Is::Letter(b'T')) => "a tool called ahead, and called again",
+        (_, Is::Letter(b'H' | b'O')) => "a length that no Z takes up",
+        (_, Is::Letter(b'R' | b'Q' | b'P' | b'L' | b'D')) => "a cycle's word that is in force, or that makes no hole",
+        (Change::Digit, Is::Letter(b'G' | b'M')) => "a setting that nothing after it depends on",
+        (Change::Deleted, Is::Sign) => "a mark of the frame",
+        (Change::Deleted, Is::Name | Is::Number) => "a word that restates what is in force",
+        (_, Is::Number) => "a value that nothing depends on",
+        (_, Is::Sign) => "a mark of the frame",
+        (_, Is::Name | Is::Letter(_)) => return Err("the same events, but of no class that has a name".into()),
+        (_, Is::Text) => "a comment, text or title",
+    })
+}
+
+/// Whether a place lies behind the block that ends the program, outside of subprograms.
+fn behind_the_end(dialect: &str, text: &[u8], place: usize) -> bool {
+    let before = String::from_utf8_lossy(&text[..place]).into_owned();
+    match dialect {
+        "mach9" => before.lines().any(|l| matches!(l.trim(), "M2" | "M30")),
+        // What follows there are subprograms, up to the percent sign.
+        "fanuc" => {
+            let rest = String::from_utf8_lossy(&text[place..]).into_owned();
+            rest.trim_start().starts_with('%') && before.contains('\n')
+        }
+        _ => false,
+    }
+}
+
+/// Runs both texts in the second interpreter, from several states.
+fn the_same_moves(dialect: &str, text: &[u8], mutant: &[u8]) -> Result<(), String> {
+    let unusual = PowerOn {
+        inch: true,
+        absolute: false,
+        plane: 19,
+        offset: 4,
+        entry: 9,
+        return_initial: false,
+        motion: 1,
+    };
+    let mut ran = 0;
+    for power_on in [PowerOn::default(), unusual] {
+        for seed in [0, 1, 2] {
+            let world = plain::world(seed);
+            let start = world.start.map(|n| n as f64 / 1e9);
+            for skip in [0, 0b10, 0b100, 0b1000, 0x3fe] {
+                let events = |text: &[u8]| -> Result<Vec<Plain>, String> {
+                    let setup = Setup { power_on, ..plain::setup(&world, skip) };
+                    Ok(plain::of_machine(&plain::second(dialect, text, setup)?, start))
+                };
+                match (events(text), events(mutant)) {
+                    (Ok(a), Ok(b)) => {
+                        plain::compare(&a, &b, Tolerance::SAME)?;
+                        ran += 1;
+                    }
+                    (Err(_), _) => {}
+                    (Ok(_), Err(why)) => return Err(format!("the second interpreter stops: {why}")),
+                }
+            }
+        }
+    }
+    if ran < 3 {
+        return Err("the second interpreter does not run the text itself".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,129 @@
+//! Can the verification fail? Every word of every emitted program of the corpus is changed, and
+//! each changed text is either caught or proved equivalent by a named class: 100 %.
+//!
+//! A seeded sample by default; all of it by
+//! `NCC_ALL_MUTANTS=1 cargo test --release -p ncc-tests --test mutants -- --nocapture`.
+
+mod classes;
+mod words;
+
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use ncc::judge::Judge;
+use ncc_dialects::{Family, builtin};
+use ncc_tests::corpus::{self, DIALECTS, Program};
+use ncc_tests::expect::Failures;
+use ncc_tests::translate::job;
+use words::{Change, Form, Mutant};
+
+/// Mutants of each emitted program in the sample.
+const SAMPLE: usize = 16;
+
+#[derive(Default)]
+struct Tally {
+    texts: usize,
+    mutants: usize,
+    caught: usize,
+    classes: BTreeMap<&'static str, usize>,
+    failures: Failures,
+}
+
+#[test]
+fn every_mutant_is_caught_or_equivalent() {
+    let all = std::env::var_os("NCC_ALL_MUTANTS").is_some_and(|v| v == "1");
+    let work: Vec<(Program, &'static str)> =
+        corpus::all().into_iter().flat_map(|p| DIALECTS.map(|to| (p.clone(), to))).collect();
+    let next = AtomicUsize::new(0);
+    let tally = Mutex::new(Tally::default());
+    std::thread::scope(|scope| {
+        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
+            scope.spawn(|| {
+                while let Some((program, to)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    try_all(program, to, all, &tally);
+                }
+            });
+        }
+    });
+    let tally = tally.into_inner().expect("no thread panicked");
+    println!("{} texts, {} mutants, {} caught", tally.texts, tally.mutants, tally.caught);
+    for (class, count) in &tally.classes {
+        println!("{count:7} equivalent: {class}");
+    }
+    assert!(tally.caught > 100, "hardly any mutants: {}", tally.mutants);
+    tally.failures.finish();
+}
+
+fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
+    let mut job = job(program.dialect, to, &program.file);
+    // The head is comment; it would only add mutants of comments.
+    job.head = false;
+    let mut judge = Judge::new(&job, &program.text).expect("a source in memory");
+    if judge.outcome.release.is_err() {
+        return;
+    }
+    let text = judge.outcome.output.to_vec().expect("an output in memory");
+    let mut mutants = words::mutants(&text, form(to));
+    if !all {
+        mutants = sample(mutants, seed(&program.file, to));
+    }
+    let what = format!("{}/{} to {to}", program.dialect, program.file);
+    // What passes the untouched text is what the mutants are measured against.
+    let untouched = judge.judge(&text).map_err(|d| format!("{:?}", d.fault));
+    let mut found: Vec<(Mutant, Result<&'static str, String>)> = Vec::new();
+    let mut caught = 0;
+    for mutant in mutants {
+        match judge.judge(&mutant.text) {
+            Err(_) => caught += 1,
+            Ok(_) => {
+                let class = classes::class(to, &text, &mutant);
+                found.push((mutant, class));
+            }
+        }
+    }
+    let mut tally = tally.lock().expect("no thread panicked");
+    tally.texts += 1;
+    tally.mutants += caught + found.len();
+    tally.caught += caught;
+    tally.failures.check(&what, untouched);
+    for (mutant, class) in found {
+        match class {
+            Ok(class) => *tally.classes.entry(class).or_default() += 1,
+            Err(why) => tally.failures.add(format!("{what}: {:?}", mutant.change), told(&text, &mutant, &why)),
+        }
+    }
+}
+
+/// The blocks that were changed, before and after.
+fn told(text: &[u8], mutant: &Mutant, why: &str) -> String {
+    let from = text[..mutant.at.start].iter().rposition(|b| *b == b'\n').map_or(0, |n| n + 1);
+    let tail = text[mutant.at.end..].iter().position(|b| *b == b'\n').unwrap_or(0);
+    let old = &text[from..mutant.at.end + tail];
+    let new = &mutant.text[from..mutant.text.len() - (text.len() - mutant.at.end - tail)];
+    let show = |t: &[u8]| String::from_utf8_lossy(t).trim_end().replace('\n', "\n      ");
+    let end = if mutant.change == Change::Swapped { "\n" } else { "" };
+    format!("  was {}\n  now {}{end}\n  not caught, and: {why}", show(old), show(new))
+}
+
+fn form(dialect: &str) -> Form {
+    let dialect = builtin(dialect).expect("a dialect");
+    match dialect.family {
+        Family::Word => {
+            let open = dialect.comment.open.chars().next().expect("comments");
+            Form::Letters(open, dialect.comment.close.chars().next())
+        }
+        Family::Canon | Family::Ir => Form::Functions,
+    }
+}
+
+fn seed(file: &str, to: &str) -> u64 {
+    file.bytes().chain(to.bytes()).fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// Some of them, the same ones in each run.
+fn sample(mutants: Vec<Mutant>, seed: u64) -> Vec<Mutant> {
+    let step = mutants.len().div_ceil(SAMPLE).max(1);
+    let first = seed as usize % step;
+    mutants.into_iter().skip(first).step_by(step).collect()
+}

@@ -1,0 +1,260 @@
+//! Laws that hold of all programs, tried on random ones: seeded and bounded, the same in each run.
+
+use std::collections::BTreeSet;
+
+use ncc::job::Failure;
+use ncc::judge::Judge;
+use ncc_dialects::builtin;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::passes::Legaliser;
+use ncc_tests::corpus::{self, DIALECTS};
+use ncc_tests::plain::{self, Tolerance};
+use ncc_tests::sketch::{self, pieces, spell};
+use ncc_tests::translate::{self, job, rendered};
+use proptest::prelude::*;
+use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
+
+/// Tries a law on so many values.
+fn law<S: Strategy>(cases: u32, values: S, holds: impl Fn(S::Value) -> Result<(), String>) {
+    let config = Config { cases, failure_persistence: None, max_shrink_iters: 500, ..Config::default() };
+    let rng = TestRng::deterministic_rng(RngAlgorithm::ChaCha);
+    let mut runner = TestRunner::new_with_rng(config, rng);
+    let result = runner.run(&values, |value| holds(value).map_err(TestCaseError::fail));
+    if let Err(fault) = result {
+        panic!("{fault}");
+    }
+}
+
+/// A translation that must be released, with its text.
+fn released(from: &str, to: &str, text: &str) -> Result<String, String> {
+    let mut job = job(from, to, "law");
+    job.head = false;
+    let (outcome, written) = translate::translate(&job, text.as_bytes());
+    match outcome.release {
+        Ok(()) => String::from_utf8(written).map_err(|e| e.to_string()),
+        Err(_) => {
+            let said = rendered(&job, "law", text.as_bytes(), &outcome.diagnostics);
+            Err(format!("{from} to {to}\n{text}\n{said}"))
+        }
+    }
+}
+
+/// Both spellings of a random program make the same moves, by the second interpreter; each is
+/// translated into every dialect and verified; and the second interpreter agrees with the outcome.
+#[test]
+fn random_programs_through_every_pair() {
+    law(60, pieces(), |pieces| {
+        let start = plain::world(1).start.map(|n| n as f64 / 1e9);
+        let run = |dialect: &str, text: &str| {
+            let machine = plain::second(dialect, text.as_bytes(), plain::setup(&plain::world(1), 0))?;
+            Ok::<_, String>(plain::of_machine(&machine, start))
+        };
+        let sources = [("mach9", spell(&pieces, false)), ("fanuc", spell(&pieces, true))];
+        let moves = run("mach9", &sources[0].1)?;
+        for (from, text) in &sources {
+            plain::compare(&moves, &run(from, text)?, Tolerance::SAME).map_err(|e| format!("{from}: {e}\n{text}"))?;
+            for to in DIALECTS {
+                let written = released(from, to, text)?;
+                let same = run(to, &written).and_then(|made| plain::compare(&moves, &made, Tolerance::ROUNDED));
+                same.map_err(|e| format!("{from} to {to}: {e}\n{text}\n{written}"))?;
+            }
+        }
+        Ok(())
+    });
+}
+
+/// Reading what was written gives what was written: A→A is a fixed point.
+#[test]
+fn read_after_write() {
+    law(60, pieces(), |pieces| {
+        for (dialect, fanuc) in [("mach9", false), ("fanuc", true)] {
+            let once = released(dialect, dialect, &spell(&pieces, fanuc))?;
+            let twice = released(dialect, dialect, &once)?;
+            fixed(dialect, &once, &twice)?;
+            for to in ["canon", "ir"] {
+                let there = released(dialect, to, &once)?;
+                fixed(to, &there, &released(to, to, &there)?)?;
+            }
+        }
+        Ok(())
+    });
+}
+
+fn fixed(dialect: &str, once: &str, twice: &str) -> Result<(), String> {
+    match once == twice {
+        true => Ok(()),
+        false => Err(format!("{dialect}\n{}", ncc_tests::expect::diff(once.as_bytes(), twice.as_bytes()))),
+    }
+}
+
+/// A→B→A makes the same cut as A: judged by the compiler, without the steps between.
+#[test]
+fn there_and_back() {
+    law(40, pieces(), |pieces| {
+        for (from, fanuc) in [("mach9", false), ("fanuc", true)] {
+            let text = spell(&pieces, fanuc);
+            for through in DIALECTS.into_iter().filter(|d| *d != from) {
+                let back = released(through, from, &released(from, through, &text)?)?;
+                let job = job(from, from, "law");
+                let judge = Judge::new(&job, text.as_bytes()).map_err(|e| e.to_string())?;
+                judge.judge(back.as_bytes()).map_err(|d| format!("{from}→{through}→{from}: {:?}\n{text}\n{back}", d.fault))?;
+            }
+        }
+        Ok(())
+    });
+}
+
+/// The corpus, there and back: every program that a dialect takes comes back as the same cut.
+#[test]
+fn the_corpus_there_and_back() {
+    let mut failures = ncc_tests::expect::Failures::default();
+    let mut done = 0;
+    for program in corpus::all() {
+        let from = program.dialect;
+        for through in DIALECTS.into_iter().filter(|d| *d != from) {
+            let (there, text) = translate::translate(&job(from, through, &program.file), &program.text);
+            if there.release.is_err() {
+                continue;
+            }
+            let what = format!("{from}/{} through {through}", program.file);
+            let back_job = job(through, from, &program.file);
+            let (back, returned) = translate::translate(&back_job, &text);
+            if back.release.is_err() {
+                failures.add(&what, rendered(&back_job, &program.file, &text, &back.diagnostics));
+                continue;
+            }
+            let job = job(from, from, &program.file);
+            let judge = Judge::new(&job, &program.text).expect("a source in memory");
+            done += 1;
+            let result = judge.judge(&returned).map_err(|d| format!("{:?}\n{}", d.fault, String::from_utf8_lossy(&returned)));
+            failures.check(&what, result);
+        }
+    }
+    println!("{done} there and back");
+    failures.finish();
+}
+
+/// What the passes write out makes the same events as executing the cycles, patterns and calls.
+#[test]
+fn expansion_equals_execution() {
+    let mut failures = ncc_tests::expect::Failures::default();
+    let flat = &builtin("canon").expect("a dialect").caps;
+    let mut expanded = 0;
+    for program in corpus::all() {
+        let what = format!("{}/{}", program.dialect, program.file);
+        let Some(whole) = failures.check(&what, translate::read(program.dialect, &program.text)) else { continue };
+        let mut flattened = whole.clone();
+        let mut found = Vec::new();
+        let clearance = Num { mantissa: 1, scale: 0, point: true, unit: Unit::Mm };
+        Legaliser::new(flat, 9, Some(clearance)).run_program(&mut flattened, &mut found);
+        expanded += usize::from(!found.is_empty());
+        for seed in [0, 1, 2] {
+            let mut world = plain::world(seed);
+            world.peck_clearance = ncc_ir::num::ONE;
+            let start = world.start.map(|n| n as f64 / 1e9);
+            for skip in [0, 0x3fe] {
+                let list = |p: &ncc_ir::program::Program| {
+                    Ok::<_, String>(plain::of_events(&translate::execute(p, &world, skip)?, start))
+                };
+                let result = list(&whole).and_then(|a| plain::compare(&a, &list(&flattened)?, Tolerance::SAME));
+                failures.check(format!("{what} world {seed} skip {skip:b}"), result);
+            }
+        }
+    }
+    assert!(expanded > 20, "hardly anything was expanded: {expanded}");
+    failures.finish();
+}
+
+/// A coordinate keeps its value to the last digit, through every dialect, in both units.
+#[test]
+fn decimals_are_exact() {
+    let value = (any::<bool>(), 0..99_999_999i64, any::<bool>());
+    law(200, value, |(inch, mantissa, negative)| {
+        let scale = if inch { 4 } else { 3 };
+        let ten = 10i64.pow(scale);
+        let sign = if negative && mantissa != 0 { "-" } else { "" };
+        let digits = format!("{sign}{}.{:0width$}", mantissa / ten, mantissa % ten, width = scale as usize);
+        let digits = digits.trim_end_matches('0');
+        let units = if inch { "G70" } else { "G71" };
+        let text = format!("G99\nG90\n{units}\nG17\nG0X{digits}\nY0.\nZ1.\nM2\n");
+        for to in DIALECTS {
+            let written = released("mach9", to, &text)?;
+            let back = released(to, "mach9", &written)?;
+            let words: BTreeSet<&str> = back.lines().filter_map(|l| l.split_once('X')).map(|w| w.1).collect();
+            // Through canon every axis is named in every move, so X comes more than once.
+            let value = |w: &str| w.split(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).next().map(str::to_owned);
+            let values: BTreeSet<Option<String>> = words.into_iter().map(value).collect();
+            let expected = BTreeSet::from([Some(digits.to_owned())]);
+            if values != expected {
+                return Err(format!("through {to}: {values:?} for {digits}\n{text}\n{written}\n{back}"));
+            }
+        }
+        Ok(())
+    });
+}
+
+/// Any bytes: an outcome, never a panic, never a failed verification.
+#[test]
+fn any_bytes() {
+    let bytes = proptest::collection::vec(any::<u8>(), 0..200);
+    law(300, (bytes, 0..4usize, 0..4usize), |(text, from, to)| quiet(DIALECTS[from], DIALECTS[to], &text));
+}
+
+/// The same with texts that look like programs, so that more than the first line is reached.
+#[test]
+fn any_words() {
+    let word = prop_oneof![
+        8 => (proptest::char::range('A', 'Z'), "-?[0-9]{0,3}\\.?[0-9]{0,3}").prop_map(|(l, n)| format!("{l}{n}")),
+        6 => proptest::sample::select(vec![
+            "G0", "G1", "G2", "G3", "G4", "G17", "G18", "G19", "G20", "G21", "G24", "G25", "G40", "G43", "G49",
+            "G54", "G55", "G70", "G71", "G80", "G81", "G82", "G83", "G85", "G89", "G90", "G91", "G98", "G99",
+            "M3", "M5", "M6", "M8", "M9", "M0", "M30", "M98 P2", "M99", "O2", "O1", "L3", "F100", "%", "/2", "/",
+            "(x)", ";y", "#1=2", "[", "I1.", "J0", "R2.", "Q1.", "P100", "D1.", "H1",
+        ]).prop_map(str::to_owned),
+        3 => Just("\n".to_owned()),
+        1 => Just("\r\n".to_owned()),
+        2 => Just(" ".to_owned()),
+    ];
+    let text = proptest::collection::vec(word, 0..60).prop_map(|words| words.concat());
+    law(600, (text, 0..4usize, 0..4usize), |(text, from, to)| {
+        quiet(DIALECTS[from], DIALECTS[to], text.as_bytes())
+    });
+}
+
+/// The corpus with single bytes changed.
+#[test]
+fn any_slip() {
+    let all = corpus::all();
+    let slip = (0..all.len(), any::<u16>(), any::<u8>(), 0..4usize);
+    law(400, slip, |(which, place, byte, to)| {
+        let program = &all[which];
+        let mut text = program.text.clone();
+        let place = usize::from(place) % text.len().max(1);
+        if let Some(old) = text.get_mut(place) {
+            *old = byte;
+        }
+        quiet(program.dialect, DIALECTS[to], &text)
+    });
+}
+
+fn quiet(from: &str, to: &str, text: &[u8]) -> Result<(), String> {
+    let job = job(from, to, "law");
+    let (outcome, _) = translate::translate(&job, text);
+    let said = rendered(&job, "law", text, &outcome.diagnostics);
+    match outcome.release {
+        Err(Failure::VerificationFailed) => {
+            Err(format!("{from} to {to}: {said}\n{}", String::from_utf8_lossy(text)))
+        }
+        Err(Failure::Refused) if said.trim().is_empty() => Err(format!("{from} to {to}: refused without a word")),
+        _ => Ok(()),
+    }
+}
+
+/// Numbers of sketches, which the laws rest on.
+#[test]
+fn numbers_of_sketches() {
+    assert_eq!(sketch::number(-12_340), "-12.34");
+    assert_eq!(sketch::number(5_000), "5.");
+    assert_eq!(sketch::number(0), "0.");
+    assert_eq!(sketch::number(-7), "-0.007");
+}

@@ -1,0 +1,100 @@
+//! Side-by-side pages: `tests/pages/*.md`, one fact in every dialect.
+//!
+//! Of every ordered pair of blocks: the text on the right makes the same cut as the text on the
+//! left (judged by the compiler), and translating the left one works. Where it gives the right
+//! one's very text, the page says so in `text-exact:`. A block marked `refused NC0501` says that
+//! every translation into that dialect is refused with that code.
+//!
+//! `UPDATE_EXPECT=1` fills empty blocks by translation and writes the `text-exact:` line anew.
+
+use ncc::job::Failure;
+use ncc::judge::Judge;
+use ncc_tests::corpus::{self, DIALECTS};
+use ncc_tests::expect::{self, Failures};
+use ncc_tests::page::{self, Page};
+use ncc_tests::translate::{job, rendered, stopping, translate};
+
+#[test]
+fn one_fact_in_every_dialect() {
+    let mut failures = Failures::default();
+    let pages = corpus::files(&corpus::root().join("tests/pages"));
+    assert!(pages.len() >= 25, "{} pages", pages.len());
+    let mut pairs = 0;
+    for path in pages {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let mut text = std::fs::read_to_string(&path).expect("a page");
+        if expect::updating() {
+            text = filled(&text);
+        }
+        let page = page::read(&text);
+        let mut exact = Vec::new();
+        for from in DIALECTS {
+            for to in DIALECTS {
+                let what = format!("{name}: {from} to {to}");
+                if let Some(is_exact) = failures.check(&what, pair(&page, from, to)) {
+                    pairs += 1;
+                    if is_exact {
+                        exact.push(format!("{from}→{to}"));
+                    }
+                }
+            }
+        }
+        let line = format!("text-exact: {}", exact.join(" "));
+        let text = text.lines().map(|l| if l.starts_with("text-exact: ") { &line } else { l });
+        let text = text.collect::<Vec<_>>().join("\n") + "\n";
+        failures.check(&name, expect::file(&path, text.as_bytes()));
+    }
+    println!("{pairs} pairs");
+    failures.finish();
+}
+
+/// Checks a pair of blocks; true if the translation gives the very text.
+fn pair(page: &Page, from: &str, to: &str) -> Result<bool, String> {
+    let block = |dialect: &str| page.block(dialect).ok_or_else(|| format!("no block in {dialect}"));
+    let (left, right) = (block(from)?, block(to)?);
+    if left.notes.first().is_some_and(|n| n == "refused") {
+        return Ok(false);
+    }
+    let file = format!("page.{from}");
+    let mut job = job(from, to, &file);
+    job.head = false;
+    let (outcome, written) = translate(&job, left.text.as_bytes());
+    let said = || rendered(&job, &file, left.text.as_bytes(), &outcome.diagnostics);
+    if let [refused, code] = &right.notes[..] {
+        let codes: Vec<String> = stopping(&job, &outcome).iter().map(|c| format!("NC{c:04}")).collect();
+        return match outcome.release {
+            Err(Failure::Refused) if refused == "refused" && codes == [code.as_str()] => Ok(false),
+            _ => Err(format!("expected a refusal with {code}, found {codes:?}\n{}", said())),
+        };
+    }
+    if outcome.release.is_err() {
+        return Err(said());
+    }
+    let judge = Judge::new(&job, left.text.as_bytes()).map_err(|e| e.to_string())?;
+    judge.judge(right.text.as_bytes()).map_err(|d| format!("the {to} block is not the same cut: {:?}", d.fault))?;
+    Ok(written == right.text.as_bytes())
+}
+
+/// The page with its empty blocks translated from the first one that has a text.
+fn filled(text: &str) -> String {
+    let page = page::read(text);
+    let mut out = String::new();
+    let mut lines = text.lines().peekable();
+    let source = page.blocks.iter().find(|b| !b.text.is_empty());
+    let has_exact = text.lines().any(|l| l.starts_with("text-exact: "));
+    while let Some(line) = lines.next() {
+        if line.starts_with("```") && !has_exact && !out.contains("text-exact: ") {
+            out.push_str("text-exact: \n\n");
+        }
+        out.push_str(line);
+        out.push('\n');
+        let language = line.strip_prefix("```").filter(|l| DIALECTS.contains(l));
+        if let (Some(to), Some(source), Some(&"```")) = (language, source, lines.peek()) {
+            let mut job = job(&source.language, to, "page");
+            job.head = false;
+            let (_, written) = translate(&job, source.text.as_bytes());
+            out.push_str(&String::from_utf8_lossy(&written));
+        }
+    }
+    out
+}

@@ -1,0 +1,61 @@
+//! Every program of the corpus into every dialect: translated and verified, or refused as listed.
+//!
+//! `tests/refusals.txt` has a line for each refusal: source, target, codes. A refusal that is not
+//! listed fails, and so does a listed one that does not happen; `UPDATE_EXPECT=1` writes the list.
+
+use std::fmt::Write;
+
+use ncc::job::Failure;
+use ncc_tests::corpus::{self, DIALECTS};
+use ncc_tests::expect::{self, Failures};
+use ncc_tests::translate::{job, rendered, stopping, translate};
+
+#[test]
+fn every_ordered_pair() {
+    let mut failures = Failures::default();
+    let mut refusals = String::from(HEAD);
+    let (mut done, mut refused, mut events) = (0, 0, 0);
+    for program in corpus::all() {
+        for to in DIALECTS {
+            let what = format!("{}/{} to {to}", program.dialect, program.file);
+            let job = job(program.dialect, to, &program.file);
+            let (outcome, _) = translate(&job, &program.text);
+            match outcome.release {
+                Ok(()) => match outcome.verified {
+                    Some(v) if v.worlds >= 2 && v.events > 0 => {
+                        done += 1;
+                        events += v.events;
+                    }
+                    other => failures.add(&what, format!("released, but verified {other:?}")),
+                },
+                Err(Failure::Refused) => {
+                    refused += 1;
+                    let codes: Vec<String> =
+                        stopping(&job, &outcome).iter().map(|c| format!("NC{c:04}")).collect();
+                    let _ = writeln!(refusals, "{}/{} {to} {}", program.dialect, program.file, codes.join(","));
+                }
+                Err(Failure::VerificationFailed) => {
+                    failures.add(&what, rendered(&job, &program.file, &program.text, &outcome.diagnostics));
+                }
+            }
+        }
+    }
+    let list = corpus::root().join("tests/refusals.txt");
+    failures.check("refusals", expect::file(&list, refusals.as_bytes()));
+    println!("{done} pairs translated and verified, {events} events compared, {refused} refused as listed");
+    failures.finish();
+}
+
+const HEAD: &str = "\
+# Programs of the corpus that a target cannot take, and the codes that say so.
+# Written by UPDATE_EXPECT=1 cargo test -p ncc-tests every_ordered_pair; read it before committing.
+";
+
+/// A dialect's own program comes back with its structure and digits.
+#[test]
+fn at_least_sixteen_programs_a_dialect() {
+    for dialect in DIALECTS {
+        let programs = corpus::of(dialect);
+        assert!(programs.len() >= 16, "{dialect}: {}", programs.len());
+    }
+}

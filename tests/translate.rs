@@ -1,0 +1,101 @@
+//! The compiler as the tests call it: without a process.
+
+use std::collections::BTreeSet;
+use std::io::Cursor;
+
+use ncc::job::{Job, Outcome};
+use ncc::render::human::{self, Loudness};
+use codespan_reporting::term::termcolor::NoColor;
+use ncc::render::About;
+use ncc_dialects::{Settings, builtin};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::AXES;
+use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::exec::{Event, Exec, Runner};
+use ncc_ir::program::{Procedure, Program};
+use ncc_ir::world::World;
+
+/// A dialect with the working choice for its options.
+///
+/// # Panics
+/// There is no such dialect.
+pub fn settings(id: &str) -> Settings {
+    Settings::new(builtin(id).unwrap_or_else(|| panic!("no dialect {id}")))
+}
+
+/// A translation of a file of that name.
+pub fn job(from: &str, to: &str, file: &str) -> Job {
+    Job {
+        from: settings(from),
+        to: settings(to),
+        layout: ncc_backends::Layout { numbering: ncc_backends::Numbering::Keep, crlf: false },
+        verify: true,
+        head: true,
+        start: [None; AXES],
+        program_number: None,
+        source_name: file.to_owned(),
+        allow: Vec::new(),
+        deny: Vec::new(),
+    }
+}
+
+/// Translates; the text is what would be released, or empty.
+///
+/// # Panics
+/// The anonymous file of the output fails.
+pub fn translate(job: &Job, text: &[u8]) -> (Outcome, Vec<u8>) {
+    let mut outcome = ncc::translate::translate(job, &mut &text[..]).expect("an output in memory");
+    let written = match outcome.release {
+        Ok(()) => outcome.output.to_vec().expect("an output in memory"),
+        Err(_) => Vec::new(),
+    };
+    (outcome, written)
+}
+
+/// Codes of the diagnostics that stop a translation.
+pub fn stopping(job: &Job, outcome: &Outcome) -> BTreeSet<u16> {
+    outcome.diagnostics.iter().filter(|d| job.refuses(d)).map(|d| d.fault.code()).collect()
+}
+
+/// Diagnostics as the user sees them, verdicts included.
+///
+/// # Panics
+/// Rendering fails.
+pub fn rendered(job: &Job, name: &str, text: &[u8], diagnostics: &[Diagnostic]) -> String {
+    let mut source = Cursor::new(text);
+    let mut about = About { job, name, source: &mut source };
+    let mut out = NoColor::new(Vec::new());
+    human::print(&mut out, &mut about, diagnostics, Loudness::Verbose).expect("writing to memory");
+    String::from_utf8_lossy(&out.into_inner()).into_owned()
+}
+
+/// Reads a user's text.
+///
+/// # Errors
+/// It has errors.
+pub fn read(dialect: &str, text: &[u8]) -> Result<Program, String> {
+    let mut reader = Reader::new(settings(dialect), true);
+    let mut batch = Batch::default();
+    reader.read(text, 0, &mut batch);
+    reader.finish(&mut batch);
+    let errors: Vec<_> = batch.diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Error).collect();
+    if !errors.is_empty() {
+        return Err(format!("{errors:?}"));
+    }
+    let mut procedures = vec![Procedure { body: batch.stmts, ..Procedure::default() }];
+    procedures.append(&mut batch.procedures);
+    Ok(Program { name: batch.name, assumed: batch.assumed, procedures })
+}
+
+/// Executes a program in a world, under a setting of the block-skip switches.
+///
+/// # Errors
+/// It cannot be executed.
+pub fn execute(program: &Program, world: &World, skip: u16) -> Result<Vec<Event>, String> {
+    let mut exec = Exec::new(world, skip);
+    exec.assume(&program.assumed);
+    let mut events = Vec::new();
+    let mut runner = Runner::new(program);
+    runner.run(&mut exec, usize::MAX, &mut events).map_err(|d| format!("{:?}", d.fault))?;
+    Ok(events)
+}
