@@ -35,7 +35,7 @@ const TOP_EXAMPLES: &str = "\
 Examples:
   ncc mach9 to fanuc part.cn               print the program for the other control
   ncc mach9 to fanuc part.cn -o part.nc    write it to a file
-  ncc mach9 -> fanuc part.cn               the same, to a file named `fanuc`; any shell
+  ncc mach9 -> fanuc part.cn               the same, into a file named `fanuc`
   ncc auto to canon part.nc                recognise the source; list the moves
   ncc explain NC0107                       what a message means, and what to do
 
@@ -84,7 +84,7 @@ pub struct Translate {
     #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
     pub to: String,
     /// The program; `-` for stdin
-    #[arg(value_name = "FILE", required = true, help_heading = "What to translate")]
+    #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Decide a question that the source's dictionary leaves open
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What to translate")]

@@ -177,7 +177,7 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
 }
 
 fn assumptions(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Assumption> {
-    let at = Context { from: job.from.dialect, to: job.to.dialect, snippet: "" };
+    let at = Context { from: job.from.dialect, to: job.to.dialect, snippet: "", beside: ("", "") };
     let mut list: Vec<Assumption> = Vec::new();
     for diagnostic in diagnostics {
         if diagnostic.fault.gravity() != Gravity::Verdict(Verdict::Assumed) {

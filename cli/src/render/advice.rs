@@ -2,7 +2,7 @@
 
 use ncc_ir::diag::{Fault, ModeName, Verdict};
 
-use super::words::{Context, mode};
+use super::words::{Context, mode, plain_upto};
 
 /// What to do. Empty where the message says it already.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
@@ -21,7 +21,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::BlockTooLong { .. } => own("are the line ends still there? some transfers strip them"),
         Fault::NotText => own("choose the part program itself: a text file, one block a line"),
         Fault::WordWithoutNumber { letter } => vec![format!("if zero is meant, write `{letter}0`")],
-        Fault::LetterOForZero => own(&mend(at.snippet)),
+        Fault::LetterOForZero => own(&mend(at)),
         Fault::EmptyProgram => own("the file is empty, or holds comments alone: is it the right one?"),
         Fault::Syntax { .. } => Vec::new(),
         Fault::NoProgramEnd => {
@@ -123,10 +123,20 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::TargetRange { .. } => Vec::new(),
 
         Fault::NotTheSame { .. } | Fault::NotReadBack { .. } => vec![
-            "this is a fault of ncc, not of your program; nothing was released".to_owned(),
+            "this is a fault of ncc, not of your program; nothing is released".to_owned(),
             "please report it with the program, or the lines around this place".to_owned(),
         ],
         Fault::SkipSettingsSampled { .. } => Vec::new(),
+    }
+}
+
+/// Facts that are too long for a label, a line each.
+pub fn details(fault: &Fault) -> Vec<String> {
+    match fault {
+        Fault::NotTheSame { difference } => {
+            plain_upto(difference, 600).split("; ").map(str::to_owned).collect()
+        }
+        _ => Vec::new(),
     }
 }
 
@@ -138,12 +148,21 @@ pub fn stopped(verdict: Verdict, denied: bool) -> String {
     }
 }
 
-/// The word with zeros for its letters O, but for a leading one, which is an address.
-fn mend(snippet: &str) -> String {
-    match snippet.char_indices().nth(1) {
-        Some((second, _)) if snippet.chars().count() <= 40 => {
-            format!("write `{}{}`", &snippet[..second], snippet[second..].replace(['O', 'o'], "0"))
-        }
-        Some(_) | None => "write the digit 0".to_owned(),
+/// The text with the digit 0 for the letter O that the diagnostic points at; where that is a whole
+/// word, for every O in it but a leading one, which is its address.
+fn mend(at: Context) -> String {
+    let (before, after) = at.beside;
+    let whole = [before, at.snippet, after].concat();
+    if whole.chars().count() > 40 || at.snippet.is_empty() || whole.chars().count() < 2 {
+        return "write the digit 0".to_owned();
     }
+    let zeros = |text: &str| text.replace(['O', 'o'], "0");
+    let mended = match at.snippet.chars().nth(1) {
+        None => zeros(at.snippet),
+        Some(_) => {
+            let address = at.snippet.chars().next().map_or(0, char::len_utf8);
+            [&at.snippet[..address], &zeros(&at.snippet[address..])].concat()
+        }
+    };
+    format!("write the digit 0: `{before}{mended}{after}`")
 }

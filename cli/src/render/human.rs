@@ -80,7 +80,8 @@ fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
     for place in &told.related {
         labels.push(Label::secondary((), range(place.span)).with_message(&place.label));
     }
-    let mut notes: Vec<String> = told.advice.iter().map(|line| format!("help: {line}")).collect();
+    let mut notes = told.details.clone();
+    notes.extend(told.advice.iter().map(|line| format!("help: {line}")));
     if told.severity == Severity::Error && told.advice.is_empty() {
         notes.push(format!("help: `ncc explain {}` says more", told.code));
     }

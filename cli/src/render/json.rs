@@ -24,6 +24,9 @@ pub struct Entry {
     pub place: JsonPlace,
     /// Further places.
     pub related: Vec<JsonPlace>,
+    /// Facts that are too long for a label.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub details: Vec<String>,
     /// What to do.
     pub advice: Vec<String>,
 }
@@ -60,6 +63,7 @@ impl From<Told> for Entry {
             message: told.message,
             place: told.place.into(),
             related: told.related.into_iter().map(JsonPlace::from).collect(),
+            details: told.details,
             advice: told.advice,
         }
     }

@@ -45,6 +45,8 @@ pub struct Told {
     pub place: Place,
     /// Further places.
     pub related: Vec<Place>,
+    /// Facts that are too long for a label.
+    pub details: Vec<String>,
     /// What to do.
     pub advice: Vec<String>,
     /// The lines of all its places.
@@ -90,6 +92,7 @@ impl About<'_> {
             from: self.job.from.dialect,
             to: self.job.to.dialect,
             snippet: excerpt.snippet(lines, diagnostic.span),
+            beside: excerpt.beside(lines, diagnostic.span),
         };
         let said = words(fault, at);
         let mut advice = advice::advice(fault, at);
@@ -99,6 +102,7 @@ impl About<'_> {
             Gravity::Error | Gravity::Warning => None,
         };
         let severity = match gravity {
+            Gravity::Error if words::is_own(fault) => Severity::Bug,
             _ if self.job.refuses(diagnostic) => Severity::Error,
             Gravity::Warning => Severity::Warning,
             Gravity::Verdict(verdict) if verdict.stops() => Severity::Warning,
@@ -123,6 +127,7 @@ impl About<'_> {
             place: place(diagnostic.span, &said.label),
             message: said.message,
             related,
+            details: advice::details(fault),
             advice,
             excerpt,
         })

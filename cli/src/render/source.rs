@@ -216,6 +216,18 @@ impl Excerpt {
         self.range(lines, span).and_then(|range| self.text.get(range)).unwrap_or("")
     }
 
+    /// The text before and after a span, as far as no blank comes between.
+    pub fn beside(&self, lines: &Lines, span: Span) -> (&str, &str) {
+        let found = self.range(lines, span).and_then(|range| {
+            let line = &self.lines.get(&(lines.line(span.start)?.number as usize))?.range;
+            Some((self.text.get(line.start..range.start)?, self.text.get(range.end..line.end)?))
+        });
+        let (before, after) = found.unwrap_or(("", ""));
+        let from = before.rfind(char::is_whitespace).map_or(0, |at| at + 1);
+        let to = after.find(char::is_whitespace).unwrap_or(after.len());
+        (before.get(from..).unwrap_or(""), &after[..to])
+    }
+
     /// Line and column of a place, both counted from 1; a column is a character.
     pub fn location(&self, lines: &Lines, place: u32) -> Option<(u64, u64)> {
         let range = self.range(lines, Span::new(place, place))?;

@@ -9,6 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use super::About;
 use super::source::Lines;
 use super::words::{Context, plain, plural, words, work_offset};
+use crate::head::assumption;
 use crate::job::{Failure, Outcome};
 
 /// Of one phrase, so many line numbers are named.
@@ -58,7 +59,8 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
             writeln!(out)?;
         }
     }
-    let at = Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "" };
+    let at =
+        Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "", beside: ("", "") };
     let groups: Vec<(&str, Vec<Group>)> = HEADINGS
         .iter()
         .map(|(heading, verdicts)| (*heading, groups(&outcome.diagnostics, verdicts, at)))
@@ -153,18 +155,19 @@ fn line_list(group: &Group, lines: &Lines) -> String {
 pub fn phrase(fault: &Fault, at: Context) -> String {
     let to = at.to.id.as_str();
     match fault {
-        Fault::AssumedMode { fact, value } => format!("{}: {}", super::words::mode(*fact), plain(value)),
-        Fault::AssumedNoEffect { code } => format!("{} has no effect", plain(code)),
         Fault::AssumedBareNumber { .. } => {
             "numbers without a decimal point, read by the control's usual setting".to_owned()
         }
-        Fault::AssumedOffsetWithZ => "a length offset alone is taken up with the next Z".to_owned(),
         Fault::AssumedWorkOffset { offset } => {
             format!("the only work offset is {}", work_offset(*offset, at))
         }
-        Fault::AssumedRow { code, meaning } => format!("{} means {}", plain(code), plain(meaning)),
-        Fault::AssumedOption { option, value } => format!("{} is {}", plain(option), plain(value)),
-        Fault::AssumedParameter { parameter, value } => format!("{} is {}", plain(parameter), plain(value)),
+        // In the words that the operator reads at the top of the program.
+        Fault::AssumedMode { .. }
+        | Fault::AssumedNoEffect { .. }
+        | Fault::AssumedOffsetWithZ
+        | Fault::AssumedRow { .. }
+        | Fault::AssumedOption { .. }
+        | Fault::AssumedParameter { .. } => assumption(fault).unwrap_or_else(|| words(fault, at).message),
         Fault::CommentReformatted => format!("comments, in the characters of {to}"),
         Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
         Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),

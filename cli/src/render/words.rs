@@ -16,6 +16,8 @@ pub struct Context<'a> {
     pub to: &'a Dialect,
     /// The text that the diagnostic points at.
     pub snippet: &'a str,
+    /// What stands directly before and after it.
+    pub beside: (&'a str, &'a str),
 }
 
 /// The words of a fault.
@@ -235,9 +237,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             (format!("{} cannot be written", quoted(word)), format!("out of the range of {to}"))
         }
 
-        Fault::NotTheSame { difference } => (
+        Fault::NotTheSame { .. } => (
             "the output does not do the same as the source".into(),
-            format!("first difference: {}", plain(difference)),
+            "the first difference is made here".into(),
         ),
         Fault::NotReadBack { code } => (
             "the output cannot be read back".into(),
@@ -261,6 +263,11 @@ fn related(fault: &Fault) -> &'static str {
         Fault::CycleUpsideDown | Fault::NoCycle => "the cycle's block",
         _ => "belongs to it",
     }
+}
+
+/// Whether it is a fault of this compiler, not of the program.
+pub fn is_own(fault: &Fault) -> bool {
+    matches!(fault, Fault::NotTheSame { .. } | Fault::NotReadBack { .. })
 }
 
 /// A modal fact's name.
@@ -291,9 +298,13 @@ pub fn plural(count: u64, noun: &str) -> String {
 
 /// Text from the source, as it may be shown: no control characters, not too long.
 pub fn plain(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let mut shown: String = text.chars().take(LONGEST).map(super::source::visible).collect();
-    if text.chars().nth(LONGEST).is_some() {
+    plain_upto(text, 60)
+}
+
+/// The same, with a length of one's own, in characters.
+pub fn plain_upto(text: &str, longest: usize) -> String {
+    let mut shown: String = text.chars().take(longest).map(super::source::visible).collect();
+    if text.chars().nth(longest).is_some() {
         shown.push('…');
     }
     shown

@@ -31,7 +31,7 @@ fn an_error_shows_the_place_and_the_mend() {
     let done = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn"]).exits(1);
     assert_eq!(done.out, "");
     let done =
-        done.says("error[NC0107]").says("bad.cn:2:").says("│ GOX-15.").says("G0").says("nothing was written");
+        done.says("error[NC0107]").says("bad.cn:2:").says("│ GOX-15.").says("write the digit 0: `G0X-15.`").says("nothing was written");
     let quiet = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "-q"]).exits(1);
     assert!(done.err.starts_with(&quiet.err) && quiet.err.contains("NC0107"));
     let colour = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "--color", "always"]).exits(1);
