@@ -186,6 +186,9 @@ fn translated(
     }
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, &mut about, &outcome, err);
+    if outcome.release == Err(Failure::Refused) && !args.quiet && args.format == Format::Human {
+        let _ = doubt_dialect(&mut source, &job, err);
+    }
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.quiet) {
         let _ = say_where(to, &job, &source.shown, args.format, err);
     }
@@ -218,6 +221,21 @@ fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn Wr
         }
     }
     err.flush()
+}
+
+/// If a refused text is clearly written in another dialect, says so.
+fn doubt_dialect(source: &mut Source, job: &Job, err: &mut dyn Write) -> io::Result<()> {
+    match guess(&mut source.file, builtins())? {
+        Guess::Sure(other, reasons) if other.id != job.from.dialect.id => {
+            let (from, to) = (&other.id, &job.to.dialect.id);
+            writeln!(err, "{} reads like {from}: {}", source.shown, reasons.join(", "))?;
+            if from != to {
+                writeln!(err, "  help: ncc {from} to {to} {}", source.shown)?;
+            }
+            Ok(())
+        }
+        Guess::Sure(..) | Guess::Unsure(_) => Ok(()),
+    }
 }
 
 /// Says where an arrow has led to.

@@ -6,7 +6,7 @@ use std::io;
 use codespan_reporting::diagnostic::{Diagnostic as Boxed, Label, Severity};
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
-use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 
 use super::{About, Told};
 use crate::job::Job;
@@ -39,6 +39,11 @@ pub fn choose<'d>(
         (Gravity::Verdict(verdict), Loudness::Usual) => verdict.stops(),
     };
     let mut all: Vec<&Diagnostic> = diagnostics.iter().filter(told).collect();
+    // Of a file that is no text, everything else that was found is noise.
+    if all.iter().any(|d| d.fault == Fault::NotText) {
+        all.retain(|d| d.fault == Fault::NotText);
+        all.truncate(1);
+    }
     all.sort_by_key(|d| d.span.start);
     let mut counts: BTreeMap<u16, usize> = BTreeMap::new();
     all.retain(|d| {

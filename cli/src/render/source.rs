@@ -16,9 +16,9 @@ pub trait Source: Read + Seek {}
 impl<T: Read + Seek> Source for T {}
 
 /// Longest line that is shown whole, in bytes.
-const LONGEST: u64 = 240;
+const LONGEST: u64 = 160;
 /// Of a longer line, so much is shown before the place that a diagnostic points at.
-const BEFORE: u64 = 80;
+const BEFORE: u64 = 60;
 
 /// A line of the source: its number, counted from 1, and its bytes without the line end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

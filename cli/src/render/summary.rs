@@ -51,7 +51,7 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
                 0 | 1 => String::new(),
                 n => format!(" and {n} settings of the block-skip switches"),
             };
-            writeln!(out, ": the same {} events on both controls, in {worlds}{skips}", verified.events)?;
+            writeln!(out, ": the same {} events in source and output, in {worlds}{skips}", verified.events)?;
         }
         (Ok(()), None) => {
             write!(out, ", ")?;

@@ -36,9 +36,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
     let from = at.from.id.as_str();
     let to = at.to.id.as_str();
     let (message, label): (String, String) = match fault {
-        Fault::UnexpectedCharacter { found } => {
-            (format!("unexpected character {}", character(*found)), format!("no word of {from} begins so"))
-        }
+        Fault::UnexpectedCharacter { found } => (
+            format!("unexpected character {}", character(*found)),
+            format!("nothing in {from} begins with it"),
+        ),
         Fault::BadNumber { text } => {
             (format!("{} is not a number", quoted(text)), "a decimal of at most 18 digits".into())
         }
@@ -55,7 +56,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::LetterOForZero => ("letter O where a zero is meant".into(), "this is the letter".into()),
         Fault::EmptyProgram => ("nothing to translate".into(), "the text has no blocks".into()),
         Fault::Syntax { found, expected } => {
-            (format!("{} is not expected here", quoted(found)), format!("expected {}", plain(expected)))
+            (format!("{} is not expected here", found_words(found)), format!("expected {}", plain(expected)))
         }
         Fault::NoProgramEnd => ("the program does not say that it ends".into(), "the text ends here".into()),
         Fault::TextAfterEnd => {
@@ -313,6 +314,16 @@ pub fn plain_upto(text: &str, longest: usize) -> String {
 /// The same, in the quotes of code.
 fn quoted(text: &str) -> String {
     format!("`{}`", plain(text))
+}
+
+/// What was found, in quotes if it is text of the source.
+fn found_words(found: &str) -> String {
+    match found {
+        "end of line" | "end of text" => format!("the {found}"),
+        "a line" | "too many words" => found.to_owned(),
+        _ if found.starts_with('`') => plain(found),
+        _ => quoted(found),
+    }
 }
 
 fn character(c: char) -> String {

@@ -30,8 +30,12 @@ fn an_error_shows_the_place_and_the_mend() {
     let folder = folder();
     let done = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn"]).exits(1);
     assert_eq!(done.out, "");
-    let done =
-        done.says("error[NC0107]").says("bad.cn:2:").says("│ GOX-15.").says("write the digit 0: `G0X-15.`").says("nothing was written");
+    let done = done
+        .says("error[NC0107]")
+        .says("bad.cn:2:")
+        .says("│ GOX-15.")
+        .says("write the digit 0: `G0X-15.`")
+        .says("nothing was written");
     let quiet = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "-q"]).exits(1);
     assert!(done.err.starts_with(&quiet.err) && quiet.err.contains("NC0107"));
     let colour = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "--color", "always"]).exits(1);
@@ -109,4 +113,27 @@ fn an_unknown_dialect_of_a_text_is_not_guessed() {
     done.says("cannot be told for certain").says("name it: --from");
     let done = ncc(folder.path(), &["auto", "to", "fanuc", "good.cn"]).exits(0);
     done.says("good.cn: read as mach9: ");
+}
+
+#[test]
+fn a_program_in_another_dialect_is_noticed() {
+    let folder = folder();
+    ncc(folder.path(), &["fanuc", "to", "canon", "good.cn"])
+        .exits(1)
+        .says("good.cn reads like mach9: ")
+        .says("help: ncc mach9 to canon good.cn");
+    let bad = ncc(folder.path(), &["mach9", "to", "canon", "bad.cn"]).exits(1);
+    assert!(!bad.err.contains("reads like"), "{}", bad.err);
+}
+
+#[test]
+fn of_a_binary_only_that_is_said() {
+    let folder = folder();
+    let binary: Vec<u8> = (0..=255u8).cycle().take(100_000).collect();
+    std::fs::write(folder.path().join("binary.cn"), binary).unwrap();
+    for from in ["mach9", "fanuc", "canon", "ir"] {
+        let done = ncc(folder.path(), &[from, "to", "fanuc", "binary.cn"]).exits(1);
+        assert_eq!(done.err.matches("error[").count(), 1, "{from}: {}", done.err);
+        done.says("NC0105").says("this is not a part program");
+    }
 }
