@@ -8,6 +8,10 @@
 
 pub mod canon;
 pub mod ir;
+pub mod word;
+
+mod writer;
+pub use writer::Writer;
 
 use ncc_ir::program::ProgramName;
 

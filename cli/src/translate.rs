@@ -175,14 +175,16 @@ impl<'j> Line<'j> {
         self.output.push(&text)
     }
 
-    /// Assumed facts that the output does not state itself. A target without words for work
-    /// offsets works in the one that its set reference was taken to stand for.
+    /// Assumed facts that the output does not state itself, and what was taken for granted of the
+    /// target.
     fn inherited(&self, assumed: &Modes) -> Modes {
-        let mut facts = without(assumed, &self.writer.stated());
-        if self.job.to.dialect.caps.work_offsets == 0 {
-            facts.work_offset = self.legaliser.work_offset().or(facts.work_offset);
+        let facts = without(assumed, &self.writer.stated());
+        let taken = self.legaliser.taken();
+        Modes {
+            work_offset: taken.work_offset.or(facts.work_offset),
+            no_origin_shift: taken.no_origin_shift.or(facts.no_origin_shift),
+            ..facts
         }
-        facts
     }
 
     /// Verifies the text written so far and passes it on.

@@ -159,6 +159,8 @@ impl Verifier {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
             }
+            run.source.end_of_text(&mut run.source_events);
+            run.target.end_of_text(&mut run.target_events);
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, true)
                 .map_err(|d| different(&d, self.last))?;
@@ -187,6 +189,10 @@ impl Verifier {
                     .run(&mut run.target, PIECE, &mut run.target_events)
                     .map_err(|d| unreadable(&d, self.last))?;
                 let over = more_a == Progress::Done && more_b == Progress::Done;
+                if over {
+                    run.source.end_of_text(&mut run.source_events);
+                    run.target.end_of_text(&mut run.target_events);
+                }
                 run.comparison
                     .advance(&mut run.source_events, &mut run.target_events, over)
                     .map_err(|d| different(&d, self.last))?;
@@ -235,7 +241,8 @@ impl Verifier {
 
     /// Adds the settings that a new level of block skip makes.
     fn fork(&mut self, levels: u16) {
-        for level in (1..=9u32).filter(|l| levels & !self.levels & 1 << l != 0) {
+        let new = levels & !self.levels;
+        for level in (1..=9u32).filter(|l| new & 1 << l != 0) {
             let bit = 1u16 << level;
             let first = self.levels == 0;
             let all = self.levels;

@@ -24,6 +24,8 @@ pub struct Caps {
     pub repeats: bool,
     /// Number of work offsets that it can name; 0 if it has one, without a word for it.
     pub work_offsets: u16,
+    /// A word that cancels a temporary shift of the origin.
+    pub clears_shift: bool,
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
     /// Arcs by radius.

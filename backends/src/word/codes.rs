@@ -19,6 +19,12 @@ pub(super) struct Code {
 }
 
 impl Code {
+    /// The text with what fills it up, and its length.
+    #[inline]
+    pub(super) fn padded(&self) -> (&[u8; 8], usize) {
+        (&self.text, usize::from(self.len))
+    }
+
     pub(super) fn text(&self) -> &[u8] {
         &self.text[..usize::from(self.len)]
     }

@@ -22,7 +22,7 @@ mod statement;
 use ncc_dialects::{Dialect, Settings};
 use ncc_ir::canon::{AXES, Axis, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::num::Nanos;
+use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -98,6 +98,9 @@ pub struct Writer {
     /// A literal that relies on one unit being in force throughout, and where.
     units_relied: Option<(Units, Span)>,
     line: [u8; plain::LINE],
+    /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
+    last_words: [Num; AXES],
+    named: u8,
 }
 
 impl Writer {
@@ -142,6 +145,8 @@ impl Writer {
             units_stated: [false; 2],
             units_relied: None,
             line: [0; plain::LINE],
+            last_words: [Num::int(0, Unit::Mm); AXES],
+            named: 0,
         }
     }
 
@@ -182,6 +187,7 @@ impl Writer {
     /// Writes the statements of one block of the source.
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
+        self.settle();
         self.split = false;
         self.block.number = first.number;
         self.number_seen(first);

@@ -163,9 +163,10 @@ pub(super) fn milliseconds(n: Num) -> Option<(Num, bool)> {
     Some((ms(whole + away), rest != 0))
 }
 
-/// The digits of 0 to 999, and in the fourth byte how many zeros lead.
-static GROUPS: [[u8; 4]; 1000] = {
-    let mut table = [[0u8; 4]; 1000];
+/// The digits of 0 to 999, and in the fourth byte how many zeros lead. Its length is a power of two
+/// so that a mask bounds the index.
+static GROUPS: [[u8; 4]; 1024] = {
+    let mut table = [[0u8; 4]; 1024];
     let mut i = 0;
     while i < 1000 {
         let lead = if i < 10 {
@@ -184,14 +185,14 @@ static GROUPS: [[u8; 4]; 1000] = {
 /// Writes the last `3 - skip` digits of a group; the byte after them is overwritten too.
 #[inline(always)]
 fn group<const N: usize>(to: &mut [u8; N], at: usize, value: u32, skip: u8) -> usize {
-    let word = u32::from_le_bytes(GROUPS[value as usize % 1000]) >> (8 * u32::from(skip));
+    let word = u32::from_le_bytes(GROUPS[value as usize & 1023]) >> (8 * u32::from(skip));
     to[at..at + 4].copy_from_slice(&word.to_le_bytes());
     at + 3 - usize::from(skip)
 }
 
 #[inline(always)]
 fn leading<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
-    group(to, at, value, GROUPS[value as usize % 1000][3])
+    group(to, at, value, GROUPS[value as usize & 1023][3])
 }
 
 /// Writes a whole number below 10^9 without sign.
@@ -217,41 +218,29 @@ pub(super) fn write<const N: usize>(to: &mut [u8; N], mut at: usize, n: Shaped) 
     // A zero has no sign, so that `-0.` cannot come about.
     to[at] = b'-';
     at += usize::from(n.mantissa < 0);
-    match n.scale {
-        0 => {
-            at = whole(to, at, value);
-            to[at] = b'.';
-            at + usize::from(n.point)
-        }
-        1 => {
-            at = whole(to, at, value / 10);
-            to[at] = b'.';
-            group(to, at + 1, value % 10, 2)
-        }
-        2 => {
-            at = whole(to, at, value / 100);
-            to[at] = b'.';
-            group(to, at + 1, value % 100, 1)
-        }
-        3 => {
-            at = whole(to, at, value / 1000);
-            to[at] = b'.';
-            group(to, at + 1, value % 1000, 0)
-        }
-        scale => {
-            let by = POW10[usize::from(scale.min(9))] as u32;
-            at = whole(to, at, value / by);
-            to[at] = b'.';
-            let mut rest = value % by;
-            let end = at + 1 + usize::from(scale.min(9));
-            for place in (at + 1..end).rev() {
-                to[place] = b'0' + (rest % 10) as u8;
-                rest /= 10;
-            }
-            end
-        }
+    let scale = usize::from(n.scale);
+    if let Some(up) = THOUSANDTHS.get(scale) {
+        let thousandths = u64::from(value) * up;
+        at = whole(to, at, (thousandths / 1000) as u32);
+        to[at] = b'.';
+        group(to, at + 1, (thousandths % 1000) as u32, 0);
+        return at + usize::from(n.point || scale > 0) + scale;
     }
+    let scale = scale.min(9);
+    let by = POW10[scale] as u32;
+    at = whole(to, at, value / by);
+    to[at] = b'.';
+    let mut rest = value % by;
+    let end = at + 1 + scale;
+    for place in (at + 1..end).rev() {
+        to[place] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+    }
+    end
 }
+
+/// Thousandths in a unit of the last digit, by digits after the point.
+static THOUSANDTHS: [u64; 4] = [1000, 100, 10, 1];
 
 /// A number as text, for diagnostics and for words off the hot path.
 pub(super) fn append(to: &mut Vec<u8>, n: Shaped) {

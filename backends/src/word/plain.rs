@@ -4,7 +4,7 @@
 
 use ncc_ir::canon::{Distance, Fact, Motion, Units};
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::num::Unit;
 use ncc_ir::program::{Move, Op, Stmt};
 
 use super::Writer;
@@ -90,14 +90,14 @@ impl Writer {
             _ => return false,
         }
         let start = at;
+        let mut named = 0u8;
         if to.said || self.force.motion != Some(motion) {
-            let text = code.text();
-            line[at..at + text.len()].copy_from_slice(text);
-            at += text.len();
+            let (text, len) = code.padded();
+            line[at..at + 8].copy_from_slice(text);
+            at += len;
             line[at] = b' ';
             at += blanks;
         }
-        let mut position = self.tracker.position;
         for (axis, word) in to.to.axes.iter().enumerate() {
             let Some(word) = word else { continue };
             let (Expr::Num(n), Some(letter)) = (&word.value, &self.codes.axes[axis]) else {
@@ -113,7 +113,8 @@ impl Writer {
             at = number::write(line, at + 1, shaped);
             line[at] = b' ';
             at += blanks;
-            position[axis] = put(*n, distance, position[axis]);
+            self.last_words[axis] = *n;
+            named |= 1 << axis;
         }
         if at == start {
             return false;
@@ -130,11 +131,15 @@ impl Writer {
             at += blanks;
         }
         at -= blanks;
-        line[at..at + self.eol.len()].copy_from_slice(self.eol);
+        // One byte too many of a short line end is overwritten, or never taken.
+        line[at..at + 2].copy_from_slice(&if self.eol.len() == 2 { *b"\r\n" } else { *b"\n\n" });
         at += self.eol.len();
         out.extend_from_slice(&line[..at]);
         self.next_number = next;
-        self.tracker.position = position;
+        self.named |= named;
+        if distance == Distance::Incremental {
+            self.settle();
+        }
         if self.force.motion != Some(motion) {
             self.force.motion = Some(motion);
             self.tracker.modes.motion = Some(motion);
@@ -142,14 +147,20 @@ impl Writer {
         }
         true
     }
-}
 
-/// Where a word puts an axis.
-#[inline(always)]
-fn put(n: Num, distance: Distance, from: Option<i64>) -> Option<i64> {
-    let value = n.nanos(false)?;
-    match distance {
-        Distance::Absolute => Some(value),
-        Distance::Incremental => from?.checked_add(value),
+    /// Brings the tracker up to the last plain moves, which leave only their words behind.
+    pub(super) fn settle(&mut self) {
+        let distance = self.force.distance;
+        let named = std::mem::take(&mut self.named);
+        for (axis, n) in self.last_words.iter().enumerate() {
+            if named >> axis & 1 == 1 {
+                let position = &mut self.tracker.position[axis];
+                *position = match (distance, n.nanos(false)) {
+                    (Some(Distance::Absolute), value) => value,
+                    (Some(Distance::Incremental), Some(by)) => position.and_then(|p| p.checked_add(by)),
+                    (Some(Distance::Incremental) | None, _) => None,
+                };
+            }
+        }
     }
 }

@@ -129,6 +129,7 @@ fn groups(diagnostics: &[Diagnostic], verdicts: &[Verdict], at: Context) -> Vec<
             group.places.push(diagnostic.span.start);
         }
     }
+    groups.sort_by_key(|group| group.places.iter().copied().min());
     groups
 }
 

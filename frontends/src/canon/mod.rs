@@ -35,7 +35,6 @@ use lalrpop_util::ParseError;
 use logos::Logos;
 use ncc_dialects::Settings;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, Units};
-use ncc_ir::cycle::absolute;
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
@@ -185,6 +184,7 @@ impl State {
         }
     }
 
+    #[inline]
     fn go(&mut self, to: &Point, skipped: bool) {
         for (stands, word) in self.stands.iter_mut().zip(&to.axes) {
             if let Some(coord) = word {
@@ -268,17 +268,9 @@ impl Reader {
     /// `end` is then the end of its line.
     #[inline]
     fn fast(&mut self, text: &[u8], at: u32, out: &mut Batch) -> bool {
-        let Some(found) = straight::straight(text) else { return false };
-        let length = self.state.length();
-        let mut to = Point::default();
-        for (place, n) in found.axes.into_iter().enumerate() {
-            if let Some(n) = n {
-                let n = Num { unit: if place < 3 { length } else { Unit::Degree }, ..n };
-                to.axes[place] = Some(absolute(n));
-                self.state.stands[place] = Some(n);
-            }
-        }
-        let m = Move { to, said: false };
+        let Some(found) = straight::straight(text, self.state.length()) else { return false };
+        self.state.go(&found.to, false);
+        let m = Move { to: found.to, said: false };
         let op = if found.traverse { Op::StraightTraverse(m) } else { Op::StraightFeed(m) };
         let span = Span::new(at, at.wrapping_add(found.length as u32));
         out.stmts.push(Stmt::new(span, op));

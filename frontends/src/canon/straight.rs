@@ -3,23 +3,25 @@
 //! It takes `STRAIGHT_FEED(x, y, z)` and its kin with one blank after each comma and nothing else
 //! on the line, and leaves everything else untouched. A test holds it against the grammar.
 
+use ncc_ir::cycle::absolute;
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::Point;
 
-/// What a straight move says.
+/// A straight move that was recognised.
 pub(super) struct Straight {
     /// Rapid, or at feed.
     pub(super) traverse: bool,
-    /// Three or six coordinates, without unit.
-    pub(super) axes: [Option<Num>; 6],
+    /// Where to.
+    pub(super) to: Point,
     /// Length of the call.
     pub(super) length: usize,
     /// Length of the call with its line end.
     pub(super) line: usize,
 }
 
-/// Recognises a straight move at the start of the text.
+/// Recognises a straight move at the start of the text; its lengths have this unit.
 #[inline]
-pub(super) fn straight(text: &[u8]) -> Option<Straight> {
+pub(super) fn straight(text: &[u8], unit: Unit) -> Option<Straight> {
     let (traverse, mut at) = if text.starts_with(b"STRAIGHT_FEED(") {
         (false, 14)
     } else if text.starts_with(b"STRAIGHT_TRAVERSE(") {
@@ -27,18 +29,18 @@ pub(super) fn straight(text: &[u8]) -> Option<Straight> {
     } else {
         return None;
     };
-    let mut axes = [None; 6];
+    let mut to = Point::default();
     let mut count = 0;
     loop {
-        let slot = axes.get_mut(count)?;
-        count += 1;
+        let slot = to.axes.get_mut(count)?;
         if text.get(at) == Some(&b'_') {
             at += 1;
         } else {
-            let (n, length) = number(text.get(at..)?)?;
-            *slot = Some(n);
+            let (n, length) = number(text.get(at..)?, if count < 3 { unit } else { Unit::Degree })?;
+            *slot = Some(absolute(n));
             at += length;
         }
+        count += 1;
         match text.get(at)? {
             b',' if text.get(at + 1) == Some(&b' ') => at += 2,
             b')' => break,
@@ -51,12 +53,12 @@ pub(super) fn straight(text: &[u8]) -> Option<Straight> {
         [b'\r', b'\n', ..] => length + 2,
         _ => return None,
     };
-    (count == 3 || count == 6).then_some(Straight { traverse, axes, length, line })
+    (count == 3 || count == 6).then_some(Straight { traverse, to, length, line })
 }
 
 /// A number with digits before the point and after it.
 #[inline]
-fn number(text: &[u8]) -> Option<(Num, usize)> {
+fn number(text: &[u8], unit: Unit) -> Option<(Num, usize)> {
     let negative = text.first() == Some(&b'-');
     let start = usize::from(negative);
     let mut at = start;
@@ -79,7 +81,7 @@ fn number(text: &[u8]) -> Option<(Num, usize)> {
     if scale == 0 || at - start > 19 {
         return None;
     }
-    let mut n = Num { mantissa, scale: scale as u8, point: true, unit: Unit::One };
+    let mut n = Num { mantissa, scale: scale as u8, point: true, unit };
     if scale == 1 && text[at - 1] == b'0' {
         n.mantissa /= 10;
         n.scale = 0;

@@ -86,6 +86,11 @@ pub(crate) struct Block {
 }
 
 impl Block {
+    /// Whether there is nothing in it.
+    pub(super) fn is_empty(&self) -> bool {
+        self.words.is_empty() && self.skip == 0 && self.comments.is_empty() && self.faults.is_empty()
+    }
+
     pub(super) fn clear(&mut self) {
         self.words.clear();
         self.skip = 0;

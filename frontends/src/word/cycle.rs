@@ -23,7 +23,7 @@ const MOST_REPEATS: u32 = 9999;
 impl Lower {
     /// The feed word: of the block, or of the cycle that it calls up or changes.
     pub(super) fn feed_word(&mut self, motion: &[Code], words: &mut Words, src: Source, out: &mut Batch) {
-        let Some(word) = self.take_role(ncc_dialects::Role::Feed, words) else {
+        let Some(word) = words.take(self.roles.feed) else {
             return;
         };
         self.rely_on_feed_mode(word.span, out);

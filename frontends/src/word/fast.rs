@@ -4,7 +4,7 @@
 //! It gives what the long way gives; a test holds both to the same result. Whatever is not settled,
 //! or not plain, is left to the long way.
 
-use ncc_dialects::{Quantity, Role};
+use ncc_dialects::Quantity;
 use ncc_ir::canon::{Axis, Distance, Fact, Motion};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
@@ -53,7 +53,6 @@ impl Lower {
         if !axes || open || no_feed || state.after_cycle || state.cycle != InForce::None || self.ended {
             return None;
         }
-        debug_assert!(self.letter(Role::Axis).is_some());
         Some(Fast {
             unit: unit_of(state.units.fact()),
             distance: state.distance.fact(),

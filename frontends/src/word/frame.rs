@@ -73,6 +73,7 @@ impl Reader {
     pub(super) fn framing(&mut self, line: &[u8], span: Span, out: &mut Batch) -> bool {
         let text = line.trim_ascii();
         if text.first() == Some(&CONTROL_Z) {
+            self.end_of_program(out);
             self.frame.closed = true;
             return text.iter().all(|&b| b == CONTROL_Z) || self.text_after_end(span, out);
         }
@@ -102,6 +103,7 @@ impl Reader {
 
     /// A block after the program's end: it is never reached.
     pub(super) fn after_end(&mut self, src: Source, out: &mut Batch) {
+        // A comment may stand there.
         if self.block.words.is_empty() && self.block.faults.is_empty() && self.block.skip == 0 {
             return self.lower.block(&self.block, src, out);
         }
@@ -125,13 +127,11 @@ impl Reader {
         };
         self.begin_program(number, word, src, out);
         self.block.words.remove(0);
+        self.block.tail = self.block.tail.map(|at| at.saturating_sub(1));
         if self.frame.title && !self.block.comments.is_empty() {
             self.block.comments.remove(0);
         }
-        self.block.words.is_empty()
-            && self.block.comments.is_empty()
-            && self.block.skip == 0
-            && self.block.faults.is_empty()
+        self.block.is_empty()
     }
 
     fn begin_program(&mut self, number: u32, word: Word, src: Source, out: &mut Batch) {

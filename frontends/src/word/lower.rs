@@ -6,7 +6,7 @@
 //!
 //! Moves, cycles and calls have files of their own beside this one.
 
-use ncc_dialects::{Address, CodeRow, Meaning, NumberRules, Quantity, Role, Settings};
+use ncc_dialects::{Address, CodeRow, Dialect, Meaning, NumberRules, Quantity, Role, Settings};
 use ncc_ir::canon::{Axis, Motion};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -33,6 +33,7 @@ pub(super) struct Lower {
     pub(super) calculator: bool,
     /// Rows of the address letters.
     pub(super) letters: [Option<&'static Address>; 26],
+    pub(super) roles: Roles,
     pub(super) state: State,
     pub(super) units_seen: UnitsSeen,
     pub(super) reported: Reported,
@@ -44,6 +45,37 @@ pub(super) struct Lower {
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
     codes: Vec<Code>,
+}
+
+/// Letters by role; 0 where the dialect has none.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Roles {
+    pub(super) feed: u8,
+    speed: u8,
+    tool: u8,
+    length_entry: u8,
+    corrector: u8,
+    pub(super) radius: u8,
+    pub(super) centre: [u8; 3],
+    /// Letters of axes, a bit each.
+    pub(super) axes: u32,
+}
+
+impl Roles {
+    fn new(dialect: &Dialect) -> Roles {
+        let letter = |role| dialect.letter_for(role).map_or(0, |c| c as u8);
+        let axes = dialect.address.iter().filter(|row| row.role == Role::Axis);
+        Roles {
+            feed: letter(Role::Feed),
+            speed: letter(Role::Speed),
+            tool: letter(Role::Tool),
+            length_entry: letter(Role::LengthEntry),
+            corrector: letter(Role::Corrector),
+            radius: letter(Role::Radius),
+            centre: [letter(Role::CentreX), letter(Role::CentreY), letter(Role::CentreZ)],
+            axes: axes.fold(0, |bits, row| bits | 1 << (row.letter as u8).saturating_sub(b'A')),
+        }
+    }
 }
 
 /// What has been reported and is not to be reported again.
@@ -112,6 +144,12 @@ impl Words<'_> {
         Some(word)
     }
 
+    /// Whether any of these letters (a bit each) is still to be used.
+    #[inline]
+    pub(super) fn has_any(&self, letters: u32) -> bool {
+        self.left & letters != 0
+    }
+
     /// The word of a letter, if it is still to be used.
     #[inline]
     pub(super) fn get(&self, letter: u8) -> Option<Word> {
@@ -143,6 +181,7 @@ impl Lower {
             calculator: settings.get("decimal_point") == "calculator",
             rules: table,
             letters: std::array::from_fn(|i| dialect.address_row(b'A' + i as u8)),
+            roles: Roles::new(dialect),
             reported: Reported { codes: vec![false; dialect.code.len()], ..Reported::default() },
             settings,
             assume,
@@ -178,10 +217,16 @@ impl Lower {
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
         let mut words = Words { all: &block.words, at: [0; 26], left: 0 };
-        self.sort_words(block, &mut codes, &mut words, src, out);
+        // A block that is none by its form is not asked for its meaning.
+        if !self.now.refused {
+            self.sort_words(block, &mut codes, &mut words, src, out);
+            self.check_tail(block, &codes, out);
+        }
         if !self.now.refused {
             self.functions(block, &codes, &mut words, level, src, out);
-            self.check_unused(&words, src, out);
+            if !self.now.failed {
+                self.check_unused(&words, src, out);
+            }
         } else {
             // The modes that it says still count.
             for code in &codes {
@@ -357,7 +402,7 @@ impl Lower {
         self.speed_and_tool(words, src, out);
         let mut dwell = false;
         for code in before {
-            self.in_tail(block, code, level, out);
+            self.skip_in_tail(block, code, level);
             dwell |= code.meaning == Meaning::Dwell;
             self.function(code, words, src, out);
         }
@@ -365,22 +410,30 @@ impl Lower {
         self.corrector(words, src, out);
         self.motion_codes(motion, dwell, block.span, words, src, out);
         for code in after {
-            self.in_tail(block, code, level, out);
+            self.skip_in_tail(block, code, level);
             self.function(code, words, src, out);
         }
     }
 
-    /// A skip mark amid the words counts for what follows it: only for codes that stand for
-    /// themselves.
-    fn in_tail(&mut self, block: &Block, code: &Code, level: Option<u8>, out: &mut Batch) {
+    /// A skip mark amid the words counts for what follows it. That is taken only of M codes that
+    /// stand for themselves; anything else would be a different block, not a shorter one.
+    fn check_tail(&mut self, block: &Block, codes: &[Code], out: &mut Batch) {
         let Some(tail) = block.tail else {
             return;
         };
-        if block.words[tail..].iter().any(|w| w.letter != b'M') || matches!(code.meaning, Meaning::Call) {
+        let words = block.words.get(tail..).unwrap_or_default();
+        let calls = codes.iter().any(|c| matches!(c.meaning, Meaning::Call | Meaning::Return));
+        if calls || words.iter().any(|w| w.letter != b'M') {
             let name = "block skip amid the words of a block".into();
-            return self.fault(Fault::NotSupported { code: "/".into(), name }, block.span, out);
+            self.fault(Fault::NotSupported { code: "/".into(), name }, block.span, out);
         }
-        self.now.skip = if code.at >= tail { level } else { None };
+    }
+
+    /// The skip level of a code's statement, where the mark stands amid the words.
+    fn skip_in_tail(&mut self, block: &Block, code: &Code, level: Option<u8>) {
+        if let Some(tail) = block.tail {
+            self.now.skip = if code.at >= tail { level } else { None };
+        }
     }
 
     /// Sets a mode; also for a block that is refused.
@@ -438,28 +491,17 @@ impl Lower {
 
     /// Speed and tool words.
     fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
-        if let Some(word) = self.take_role(Role::Speed, words)
+        if let Some(word) = words.take(self.roles.speed)
             && let Some(num) = self.number(&word, Quantity::Speed, src, out)
         {
             self.push(word.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
         }
-        if let Some(word) = self.take_role(Role::Tool, words) {
+        if let Some(word) = words.take(self.roles.tool) {
             self.state.tool = Know::Said(());
             if let Some(num) = self.entry(&word, src, out) {
                 self.push(word.span, Op::SelectTool(Expr::Num(num)), out);
             }
         }
-    }
-
-    /// The word of a role that one letter at most has.
-    pub(super) fn take_role(&mut self, role: Role, words: &mut Words) -> Option<Word> {
-        let letter = self.letter(role)?;
-        words.take(letter)
-    }
-
-    /// The letter of a role.
-    pub(super) fn letter(&self, role: Role) -> Option<u8> {
-        self.letters.iter().flatten().find(|row| row.role == role).map(|row| row.letter as u8)
     }
 
     /// A number of a table's entry, or of a tool: whole, not negative.
@@ -497,8 +539,8 @@ impl Lower {
                 }
             }
             Meaning::UseToolLengthOffset => {
-                let Some(word) = self.take_role(Role::LengthEntry, words) else {
-                    let word = self.letter(Role::LengthEntry).map_or(' ', char::from).to_string().into();
+                let Some(word) = words.take(self.roles.length_entry) else {
+                    let word = char::from(self.roles.length_entry).to_string().into();
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
@@ -523,7 +565,7 @@ impl Lower {
 
     /// A word that takes up a length entry by itself.
     fn corrector(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
-        let Some(word) = self.take_role(Role::Corrector, words) else {
+        let Some(word) = words.take(self.roles.corrector) else {
             return;
         };
         if self.option("o_word", word.span, out) == "ignore" {

@@ -52,6 +52,9 @@ impl Source<'_> {
     }
 }
 
+/// Longest block of a dialect that sets no limit, in bytes.
+const LONGEST: usize = 60_000;
+
 /// Reads one text, piece by piece.
 #[derive(Debug)]
 pub struct Reader {
@@ -72,8 +75,8 @@ impl Reader {
             signs: Signs::new(dialect),
             frame: Frame::new(dialect),
             longest: match dialect.block.longest {
-                0 => usize::MAX,
-                longest => longest as usize,
+                0 => LONGEST,
+                longest => (longest as usize).min(LONGEST),
             },
             lower: Lower::new(settings, assume),
             block: Block::default(),
@@ -165,7 +168,10 @@ impl Reader {
             if self.frame.is_binary {
                 return;
             }
-            self.meaning(src, out);
+            // `X1.;;` is one block.
+            if from == 0 || !self.block.is_empty() {
+                self.meaning(src, out);
+            }
             match next {
                 // A sign at the very end of the line ends the block with it.
                 Some(at) if !line[at..].iter().all(|b| b.is_ascii_whitespace()) => from = at,

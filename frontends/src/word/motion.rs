@@ -2,7 +2,7 @@
 //!
 //! Not here: holes, which are cycles' business.
 
-use ncc_dialects::{Meaning, Quantity, Role};
+use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -30,8 +30,8 @@ impl Lower {
         let pattern = find(|m| m == Meaning::Pattern);
         if let Some(end) = find(|m| m == Meaning::EndCycle) {
             self.push(end.span, Op::EndCycle, out);
+            self.state.after_cycle |= self.state.cycle != InForce::None;
             self.state.cycle = InForce::None;
-            self.state.after_cycle = true;
         }
         let motion = codes.iter().find_map(|c| Some((c, motion_of(c.meaning)?)));
         if let Some((code, motion)) = motion {
@@ -110,13 +110,12 @@ impl Lower {
 
     /// Whether an axis word is left.
     pub(super) fn has_axis_word(&self, words: &Words) -> bool {
-        Axis::ALL.iter().any(|&a| self.axis_row(a).is_some() && words.get(a.letter()).is_some())
+        words.has_any(self.roles.axes)
     }
 
     fn has_arc_word(&self, words: &Words) -> bool {
-        [Role::CentreX, Role::CentreY, Role::CentreZ, Role::Radius]
-            .into_iter()
-            .any(|role| self.letter(role).is_some_and(|l| words.get(l).is_some()))
+        let roles = &self.roles;
+        roles.centre.iter().chain([&roles.radius]).any(|&letter| words.get(letter).is_some())
     }
 
     /// A move at feed relies on a feed.
@@ -141,7 +140,7 @@ impl Lower {
         let mut to = Point::default();
         for axis in Axis::ALL {
             let letter = axis.letter();
-            if Some(letter) == without {
+            if Some(letter) == without || words.get(letter).is_none() {
                 continue;
             }
             let Some(row) = self.axis_row(axis) else {
@@ -171,14 +170,14 @@ impl Lower {
                 self.fault(Fault::NotSupported { code, name }, block, out);
             }
         }
-        let radius = self.take_role(Role::Radius, words);
+        let radius = words.take(self.roles.radius);
         let mut centre = [None, None, None];
-        for (place, role) in [Role::CentreX, Role::CentreY, Role::CentreZ].into_iter().enumerate() {
+        for (place, letter) in self.roles.centre.into_iter().enumerate() {
             // The word along the normal is left, and blamed as one that nothing uses.
             if matches!(plane, Fact::Known(p) if p.axes().2 as usize == place) {
                 continue;
             }
-            if let Some(word) = self.take_role(role, words) {
+            if let Some(word) = words.take(letter) {
                 centre[place] = self.number(&word, Quantity::Length, src, out).map(Expr::Num);
             }
         }

@@ -215,6 +215,18 @@ impl<'t> Tokens<'t> {
         }
     }
 
+    /// The block's end; a comment behind it that fills the line still belongs to it.
+    fn end_sign(&mut self) {
+        let end = self.raw.span().end;
+        self.ended = Some(end);
+        let rest = self.raw.remainder();
+        let blanks = rest.len() - rest.trim_ascii_start().len();
+        if self.signs.close == 0 && self.signs.comment != 0 && rest.get(blanks) == Some(&self.signs.comment) {
+            self.comments.push((end + blanks + 1, end + rest.len()));
+            self.ended = Some(self.raw.source().len());
+        }
+    }
+
     /// The key word that begins with the letter just read.
     fn keyword(&mut self) -> Option<Token> {
         let start = self.raw.span().start;
@@ -324,7 +336,7 @@ impl Iterator for Tokens<'_> {
                     }
                 }
                 Raw::Sign if byte == self.signs.end => {
-                    self.ended = Some(self.raw.span().end);
+                    self.end_sign();
                     return None;
                 }
                 Raw::Sign => return self.sign(byte),

@@ -75,6 +75,9 @@ fn tenths(code: &str) -> Option<(u8, usize)> {
     (number < 100_000).then_some((letter, number))
 }
 
+/// Kinds of cycles, as `ncc_ir::cycle::CycleKind::name` has them.
+const CYCLE_KINDS: &[&str] = &["drill", "drill-dwell", "drill-peck", "bore"];
+
 fn index(dialect: &Dialect) -> Result<CodeIndex, DialectError> {
     let wrong = |row: &str, wrong| DialectError::Row { row: row.to_owned(), wrong };
     let mut index = CodeIndex::default();
@@ -102,6 +105,11 @@ fn index(dialect: &Dialect) -> Result<CodeIndex, DialectError> {
         }
         if row.source.is_empty() {
             return Err(wrong(&row.code, "names no source"));
+        }
+    }
+    for row in &dialect.cycle {
+        if !CYCLE_KINDS.contains(&row.kind.as_str()) {
+            return Err(wrong(&row.code, "has a kind that there is not"));
         }
     }
     for (at, row) in dialect.address.iter().enumerate() {
@@ -159,6 +167,9 @@ fn caps(dialect: &Dialect) -> Caps {
             dialect.code.iter().filter(|r| matches!(r.means, Some(Meaning::SetOriginOffsets(_)))).count()
                 as u16
         },
+        clears_shift: everything
+            || dialect.can.flat
+            || says(Meaning::ClearFrame(ncc_ir::program::FrameSlot::Shift)),
         offset_with_z: dialect.can.offset_with_z,
         arc_radius: everything || dialect.letter_for(crate::Role::Radius).is_some(),
         helix: everything || dialect.can.flat || dialect.arc.helix,

@@ -54,6 +54,8 @@ pub enum Kind {
     OptionalProgramStop,
     /// End.
     ProgramEnd,
+    /// The text is over, and never said so: what is still on stays on.
+    TextEnd,
     /// Text for the operator.
     Message(Text),
 }

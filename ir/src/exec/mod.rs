@@ -151,6 +151,21 @@ impl Exec {
         self.ended
     }
 
+    /// The end of the text; an event only if the program has not ended before.
+    pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
+        if !self.ended {
+            self.ended = true;
+            out.push(Event {
+                kind: Kind::TextEnd,
+                end: self.last,
+                rate: 0,
+                state: self.state,
+                inch: self.modes.inch,
+                span: Span::default(),
+            });
+        }
+    }
+
     /// Puts the axes somewhere in program coordinates (a stated start).
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         for (axis, at) in start.iter().enumerate() {

@@ -9,7 +9,7 @@ use super::walk::Walk;
 use super::write::{at, only, traverse};
 use super::{Target, each_body};
 use crate::canon::ReturnLevel;
-use crate::cycle::{Approach, Cycle};
+use crate::cycle::{Approach, Cycle, Pattern};
 use crate::diag::Diagnostic;
 use crate::program::{Op, Point, Program, Stmt};
 use crate::track::Tracker;
@@ -88,12 +88,15 @@ fn first_leg(
     let depth = level(walk, &cycle.depth, in_force.depth, normal).ok()?;
     in_force.retract.filter(|r| now < *r)?;
     other.retract = retract.clone();
+    // A cycle without a hole makes no move.
+    let (at_hole, to) = first_hole(body, i)?;
     match cycle.approach {
-        Approach::RaiseFirst => Some((Some(only(normal, retract)), None, other)),
+        // The rapid changes the level to return to, which a further cycle would inherit.
+        Approach::RaiseFirst if is_last(body, i) => Some((Some(only(normal, retract)), None, other)),
+        Approach::RaiseFirst => None,
         Approach::PlaneFirst => {
             other.depth = depth;
-            let (at_hole, to) = first_hole(body, i)?;
-            let mut words = to.clone();
+            let mut words = to?.clone();
             words.axes[normal as usize] = None;
             for (axis, word) in crate::canon::Axis::ALL.into_iter().zip(&mut words.axes) {
                 if let Some(coord) = word {
@@ -109,16 +112,52 @@ fn first_leg(
     }
 }
 
-/// The first hole of the cycle called up at `i`, if nothing that could change it stands between and
-/// it is skipped with the call or not at all.
-fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, &Point)> {
+/// The first hole of the cycle called up at `i`, if nothing stands between that could change the way
+/// to it and it is skipped with the call or not at all. Of a pattern no position is given.
+fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, Option<&Point>)> {
     for (k, stmt) in body.iter().enumerate().skip(i + 1) {
         match &stmt.op {
-            Op::Hole(m) if stmt.skip == body[i].skip => return Some((k, &m.to)),
+            Op::Hole(m) if stmt.skip == body[i].skip => return Some((k, Some(&m.to))),
+            Op::Pattern(pattern) if stmt.skip == body[i].skip && has_holes(pattern) => {
+                return Some((k, None));
+            }
             Op::Comment(_) | Op::Blank | Op::NoEffect(_) | Op::SetFeedRate(_) | Op::SelectTool(_) => {}
             // Anything else could be part of what the rapid is made with.
             _ => return None,
         }
     }
     None
+}
+
+/// Whether the cycle called up at `i` surely ends before another is called up.
+fn is_last(body: &[Stmt], i: usize) -> bool {
+    for stmt in &body[i + 1..] {
+        match &stmt.op {
+            Op::EndCycle
+            | Op::StraightTraverse(_)
+            | Op::StraightFeed(_)
+            | Op::ArcFeed(_)
+            | Op::ProgramEnd
+                if stmt.skip.is_none() =>
+            {
+                return true;
+            }
+            Op::StartCycle(_)
+            | Op::Call(_)
+            | Op::Return
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+            | Op::Position(_) => return false,
+            _ => {}
+        }
+    }
+    false
+}
+
+fn has_holes(pattern: &Pattern) -> bool {
+    match pattern {
+        Pattern::Circle { count, .. } => *count > 0,
+        Pattern::Grid { columns, rows, .. } => columns.count > 0 && rows.count > 0,
+    }
 }

@@ -66,31 +66,32 @@ pub(super) fn over(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
-    rebuild(body, |stmt, made| {
+    rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         match &stmt.op {
             Op::StartCycle(cycle) => {
                 let feed = cycle.feed.clone();
                 let kept_before = walk.at.cycle.is_some() && !state.expanding;
-                let chained = walk.at.cycle.is_some() && state.expanding;
+                // Cycles called up one after another share the initial level.
+                let chained = state.expanding;
                 walk.step(&stmt);
                 let must = match &walk.at.cycle {
                     Some(in_force) => chained || must_expand(walk, in_force, target, stmt.span, diags),
                     None => false,
                 };
                 if !must {
-                    state.pay(made);
+                    state.pay(&mut stmt, made);
                     state.expanding = false;
                     return made.push(stmt);
                 }
                 told(&stmt, target, diags);
                 state.expanding = true;
-                if let Some(feed) = feed {
-                    state.owed = Some(Owed { feed: feed.clone(), skip: stmt.skip, span: stmt.span });
-                    state.feed = Some(feed);
-                } else if !chained {
-                    state.feed = None;
+                if stmt.skip.is_some() || feed.is_none() {
+                    state.pay(&mut stmt, made);
                 }
+                let owed = |feed| Owed { feed, skip: stmt.skip, span: stmt.span };
+                state.owed = feed.clone().map(owed);
+                state.feed = feed;
                 if kept_before {
                     made.replace(stmt, [(true, Op::EndCycle)]);
                 } else {
@@ -124,31 +125,32 @@ pub(super) fn over(
                     }
                     owed => {
                         state.owed = owed;
-                        state.pay(made);
+                        state.pay(&mut stmt, made);
                         made.leave_out(stmt);
                     }
                 }
             }
             Op::SetFeedRate(feed) if state.expanding => {
-                if stmt.skip.is_none() {
-                    state.owed = None;
-                    if state.feed.is_some() {
-                        state.feed = Some(feed.clone());
-                    }
-                } else {
+                walk.step(&stmt);
+                if stmt.skip.is_none() && state.feed.is_some() {
+                    // The next hole says it.
+                    state.feed = Some(feed.clone());
+                    state.owed = Some(Owed { feed: feed.clone(), skip: None, span: stmt.span });
+                    return made.leave_out(stmt);
+                }
+                if stmt.skip.is_some() {
                     // Which feed is in force depends on a switch: the last one said goes on.
-                    state.pay(made);
+                    state.pay(&mut stmt, made);
                     state.feed = None;
                 }
-                walk.step(&stmt);
                 made.push(stmt);
             }
             _ => {
                 walk.step(&stmt);
-                if state.expanding && walk.at.cycle.is_none() && stmt.skip.is_none() {
-                    // A move ends a cycle.
-                    state.expanding = false;
-                    state.pay(made);
+                if state.expanding && walk.at.cycle.is_none() {
+                    // A move ends a cycle; one that may be skipped ends it perhaps.
+                    state.expanding = stmt.skip.is_some();
+                    state.pay(&mut stmt, made);
                 }
                 made.push(stmt);
             }
@@ -157,19 +159,20 @@ pub(super) fn over(
 }
 
 impl State {
-    /// States a feed that no hole has stated.
-    fn pay(&mut self, made: &mut Rebuild) {
+    /// States a feed that no hole has stated, in a block of its own before `next`.
+    fn pay(&mut self, next: &mut Stmt, made: &mut Rebuild) {
         if let Some(owed) = self.owed.take() {
             let mut stmt = Stmt::new(owed.span, Op::SetFeedRate(owed.feed));
             stmt.skip = owed.skip;
             made.push(stmt);
+            next.joined = false;
         }
     }
 
     /// Puts the moves of holes in the place of their statement.
     fn holes(
         &mut self,
-        stmt: Stmt,
+        mut stmt: Stmt,
         holes: Result<Vec<Point>, Fault>,
         walk: &mut Walk,
         target: &Target,
@@ -203,7 +206,9 @@ impl State {
             inner.step(&one);
         }
         walk.step(&stmt);
-        if self.owed.as_ref().is_some_and(|o| stmt.skip.is_none() || o.skip == stmt.skip) {
+        if self.feed.is_none() {
+            self.pay(&mut stmt, made);
+        } else if self.owed.as_ref().is_some_and(|o| stmt.skip.is_none() || o.skip == stmt.skip) {
             self.owed = None;
         }
         made.replace(stmt, moves);
@@ -269,13 +274,16 @@ fn must_expand(
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
 
-/// Whether the tool surely stands at the retract plane or above it.
+/// Whether the tool surely stands at the retract plane or above it before every hole, so that both
+/// ways to a hole are one.
 pub(super) fn is_above(walk: &Walk, in_force: &InForce) -> bool {
-    let Some(plane) = walk.at.plane(in_force.cycle.plane) else { return false };
-    match (walk.at.position[plane.axes().2 as usize], in_force.retract) {
-        (Some(level), Some(retract)) => level >= retract,
-        _ => false,
-    }
+    let cycle = &in_force.cycle;
+    let Some(plane) = walk.at.plane(cycle.plane) else { return false };
+    let Some(retract) = in_force.retract else { return false };
+    let above = |level: Option<Nanos>| level.is_some_and(|level| level >= retract);
+    let returns = cycle.return_level.known().or(walk.at.modes.return_level);
+    above(walk.at.position[plane.axes().2 as usize])
+        && (returns == Some(ReturnLevel::Retract) || above(in_force.initial))
 }
 
 /// A level of a cycle as an absolute word.

@@ -78,6 +78,10 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     rest.turns = 0;
     let mut arcs = vec![turn; arc.turns as usize];
     if arc.to.get(normal).is_some() {
+        if walk.waiting {
+            // The length is taken up on the way, by so much more or less of it.
+            return Err(Fault::CannotSay { what: "a helix of several turns that takes a length up".into() });
+        }
         let levels = levels(arc, walk, [first, second, normal])?;
         let unit = unit_of(normal, walk.unit());
         for (arc, level) in arcs.iter_mut().zip(levels) {

@@ -7,7 +7,7 @@
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats,
-    expand_turns, flatten_facts, offset_with_z, skip_levels, work_offset,
+    expand_turns, flatten_facts, offset_with_z, origin_shift, skip_levels, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
@@ -27,6 +27,7 @@ const MESSAGE: u16 = 64;
 const SKIP: u16 = 128;
 const EVERY: u16 = 256;
 const CALL: u16 = 512;
+const SHIFT: u16 = 1024;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -40,6 +41,7 @@ pub struct Legaliser {
     cycles: expand_cycles::State,
     length: offset_with_z::State,
     work: work_offset::State,
+    shift: origin_shift::State,
     skip: skip_levels::State,
 }
 
@@ -57,6 +59,7 @@ impl Legaliser {
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
             work: work_offset::State::default(),
+            shift: origin_shift::State::default(),
             skip: skip_levels::State::default(),
         }
     }
@@ -66,10 +69,14 @@ impl Legaliser {
         self.walk.at.position = *position;
     }
 
-    /// The work offset that the target's only one stands for, if the program named one or relied
-    /// on one.
-    pub fn work_offset(&self) -> Option<u16> {
-        self.work.only
+    /// What the target is taken to start with, because it has no words to say it: the work offset
+    /// that its only one stands for, and no shift of the origin.
+    pub fn taken(&self) -> Modes {
+        Modes {
+            work_offset: self.work.only.filter(|_| self.target.caps.work_offsets == 0),
+            no_origin_shift: self.shift.none.then_some(true),
+            ..Modes::default()
+        }
     }
 
     /// Brings further statements of the main procedure within the target's capabilities. `assumed`
@@ -105,6 +112,9 @@ impl Legaliser {
         }
         if needs & WORK != 0 {
             work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
+        }
+        if needs & SHIFT != 0 {
+            origin_shift::over(stmts, &mut self.shift, diags);
         }
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);
@@ -249,6 +259,7 @@ fn lacks(caps: &Caps) -> u16 {
     needs(CYCLE, cycles);
     needs(LENGTH, !caps.offset_with_z);
     needs(WORK, caps.work_offsets == u16::MAX);
+    needs(SHIFT, caps.clears_shift);
     needs(ARC, caps.helix && caps.arc_turns);
     needs(CONTROL, caps.repeats);
     needs(MESSAGE, caps.messages);
@@ -269,6 +280,7 @@ fn interest(stmt: &Stmt) -> u16 {
         Op::Pattern(_) => PATTERN | CYCLE,
         Op::UseToolLengthOffset(_) => LENGTH,
         Op::SetOriginOffsets(_) => WORK,
+        Op::ClearFrame(_) => SHIFT,
         Op::Control(_) | Op::Goto(_) | Op::Label(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,
@@ -280,7 +292,6 @@ fn interest(stmt: &Stmt) -> u16 {
         | Op::SelectPlane(_)
         | Op::SetFeedMode(_)
         | Op::SetReturnLevel(_)
-        | Op::ClearFrame(_)
         | Op::SetFrame(..)
         | Op::StopCutterRadiusCompensation
         | Op::SetSpindleSpeed(_)

@@ -15,6 +15,7 @@ pub mod expand_turns;
 pub mod flatten_facts;
 mod legalise;
 pub mod offset_with_z;
+pub mod origin_shift;
 pub mod skip_levels;
 mod walk;
 pub mod work_offset;
@@ -81,6 +82,11 @@ pub const PASSES: &[Pass] = &[
         name: "work-offset",
         about: "lets the target's only work offset stand for the program's only one",
         run: work_offset::run,
+    },
+    Pass {
+        name: "origin-shift",
+        about: "takes a target that cannot cancel a shift of the origin to start without one",
+        run: origin_shift::run,
     },
     Pass {
         name: "skip-levels",

@@ -161,7 +161,11 @@ fn put_before(mut stmt: Stmt, mut offset: Stmt, made: &mut Rebuild) {
         Op::ProgramEnd | Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_)
     ) {
         // It goes into no block, but before the whole of this one.
-        let block = if stmt.joined { made.out.iter().rev().take_while(|s| s.joined).count() + 1 } else { 0 };
+        let block = if stmt.joined && made.is_open() {
+            made.out.iter().rev().take_while(|s| s.joined).count() + 1
+        } else {
+            0
+        };
         let at = made.out.len().saturating_sub(block);
         offset.joined = false;
         made.out.insert(at, offset);
@@ -169,10 +173,12 @@ fn put_before(mut stmt: Stmt, mut offset: Stmt, made: &mut Rebuild) {
     }
     // The end of a cycle or its call, in the same block, comes after the offset.
     let mut after = Vec::new();
-    while stmt.joined
+    let mut with_last = stmt.joined && made.is_open();
+    while with_last
         && made.out.last().is_some_and(|last| matches!(last.op, Op::EndCycle | Op::StartCycle(_)))
         && let Some(last) = made.out.pop()
     {
+        with_last = last.joined;
         after.push(std::mem::replace(&mut stmt, last));
     }
     offset.joined = stmt.joined;

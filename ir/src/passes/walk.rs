@@ -131,12 +131,17 @@ impl Walk {
         }
     }
 
-    /// The unit in which lengths are written here.
+    /// The unit in which lengths are written here: the one in force, or that of the cycle in force.
     pub(super) fn unit(&self) -> Unit {
+        let of_cycle = || {
+            let retract = self.at.cycle.as_ref()?.cycle.retract.value.literal()?;
+            (retract.unit == Unit::Inch).then_some(Unit::Inch)
+        };
         match self.at.modes.units {
             Some(crate::canon::Units::Mm) => Unit::Mm,
             Some(crate::canon::Units::Inch) => Unit::Inch,
-            None => Unit::Entry,
+            // A literal in mm is what it says, whatever is in force.
+            None => of_cycle().unwrap_or(Unit::Mm),
         }
     }
 }

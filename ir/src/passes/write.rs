@@ -86,6 +86,11 @@ impl Rebuild {
         Rebuild { out: Vec::with_capacity(capacity), open: false, number: None }
     }
 
+    /// Whether the block of the statement passed on last, if it is joined to one, has statements.
+    pub(super) fn is_open(&self) -> bool {
+        self.open
+    }
+
     /// Passes a statement on.
     pub(super) fn push(&mut self, mut stmt: Stmt) {
         if !stmt.joined {
