@@ -46,6 +46,8 @@ pub enum Happening {
     Stop,
     OptionalStop,
     End,
+    /// The text is over, and the program has not said that it ends.
+    TextEnd,
     Message,
 }
 
@@ -116,9 +118,11 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Dwell(seconds) => Happening::Dwell(seconds),
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
+            What::Message => Happening::Message,
             What::Stop => Happening::Stop,
             What::OptionalStop => Happening::OptionalStop,
             What::End => Happening::End,
+            What::TextEnd => Happening::TextEnd,
             // The spindle's state shows in the events that follow.
             What::Spindle(_) => continue,
         };
@@ -179,6 +183,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
             Kind::Message(_) => Happening::Message,
+            Kind::TextEnd => Happening::TextEnd,
         };
         from = at;
         let speed = mm(event.state.speed);

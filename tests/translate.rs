@@ -57,15 +57,20 @@ pub fn stopping(job: &Job, outcome: &Outcome) -> BTreeSet<u16> {
     outcome.diagnostics.iter().filter(|d| job.refuses(d)).map(|d| d.fault.code()).collect()
 }
 
-/// Diagnostics as the user sees them, verdicts included.
+/// Every diagnostic in words, verdicts included.
+pub fn rendered(job: &Job, name: &str, text: &[u8], diagnostics: &[Diagnostic]) -> String {
+    told(job, name, text, diagnostics, Loudness::Verbose)
+}
+
+/// Diagnostics as the user sees them.
 ///
 /// # Panics
 /// Rendering fails.
-pub fn rendered(job: &Job, name: &str, text: &[u8], diagnostics: &[Diagnostic]) -> String {
+pub fn told(job: &Job, name: &str, text: &[u8], diagnostics: &[Diagnostic], how: Loudness) -> String {
     let mut source = Cursor::new(text);
     let mut about = About { job, name, source: &mut source };
     let mut out = NoColor::new(Vec::new());
-    human::print(&mut out, &mut about, diagnostics, Loudness::Verbose).expect("writing to memory");
+    human::print(&mut out, &mut about, diagnostics, how).expect("writing to memory");
     String::from_utf8_lossy(&out.into_inner()).into_owned()
 }
 

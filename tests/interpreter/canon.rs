@@ -26,7 +26,10 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
             continue;
         }
         let Some((name, rest)) = line.split_once('(') else { return m.halt("no call") };
-        if name == "COMMENT" {
+        if name == "COMMENT" || name == "MESSAGE" {
+            if name == "MESSAGE" {
+                m.record(What::Message);
+            }
             continue;
         }
         let Some(arguments) = rest.strip_suffix(')') else { return m.halt("no closing bracket") };
@@ -35,7 +38,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
             return Ok(m);
         }
     }
-    m.record(What::End);
+    m.record(What::TextEnd);
     Ok(m)
 }
 
@@ -108,11 +111,11 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
                 number(m, centre_2)? * unit + m.shift(second),
             );
             let rotation = number(m, rotation)?;
-            if rotation.abs() != 1.0 {
-                return m.halt("an arc of several turns, or of none");
+            if rotation == 0.0 || rotation.fract() != 0.0 {
+                return m.halt("an arc of no turn, or of a part of one");
             }
             let to = place(m, &ends, [first, second, normal, 3, 4, 5])?;
-            m.arc(to, centre, rotation < 0.0)?;
+            m.arc_of_turns(to, centre, rotation < 0.0, rotation.abs() as u32 - 1)?;
         }
         ("PROGRAM_STOP", []) => m.record(What::Stop),
         ("OPTIONAL_PROGRAM_STOP", []) => m.record(What::OptionalStop),

@@ -20,7 +20,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
     if !control.program(main, &programs)? {
-        control.m.record(What::End);
+        control.m.record(What::TextEnd);
     }
     Ok(control.m)
 }

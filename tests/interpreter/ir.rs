@@ -21,6 +21,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     };
     let mut main = Vec::new();
     let mut open: Option<(String, Vec<(usize, Vec<Token>)>)> = None;
+    let mut nested = 0;
     for (index, line) in text.lines().enumerate() {
         control.m.line = index + 1;
         let tokens = control.tokens(line)?;
@@ -36,17 +37,21 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
                 };
                 open = Some((name, Vec::new()));
             }
-            (Token::Sign('}'), Some(_)) => {
+            (Token::Sign('}'), Some(_)) if nested == 0 => {
                 if let Some((name, body)) = open.take() {
                     control.procedures.insert(name, body);
                 }
             }
-            (_, Some((_, body))) => body.push((index + 1, tokens)),
-            (_, None) => main.push((index + 1, tokens)),
+            (first, open) => {
+                nested += i32::from(tokens.last() == Some(&Token::Sign('{')));
+                nested -= i32::from(*first == Token::Sign('}'));
+                let body = open.as_mut().map_or(&mut main, |(_, body)| body);
+                body.push((index + 1, tokens));
+            }
         }
     }
     if !matches!(control.body(&main)?, Next::End) {
-        control.m.record(What::End);
+        control.m.record(What::TextEnd);
     }
     Ok(control.m)
 }
@@ -161,9 +166,31 @@ impl Control {
 
     fn body(&mut self, lines: &[(usize, Vec<Token>)]) -> Result<Next, Halt> {
         let mut skip = 0;
-        for (line, tokens) in lines {
+        let mut lines = lines;
+        while let [(line, tokens), after @ ..] = lines {
+            lines = after;
             self.m.line = *line;
             let mut rest = &tokens[..];
+            if let [Token::Name(n), Token::Number(times, _), Token::Sign('{')] = rest
+                && n == "repeat"
+            {
+                let mut depth = 1;
+                let Some(end) = lines.iter().position(|(_, tokens)| {
+                    depth += i32::from(tokens.last() == Some(&Token::Sign('{')));
+                    depth -= i32::from(tokens.first() == Some(&Token::Sign('}')));
+                    depth == 0
+                }) else {
+                    return self.m.halt("a body that does not end");
+                };
+                for _ in 0..*times as u32 {
+                    match self.body(&lines[..end])? {
+                        Next::On => {}
+                        other => return Ok(other),
+                    }
+                }
+                lines = &lines[end + 1..];
+                continue;
+            }
             let mut joined = false;
             while !rest.is_empty() {
                 if let [Token::Sign('&'), after @ ..] = rest {
@@ -326,6 +353,7 @@ impl Control {
             "CIRCLE_PATTERN" => self.circle(a)?,
             "RECTANGULAR_LAYOUT" => self.grid(a)?,
             "END_CYCLE" => self.cycle = None,
+            "MESSAGE" => self.m.record(What::Message),
             "PROGRAM_STOP" => self.m.record(What::Stop),
             "OPTIONAL_PROGRAM_STOP" => self.m.record(What::OptionalStop),
             "PROGRAM_END" => {
@@ -402,9 +430,6 @@ impl Control {
                 }
             }
         }
-        if turns != 0.0 {
-            return self.m.halt("an arc of several turns");
-        }
         let (to, _) = self.target(&words)?;
         self.m.plane = plane;
         let (first, second, _) = self.m.axes();
@@ -424,7 +449,7 @@ impl Control {
             (None, Some(r)) => self.m.centre_by_radius(to, r, clockwise)?,
             _ => return self.m.halt("an arc without a centre"),
         };
-        self.m.arc(to, middle, clockwise)?;
+        self.m.arc_of_turns(to, middle, clockwise, turns as u32)?;
         self.m.plane = plane_before;
         Ok(())
     }

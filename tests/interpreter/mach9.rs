@@ -14,7 +14,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
             return Ok(control.m);
         }
     }
-    control.m.record(What::End);
+    control.m.record(What::TextEnd);
     Ok(control.m)
 }
 

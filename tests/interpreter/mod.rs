@@ -113,10 +113,14 @@ pub enum What {
     Tool(u32),
     /// A program stop.
     Stop,
+    /// A text for the operator.
+    Message,
     /// An optional stop.
     OptionalStop,
     /// The end.
     End,
+    /// The end of the text, where the program has not said that it ends.
+    TextEnd,
 }
 
 /// An event and everything that was in force.
@@ -321,6 +325,17 @@ impl Machine {
 
     /// Along a circle about `centre` (machine coordinates of the plane's two axes).
     pub fn arc(&mut self, to: Place, centre: (f64, f64), clockwise: bool) -> Result<(), Halt> {
+        self.arc_of_turns(to, centre, clockwise, 0)
+    }
+
+    /// The same, with so many full turns beyond the first, partial one.
+    pub fn arc_of_turns(
+        &mut self,
+        to: Place,
+        centre: (f64, f64),
+        clockwise: bool,
+        turns: u32,
+    ) -> Result<(), Halt> {
         if self.feed.is_none() {
             return self.halt("a move at feed and no F");
         }
@@ -340,6 +355,7 @@ impl Machine {
         } else if !clockwise && sweep < 0.0 {
             sweep += 360.0;
         }
+        sweep += if clockwise { -360.0 } else { 360.0 } * f64::from(turns);
         let mut full = [0.0; 3];
         full[first] = centre.0;
         full[second] = centre.1;

@@ -1,12 +1,13 @@
 //! Wrong programs and what is said about them: `tests/faults/<from>-to-<to>/<name>.<extension>`
 //! beside `<name>.stderr`, as the user sees it.
 
+use ncc::render::human::Loudness;
 use ncc_tests::corpus;
 use ncc_tests::expect::{self, Failures};
-use ncc_tests::translate::{job, rendered, stopping, translate};
+use ncc_tests::translate::{job, stopping, told, translate};
 
 /// Programs that are only warned of; all others must be refused.
-const ONLY_WARNED: [&str; 2] = ["no-end", "text-after-end"];
+const ONLY_WARNED: [&str; 3] = ["no-end", "text-after-end", "no-percent-end"];
 
 #[test]
 fn wrong_programs_and_their_diagnostics() {
@@ -26,7 +27,7 @@ fn wrong_programs_and_their_diagnostics() {
             let text = std::fs::read(&path).expect("a program");
             let job = job(from, to, &file);
             let (outcome, _) = translate(&job, &text);
-            let said = rendered(&job, &file, &text, &outcome.diagnostics);
+            let said = told(&job, &file, &text, &outcome.diagnostics, Loudness::Usual);
             let what = format!("{name}/{file}");
             failures.check(&what, expect::file(&path.with_extension("stderr"), said.as_bytes()));
             if outcome.release.is_ok() != ONLY_WARNED.contains(&stem.as_str()) {

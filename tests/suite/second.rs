@@ -1,16 +1,16 @@
 //! The second interpreter: it runs the corpus, and its events are the compiler's.
 
-use ncc_tests::corpus;
+use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
 use ncc_tests::plain::{self, Tolerance};
 use ncc_tests::translate;
 
-/// Every word-address program of the corpus is in the second interpreter's scope.
+/// Every program of the corpus is in the second interpreter's scope.
 #[test]
 fn runs_the_corpus() {
     let mut failures = Failures::default();
-    for program in ["mach9", "fanuc"].into_iter().flat_map(corpus::of) {
+    for program in corpus::all() {
         let what = format!("{}/{}", program.dialect, program.file);
         if let Some(m) = failures.check(&what, plain::second(program.dialect, &program.text, Setup::plain()))
         {
@@ -30,7 +30,7 @@ fn runs_the_corpus() {
 #[test]
 fn agrees_with_the_compiler_on_the_corpus() {
     let mut failures = Failures::default();
-    for program in ["mach9", "fanuc"].into_iter().flat_map(corpus::of) {
+    for program in corpus::all() {
         let what = format!("{}/{}", program.dialect, program.file);
         let Some(read) = failures.check(&what, translate::read(program.dialect, &program.text)) else { continue };
         for world in [0, 1, 2].map(plain::world) {
@@ -39,7 +39,8 @@ fn agrees_with_the_compiler_on_the_corpus() {
                 let start = world.start.map(|n| n as f64 / 1e9);
                 let result = second.and_then(|machine| {
                     let events = translate::execute(&read, &world, skip)?;
-                    let (a, b) = (plain::of_machine(&machine, start), plain::of_events(&events, start));
+                    let a = plain::of_machine(&machine, start);
+                    let b = plain::of_events(&events, start);
                     plain::compare(&a, &b, Tolerance::SAME)
                 });
                 failures.check(format!("{what} world {} skip {skip:b}", world.seed), result);
@@ -54,8 +55,8 @@ fn agrees_with_the_compiler_on_the_corpus() {
 fn emitted_programs_make_the_same_moves() {
     let mut failures = Failures::default();
     let mut pairs = 0;
-    for program in ["mach9", "fanuc"].into_iter().flat_map(corpus::of) {
-        for to in ["mach9", "fanuc"] {
+    for program in corpus::all() {
+        for to in DIALECTS {
             let what = format!("{}/{} to {to}", program.dialect, program.file);
             let job = translate::job(program.dialect, to, &program.file);
             let (outcome, text) = translate::translate(&job, &program.text);
