@@ -43,7 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             writeln!(
                 report,
                 "{:<12} {megabytes:>6} {speed:>9.1} {:>11.1}  {code}",
-                kind.name(),
+                kind,
                 peak as f64 / 1024.0
             )?;
         }

@@ -24,6 +24,13 @@ fn main() {
     divan::main();
 }
 
+/// A workload in memory.
+fn text(kind: Workload) -> Vec<u8> {
+    let mut text = Vec::with_capacity(BYTES as usize + 4096);
+    kind.write(BYTES, &mut text).expect("memory can be written");
+    text
+}
+
 fn settings(id: &str) -> Settings {
     Settings::new(builtin(id).expect("a built-in dialect"))
 }
@@ -65,7 +72,7 @@ fn counted<'a, 'b>(bencher: Bencher<'a, 'b>, text: &[u8]) -> Bencher<'a, 'b> {
 /// Lexing, parsing and lowering.
 #[divan::bench(args = Workload::ALL)]
 fn read(bencher: Bencher<'_, '_>, kind: Workload) {
-    let text = kind.text(BYTES);
+    let text = text(kind);
     let parts = pieces(&text);
     counted(bencher, &text).bench_local(|| {
         let mut reader = Reader::new(settings("fanuc"), true);
@@ -83,7 +90,7 @@ fn read(bencher: Bencher<'_, '_>, kind: Workload) {
 /// Execution in one world of statements that were read before.
 #[divan::bench(args = Workload::ALL)]
 fn execute(bencher: Bencher<'_, '_>, kind: Workload) {
-    let text = kind.text(BYTES);
+    let text = text(kind);
     let mut reader = Reader::new(settings("fanuc"), true);
     let mut batch = Batch::default();
     reader.read(&text, 0, &mut batch);
@@ -107,7 +114,7 @@ fn execute(bencher: Bencher<'_, '_>, kind: Workload) {
 /// Writing of statements that were read before.
 #[divan::bench(args = Workload::ALL)]
 fn write(bencher: Bencher<'_, '_>, kind: Workload) {
-    let text = kind.text(BYTES);
+    let text = text(kind);
     let mut reader = Reader::new(settings("fanuc"), true);
     let mut batch = Batch::default();
     reader.read(&text, 0, &mut batch);
@@ -150,7 +157,7 @@ fn translate_to_canon(bencher: Bencher<'_, '_>, kind: Workload) {
 }
 
 fn whole(bencher: Bencher<'_, '_>, kind: Workload, to: &str, verify: bool) {
-    let text = kind.text(BYTES);
+    let text = text(kind);
     let job = job("fanuc", to, verify);
     counted(bencher, &text).bench_local(|| {
         let outcome = translate(&job, &mut Cursor::new(&text)).expect("reading from memory");

@@ -2,11 +2,12 @@
 //!
 //! Shared by the benchmarks and the example that writes them to a file.
 
+use std::fmt;
 use std::io::{self, Write};
 
 /// A kind of workload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Workload {
+pub(crate) enum Workload {
     /// Three-axis surfacing: short straight moves, words left out where nothing changes.
     Surfacing,
     /// Chained arcs with centre words from the start point.
@@ -17,19 +18,10 @@ pub enum Workload {
 
 impl Workload {
     /// All of them.
-    pub const ALL: [Workload; 3] = [Workload::Surfacing, Workload::Arcs, Workload::Drilling];
-
-    /// Its name on a command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Workload::Surfacing => "surfacing",
-            Workload::Arcs => "arcs",
-            Workload::Drilling => "drilling",
-        }
-    }
+    pub(crate) const ALL: [Workload; 3] = [Workload::Surfacing, Workload::Arcs, Workload::Drilling];
 
     /// Writes a Fanuc program of about `bytes` bytes.
-    pub fn write(self, bytes: u64, into: &mut dyn Write) -> io::Result<()> {
+    pub(crate) fn write(self, bytes: u64, into: &mut dyn Write) -> io::Result<()> {
         let mut text = Text { into, written: 0, number: 0 };
         let mut rng = fastrand::Rng::with_seed(20_260_101 + self as u64);
         match self {
@@ -40,13 +32,16 @@ impl Workload {
         text.line("M30")?;
         text.plain("%")
     }
+}
 
-    /// The program in memory.
-    pub fn text(self, bytes: u64) -> Vec<u8> {
-        let mut text = Vec::with_capacity(bytes as usize + 4096);
-        // Writing to memory does not fail.
-        let _ = self.write(bytes, &mut text);
-        text
+/// Its name on a command line.
+impl fmt::Display for Workload {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Workload::Surfacing => "surfacing",
+            Workload::Arcs => "arcs",
+            Workload::Drilling => "drilling",
+        })
     }
 }
 

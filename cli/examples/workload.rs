@@ -9,7 +9,7 @@ mod workload;
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let name = arguments.next().unwrap_or_default();
-    let kind = workload::Workload::ALL.into_iter().find(|w| w.name() == name);
+    let kind = workload::Workload::ALL.into_iter().find(|w| w.to_string() == name);
     let megabytes = arguments.next().and_then(|text| text.parse::<f64>().ok());
     let (Some(kind), Some(megabytes)) = (kind, megabytes) else {
         // The one place besides the command line itself that talks to a person.

@@ -13,7 +13,7 @@ use crate::head::assumption;
 use crate::job::{Failure, Outcome};
 
 /// Of one phrase, so many line numbers are named.
-const MOST_LINES: usize = 4;
+const MOST_LINES: usize = 6;
 /// Of one verdict, so many phrases are named.
 const MOST_PHRASES: usize = 12;
 
@@ -159,6 +159,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::AssumedBareNumber { .. } => {
             "numbers without a decimal point, read by the control's usual setting".to_owned()
         }
+        Fault::AssumedOption { option, value } => {
+            format!("{} = {}, a question that the sources leave open", plain(option), plain(value))
+        }
         Fault::AssumedWorkOffset { offset } => {
             format!("the only work offset is {}", work_offset(*offset, at))
         }
@@ -167,7 +170,6 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedNoEffect { .. }
         | Fault::AssumedOffsetWithZ
         | Fault::AssumedRow { .. }
-        | Fault::AssumedOption { .. }
         | Fault::AssumedParameter { .. } => assumption(fault).unwrap_or_else(|| words(fault, at).message),
         Fault::CommentReformatted => format!("comments, in the characters of {to}"),
         Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
