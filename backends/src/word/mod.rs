@@ -97,7 +97,9 @@ pub struct Writer {
     units_stated: [bool; 2],
     /// A literal that relies on one unit being in force throughout, and where.
     units_relied: Option<(Units, Span)>,
-    line: [u8; plain::LINE],
+    /// Lines of plain moves that have not been passed on, and how many bytes they are.
+    page: [u8; plain::PAGE],
+    filled: usize,
     /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
     last_words: [Num; AXES],
     named: u8,
@@ -144,7 +146,8 @@ impl Writer {
             offset_waits: None,
             units_stated: [false; 2],
             units_relied: None,
-            line: [0; plain::LINE],
+            page: [0; plain::PAGE],
+            filled: 0,
             last_words: [Num::int(0, Unit::Mm); AXES],
             named: 0,
         }
@@ -178,10 +181,12 @@ impl Writer {
             }
             let block = &stmts[at..end];
             if !self.plain_block(block, sink.out) {
+                self.pass_on(sink.out);
                 self.source_block(block, sink);
             }
             at = end;
         }
+        self.pass_on(sink.out);
     }
 
     /// Writes the statements of one block of the source.
@@ -329,6 +334,7 @@ impl Writer {
         self.held = None;
         self.residue = [0; AXES];
         self.residual = false;
+        self.named = 0;
         self.lost = true;
     }
 }

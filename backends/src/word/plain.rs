@@ -12,8 +12,11 @@ use super::codes::Code;
 use super::number::{self, LONGEST, ROOM};
 use crate::Numbering;
 
+/// Room for lines that have not been passed on.
+pub(super) const PAGE: usize = 4096;
+
 /// Room for a line: number, motion code, six axes, feed, line end, and what the last word touches.
-pub(super) const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
+const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
 
 impl Writer {
     /// Writes a plain block, or returns `false` without having written or changed anything.
@@ -66,20 +69,23 @@ impl Writer {
             Units::Inch => Unit::Inch,
         };
         let mut next = self.next_number;
-        let line = &mut self.line;
-        let mut at = 0;
+        if self.filled > PAGE - LINE {
+            self.pass_on(out);
+        }
+        let line = &mut self.page;
+        let mut at = self.filled;
         match (self.numbering, self.dialect.block.number, number) {
             (Numbering::Off, _, _) => {}
             (Numbering::Keep, Some(letter), Some(number)) if number < 100_000_000 => {
-                line[0] = letter as u8;
-                at = number::whole(line, 1, number);
+                line[at] = letter as u8;
+                at = number::whole(line, at + 1, number);
                 line[at] = b' ';
                 at += blanks;
             }
             (Numbering::Keep, _, None) => {}
             (Numbering::Every { first, step }, Some(letter), _) if next < 100_000_000 => {
-                line[0] = letter as u8;
-                at = number::whole(line, 1, next);
+                line[at] = letter as u8;
+                at = number::whole(line, at + 1, next);
                 line[at] = b' ';
                 at += blanks;
                 next = next.saturating_add(step);
@@ -134,7 +140,7 @@ impl Writer {
         // One byte too many of a short line end is overwritten, or never taken.
         line[at..at + 2].copy_from_slice(&if self.eol.len() == 2 { *b"\r\n" } else { *b"\n\n" });
         at += self.eol.len();
-        out.extend_from_slice(&line[..at]);
+        self.filled = at;
         self.next_number = next;
         self.named |= named;
         if distance == Distance::Incremental {
@@ -146,6 +152,12 @@ impl Writer {
             self.tracker.cycle = None;
         }
         true
+    }
+
+    /// Passes plain lines on, before anything else is written.
+    pub(super) fn pass_on(&mut self, out: &mut Vec<u8>) {
+        out.extend_from_slice(&self.page[..self.filled]);
+        self.filled = 0;
     }
 
     /// Brings the tracker up to the last plain moves, which leave only their words behind.

@@ -119,3 +119,26 @@ fn an_arc_that_rounding_closes_is_refused() {
     assert_eq!(text, "G00 X0. Y0.\nG02 X0.001 Y0. I10. J0.\n");
     assert!(!faults(&diags).contains(&&Fault::ArcVanishes));
 }
+
+#[test]
+fn plain_moves_before_an_arc_are_followed() {
+    let by = |words| {
+        let to = measured(point(words), Fact::Known(Distance::Incremental));
+        Op::StraightFeed(Move { to, said: true })
+    };
+    let half = Arc {
+        to: measured(point("X10."), Fact::Known(Distance::Incremental)),
+        ..arc(Clockwise, "", centre(Zero, "8.", "1.", ""))
+    };
+    let stmts = lines(vec![
+        rapid("X0. Y0."),
+        rapid("X1. Y1."),
+        Op::SetDistanceMode(Distance::Incremental),
+        by("X1."),
+        by("X0.5 Y0."),
+        by("X0.5"),
+        Op::ArcFeed(half),
+    ]);
+    let (text, _) = text("fanuc", &stmts);
+    assert!(text.ends_with("G01 X0.5\nG02 X10. I5. J0.\n"), "{text}");
+}
