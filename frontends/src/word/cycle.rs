@@ -92,8 +92,9 @@ impl Lower {
         let retract = given.retract.or_else(|| kept.as_ref().map(|k| k.retract.clone()));
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
         let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck));
+        let blame = !self.now.failed;
         for (letter, missing) in [(row.depth, depth.is_none()), (row.retract, retract.is_none())] {
-            if missing && !self.now.failed {
+            if missing && blame {
                 self.missing(code, letter, out);
             }
         }

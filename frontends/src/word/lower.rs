@@ -107,6 +107,8 @@ pub(super) struct Now {
     pub(super) failed: bool,
     /// Whether a code was refused, so that it is not known what the words belong to.
     refused: bool,
+    /// Whether a code of a cycle was refused, so that it is not known what the next blocks mean.
+    cycle_refused: bool,
     /// Length of the target before the block.
     mark: usize,
     /// Feed of a cycle's own block.
@@ -333,6 +335,8 @@ impl Lower {
         }
         let Some(meaning) = row.means else {
             self.now.refused = true;
+            let cycles = dialect.code_for(Meaning::StartCycle).map(|row| row.group.as_str());
+            self.now.cycle_refused |= cycles == Some(&row.group);
             let name = row.refuse.as_deref().unwrap_or_default().into();
             return self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, word.span, out);
         };
@@ -668,7 +672,7 @@ impl Lower {
         if self.state.motion == Know::Unsaid {
             self.state.motion = Know::Lost;
         }
-        if self.now.refused && self.state.cycle == InForce::None {
+        if self.now.cycle_refused {
             self.state.cycle = InForce::Lost;
         }
     }

@@ -20,6 +20,8 @@ mod lower;
 mod motion;
 mod number;
 mod plain;
+#[cfg(test)]
+mod tests;
 mod token;
 
 use ncc_dialects::Settings;
@@ -94,7 +96,6 @@ impl Reader {
         }
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
-        self.frame.end = base + text.len() as u32;
         while at < text.len() {
             if !self.frame.closed && !self.lower.ended
                 && let Some(end) = plain::read(text, at, base, &mut self.block.words)
@@ -112,6 +113,7 @@ impl Reader {
             }
             at = end + 1;
         }
+        self.frame.end = base + text.len() as u32;
     }
 
     /// A line that is too long to be handed over: only its place is known.
@@ -153,6 +155,7 @@ impl Reader {
         if end - start > self.longest {
             return self.too_long(span, out);
         }
+        self.frame.end = span.end;
         let line = &src.text[start..end];
         if self.framing(line, span, out) {
             return;

@@ -1,0 +1,187 @@
+//! Every fault of the text and of single words, at its place.
+
+use super::*;
+
+#[test]
+fn signs_that_are_no_words() {
+    assert_eq!(faults("fanuc", "X1. $ Y2.\n"), ["UnexpectedCharacter { found: '$' } at '$'"]);
+    assert_eq!(faults("mach9", "X1. (NOTE)\n"), ["UnexpectedCharacter { found: '(' } at '('"]);
+    assert_eq!(faults("fanuc", "X1. é\n"), ["UnexpectedCharacter { found: 'é' } at 'é'"]);
+    assert_eq!(faults("mach9", "X[1]\n"), ["UnexpectedCharacter { found: '[' } at '['"]);
+    assert_eq!(faults("fanuc", "X1.\rY2.\n"), ["UnexpectedCharacter { found: '\\r' } at '\\r'"]);
+    let text = [head("mach9").as_bytes(), b"X1.\xC7\n"].concat();
+    let out = read_with(settings("mach9"), true, &text);
+    assert!(format!("{:?}", out.diagnostics).contains("found: 'Ç'"));
+}
+
+#[test]
+fn numbers_that_are_none() {
+    assert_eq!(
+        faults("fanuc", "X1234567890123456789.\n"),
+        ["BadNumber { text: '1234567890123456789.' } at '1234567890123456789.'"]
+    );
+    assert_eq!(faults("fanuc", "X.\n"), ["UnexpectedCharacter { found: '.' } at '.'"]);
+    assert_eq!(faults("fanuc", "X1.2.3\n"), ["Syntax { found: '.3', expected: 'a word' } at '.3'"]);
+    assert_eq!(faults("fanuc", "X1 2\n"), ["Syntax { found: '2', expected: 'a word' } at '2'"]);
+    assert_eq!(faults("fanuc", "X--1.\n"), ["Syntax { found: '-', expected: 'a number' } at '-'"]);
+    assert_eq!(faults("fanuc", "5 X1.\n"), ["Syntax { found: '5', expected: 'a word' } at '5'"]);
+    assert_eq!(
+        faults("fanuc", "X99999999999.\n"),
+        ["OutOfRange { word: 'X99999999999.' } at 'X99999999999.'"]
+    );
+    assert_eq!(
+        faults("fanuc", "X1.0000000001\n"),
+        ["OutOfRange { word: 'X1.0000000001' } at 'X1.0000000001'"]
+    );
+}
+
+#[test]
+fn comments_that_do_not_end() {
+    assert_eq!(faults("fanuc", "X1. (NOTE\nX2.\n"), ["UnclosedComment at '(NOTE'"]);
+}
+
+#[test]
+fn long_blocks() {
+    let long = "X1.".to_owned() + &" ".repeat(5000) + "\n";
+    let found = faults("fanuc", &long);
+    assert!(found.len() == 1 && found[0].starts_with("BlockTooLong { limit: 4096 } at 'X1."), "{found:?}");
+    let mut reader = Reader::new(settings("fanuc"), true);
+    let mut out = Batch::default();
+    reader.too_long(ncc_ir::source::Span::new(5, 9000), &mut out);
+    reader.finish(&mut out);
+    assert_eq!(format!("{:?}", out.diagnostics[0].fault), "BlockTooLong { limit: 4096 }");
+    assert_eq!((out.diagnostics.len(), out.diagnostics[0].span.start), (1, 5));
+}
+
+#[test]
+fn the_letter_o_for_a_zero() {
+    for id in ["mach9", "fanuc"] {
+        assert_eq!(faults(id, "GOX-15.\n"), ["LetterOForZero at 'O'"], "{id}");
+        assert_eq!(faults(id, "GZO\n"), ["LetterOForZero at 'O'"], "{id}");
+        assert_eq!(faults(id, "G0X1O\n"), ["LetterOForZero at 'O'"], "{id}");
+    }
+    assert_eq!(faults("mach9", "GO1X5.\n"), ["LetterOForZero at 'O'"]);
+    assert_eq!(after_head("mach9", "O2M5\n"), ["LENGTH 2", "& StopSpindleTurning"]);
+    assert_eq!(after_head("mach9", "G0Z1.O3\n"), ["LENGTH 3", "& TRAVERSE! Z1."]);
+}
+
+#[test]
+fn codes_that_are_refused() {
+    assert_eq!(faults("fanuc", "G123 X1.\n"), ["UnknownCode { code: 'G123' } at 'G123'"]);
+    assert_eq!(faults("fanuc", "G54.12\n"), ["UnknownCode { code: 'G54.12' } at 'G54.12'"]);
+    assert_eq!(faults("fanuc", "M77\n"), ["UnknownCode { code: 'M77' } at 'M77'"]);
+    assert_eq!(faults("fanuc", "U5.\n"), ["UnknownCode { code: 'U5.' } at 'U5.'"]);
+    assert_eq!(
+        faults("fanuc", "G5.1 Q1\n"),
+        ["NotSupported { code: 'G05.1', name: 'AI contour control' } at 'G5.1'"]
+    );
+    assert_eq!(
+        faults("fanuc", "G41 D1 X1. G5\n"),
+        [
+            "NotSupported { code: 'G41', name: 'cutter compensation left' } at 'G41'",
+            "NotSupported { code: 'G05', name: 'high-precision contour control' } at 'G5'"
+        ]
+    );
+    assert_eq!(
+        faults("fanuc", "G1 X5. ,R2.\n"),
+        ["NotSupported { code: ',R2.', name: 'corner rounding' } at ',R2.'"]
+    );
+    assert_eq!(
+        faults("fanuc", "G1 X5. ,C2.\n"),
+        ["NotSupported { code: ',C2.', name: 'chamfer' } at ',C2.'"]
+    );
+    assert_eq!(
+        faults("fanuc", "M98 <PART>\n"),
+        ["Syntax { found: '<PART>', expected: 'a word' } at '<PART>'"]
+    );
+    assert_eq!(
+        faults("fanuc", "M98 P<PART>\n"),
+        ["NotSupported { code: 'P<PART>', name: 'program with a name' } at 'P<PART>'"]
+    );
+}
+
+#[test]
+fn codes_that_do_not_stand_together() {
+    assert_eq!(faults("fanuc", "G0 G1 X1.\n"), ["CodesExclude { first: 'G0', second: 'G1' } at 'G1'"]);
+    assert_eq!(faults("mach9", "G90G0X1.\n"), ["TooManyCodes { letter: 'G', limit: 1 } at 'G0'"]);
+    assert_eq!(faults("fanuc", "M3 M8\n"), ["TooManyCodes { letter: 'M', limit: 1 } at 'M8'"]);
+}
+
+#[test]
+fn words_that_are_too_many_or_too_few() {
+    assert_eq!(faults("fanuc", "G0 X1. X2.\n"), ["WordTwice { letter: 'X' } at 'X2.'"]);
+    assert_eq!(faults("fanuc", "N1 N2 X1.\n"), ["WordTwice { letter: 'N' } at 'N2'"]);
+    assert_eq!(
+        faults("fanuc", "G0 X1. R2. H3\n"),
+        ["WordUnused { word: 'H3' } at 'H3'", "WordUnused { word: 'R2.' } at 'R2.'"]
+    );
+    assert_eq!(faults("mach9", "G1X60.Q10.\n"), ["WordUnused { word: 'Q10.' } at 'Q10.'"]);
+    assert_eq!(faults("mach9", "H90E240L25\n").len(), 3);
+}
+
+#[test]
+fn numbers_of_the_wrong_kind() {
+    assert_eq!(faults("fanuc", "S1000.\n"), ["PointNotAllowed { word: 'S1000.' } at 'S1000.'"]);
+    assert_eq!(faults("fanuc", "M3.\n"), ["PointNotAllowed { word: 'M3.' } at 'M3.'"]);
+    assert_eq!(faults("fanuc", "T1.\n"), ["PointNotAllowed { word: 'T1.' } at 'T1.'"]);
+    assert_eq!(faults("fanuc", "N1. X1.\n"), ["PointNotAllowed { word: 'N1.' } at 'N1.'"]);
+    assert_eq!(faults("fanuc", "F-5.\n"), ["OutOfRange { word: 'F-5.' } at 'F-5.'"]);
+    assert_eq!(faults("mach9", "T-1M6\n"), ["OutOfRange { word: 'T-1' } at 'T-1'"]);
+}
+
+#[test]
+fn the_macro_language_is_refused_by_name() {
+    let refused = |piece: &str, what: &str| {
+        assert_eq!(
+            faults("fanuc", piece),
+            [format!("MacroLanguage {{ what: '{what}' }} at '{what}'")],
+            "{piece}"
+        );
+    };
+    refused("#1=5.\n", "#1=5.");
+    refused("N99#3000=121(TOO LONG)\n", "#3000=121");
+    refused("G0 X#1 Y2.\n", "X#1");
+    refused("X - [ #20 - #4 ]\n", "X - [ #20 - #4 ]");
+    refused("G1 F[1500./2]\n", "F[1500./2]");
+    refused("/GOTO22\n", "GOTO22");
+    refused("GOTO#140\n", "GOTO#140");
+    refused("END1\n", "END1");
+    refused("DO 2\n", "DO 2");
+    refused("DPRNT[X#100[53]*Y]\n", "DPRNT[X#100[53]*Y]");
+    refused("#1=ATAN[#2]/[-#3+SIN[30.]*2] OR #5\n", "#1=ATAN[#2]/[-#3+SIN[30.]*2] OR #5");
+    refused("#[#1+2]=POW[2,3]\n", "#[#1+2]=POW[2,3]");
+    refused("#1=#[_DATE]\n", "#1=#[_DATE]");
+    let all = |piece| faults("fanuc", piece).join(" ");
+    assert_eq!(all("IF[#1 EQ #0]THEN #1=2\n").matches("MacroLanguage").count(), 3);
+    assert_eq!(all("WH[[#1GT0]AND[#2LE5]]DO1\n").matches("MacroLanguage").count(), 2);
+    assert_eq!(all("IF[#01EQ[-1]]GOTO9\n").matches("MacroLanguage").count(), 2);
+    assert_eq!(all("N1 #29=1 GOTO10\n").matches("MacroLanguage").count(), 2);
+    assert_eq!(
+        faults("fanuc", "G65 P9000 A1. I1. I2. T5\n")[0],
+        "NotSupported { code: 'G65', name: 'macro call' } at 'G65'"
+    );
+}
+
+#[test]
+fn expressions_that_are_none() {
+    assert_eq!(faults("fanuc", "X[1+\n"), ["Syntax { found: 'end of block', expected: 'a number' } at ''"]);
+    assert_eq!(faults("fanuc", "X[1\n"), ["Syntax { found: 'end of block', expected: ']' } at ''"]);
+    assert_eq!(faults("fanuc", "#1\n"), ["Syntax { found: 'end of block', expected: '=' } at ''"]);
+}
+
+#[test]
+fn reading_goes_on_at_the_next_block() {
+    let text = head("fanuc").to_owned() + "G1 X1. G41\nX$\nY2.\nM30\n";
+    let out = read("fanuc", &text);
+    assert_eq!(diagnostics(&out, &text).iter().filter(|d| !d.starts_with("Assumed")).count(), 2);
+    // The refused block gives no statement; its motion counts.
+    assert_eq!(stmts(&out).split_off(stmts(&out).len() - 2), ["FEED Y2.", "ProgramEnd"]);
+}
+
+#[test]
+fn one_slip_is_reported_once() {
+    let text = "G21 G90 G54\nG43 H1 G1 X0. Z1. F1O0\nX2.\nG84 X1. Z-5. R2.\nX3.\nM6\nM30\n";
+    let found = diagnostics(&read("fanuc", text), text);
+    let errors: Vec<_> = found.iter().filter(|d| !d.starts_with("Assumed")).collect();
+    assert_eq!(errors.len(), 2, "{errors:?}");
+}

@@ -1,0 +1,112 @@
+//! Program numbers, subprograms, start and end.
+
+use super::*;
+
+fn errors(id: &str, text: &str) -> Vec<String> {
+    diagnostics(&read(id, text), text).into_iter().filter(|d| !d.starts_with("Assumed")).collect()
+}
+
+#[test]
+fn the_case_study_reads_without_a_fault() {
+    let text = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/../corpus/mach9/teste.cn")).unwrap();
+    let out = read_with(settings("mach9"), true, &text);
+    assert_eq!(out.stmts.len(), 59);
+    let text = String::from_utf8(text).unwrap();
+    assert_eq!(
+        diagnostics(&out, &text),
+        [
+            "AssumedNoEffect { code: 'G66' } at 'G66'",
+            "AssumedWorkOffset { offset: 1 } at 'GZ0'",
+            "AssumedMode { fact: LengthOffset, value: '0' } at 'GZ0'",
+            "AssumedOption { option: 'o_word', value: 'offset' } at 'O1'",
+            "AssumedOffsetWithZ at 'O1'",
+            "AssumedOption { option: 'g24_centre', value: 'current' } at 'G24'",
+            "AssumedOption { option: 'g24_direction', value: 'ccw' } at 'G24'"
+        ]
+    );
+    assert_eq!(
+        stmts(&out)[22..27],
+        ["S3183", "& StartSpindleClockwise", "& LENGTH 2", "TRAVERSE! Z5.", "TRAVERSE! X0 Y0"]
+    );
+}
+
+#[test]
+fn names_and_titles() {
+    let out = read("fanuc", "%\nO1234(PART 12)\nM30\n%\n");
+    assert_eq!((out.name.number, out.name.title.as_deref()), (Some(1234), Some("PART 12")));
+    assert_eq!(stmts(&out), ["ProgramEnd"]);
+    assert!(out.diagnostics.is_empty() && !out.whole);
+    assert_eq!(read("fanuc", ":0097\nM30\n").name.number, Some(97));
+    assert_eq!(stmts(&read("fanuc", "O5 (A) (B) G21\nM30\n")), ["UseLengthUnits(Mm) (B)", "ProgramEnd"]);
+    assert_eq!(errors("fanuc", "O0\nM30\n"), ["OutOfRange { word: 'O0' } at 'O0'"]);
+    assert_eq!(errors("fanuc", "O1\nM30\nO1\nM99\n"), ["ProgramTwice { name: '1' } at 'O1'"]);
+}
+
+#[test]
+fn frame_marks() {
+    assert_eq!(stmts(&read("fanuc", "% LEADER\nM30\n%\n")), ["ProgramEnd"]);
+    assert_eq!(errors("fanuc", "%\nM30\n%\n\nREST 1\nMORE\n"), ["TextAfterEnd at 'REST 1'"]);
+    assert_eq!(errors("fanuc", "M30\n%\n"), Vec::<String>::new());
+    assert_eq!(errors("mach9", "%\nM2\n"), ["UnexpectedCharacter { found: '%' } at '%'"]);
+}
+
+#[test]
+fn calls() {
+    let calls = |piece: &str| after_head("fanuc", piece);
+    assert_eq!(calls("M98 P1002\n"), ["CALL 1002 x1"]);
+    assert_eq!(calls("M98 P51002\n"), ["CALL 1002 x5"]);
+    assert_eq!(calls("M98 P30012\n"), ["CALL 12 x3"]);
+    assert_eq!(calls("M98 P1002 L4\n"), ["CALL 1002 x4"]);
+    assert_eq!(calls("M98 P51002 L4\n"), ["CALL 51002 x4"]);
+    assert_eq!(calls("G0 X1. M98 P7\n"), ["TRAVERSE! X1.", "& CALL 7 x1"]);
+    assert_eq!(faults("fanuc", "M98\n"), ["WordMissing { code: 'M98', word: 'P' } at 'M98'"]);
+    assert_eq!(faults("fanuc", "M98 P0\n"), ["OutOfRange { word: 'P0' } at 'P0'"]);
+    assert_eq!(faults("fanuc", "M98 P1002 Q300\n"), ["WordUnused { word: 'Q300' } at 'Q300'"]);
+}
+
+#[test]
+fn subprograms_stand_after_the_main_program() {
+    let out = read("fanuc", "%\nO1\nM98 P12\nM30\n(SUBS)\nO0012(HOLES)\nX1.\nM99\nO13\nM99\n%\n");
+    let names: Vec<_> = out.procedures.iter().map(|p| (&*p.name, p.title.as_deref())).collect();
+    assert_eq!(names, [("12", Some("HOLES")), ("13", None)]);
+    assert_eq!(stmts(&out), ["CALL 12 x1", "ProgramEnd", "(SUBS)"]);
+    // The first call's name is the subprogram's.
+    assert_eq!(out.procedures[0].body.len(), 2);
+    assert_eq!(
+        errors("fanuc", "O1\nM99\n"),
+        ["NotSupported { code: 'M99', name: 'return in the main program: endless repetition' } at 'M99'"]
+    );
+    assert_eq!(errors("fanuc", "O1\nM30\nO2\nM99 P100\n"), ["WordUnused { word: 'P100' } at 'P100'"]);
+}
+
+#[test]
+fn ends() {
+    assert_eq!(errors("mach9", "G71\nM5\n"), ["NoProgramEnd at 'M5'"]);
+    assert_eq!(errors("mach9", "M2"), Vec::<String>::new());
+    assert_eq!(errors("mach9", "M2\n\n\n\x1A"), Vec::<String>::new());
+    assert_eq!(errors("fanuc", "M30\n\x1A\x1A\n"), Vec::<String>::new());
+    assert_eq!(errors("mach9", "M2\nG71\nG70\n"), ["TextAfterEnd at 'G71'"]);
+    assert_eq!(errors("fanuc", "O1\nG21\nO2\nM99\n"), ["NoProgramEnd at 'G21'"]);
+    assert_eq!(errors("fanuc", "O1\nM30\nO2\nM8\n\x1A"), ["NoProgramEnd at 'M8'"]);
+    assert_eq!(read("fanuc", "O1\nM30\nO2\nM8\n\x1A").procedures.len(), 1);
+    // A switch may let the program run on.
+    assert_eq!(errors("fanuc", "/M30\nM8\nM30\n"), Vec::<String>::new());
+}
+
+#[test]
+fn nothing_to_translate() {
+    for text in ["", "\n\n", "%\n%\n", "(NOTE)\n", "O1234\n", "\u{FEFF}"] {
+        assert_eq!(errors("fanuc", text), ["EmptyProgram at ''"], "{text:?}");
+    }
+    assert_eq!(errors("mach9", ";NOTE\n"), ["EmptyProgram at ''"]);
+}
+
+#[test]
+fn texts_that_are_none() {
+    assert_eq!(errors("fanuc", "M30\n\0\0\n"), ["NotText at '\\0'"]);
+    let noise = "\x01\n".repeat(100);
+    let found = errors("fanuc", &noise);
+    assert_eq!(found.len(), 17);
+    assert_eq!(found[16], "NotText at '\\u{1}'");
+    assert_eq!(stmts(&read("fanuc", "\u{FEFF}M8\nM30\n")), ["FloodOn", "ProgramEnd"]);
+}

@@ -1,0 +1,121 @@
+//! Laws: the recogniser and the grammar agree, the short way and the long way agree, pieces and
+//! the whole agree, and no bytes make the reader fail.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::word::block::{self, Block};
+use crate::word::plain;
+use crate::word::token::Signs;
+
+/// Something like a word.
+fn word() -> impl Strategy<Value = String> {
+    let letter = prop::sample::select("NXYZGMFSTIJKRPQABCDHLOxyzgUE".chars().collect::<Vec<_>>());
+    let number = prop_oneof![
+        8 => "-?[0-9]{1,4}\\.[0-9]{0,4}",
+        4 => "-?[0-9]{1,3}",
+        1 => "-?\\.[0-9]{1,3}",
+        1 => "[+-]?[0-9]{0,19}\\.?[0-9]{0,19}",
+        1 => Just(String::new()),
+        1 => Just("#1".to_owned()),
+        1 => Just("[1+2]".to_owned()),
+    ];
+    let blank = prop::sample::select(vec!["", "", " ", "\t", "  "]);
+    (letter, blank.clone(), number, blank).prop_map(|(l, a, n, b)| format!("{l}{a}{n}{b}"))
+}
+
+/// Something like a line.
+fn line() -> impl Strategy<Value = String> {
+    let lead = prop::sample::select(vec!["", "", "", "", "/", "/2 ", "N10 ", " ", "%", "O12", "#2=3"]);
+    let tail = prop::sample::select(vec!["", "", "", "", "(C)", ";c", "\r", ";", "#", " /M8", "$", "\u{e9}"]);
+    (lead, prop::collection::vec(word(), 0..6), tail).prop_map(|(l, w, t)| format!("{l}{}{t}", w.concat()))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn recogniser_and_grammar_agree(lines in prop::collection::vec(line(), 1..4)) {
+        let text = lines.join("\n");
+        for id in ["mach9", "fanuc"] {
+            let signs = Signs::new(settings(id).dialect);
+            let mut words = Vec::new();
+            let Some(end) = plain::read(text.as_bytes(), 0, 7, &mut words) else {
+                continue;
+            };
+            let line = text.split('\n').next().unwrap().trim_end_matches('\r');
+            prop_assert_eq!(text.as_bytes().get(end).copied().unwrap_or(b'\n'), b'\n');
+            prop_assert_eq!(text.find('\n').unwrap_or(text.len()), end);
+            let mut block = Block::default();
+            let next = block::parse(line.as_bytes(), 0, 7, signs, &mut block);
+            prop_assert_eq!(next, None);
+            prop_assert_eq!(&block.words, &words);
+            prop_assert!(block.faults.is_empty() && block.comments.is_empty() && block.skip == 0);
+        }
+    }
+
+    #[test]
+    fn the_short_way_and_the_long_way_agree(lines in prop::collection::vec(line(), 1..20), assume: bool) {
+        for id in ["mach9", "fanuc"] {
+            let text = format!("{}{}\nX1. Y2.\nN5 Z-3.\nM30\n", head(id), lines.join("\n"));
+            let (mut short, mut long) = (Batch::default(), Batch::default());
+            let mut first = Reader::new(settings(id), assume);
+            first.read(text.as_bytes(), 0, &mut short);
+            first.finish(&mut short);
+            // The other one is fed line by line, and looks at every block.
+            let mut second = Reader::new(settings(id), assume);
+            let mut at = 0;
+            for line in text.split_inclusive('\n') {
+                second.lower.fast = None;
+                second.read(line.as_bytes(), at, &mut long);
+                at += line.len() as u32;
+            }
+            second.finish(&mut long);
+            prop_assert_eq!(&short.stmts, &long.stmts);
+            prop_assert_eq!(&short.procedures, &long.procedures);
+            prop_assert_eq!(&short.diagnostics, &long.diagnostics);
+            prop_assert_eq!(&short.assumed, &long.assumed);
+        }
+    }
+
+    #[test]
+    fn no_bytes_make_the_reader_fail(
+        bytes in prop_oneof![
+            prop::collection::vec(any::<u8>(), 0..300),
+            "[GXYZMNTFO#\\[\\]()=;/%+*.0-9A-Za-z \n\r-]{0,300}".prop_map(String::into_bytes),
+            prop::collection::vec(line(), 0..30).prop_map(|l| l.join("\n").into_bytes()),
+        ],
+        assume: bool,
+    ) {
+        for id in ["mach9", "fanuc"] {
+            let out = read_with(settings(id), assume, &bytes);
+            let spans = out.stmts.iter().map(|s| s.span).chain(out.diagnostics.iter().map(|d| d.span));
+            for span in spans {
+                prop_assert!(span.start <= span.end && span.end as usize <= bytes.len());
+            }
+            // The first statement of a text is in no other's block.
+            prop_assert!(out.stmts.first().is_none_or(|s| !s.joined));
+        }
+    }
+}
+
+#[test]
+fn deep_brackets_are_no_danger() {
+    let text = format!("X{}\n", "[".repeat(4000));
+    assert!(faults("fanuc", &text)[0].starts_with("Syntax"));
+    let text = format!("X{}1{}\n", "[".repeat(2000), "]".repeat(2000));
+    assert!(faults("fanuc", &text)[0].starts_with("MacroLanguage"));
+}
+
+#[test]
+fn the_recogniser_takes_what_it_is_for() {
+    let mut words = Vec::new();
+    for plain in ["N120 X12.345 Y-0.5 Z3.21\n", "G1X1.F500", "x1 y2\t\r\n"] {
+        assert!(plain::read(plain.as_bytes(), 0, 0, &mut words).is_some(), "{plain}");
+    }
+    for other in
+        ["X1.(A)\n", "/X1.\n", "GXY\n", "\n", "X+1.\n", "X1.2.3\n", "X1.\rY2.\n", "X1234567890123456789\n"]
+    {
+        assert!(plain::read(other.as_bytes(), 0, 0, &mut words).is_none(), "{other}");
+    }
+}
