@@ -19,6 +19,8 @@ pub struct Tracker {
     pub position: [Option<Nanos>; AXES],
     /// The cycle in force.
     pub cycle: Option<InForce>,
+    /// Whether another cycle than `cycle` may be in force, because of a block that may be skipped.
+    pub cycle_in_doubt: bool,
     /// The selected tool, if it is a literal.
     pub selected: Option<i64>,
 }
@@ -187,8 +189,12 @@ impl Tracker {
             {
                 a.drilled = false;
             }
-            (a, b) => both(a, b),
+            (a, b) => {
+                self.cycle_in_doubt |= a != b;
+                both(a, b);
+            }
         }
+        self.cycle_in_doubt |= other.cycle_in_doubt;
         both(&mut self.selected, &other.selected);
     }
 
@@ -224,6 +230,7 @@ impl Tracker {
             }
             Op::EndCycle => {
                 self.cycle = None;
+                self.cycle_in_doubt = false;
                 if self.modes.motion == Some(Motion::Cycle) {
                     self.modes.motion = None;
                 }
@@ -279,17 +286,20 @@ impl Tracker {
         self.position = self.target(to);
         self.modes.motion = Some(motion);
         self.cycle = None;
+        self.cycle_in_doubt = false;
     }
 
     fn start_cycle(&mut self, cycle: &Cycle) {
         let normal = self.plane(cycle.plane).map(|p| p.axes().2);
         let initial = match &self.cycle {
             Some(before) => before.initial,
+            None if self.cycle_in_doubt => None,
             None => normal.and_then(|axis| self.position[axis as usize]),
         };
         let retract = self.resolve(&cycle.retract, initial);
         let depth = self.resolve(&cycle.depth, retract);
         self.cycle = Some(InForce { cycle: cycle.clone(), initial, retract, depth, drilled: false });
+        self.cycle_in_doubt = false;
         self.modes.motion = Some(Motion::Cycle);
     }
 

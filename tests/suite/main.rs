@@ -6,6 +6,7 @@ mod faults;
 mod laws;
 mod pages;
 mod pairs;
+mod passes;
 mod second;
 mod text_forms;
 mod tidy;

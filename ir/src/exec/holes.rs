@@ -88,7 +88,7 @@ impl Exec {
                 next[axis] = self.target(word, self.position[axis], span)?;
             }
         }
-        self.make_hole(&cycle, next, span, out)
+        self.make_hole(&cycle, next, to.axes[super::Z].is_some(), span, out)
     }
 
     pub(super) fn pattern(
@@ -147,14 +147,16 @@ impl Exec {
         let mut next = self.position;
         next[first] = at[0];
         next[second] = at[1];
-        self.make_hole(cycle, next, span, out)
+        self.make_hole(cycle, next, first == super::Z || second == super::Z, span, out)
     }
 
-    /// One hole; `next` says where, the drilling axis of it is not used.
+    /// One hole; `next` says where, the drilling axis of it is not used. `z` says whether Z is
+    /// commanded in the plane, which takes a waiting length up.
     fn make_hole(
         &mut self,
         cycle: &InForce,
         next: [Nanos; AXES],
+        z: bool,
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
@@ -165,6 +167,9 @@ impl Exec {
         let level = self.position[normal];
         self.position = next;
         self.position[normal] = level;
+        if z && normal != super::Z {
+            self.take_up_length();
+        }
         self.emit_move(false, span, out)?;
         self.go_to_level(normal, cycle.retract, false, span, out)?;
         match cycle.way {

@@ -147,7 +147,7 @@ pub(super) fn over(
             }
             _ => {
                 walk.step(&stmt);
-                if state.expanding && walk.at.cycle.is_none() {
+                if state.expanding && ends(&stmt.op) {
                     // A move ends a cycle; one that may be skipped ends it perhaps.
                     state.expanding = stmt.skip.is_some();
                     state.pay(&mut stmt, made);
@@ -156,6 +156,23 @@ pub(super) fn over(
             }
         }
     });
+}
+
+/// Whether a statement ends a cycle that is in force, or goes where this pass does not follow.
+fn ends(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::StraightTraverse(_)
+            | Op::StraightFeed(_)
+            | Op::ArcFeed(_)
+            | Op::Position(_)
+            | Op::ProgramEnd
+            | Op::Call(_)
+            | Op::Return
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+    )
 }
 
 impl State {
@@ -339,11 +356,12 @@ fn hole(
     let mut aside = to.clone();
     aside.axes[normal as usize] = None;
     let now = here.position[normal as usize];
+    // A waiting length offset is taken up by a word of Z, even if the tool stands there already.
     let goes_aside = aside.axes.iter().enumerate().any(|(axis, word)| {
         word.as_ref().is_some_and(|w| {
             here.position[axis].is_none() || here.resolve(w, here.position[axis]) != here.position[axis]
         })
-    });
+    }) || walk.waiting && aside.get(Axis::Z).is_some();
     for (axis, word) in Axis::ALL.into_iter().zip(&mut aside.axes) {
         let Some(coord) = word else { continue };
         let known = here.resolve(coord, here.position[axis as usize]);
@@ -357,7 +375,6 @@ fn hole(
             _ if goes_aside => return Err(unknown),
             _ => true,
         };
-    // A waiting length offset is taken up here, even if the tool stands at R already.
     let to_retract = now.is_none() || now != in_force.retract || walk.waiting;
     if raise {
         moves.push((false, traverse(retract.clone())));

@@ -72,7 +72,11 @@ fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
     }
 }
 
+/// The plane of the cycle in force.
 fn plane(walk: &Walk) -> Option<Plane> {
+    if walk.at.cycle_in_doubt {
+        return None;
+    }
     walk.at.cycle.as_ref().and_then(|c| c.cycle.plane.known()).or(walk.at.modes.plane)
 }
 

@@ -21,9 +21,6 @@ mod walk;
 pub mod work_offset;
 mod write;
 
-#[cfg(test)]
-mod tests;
-
 pub use legalise::Legaliser;
 
 use crate::caps::Caps;

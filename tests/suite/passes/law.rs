@@ -1,0 +1,241 @@
+//! A law: whatever the legaliser makes of a program, the machine does the same.
+//!
+//! Programs are generated: moves, cycles of every kind, holes, patterns, offsets and arcs, absolute
+//! and incremental, some blocks under a skip level. They are legalised for targets that can say
+//! much, little and nothing, as a whole and block by block, and executed before and after.
+
+use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, ONE, Unit};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Procedure, Program, Stmt};
+use ncc_ir::source::Span;
+use proptest::prelude::*;
+use proptest::sample::select;
+use proptest::test_runner::{Config, TestError, TestRng, TestRunner};
+
+use super::{Told, apply, builtin, in_pieces, refused, same_events};
+
+fn mm(tenths: i64) -> Num {
+    Num { mantissa: tenths, scale: 1, point: true, unit: Unit::Mm }
+}
+
+fn coord(low: i64, high: i64) -> impl Strategy<Value = Coord> {
+    (low..high, prop::bool::weighted(0.3)).prop_map(|(tenths, incremental)| Coord {
+        value: mm(tenths).into(),
+        distance: Fact::Known(if incremental { Distance::Incremental } else { Distance::Absolute }),
+    })
+}
+
+fn point(axes: &'static [Axis]) -> impl Strategy<Value = Move> {
+    let words = prop::collection::vec((select(axes), coord(-300, 300)), 1..=axes.len());
+    (words, any::<bool>()).prop_map(|(words, said)| {
+        let mut to = Point::default();
+        for (axis, word) in words {
+            to.set(axis, word);
+        }
+        Move { to, said }
+    })
+}
+
+fn seconds() -> impl Strategy<Value = Expr> {
+    (1i64..30).prop_map(|t| Num { mantissa: t, scale: 1, point: true, unit: Unit::Second }.into())
+}
+
+fn kind() -> impl Strategy<Value = CycleKind> {
+    let clearance =
+        prop_oneof![Just(Clearance::Parameter), (1i64..20).prop_map(|t| Clearance::Stated(mm(t).into()))];
+    prop_oneof![
+        3 => Just(CycleKind::Drill),
+        1 => seconds().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
+        1 => (10i64..80, clearance, prop::option::of(seconds())).prop_map(|(peck, clearance, dwell)| {
+            CycleKind::DrillPeck { peck: mm(peck).into(), clearance, dwell }
+        }),
+        1 => prop::option::of(seconds()).prop_map(|dwell| CycleKind::Bore { dwell }),
+    ]
+}
+
+fn cycle() -> impl Strategy<Value = Op> {
+    let level = prop_oneof![Just(ReturnLevel::Initial), Just(ReturnLevel::Retract)];
+    let approach = prop_oneof![Just(Approach::PlaneFirst), Just(Approach::RaiseFirst)];
+    let plane = prop_oneof![8 => Just(Plane::Xy), 1 => Just(Plane::Zx), 1 => Just(Plane::Yz)];
+    let feed = prop::option::of((100i64..3000).prop_map(|f| Expr::from(mm(f))));
+    (kind(), plane, coord(-100, 100), 1i64..200, any::<bool>(), level, approach, feed).prop_map(
+        |(kind, plane, retract, below, incremental, level, approach, feed)| {
+            let (tenths, distance) = match (&retract.value, retract.distance, incremental) {
+                (Expr::Num(n), Fact::Known(Distance::Absolute), false) => {
+                    (n.mantissa - below, Distance::Absolute)
+                }
+                _ => (-below, Distance::Incremental),
+            };
+            let depth = Coord { value: mm(tenths).into(), distance: Fact::Known(distance) };
+            Op::StartCycle(Box::new(Cycle {
+                kind,
+                plane: Fact::Known(plane),
+                retract,
+                depth,
+                return_level: Fact::Known(level),
+                approach,
+                feed,
+            }))
+        },
+    )
+}
+
+fn pattern() -> impl Strategy<Value = Op> {
+    let pair = || (coord(-200, 200), coord(-200, 200)).prop_map(|(a, b)| [a, b]);
+    let degrees = |d: i64| Expr::from(Num::int(d, Unit::Degree));
+    let circle = (prop::option::of(pair()), pair(), -180i64..180, 1u32..6).prop_map(
+        move |(centre, first, step, count)| Pattern::Circle { centre, first, step: degrees(step), count },
+    );
+    let grid =
+        (-50i64..50, 1u32..4, -50i64..50, 1u32..4, any::<bool>()).prop_map(|(x, nx, y, ny, serpentine)| {
+            Pattern::Grid {
+                columns: Row { axis: Axis::X, pitch: mm(x).into(), count: nx },
+                rows: Row { axis: Axis::Y, pitch: mm(y).into(), count: ny },
+                serpentine,
+            }
+        });
+    prop_oneof![circle, grid].prop_map(|p| Op::Pattern(Box::new(p)))
+}
+
+/// A half circle, flat or as a helix, with whole turns before.
+fn arc() -> impl Strategy<Value = Op> {
+    (1i64..100, any::<bool>(), prop::option::of(coord(-50, 50)), 0u32..3).prop_map(
+        |(radius, cw, z, turns)| {
+            let mut to = Point::default();
+            let distance = Fact::Known(Distance::Incremental);
+            to.set(Axis::X, Coord { value: mm(2 * radius).into(), distance });
+            if let Some(z) = z {
+                to.set(Axis::Z, z);
+            }
+            Op::ArcFeed(Arc {
+                plane: Fact::Known(Plane::Xy),
+                turn: if cw { Turn::Clockwise } else { Turn::Counterclockwise },
+                to,
+                centre: Centre::Point {
+                    words: [Some(mm(radius).into()), None, None],
+                    from: CentreFrom::Start,
+                },
+                turns,
+                said: true,
+            })
+        },
+    )
+}
+
+fn op() -> impl Strategy<Value = Op> {
+    const ALL: &[Axis] = &[Axis::X, Axis::Y, Axis::Z];
+    const ASIDE: &[Axis] = &[Axis::X, Axis::Y];
+    prop_oneof![
+        3 => point(ALL).prop_map(Op::StraightTraverse),
+        2 => point(ALL).prop_map(Op::StraightFeed),
+        4 => cycle(),
+        8 => point(ASIDE).prop_map(Op::Hole),
+        2 => pattern(),
+        1 => Just(Op::EndCycle),
+        1 => (1i64..5).prop_map(|n| Op::UseToolLengthOffset(Expr::int(n))),
+        1 => (100i64..3000).prop_map(|f| Op::SetFeedRate(mm(f).into())),
+        1 => arc(),
+        1 => Just(Op::StartSpindleClockwise),
+        1 => Just(Op::Comment("A COMMENT".into())),
+    ]
+}
+
+fn program() -> impl Strategy<Value = Program> {
+    let skip = prop_oneof![8 => Just(None), 1 => Just(Some(1)), 1 => Just(Some(2))];
+    let block = (prop::collection::vec(op(), 1..3), skip, prop::option::of(1u32..999), any::<bool>());
+    prop::collection::vec(block, 1..14).prop_map(|blocks| {
+        let first = [Op::SetFeedRate(mm(1000).into())].map(|op| Stmt::new(Span::default(), op));
+        let mut body = Vec::from(first);
+        for (ops, skip, number, comment) in blocks {
+            let last = ops.len() - 1;
+            for (at, op) in ops.into_iter().enumerate() {
+                let mut stmt = Stmt::new(Span::default(), op);
+                stmt.skip = skip;
+                stmt.joined = at > 0;
+                stmt.number = number.filter(|_| at == 0);
+                stmt.comment = (comment && at == last).then(|| Box::new("REMARK".into()));
+                body.push(stmt);
+            }
+        }
+        body.push(Stmt::new(Span::default(), Op::ProgramEnd));
+        let assumed = Modes {
+            distance: Some(Distance::Absolute),
+            units: Some(Units::Mm),
+            plane: Some(Plane::Xy),
+            feed_mode: Some(FeedMode::PerMinute),
+            work_offset: Some(1),
+            ..Modes::default()
+        };
+        let procedures = vec![Procedure { body, ..Procedure::default() }];
+        Program { assumed, procedures, ..Program::default() }
+    })
+}
+
+/// Blocks are whole: the first statement of each is not joined, the others are under its skip level,
+/// a comment stands last.
+fn well_formed(body: &[Stmt]) -> Result<(), String> {
+    for (at, pair) in body.windows(2).enumerate() {
+        let [a, b] = pair else { continue };
+        if b.joined && a.skip != b.skip {
+            return Err(format!("statement {at}: one block under two skip levels"));
+        }
+        if b.joined && (b.number.is_some() || a.comment.is_some()) {
+            return Err(format!("statement {at}: a number or comment in the midst of a block"));
+        }
+    }
+    match body.first() {
+        Some(first) if first.joined => Err("the first statement is joined to nothing".into()),
+        _ => Ok(()),
+    }
+}
+
+#[test]
+fn the_machine_does_the_same() {
+    let targets = ["canon", "mach9", "fanuc"].map(|id| (id, builtin(id).unwrap().caps.clone()));
+    let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
+    let config = Config { cases, failure_persistence: None, max_shrink_iters: 20_000, ..Config::default() };
+    let (mut tried, mut said) = (0u32, 0u32);
+    let counts = std::cell::RefCell::new((&mut tried, &mut said));
+    let start = prop_oneof![3 => Just([Some(0), Some(0), Some(20 * ONE)]), 1 => Just([None; 3])];
+    TestRunner::new_with_rng(config, TestRng::deterministic_rng(Default::default()))
+        .run(&(program(), start), |(program, start)| {
+            for (id, caps) in &targets {
+                let mut told = Told {
+                    target: super::Target { caps: caps.clone(), decimals: 3, peck_clearance: Some(mm(10)) },
+                    start: [None; 6],
+                };
+                told.start[..3].copy_from_slice(&start);
+                // What the source's own control could not execute proves nothing.
+                if same_events(&program, &program, &told).is_err() {
+                    continue;
+                }
+                *counts.borrow_mut().0 += 1;
+                let mut after = program.clone();
+                let diags = apply("legaliser", &mut after, &told).map_err(TestCaseError::fail)?;
+                if refused(&diags) {
+                    continue;
+                }
+                *counts.borrow_mut().1 += 1;
+                let show = |e: String| {
+                    let text = super::write(&program).unwrap_or_default();
+                    let made = super::write(&after).unwrap_or_default();
+                    TestCaseError::fail(format!("{id}: {e}\n{text}---\n{made}"))
+                };
+                well_formed(&after.procedures[0].body).map_err(show)?;
+                same_events(&program, &after, &told).map_err(show)?;
+                // Less is known of a piece than of the whole: more may be refused.
+                let Some(pieces) = in_pieces(&program, &told) else { continue };
+                well_formed(&pieces.procedures[0].body).map_err(show)?;
+                same_events(&program, &pieces, &told).map_err(show)?;
+            }
+            Ok(())
+        })
+        .unwrap_or_else(|e| match e {
+            // The program is in the reason, as text.
+            TestError::Fail(reason, _) | TestError::Abort(reason) => panic!("{reason}"),
+        });
+    // A law that refuses everything is none.
+    assert!(said * 4 > tried && said > cases / 4, "{said} of {tried} programs could be said");
+}

@@ -1,0 +1,305 @@
+//! Passes, each alone and as the legaliser picks them: a program before and after.
+//!
+//! `passes/<pass>/<case>.ir` holds the program, `---`, what the pass makes of it, and if it reports
+//! anything another `---` and the reports. Lines `#! …` before the program say what the pass is told:
+//! `target ID` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
+//! (where the axes stand), `clearance 1.0` (the peck cycle's parameter, mm). In the folder
+//! `legaliser` the passes are picked by the target.
+//!
+//! Besides the text, every case that is not refused is executed before and after, in two worlds:
+//! the events must be the same.
+
+mod law;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use ncc_backends::{Layout, ir::Writer};
+use ncc_dialects::{Settings, builtin};
+use ncc_frontends::{Batch, ir::Reader};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::caps::Caps;
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner};
+use ncc_ir::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::passes::{Legaliser, PASSES, Target};
+use ncc_ir::program::{Procedure, Program, Stmt};
+use ncc_ir::track::Tracker;
+use ncc_ir::verify::{Comparison, Resolution};
+use ncc_ir::world::World;
+use ncc_tests::expect::{self, Failures};
+
+/// What a pass is told.
+struct Told {
+    target: Target,
+    start: [Option<Nanos>; AXES],
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("passes")
+}
+
+fn told(text: &str) -> Result<Told, String> {
+    let mut told = Told {
+        target: Target { caps: Caps::default(), decimals: 3, peck_clearance: None },
+        start: [None; AXES],
+    };
+    for line in text.lines().filter_map(|l| l.strip_prefix("#! ")) {
+        let (what, value) = line.split_once(' ').ok_or("a directive has a value")?;
+        match what {
+            "target" => told.target.caps = builtin(value).ok_or("no such dialect")?.caps.clone(),
+            "clearance" => {
+                let nanos = decimal(value)?;
+                told.target.peck_clearance = Some(Num::from_nanos(nanos, 9, Unit::Mm));
+            }
+            "start" => {
+                for word in value.split(' ') {
+                    let axis = Axis::from_letter(word.as_bytes()[0]).ok_or("no axis")?;
+                    told.start[axis as usize] = Some(decimal(&word[1..])?);
+                }
+            }
+            _ => return Err(format!("unknown directive {what}")),
+        }
+    }
+    Ok(told)
+}
+
+fn decimal(text: &str) -> Result<Nanos, String> {
+    let mm: f64 = text.parse().map_err(|e| format!("{text}: {e}"))?;
+    Ok((mm * ONE as f64).round() as Nanos)
+}
+
+fn read(text: &str) -> Result<Program, String> {
+    let settings = Settings::new(builtin("ir").ok_or("no ir")?);
+    let mut reader = Reader::new(settings, false);
+    let mut batch = Batch::default();
+    reader.read(text.as_bytes(), 0, &mut batch);
+    reader.finish(&mut batch);
+    if let Some(found) = batch.diagnostics.first() {
+        let (start, end) = (found.span.start as usize, found.span.end as usize);
+        return Err(format!("{:?} at {:?}", found.fault, text.get(start..end)));
+    }
+    let mut procedures = vec![Procedure { body: batch.stmts, ..Procedure::default() }];
+    procedures.append(&mut batch.procedures);
+    Ok(Program { name: batch.name, assumed: batch.assumed, procedures })
+}
+
+fn write(program: &Program) -> Result<String, String> {
+    let settings = Settings::new(builtin("ir").ok_or("no ir")?);
+    let mut writer = Writer::new(settings, Layout::default());
+    let (mut out, mut diags) = (Vec::new(), Vec::new());
+    for (at, procedure) in program.procedures.iter().enumerate() {
+        match at {
+            0 => writer.write(&procedure.body, &program.assumed, &mut out, &mut diags),
+            _ => writer.procedure(procedure, &mut out, &mut diags),
+        }
+    }
+    writer.finish(&mut out, &mut diags);
+    String::from_utf8(out).map_err(|e| e.to_string())
+}
+
+/// A report in a line: code, what it says, and the source that it points at.
+fn report(found: &Diagnostic, text: &str) -> String {
+    let place = text.get(found.span.start as usize..found.span.end as usize).unwrap_or("?");
+    format!("NC{:04} {:?} at {}\n", found.fault.code(), found.fault, place.trim())
+}
+
+fn refused(diags: &[Diagnostic]) -> bool {
+    diags.iter().any(|d| d.fault.gravity() == Gravity::Error)
+}
+
+fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnostic>, String> {
+    let mut diags = Vec::new();
+    if pass == "legaliser" {
+        let mut legaliser =
+            Legaliser::new(&told.target.caps, told.target.decimals, told.target.peck_clearance);
+        legaliser.stand_at(&told.start);
+        legaliser.run_program(program, &mut diags);
+        return Ok(diags);
+    }
+    let pass = PASSES.iter().find(|p| p.name == pass).ok_or("a folder is named after a pass")?;
+    let entry = Tracker { modes: program.assumed, position: told.start, ..Tracker::default() };
+    (pass.run)(program, &told.target, &entry, &mut diags);
+    Ok(diags)
+}
+
+/// Every file under `passes/`, with its pass.
+fn cases() -> Vec<(String, PathBuf)> {
+    let entries = |path: &Path| -> Vec<PathBuf> {
+        let read = fs::read_dir(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let mut all: Vec<_> = read.filter_map(|e| e.ok().map(|e| e.path())).collect();
+        all.sort();
+        all
+    };
+    let folders = entries(&folder());
+    let name = |p: &Path| p.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    folders.iter().flat_map(|f| entries(f).into_iter().map(|c| (name(f), c))).collect()
+}
+
+#[test]
+fn before_and_after() {
+    let mut failures = Failures::default();
+    for (pass, path) in cases() {
+        failures.check(path.display(), case(&pass, &path));
+    }
+    failures.finish();
+}
+
+fn case(pass: &str, path: &Path) -> Result<(), String> {
+    let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
+    let before_text = text.split("---\n").next().unwrap_or_default();
+    let told = told(before_text)?;
+    let before = read(before_text)?;
+    let mut after = before.clone();
+    let diags = apply(pass, &mut after, &told)?;
+    let mut actual = format!("{before_text}---\n{}", write(&after)?);
+    if !diags.is_empty() {
+        actual.push_str("---\n");
+        actual.extend(diags.iter().map(|d| report(d, before_text)));
+    }
+    expect::file(path, actual.as_bytes())?;
+    // A message that is dropped is an event less: it is reported, and stops a translation.
+    if refused(&diags) || diags.iter().any(|d| d.fault == Fault::MessageDropped) {
+        return Ok(());
+    }
+    same_events(&before, &after, &told)?;
+    if pass == "legaliser" && before.procedures.len() == 1 {
+        let pieces = in_pieces(&before, &told).ok_or("refused block by block")?;
+        same_events(&before, &pieces, &told).map_err(|e| format!("block by block: {e}"))?;
+    }
+    Ok(())
+}
+
+/// The legaliser's work on a program that comes block by block, unless it is refused.
+fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
+    let mut legaliser =
+        Legaliser::new(&told.target.caps, told.target.decimals, told.target.peck_clearance);
+    legaliser.stand_at(&told.start);
+    let mut after = before.clone();
+    after.procedures[0].body.clear();
+    let mut diags = Vec::new();
+    let mut out = Vec::new();
+    let mut piece: Vec<Stmt> = Vec::new();
+    let mut rest = before.procedures[0].body.iter().cloned().peekable();
+    while let Some(stmt) = rest.next() {
+        piece.push(stmt);
+        if rest.peek().is_none_or(|next| !next.joined) {
+            legaliser.run(&mut piece, &before.assumed, &mut diags);
+            out.append(&mut piece);
+        }
+    }
+    legaliser.finish(&mut out, &mut diags);
+    after.procedures[0].body = out;
+    (!refused(&diags)).then_some(after)
+}
+
+/// Levels of block skip that occur in a program.
+fn levels(program: &Program) -> Vec<u16> {
+    let all = program.procedures.iter().flat_map(|p| &p.body).filter_map(|s| s.skip);
+    let bits = all.fold(0u16, |bits, level| bits | 1 << level);
+    if bits == 0 { vec![0] } else { vec![0, bits] }
+}
+
+fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), String> {
+    for seed in [1, 2] {
+        for skip in levels(before) {
+            let world = world(seed, before, told);
+            let mut a = Machine::new(before, &world, skip, told);
+            let on_after = if skip == 0 { 0 } else { skip | 1 << 1 };
+            let mut b = Machine::new(after, &world, on_after, told);
+            let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, second: 3 };
+            let mut comparison = Comparison::new(resolution, a.exec.machine());
+            let (mut source, mut target) = {
+                let start = a.exec.machine();
+                (single_turns(a.run()?, start), single_turns(b.run()?, start))
+            };
+            comparison
+                .advance(&mut source, &mut target, true)
+                .map_err(|d| format!("world {seed}, skip {skip:b}: {d:?}"))?;
+        }
+    }
+    Ok(())
+}
+
+/// Arcs of several turns as single turns, so that it makes no difference how they are written.
+fn single_turns(events: Vec<Event>, start: [Nanos; AXES]) -> Vec<Event> {
+    let mut out: Vec<Event> = Vec::new();
+    for event in events {
+        let Kind::Arc { plane, turn, turns, full, centre } = event.kind else {
+            out.push(event);
+            continue;
+        };
+        let (first, second, normal) = plane.axes();
+        let (f, s, n) = (first as usize, second as usize, normal as usize);
+        let start = out.last().map_or(start, |last| last.end);
+        let angle = |p: &[Nanos; AXES]| {
+            ((p[s] - centre[1]) as f64).atan2((p[f] - centre[0]) as f64) / std::f64::consts::TAU
+        };
+        let part = angle(&event.end) - angle(&start);
+        let part = if turn == Turn::Clockwise { -part } else { part }.rem_euclid(1.0);
+        let all = f64::from(turns) + if full { 1.0 } else { part };
+        for k in 1..=turns {
+            let mut end = start;
+            end[n] += ((event.end[n] - start[n]) as f64 * f64::from(k) / all).round() as Nanos;
+            let kind = Kind::Arc { plane, turn, turns: 0, full: true, centre };
+            out.push(Event { kind, end, ..event.clone() });
+        }
+        let kind = Kind::Arc { plane, turn, turns: 0, full, centre };
+        out.push(Event { kind, ..event });
+    }
+    out
+}
+
+/// A world in which what the program takes for granted holds.
+fn world(seed: u32, program: &Program, told: &Told) -> World {
+    let usual = Modes {
+        motion: Some(Motion::Traverse),
+        distance: Some(Distance::Absolute),
+        units: Some(Units::Mm),
+        plane: Some(Plane::Xy),
+        feed_mode: Some(FeedMode::PerMinute),
+        return_level: Some(ReturnLevel::Retract),
+        work_offset: Some(program.assumed.work_offset.unwrap_or(1)),
+        length_offset: Some(0),
+        no_origin_shift: Some(true),
+    };
+    let mut world = World::generate(seed, &usual);
+    if let Some(clearance) = told.target.peck_clearance.and_then(|n| n.nanos(false)) {
+        world.peck_clearance = clearance;
+    }
+    world
+}
+
+struct Machine<'p> {
+    exec: Exec,
+    runner: Runner<'p>,
+}
+
+impl<'p> Machine<'p> {
+    fn new(program: &'p Program, world: &World, skip: u16, told: &Told) -> Machine<'p> {
+        let mut exec = Exec::new(world, skip);
+        exec.assume(&program.assumed);
+        exec.stand_at(&told.start);
+        Machine { exec, runner: Runner::new(program) }
+    }
+
+    fn run(&mut self) -> Result<Vec<Event>, String> {
+        let mut events = Vec::new();
+        loop {
+            match self.runner.run(&mut self.exec, usize::MAX, &mut events) {
+                Ok(Progress::Done) => return Ok(events),
+                Ok(Progress::More) => {}
+                Err(found) => return Err(format!("not executed: {:?}", found.fault)),
+            }
+        }
+    }
+}
+
+/// A fault of these tests would be a pass that no case is made for.
+#[test]
+fn every_pass_has_a_case() {
+    let cases = cases();
+    for pass in PASSES {
+        assert!(cases.iter().any(|(name, _)| name == pass.name), "no case for {}", pass.name);
+    }
+}
