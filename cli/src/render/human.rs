@@ -14,6 +14,9 @@ use crate::job::Job;
 /// Of one code, so many diagnostics are shown; the rest is counted.
 pub const MOST: usize = 20;
 
+/// So many characters are underlined at most.
+const LONGEST_LABEL: usize = 80;
+
 /// How much is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loudness {
@@ -25,13 +28,8 @@ pub enum Loudness {
     Verbose,
 }
 
-/// Which diagnostics are shown: those that are told at this loudness, in the order of their
-/// places, at most [`MOST`] of a code; and how many of each code are left out.
-pub fn choose<'d>(
-    job: &Job,
-    diagnostics: &'d [Diagnostic],
-    loudness: Loudness,
-) -> (Vec<&'d Diagnostic>, BTreeMap<u16, usize>) {
+/// Which diagnostics are told at this loudness, in the order of their places.
+pub fn told<'d>(job: &Job, diagnostics: &'d [Diagnostic], loudness: Loudness) -> Vec<&'d Diagnostic> {
     let told = |d: &&Diagnostic| match (d.fault.gravity(), loudness) {
         _ if job.refuses(d) => true,
         (_, Loudness::Quiet) => false,
@@ -45,6 +43,17 @@ pub fn choose<'d>(
         all.truncate(1);
     }
     all.sort_by_key(|d| d.span.start);
+    all.dedup_by(|b, a| a.span == b.span && same(&a.fault, &b.fault));
+    all
+}
+
+/// The same, at most [`MOST`] of a code; and how many of each code are left out.
+pub fn choose<'d>(
+    job: &Job,
+    diagnostics: &'d [Diagnostic],
+    loudness: Loudness,
+) -> (Vec<&'d Diagnostic>, BTreeMap<u16, usize>) {
+    let mut all = told(job, diagnostics, loudness);
     let mut counts: BTreeMap<u16, usize> = BTreeMap::new();
     all.retain(|d| {
         let count = counts.entry(d.fault.code()).or_default();
@@ -79,8 +88,18 @@ pub fn print(
     Ok(())
 }
 
+/// Whether two faults at one place are one to the reader: several steps may find the same, and a
+/// pass and a back-end may both have no words for a place.
+fn same(a: &Fault, b: &Fault) -> bool {
+    a == b || matches!((a, b), (Fault::CannotSay { .. }, Fault::CannotSay { .. }))
+}
+
 fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
-    let range = |span| told.excerpt.range(lines, span).unwrap_or(0..0);
+    let range = |span| {
+        let range = told.excerpt.range(lines, span).unwrap_or(0..0);
+        let cut = told.excerpt.cut(range.start, LONGEST_LABEL);
+        range.start..range.end.min(cut)
+    };
     let mut labels = vec![Label::primary((), range(told.place.span)).with_message(&told.place.label)];
     for place in &told.related {
         labels.push(Label::secondary((), range(place.span)).with_message(&place.label));

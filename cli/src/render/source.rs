@@ -228,6 +228,12 @@ impl Excerpt {
         (before.get(from..).unwrap_or(""), &after[..to])
     }
 
+    /// The place so many characters after a place of the excerpt's text.
+    pub fn cut(&self, from: usize, characters: usize) -> usize {
+        let rest = self.text.get(from..).unwrap_or("");
+        rest.char_indices().nth(characters).map_or(self.text.len(), |(at, _)| from + at)
+    }
+
     /// Line and column of a place, both counted from 1; a column is a character.
     pub fn location(&self, lines: &Lines, place: u32) -> Option<(u64, u64)> {
         let range = self.range(lines, Span::new(place, place))?;

@@ -7,6 +7,7 @@ use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 
 use super::About;
+use super::human::{Loudness, told};
 use super::source::Lines;
 use super::words::{Context, plain, plural, words, work_offset};
 use crate::head::assumption;
@@ -86,9 +87,9 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
 
 fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
     write!(out, ", ")?;
-    let stopping = outcome.diagnostics.iter().filter(|d| about.job.refuses(d));
-    let errors = stopping.clone().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
-    let losses = stopping.count() as u64 - errors;
+    let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
+    let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
+    let losses = stopping.len() as u64 - errors;
     match outcome.release {
         Err(Failure::VerificationFailed) => {
             coloured(out, Color::Red, "verification failed")?;
