@@ -7,7 +7,8 @@ use ncc_ir::program::{Call, Op};
 
 use super::Source;
 use super::facts::State;
-use super::lower::{Code, Lower, Words};
+use super::lower::Lower;
+use super::sort::{Code, Words};
 use crate::Batch;
 
 /// Most calls by one word.

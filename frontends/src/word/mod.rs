@@ -16,11 +16,15 @@ mod cycle;
 mod facts;
 mod fast;
 mod frame;
+mod functions;
 mod lower;
 mod motion;
 mod number;
+mod pattern;
 mod plain;
+mod sort;
 #[cfg(test)]
+#[path = "../../tests/word/mod.rs"]
 mod tests;
 mod token;
 

@@ -11,7 +11,8 @@ use ncc_ir::source::Span;
 
 use super::Source;
 use super::facts::{InForce, Know};
-use super::lower::{Code, Lower, Words, motion_of};
+use super::lower::Lower;
+use super::sort::{Code, Words, motion_of};
 use crate::Batch;
 
 impl Lower {

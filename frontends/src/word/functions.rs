@@ -1,0 +1,217 @@
+//! Lowering of the functions that stand for themselves: modes, feed, speed and tool words, spindle
+//! and coolant, dwell, length offsets, stops.
+//!
+//! Moves, cycles and calls have files of their own.
+
+use ncc_dialects::{Meaning, Quantity};
+use ncc_ir::canon::Motion;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::Num;
+use ncc_ir::program::{FrameSlot, Op};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::block::{Block, Word};
+use super::facts::{InForce, Know};
+use super::lower::Lower;
+use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words, rank};
+use crate::Batch;
+
+impl Lower {
+    /// The block's functions, in the order in which they happen.
+    pub(super) fn functions(
+        &mut self,
+        block: &Block,
+        codes: &[Code],
+        words: &mut Words,
+        level: Option<u8>,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let first_function = codes.partition_point(|c| rank(c.meaning) < RANK_WORDS);
+        let (settings, functions) = codes.split_at(first_function);
+        let before_motion = functions.partition_point(|c| rank(c.meaning) < RANK_MOTION);
+        let (before, rest) = functions.split_at(before_motion);
+        let motion_end = rest.partition_point(|c| rank(c.meaning) < RANK_AFTER);
+        let (motion, after) = rest.split_at(motion_end);
+
+        for code in settings {
+            self.setting(code, out);
+        }
+        self.feed_word(motion, words, src, out);
+        self.speed_and_tool(words, src, out);
+        let mut dwell = false;
+        for code in before {
+            self.skip_in_tail(block, code, level);
+            dwell |= code.meaning == Meaning::Dwell;
+            self.function(code, words, src, out);
+        }
+        self.now.skip = if block.tail.is_some() { None } else { level };
+        self.corrector(words, src, out);
+        self.motion_codes(motion, dwell, block.span, words, src, out);
+        for code in after {
+            self.skip_in_tail(block, code, level);
+            self.function(code, words, src, out);
+        }
+    }
+
+    /// The skip level of a code's statement, where the mark stands amid the words.
+    fn skip_in_tail(&mut self, block: &Block, code: &Code, level: Option<u8>) {
+        if let Some(tail) = block.tail {
+            self.now.skip = if code.at >= tail { level } else { None };
+        }
+    }
+
+    /// Sets a mode; also for a block that is refused.
+    pub(super) fn set_mode(&mut self, meaning: Meaning, out: &mut Batch) {
+        match meaning {
+            Meaning::UseLengthUnits(units) => {
+                self.state.units = Know::Said(units);
+                self.see_units(units, out);
+            }
+            Meaning::SelectPlane(plane) => self.state.plane = Know::Said(plane),
+            Meaning::SetDistanceMode(distance) => self.state.distance = Know::Said(distance),
+            Meaning::SetFeedMode(mode) => self.state.feed_mode = Know::Said(mode),
+            Meaning::SetReturnLevel(level) => {
+                self.now.recall |= self.state.return_level.value() != Some(level);
+                self.state.return_level = Know::Said(level);
+            }
+            Meaning::SetOriginOffsets(offset) => self.state.work_offset = Know::Said(offset),
+            Meaning::ClearFrame(FrameSlot::Shift) => self.state.no_shift = Know::Said(true),
+            Meaning::StraightTraverse => self.state.motion = Know::Said(Motion::Traverse),
+            Meaning::StraightFeed => self.state.motion = Know::Said(Motion::Feed),
+            Meaning::ArcFeed(turn) => self.state.motion = Know::Said(Motion::Arc(turn)),
+            Meaning::EndCycle => self.state.cycle = InForce::None,
+            _ => {}
+        }
+    }
+
+    fn setting(&mut self, code: &Code, out: &mut Batch) {
+        if let (Meaning::SelectPlane(plane), InForce::Active(active)) = (code.meaning, &self.state.cycle)
+            && active.plane.known() != Some(plane)
+        {
+            let name = "change of the plane while a cycle is in force".into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+        }
+        self.set_mode(code.meaning, out);
+        let op = match code.meaning {
+            Meaning::NoEffect => {
+                let name = code.row.code.as_str();
+                if self.assume && self.first_time(code.row) {
+                    out.report(Fault::AssumedNoEffect { code: name.into() }, code.span);
+                }
+                Op::NoEffect(name.into())
+            }
+            Meaning::UseLengthUnits(units) => Op::UseLengthUnits(units),
+            Meaning::SelectPlane(plane) => Op::SelectPlane(plane),
+            Meaning::SetDistanceMode(distance) => Op::SetDistanceMode(distance),
+            Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
+            Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
+            Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
+            Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
+            Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
+            _ => return,
+        };
+        self.push(code.span, op, out);
+    }
+
+    /// Speed and tool words.
+    fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        if let Some(word) = words.take(self.roles.speed)
+            && let Some(num) = self.number(&word, Quantity::Speed, src, out)
+        {
+            self.push(word.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
+        }
+        if let Some(word) = words.take(self.roles.tool) {
+            self.state.tool = Know::Said(());
+            if let Some(num) = self.entry(&word, src, out) {
+                self.push(word.span, Op::SelectTool(Expr::Num(num)), out);
+            }
+        }
+    }
+
+    /// A number of a table's entry, or of a tool: whole, not negative.
+    pub(super) fn entry(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<Num> {
+        let whole = self.whole(word, src, out)?;
+        Some(Num::int(i64::from(whole), ncc_ir::num::Unit::One))
+    }
+
+    /// A code that stands for itself, before or after the motion.
+    fn function(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
+        let op = match code.meaning {
+            Meaning::ChangeTool => {
+                if self.state.tool == Know::Unsaid {
+                    self.fault(Fault::NoToolSelected, code.span, out);
+                }
+                Op::ChangeTool
+            }
+            Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
+            Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
+            Meaning::StopSpindleTurning => Op::StopSpindleTurning,
+            Meaning::FloodOn => Op::FloodOn,
+            Meaning::MistOn => Op::MistOn,
+            Meaning::CoolantOff => Op::CoolantOff,
+            Meaning::Dwell => {
+                let found =
+                    code.row.dwell.iter().find_map(|d| Some((words.take(d.letter as u8)?, d.quantity)));
+                let Some((word, quantity)) = found else {
+                    let word = code.row.dwell.first().map_or(' ', |d| d.letter).to_string().into();
+                    let code_text = code.row.code.as_str().into();
+                    return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+                };
+                match self.number(&word, quantity, src, out) {
+                    Some(num) => Op::Dwell(Expr::Num(num)),
+                    None => return,
+                }
+            }
+            Meaning::UseToolLengthOffset => {
+                let Some(word) = words.take(self.roles.length_entry) else {
+                    let word = char::from(self.roles.length_entry).to_string().into();
+                    let code_text = code.row.code.as_str().into();
+                    return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+                };
+                return self.length_offset(&word, code.span.to(word.span), words, src, out);
+            }
+            Meaning::CancelToolLengthOffset => {
+                self.state.length_offset = Know::Said(());
+                Op::UseToolLengthOffset(Expr::int(0))
+            }
+            Meaning::ProgramStop => Op::ProgramStop,
+            Meaning::OptionalProgramStop => Op::OptionalProgramStop,
+            Meaning::ProgramEnd => {
+                self.ended |= self.now.skip.is_none();
+                Op::ProgramEnd
+            }
+            Meaning::Call => return self.call(code, words, src, out),
+            Meaning::Return => return self.return_from(code, out),
+            _ => return,
+        };
+        self.push(code.span, op, out);
+    }
+
+    /// A word that takes up a length entry by itself.
+    fn corrector(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        let Some(word) = words.take(self.roles.corrector) else {
+            return;
+        };
+        if self.option("o_word", word.span, out) == "ignore" {
+            let _ = self.whole(&word, src, out);
+            self.state.length_offset = Know::Said(());
+            return;
+        }
+        self.length_offset(&word, word.span, words, src, out);
+    }
+
+    fn length_offset(&mut self, word: &Word, span: Span, words: &Words, src: Source, out: &mut Batch) {
+        self.state.length_offset = Know::Said(());
+        let Some(num) = self.entry(word, src, out) else {
+            return;
+        };
+        let with_z = words.get(b'Z').is_some();
+        if self.assume && !with_z && !std::mem::replace(&mut self.reported.offset_with_z, true) {
+            out.report(Fault::AssumedOffsetWithZ, span);
+        }
+        self.push(span, Op::UseToolLengthOffset(Expr::Num(num)), out);
+    }
+}

@@ -1,0 +1,261 @@
+//! Sorting of a block's words: codes, looked up in the dictionary and put in the order in which
+//! their functions happen, and the other words by their letters.
+//!
+//! What must not stand together is refused here. Not here: what the words do.
+
+use ncc_dialects::{CodeRow, Dialect, Meaning, Role};
+use ncc_ir::canon::Motion;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::block::{Block, Value, Word};
+use super::lower::Lower;
+use crate::Batch;
+
+/// Letters by role; 0 where the dialect has none.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Roles {
+    pub(super) feed: u8,
+    pub(super) speed: u8,
+    pub(super) tool: u8,
+    pub(super) length_entry: u8,
+    pub(super) corrector: u8,
+    pub(super) radius: u8,
+    pub(super) centre: [u8; 3],
+    /// Letters of axes, a bit each.
+    pub(super) axes: u32,
+}
+
+impl Roles {
+    pub(super) fn new(dialect: &Dialect) -> Roles {
+        let letter = |role| dialect.letter_for(role).map_or(0, |c| c as u8);
+        let axes = dialect.address.iter().filter(|row| row.role == Role::Axis);
+        Roles {
+            feed: letter(Role::Feed),
+            speed: letter(Role::Speed),
+            tool: letter(Role::Tool),
+            length_entry: letter(Role::LengthEntry),
+            corrector: letter(Role::Corrector),
+            radius: letter(Role::Radius),
+            centre: [letter(Role::CentreX), letter(Role::CentreY), letter(Role::CentreZ)],
+            axes: axes.fold(0, |bits, row| bits | 1 << (row.letter as u8).saturating_sub(b'A')),
+        }
+    }
+}
+
+/// A G or M code of a block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Code {
+    pub(super) row: &'static CodeRow,
+    pub(super) meaning: Meaning,
+    pub(super) span: Span,
+    /// Index of its word.
+    pub(super) at: usize,
+}
+
+/// The words of a block that are no codes, each to be used once.
+#[derive(Debug)]
+pub(super) struct Words<'b> {
+    pub(super) all: &'b [Word],
+    /// Index plus one, by letter.
+    pub(super) at: [u16; 26],
+    /// Letters that are still to be used, a bit each.
+    pub(super) left: u32,
+}
+
+impl Words<'_> {
+    /// The word of a letter, which is then used.
+    #[inline]
+    pub(super) fn take(&mut self, letter: u8) -> Option<Word> {
+        let word = self.get(letter)?;
+        self.left &= !(1 << (letter - b'A'));
+        Some(word)
+    }
+
+    /// Whether any of these letters (a bit each) is still to be used.
+    #[inline]
+    pub(super) fn has_any(&self, letters: u32) -> bool {
+        self.left & letters != 0
+    }
+
+    /// The word of a letter, if it is still to be used.
+    #[inline]
+    pub(super) fn get(&self, letter: u8) -> Option<Word> {
+        let place = usize::from(letter.wrapping_sub(b'A'));
+        if place >= 26 || self.left >> place & 1 == 0 {
+            return None;
+        }
+        Some(self.all[usize::from(self.at[place]) - 1])
+    }
+}
+
+impl Lower {
+    /// Tells codes from other words, and finds what must not stand together.
+    pub(super) fn sort_words<'b>(
+        &mut self,
+        block: &'b Block,
+        codes: &mut Vec<Code>,
+        words: &mut Words<'b>,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let dialect = self.settings.dialect;
+        let number_letter = dialect.block.number.map_or(0, |c| c as u8);
+        let mut counts = [0u8; 2];
+        for (at, word) in block.words.iter().enumerate() {
+            if word.value == Value::None && !dialect.block.omitted_zero {
+                let letter = char::from(word.letter);
+                self.fault(Fault::WordWithoutNumber { letter }, word.span, out);
+                self.now.refused = true;
+            }
+            match word.letter {
+                b'G' | b'M' => {
+                    let m = usize::from(word.letter == b'M');
+                    counts[m] = counts[m].saturating_add(1);
+                    let limit = if m == 1 { dialect.block.m_codes } else { dialect.block.g_codes };
+                    if limit != 0 && counts[m] == limit + 1 {
+                        let letter = char::from(word.letter);
+                        self.fault(Fault::TooManyCodes { letter, limit }, word.span, out);
+                    }
+                    self.code(at, word, codes, src, out);
+                }
+                letter if letter == number_letter => {
+                    if self.now.number.is_some() {
+                        self.fault(Fault::WordTwice { letter: char::from(letter) }, word.span, out);
+                    }
+                    self.now.number = self.whole(word, src, out);
+                }
+                letter => {
+                    let place = usize::from(letter.wrapping_sub(b'A'));
+                    let Some(row) = self.letters.get(place).copied().flatten() else {
+                        self.fault(Fault::UnknownCode { code: src.text(word.span) }, word.span, out);
+                        continue;
+                    };
+                    if words.at[place] != 0 {
+                        self.fault(Fault::WordTwice { letter: char::from(letter) }, word.span, out);
+                    }
+                    words.at[place] = (at + 1) as u16;
+                    words.left |= 1 << place;
+                    let reported = self.reported.letters >> place & 1 == 1;
+                    if !row.sure && self.assume && !reported {
+                        self.reported.letters |= 1 << place;
+                        let meaning = role_name(row.role).into();
+                        out.report(
+                            Fault::AssumedRow { code: char::from(letter).to_string().into(), meaning },
+                            word.span,
+                        );
+                    }
+                }
+            }
+        }
+        codes.sort_by_key(|c| rank(c.meaning));
+    }
+
+    /// Looks a code up.
+    fn code(&mut self, at: usize, word: &Word, codes: &mut Vec<Code>, src: Source, out: &mut Batch) {
+        let dialect = self.settings.dialect;
+        let tenths = match word.value {
+            Value::None => Some(0),
+            Value::Number(d) if d.scale == 0 => d.mantissa.checked_mul(10),
+            Value::Number(d) if d.scale == 1 => Some(d.mantissa),
+            Value::Number(_) => None,
+        };
+        let tenths = tenths.and_then(|t| u32::try_from(t).ok());
+        let Some(row) = tenths.and_then(|t| dialect.code_row(word.letter, t)) else {
+            self.now.refused = true;
+            return self.fault(Fault::UnknownCode { code: src.text(word.span) }, word.span, out);
+        };
+        if word.letter == b'M' && matches!(word.value, Value::Number(d) if d.point) {
+            self.fault(Fault::PointNotAllowed { word: src.text(word.span) }, word.span, out);
+        }
+        let Some(meaning) = row.means else {
+            self.now.refused = true;
+            let cycles = dialect.code_for(Meaning::StartCycle).map(|row| row.group.as_str());
+            self.now.cycle_refused |= cycles == Some(&row.group);
+            let name = row.refuse.as_deref().unwrap_or_default().into();
+            return self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, word.span, out);
+        };
+        if let Some(other) = codes.iter().find(|c| !row.group.is_empty() && c.row.group == row.group) {
+            let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(word.span) };
+            self.now.failed = true;
+            out.diagnostics.push(Diagnostic { fault, span: word.span, related: vec![other.span] });
+        }
+        if !row.sure {
+            self.assume_row(row, &meaning.to_string(), word.span, out);
+        }
+        codes.push(Code { row, meaning, span: word.span, at });
+    }
+
+    /// A skip mark amid the words counts for what follows it. That is taken only of M codes that
+    /// stand for themselves; anything else would be a different block, not a shorter one.
+    pub(super) fn check_tail(&mut self, block: &Block, codes: &[Code], out: &mut Batch) {
+        let Some(tail) = block.tail else {
+            return;
+        };
+        let words = block.words.get(tail..).unwrap_or_default();
+        let calls = codes.iter().any(|c| matches!(c.meaning, Meaning::Call | Meaning::Return));
+        if calls || words.iter().any(|w| w.letter != b'M') {
+            let name = "block skip amid the words of a block".into();
+            self.fault(Fault::NotSupported { code: "/".into(), name }, block.span, out);
+        }
+    }
+}
+
+pub(super) const RANK_WORDS: u8 = 10;
+pub(super) const RANK_MOTION: u8 = 20;
+pub(super) const RANK_AFTER: u8 = 30;
+
+/// When a code's function happens within its block.
+pub(super) fn rank(meaning: Meaning) -> u8 {
+    match meaning {
+        Meaning::NoEffect => 0,
+        Meaning::UseLengthUnits(_) => 1,
+        Meaning::SelectPlane(_) => 2,
+        Meaning::SetDistanceMode(_) => 3,
+        Meaning::SetFeedMode(_) => 4,
+        Meaning::SetOriginOffsets(_) => 5,
+        Meaning::ClearFrame(_) => 6,
+        Meaning::SetReturnLevel(_) => 7,
+        Meaning::StopCutterRadiusCompensation => 8,
+        // Feed, speed and tool words.
+        Meaning::ChangeTool => RANK_WORDS,
+        Meaning::StartSpindleClockwise | Meaning::StartSpindleCounterclockwise => 11,
+        Meaning::FloodOn | Meaning::MistOn => 12,
+        Meaning::Dwell => 13,
+        Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
+        Meaning::EndCycle => RANK_MOTION,
+        Meaning::StraightTraverse | Meaning::StraightFeed | Meaning::ArcFeed(_) => 21,
+        Meaning::StartCycle | Meaning::Pattern => 22,
+        Meaning::StopSpindleTurning => RANK_AFTER,
+        Meaning::CoolantOff => 31,
+        Meaning::ProgramStop | Meaning::OptionalProgramStop => 32,
+        Meaning::ProgramEnd => 33,
+        Meaning::Call | Meaning::Return => 34,
+    }
+}
+
+/// The motion of a motion code.
+pub(super) fn motion_of(meaning: Meaning) -> Option<Motion> {
+    match meaning {
+        Meaning::StraightTraverse => Some(Motion::Traverse),
+        Meaning::StraightFeed => Some(Motion::Feed),
+        Meaning::ArcFeed(turn) => Some(Motion::Arc(turn)),
+        _ => None,
+    }
+}
+
+fn role_name(role: Role) -> &'static str {
+    match role {
+        Role::Axis => "axis",
+        Role::CentreX | Role::CentreY | Role::CentreZ => "centre of an arc",
+        Role::Radius => "radius of an arc",
+        Role::Feed => "feed",
+        Role::Speed => "spindle speed",
+        Role::Tool => "tool",
+        Role::LengthEntry => "entry of the length table",
+        Role::Corrector => "tool corrector",
+        Role::RadiusEntry => "entry of the radius table",
+        Role::Parameter => "parameter of codes",
+    }
+}
