@@ -158,7 +158,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
         let what = match &event.kind {
             Kind::Traverse => Happening::Traverse,
             Kind::Feed => Happening::Feed,
-            Kind::Arc { plane, turn, turns, full, centre } => {
+            Kind::Arc { plane, turn, full, centre } => {
                 let (normal, first, second) = match plane {
                     Plane::Xy => (2, 0, 1),
                     Plane::Zx => (1, 2, 0),
@@ -172,7 +172,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                     Turn::Clockwise if *full => -360.0,
                     Turn::Clockwise => partial - 360.0,
                 };
-                let sweep = once + once.signum() * 360.0 * f64::from(*turns);
+                let sweep = once;
                 let radius = (from[first] - centre[0]).hypot(from[second] - centre[1]);
                 Happening::Arc { normal, centre, sweep, radius }
             }

@@ -18,10 +18,10 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
     let mut text = match &event.kind {
         Kind::Traverse => "a rapid".to_owned(),
         Kind::Feed => "a feed move".to_owned(),
-        Kind::Arc { plane, turn, turns, full, centre } => {
+        Kind::Arc { plane, turn, full, centre } => {
             let (first, second, _) = plane.axes();
             format!(
-                "{} {} about {}{} {}{}{}",
+                "{} {} about {}{} {}{}",
                 match turn {
                     Turn::Clockwise => "a clockwise",
                     Turn::Counterclockwise => "a counter-clockwise",
@@ -31,7 +31,6 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
                 number(centre[0]),
                 second.letter() as char,
                 number(centre[1]),
-                if *turns > 0 { format!(" with {turns} further turns") } else { String::new() },
             )
         }
         Kind::Dwell(seconds) => format!("a dwell of {} s", number(*seconds)),

@@ -18,7 +18,7 @@ use ncc_ir::source::Span;
 use crate::chunks::{Chunk, Chunks};
 use crate::head;
 use crate::job::{Failure, Job, Outcome, Output};
-use crate::verify_run::{Stop, Verifier};
+use crate::verify_run::{Stop, Verifier, fixed};
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -61,6 +61,8 @@ struct Line<'j> {
     writer: Writer,
     text: Vec<u8>,
     verifier: Option<Verifier>,
+    /// Facts that always hold for the source's control and were stated for the target's.
+    given: Modes,
     output: Output,
     written: u64,
     diagnostics: Vec<Diagnostic>,
@@ -85,6 +87,7 @@ impl<'j> Line<'j> {
             writer,
             text: Vec::new(),
             verifier: job.verify.then(|| Verifier::new(job)),
+            given: Modes::default(),
             output: Output::new(),
             written: 0,
             diagnostics: Vec::new(),
@@ -117,10 +120,19 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let assumed = self.batch.assumed;
-        self.check(|v| v.source(stmts, &assumed));
         let mut found = Vec::new();
-        self.legaliser.run(stmts, &assumed, &mut found);
-        self.writer.write(stmts, &assumed, &mut self.text, &mut found);
+        self.state_given(stmts);
+        if self.legaliser.touches(stmts) {
+            // What the passes take for granted holds for the source as well.
+            let original = stmts.clone();
+            self.legaliser.run(stmts, &assumed, &mut found);
+            self.take_parameters(&found);
+            self.check(|v| v.source(&original, &assumed));
+        } else {
+            self.legaliser.run(stmts, &assumed, &mut found);
+            self.check(|v| v.source(stmts, &assumed));
+        }
+        self.writer.write(stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
         self.take(found);
         self.release_text(&assumed)
     }
@@ -142,7 +154,7 @@ impl<'j> Line<'j> {
         let assumed = self.batch.assumed;
         let mut found = Vec::new();
         self.legaliser.finish(&mut stmts, &mut found);
-        self.writer.write(&stmts, &assumed, &mut self.text, &mut found);
+        self.writer.write(&stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
         self.writer.finish(&mut self.text, &mut found);
         self.take(found);
         self.release_text(&assumed)?;
@@ -158,11 +170,18 @@ impl<'j> Line<'j> {
         procedures.append(&mut self.batch.procedures);
         let source = Program { name: self.batch.name.clone(), assumed, procedures };
         let mut program = source.clone();
+        if let Some(main) = program.procedures.first_mut() {
+            self.state_given(&mut main.body);
+        }
         let mut found = Vec::new();
         self.legaliser.run_program(&mut program, &mut found);
+        self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {
             match at {
-                0 => self.writer.write(&procedure.body, &assumed, &mut self.text, &mut found),
+                0 => {
+                    let taken = without(&assumed, &self.given);
+                    self.writer.write(&procedure.body, &taken, &mut self.text, &mut found);
+                }
                 _ => self.writer.procedure(procedure, &mut self.text, &mut found),
             }
         }
@@ -175,10 +194,46 @@ impl<'j> Line<'j> {
         self.output.push(&text)
     }
 
+    /// Lets the verification's worlds have the machine parameters that the passes took for granted.
+    fn take_parameters(&mut self, found: &[Diagnostic]) {
+        let taken = found.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. }));
+        let clearance = peck_clearance(self.job).and_then(|value| value.nanos(false));
+        if let (true, Some(clearance), Some(verifier)) = (taken, clearance, &mut self.verifier) {
+            verifier.set_peck_clearance(clearance);
+        }
+    }
+
+    /// Makes statements of facts that always hold for the source's control, and not for the
+    /// target's, as soon as the program relies on them. (A target with a safe start states them there.)
+    fn state_given(&mut self, stmts: &mut Vec<Stmt>) {
+        if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
+            return;
+        }
+        let always = without(&fixed(self.job.from.dialect), &fixed(self.job.to.dialect));
+        let relied = self.batch.assumed;
+        let at =
+            stmts.iter().position(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).unwrap_or(stmts.len());
+        let Some(span) = stmts.get(at).map(|s| s.span) else { return };
+        let mut new = Vec::new();
+        if let (Some(d), Some(_), None) = (always.distance, relied.distance, self.given.distance) {
+            self.given.distance = Some(d);
+            new.push(Stmt::new(span, Op::SetDistanceMode(d)));
+        }
+        if let (Some(u), Some(_), None) = (always.units, relied.units, self.given.units) {
+            self.given.units = Some(u);
+            new.push(Stmt::new(span, Op::UseLengthUnits(u)));
+        }
+        if let (Some(p), Some(_), None) = (always.plane, relied.plane, self.given.plane) {
+            self.given.plane = Some(p);
+            new.push(Stmt::new(span, Op::SelectPlane(p)));
+        }
+        stmts.splice(at..at, new);
+    }
+
     /// Assumed facts that the output does not state itself, and what was taken for granted of the
     /// target.
     fn inherited(&self, assumed: &Modes) -> Modes {
-        let facts = without(assumed, &self.writer.stated());
+        let facts = without(&without(assumed, &self.writer.stated()), &self.given);
         let taken = self.legaliser.taken();
         Modes {
             work_offset: taken.work_offset.or(facts.work_offset),
@@ -327,9 +382,10 @@ fn legal_decimals(job: &Job) -> u8 {
 }
 
 /// The source control's clearance of the peck cycle, needed where the cycle is written out.
-fn peck_clearance(job: &Job) -> Option<Num> {
+pub(crate) fn peck_clearance(job: &Job) -> Option<Num> {
     let text = job.from.get("peck_clearance");
     let (whole, part) = text.split_once('.').unwrap_or((text, ""));
     let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
-    (part.len() < 10).then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
+    (part.len() < 10)
+        .then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
 }

@@ -60,7 +60,7 @@ pub(crate) struct Verifier {
 }
 
 /// Facts that hold at power-on of every such control.
-fn fixed(dialect: &Dialect) -> Modes {
+pub(crate) fn fixed(dialect: &Dialect) -> Modes {
     let p = &dialect.power_on;
     Modes {
         motion: p.motion.as_ref().filter(|f| f.always).map(|f| f.value.into()),
@@ -105,6 +105,11 @@ impl Verifier {
                 }
             })
             .collect();
+        let mut runs: Vec<Run> = runs;
+        if !job.to.dialect.caps.messages {
+            // Their loss is a verdict of its own, that stops unless it is allowed.
+            runs.iter_mut().for_each(|run| run.source.mute());
+        }
         Verifier {
             reader: Reader::new(job.to.clone(), false),
             batch: Batch::default(),
@@ -114,6 +119,14 @@ impl Verifier {
             start: job.start,
             stood: false,
             last: Span::default(),
+        }
+    }
+
+    /// The clearance of peck drilling that was taken for granted of both controls, in nanos.
+    pub(crate) fn set_peck_clearance(&mut self, clearance: Nanos) {
+        for run in &mut self.runs {
+            run.source.set_peck_clearance(clearance);
+            run.target.set_peck_clearance(clearance);
         }
     }
 
@@ -169,7 +182,13 @@ impl Verifier {
     }
 
     /// Ends a program of which the rest was kept whole: runs both rests against each other.
-    pub(crate) fn whole(&mut self, source: &Program, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
+    pub(crate) fn whole(
+        &mut self,
+        source: &Program,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+    ) -> Result<(), Stop> {
         for procedure in &source.procedures {
             self.prepare(&procedure.body, &source.assumed);
         }

@@ -140,8 +140,8 @@ pub struct Arc {
 /// How an arc's centre is given.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Centre {
-    /// Words along X, Y and Z; only the two of the plane count, a missing one is 0 from
-    /// [`CentreFrom::Start`] and the start point's own coordinate from [`CentreFrom::Zero`].
+    /// Words along X, Y and Z; only the two of the plane count. A missing one is 0 from
+    /// [`CentreFrom::Start`], and an error from [`CentreFrom::Zero`].
     Point {
         /// The words (I, J, K).
         words: [Option<Expr>; 3],

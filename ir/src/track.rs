@@ -92,7 +92,8 @@ impl Tracker {
             Centre::Point { words, from } => {
                 let along = |axis: Axis| -> Option<Nanos> {
                     match (&words[axis as usize], from) {
-                        (None, _) => at(axis),
+                        (None, CentreFrom::Start) => at(axis),
+                        (None, CentreFrom::Zero) => None,
                         (Some(word), CentreFrom::Zero) => self.nanos(word),
                         (Some(word), CentreFrom::Start) => at(axis)?.checked_add(self.nanos(word)?),
                     }

@@ -173,13 +173,13 @@ impl Comparison {
         match (&a.kind, &b.kind) {
             (Kind::Feed, Kind::Feed) | (Kind::Traverse, Kind::Traverse) => {}
             (
-                Kind::Arc { plane, turn, turns, full, centre },
-                Kind::Arc { plane: p2, turn: t2, turns: n2, full: f2, centre: c2 },
+                Kind::Arc { plane, turn, full, centre },
+                Kind::Arc { plane: p2, turn: t2, full: f2, centre: c2 },
             ) => {
                 // The centre follows from the rounded start and a rounded word, so it may be off by
                 // up to one and a half times what an end point may.
                 let half = self.half[usize::from(b.inch)] * 3 / 2;
-                let same = plane == p2 && turn == t2 && turns == n2 && full == f2;
+                let same = plane == p2 && turn == t2 && full == f2;
                 if !same || !near(centre[0], c2[0], half) || !near(centre[1], c2[1], half) {
                     return Some(Aspect::Arc);
                 }

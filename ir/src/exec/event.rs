@@ -35,8 +35,6 @@ pub enum Kind {
         plane: Plane,
         /// Its sense, seen from the positive end of the plane's normal.
         turn: Turn,
-        /// Full turns beyond the first, partial one.
-        turns: u32,
         /// Whether start and end are one point of the plane: a whole circle.
         full: bool,
         /// Its centre in the plane, machine coordinates.

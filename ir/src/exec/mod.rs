@@ -26,6 +26,9 @@ const Z: usize = Axis::Z as usize;
 /// Greatest difference of an arc's two radii, 0.02 mm; a control's parameter is of this order.
 const ARC_TOLERANCE: Nanos = ONE / 50;
 
+/// Most turns of one arc; more is a slip of the pen.
+const MOST_TURNS: u32 = 10_000;
+
 /// A control that executes statements one by one.
 #[derive(Clone, Debug)]
 pub struct Exec {
@@ -49,6 +52,8 @@ pub struct Exec {
     cycle: Option<InForce>,
     /// Whether the program has ended.
     ended: bool,
+    /// Whether messages make no events.
+    muted: bool,
 }
 
 /// Modes in force; a control always has a value for each.
@@ -102,6 +107,7 @@ impl Exec {
             state: State::default(),
             cycle: None,
             ended: false,
+            muted: false,
         };
         exec.reframe(world.start);
         exec
@@ -185,6 +191,16 @@ impl Exec {
     pub fn be_at(&mut self, machine: [Nanos; AXES]) {
         self.last = machine;
         self.position = std::array::from_fn(|i| machine[i].wrapping_sub(self.frame[i]));
+    }
+
+    /// Makes no events of messages: for a comparison with a control that cannot show them.
+    pub fn mute(&mut self) {
+        self.muted = true;
+    }
+
+    /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
+    pub fn set_peck_clearance(&mut self, clearance: Nanos) {
+        self.world.peck_clearance = clearance;
     }
 
     /// Sets the block-skip switches: bit n is level n.
@@ -355,13 +371,12 @@ impl Exec {
             Centre::Point { words, from } => {
                 let mut centre = start;
                 for (c, axis) in centre.iter_mut().zip([f, s]) {
-                    if let Some(word) = &words[axis] {
-                        let value = self.value(word, span)?;
-                        *c = match from {
-                            CentreFrom::Start => before[axis].wrapping_add(value),
-                            CentreFrom::Zero => value,
-                        };
-                    }
+                    *c = match (&words[axis], from) {
+                        (Some(word), CentreFrom::Start) => before[axis].wrapping_add(self.value(word, span)?),
+                        (Some(word), CentreFrom::Zero) => self.value(word, span)?,
+                        (None, CentreFrom::Start) => before[axis],
+                        (None, CentreFrom::Zero) => return self.fault(Fault::ArcWithoutCentre, span),
+                    };
                 }
                 geometry::check_on_circle(start, end, centre, ARC_TOLERANCE).map(|()| centre)
             }
@@ -379,11 +394,40 @@ impl Exec {
         self.modes.motion = Motion::Arc(arc.turn);
         self.said |= MOTION;
         self.cycle = None;
+        let centre_here = [centre[0] + self.frame[f], centre[1] + self.frame[s]];
+        let kind = |full| Kind::Arc { plane, turn: arc.turn, full, centre: centre_here };
+        if arc.turns > 0 {
+            self.whole_turns(arc, [start, end, centre], &before, &kind(true), span, out)?;
+        }
         self.last = self.machine();
-        let machine_centre = [centre[0] + self.frame[f], centre[1] + self.frame[s]];
-        let kind =
-            Kind::Arc { plane, turn: arc.turn, turns: arc.turns, full: start == end, centre: machine_centre };
-        self.emit(kind, span, out)
+        self.emit(kind(start == end), span, out)
+    }
+
+    /// The whole turns of an arc of several: an event each; the third axis goes with the angle.
+    fn whole_turns(
+        &mut self,
+        arc: &Arc,
+        [start, end, centre]: [[Nanos; 2]; 3],
+        before: &[Nanos; AXES],
+        kind: &Kind,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if arc.turns > MOST_TURNS {
+            return self.fault(Fault::OutOfRange { word: "number of turns".into() }, span);
+        }
+        let (first, second, _) = arc.plane.or(self.modes.plane).axes();
+        let total = geometry::sweep_degrees(start, end, centre, arc.turn, arc.turns).abs();
+        let (from, to) = (self.last, self.machine());
+        for k in 1..=arc.turns {
+            let part = 360.0 * f64::from(k) / total;
+            self.last = std::array::from_fn(|i| from[i] + ((to[i] - from[i]) as f64 * part).round() as Nanos);
+            for axis in [first as usize, second as usize] {
+                self.last[axis] = before[axis] + self.frame[axis];
+            }
+            self.emit(kind.clone(), span, out)?;
+        }
+        Ok(())
     }
 
     /// Everything but plain moves and feeds.
@@ -466,6 +510,7 @@ impl Exec {
                 self.emit(Kind::ProgramEnd, span, out)?;
                 self.ended = true;
             }
+            Op::Message(_) if self.muted => {}
             Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),

@@ -83,17 +83,7 @@ impl Legaliser {
     /// are the facts taken for granted so far.
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
-        let mut found = self.lacks & EVERY;
-        for stmt in stmts.iter() {
-            found |= interest(stmt);
-        }
-        let mut needs = found & self.lacks;
-        if self.length.is_busy() {
-            needs |= LENGTH;
-        }
-        if self.cycles.is_busy() {
-            needs |= CYCLE;
-        }
+        let needs = self.needs(stmts);
         if needs == 0 {
             if self.follow {
                 for stmt in stmts.iter() {
@@ -103,6 +93,27 @@ impl Legaliser {
             return;
         }
         self.mend(stmts, needs, assumed, diags);
+    }
+
+    /// Whether further statements of the main procedure would be rewritten.
+    pub fn touches(&self, stmts: &[Stmt]) -> bool {
+        self.needs(stmts) != 0
+    }
+
+    /// What further statements need that the target lacks.
+    fn needs(&self, stmts: &[Stmt]) -> u16 {
+        let mut found = self.lacks & EVERY;
+        for stmt in stmts {
+            found |= interest(stmt);
+        }
+        let mut needs = found & self.lacks;
+        if self.length.is_busy() {
+            needs |= LENGTH;
+        }
+        if self.cycles.is_busy() {
+            needs |= CYCLE;
+        }
+        needs
     }
 
     #[cold]
