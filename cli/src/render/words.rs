@@ -67,7 +67,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             (format!("{} is unknown", quoted(code)), format!("not in the dictionary of {from}"))
         }
         Fault::NotSupported { code, name } => {
-            (format!("{} is not translated: {}", quoted(code), plain(name)), "known by name alone".into())
+            (format!("{} is not translated: {}", quoted(code), plain(name)), "this version does not translate it".into())
         }
         Fault::CodesExclude { first, second } => (
             format!("{} and {} in one block", quoted(first), quoted(second)),
