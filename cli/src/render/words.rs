@@ -66,9 +66,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::UnknownCode { code } => {
             (format!("{} is unknown", quoted(code)), format!("not in the dictionary of {from}"))
         }
-        Fault::NotSupported { code, name } => {
-            (format!("{} is not translated: {}", quoted(code), plain(name)), "this version does not translate it".into())
-        }
+        Fault::NotSupported { code, name } => (
+            format!("{} is not translated: {}", quoted(code), plain(name)),
+            "this version does not translate it".into(),
+        ),
         Fault::CodesExclude { first, second } => (
             format!("{} and {} in one block", quoted(first), quoted(second)),
             "each would cancel the other: they are of one modal group".into(),
