@@ -98,7 +98,7 @@ impl Writer {
             None => return Err(cannot("a hole of a cycle that is not known")),
         }
         if to.to.is_empty() {
-            let to = self.stand_words(stmt.span)?;
+            let to = self.stand_words()?;
             return self.hole_words(&to, stmt.span, sink);
         }
         self.hole_words(&to.to, stmt.span, sink)
@@ -113,7 +113,7 @@ impl Writer {
     }
 
     /// Words for the position where the tool stands, on a control that needs some for a hole.
-    fn stand_words(&self, _: Span) -> Result<Point, Fault> {
+    fn stand_words(&self) -> Result<Point, Fault> {
         let plane = self.held.as_ref().and_then(|h| h.cycle.plane.known()).or(self.force.plane);
         let (first, second, _) = plane.unwrap_or(Plane::Xy).axes();
         let distance = self.force.distance;
