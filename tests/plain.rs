@@ -1,9 +1,7 @@
 //! Events in their plainest form, so that the second interpreter's, the compiler's and those of a
 //! book can be laid side by side. Millimetres, degrees, seconds, machine coordinates.
 
-use ncc_ir::canon::{
-    Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
-};
+use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle as Turning, Turn, Units};
 use ncc_ir::exec::{Event, Kind};
 use ncc_ir::num::Nanos;
 use ncc_ir::world::World;
@@ -167,12 +165,11 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 let centre = centre.map(mm);
                 let angle = |p: [f64; 6]| (p[second] - centre[1]).atan2(p[first] - centre[0]).to_degrees();
                 let partial = if *full { 360.0 } else { (angle(at) - angle(from)).rem_euclid(360.0) };
-                let once = match turn {
+                let sweep = match turn {
                     Turn::Counterclockwise => partial,
                     Turn::Clockwise if *full => -360.0,
                     Turn::Clockwise => partial - 360.0,
                 };
-                let sweep = once;
                 let radius = (from[first] - centre[0]).hypot(from[second] - centre[1]);
                 Happening::Arc { normal, centre, sweep, radius }
             }

@@ -47,12 +47,24 @@ pub fn pieces() -> impl Strategy<Value = Vec<Piece>> {
 }
 
 fn point() -> impl Strategy<Value = [Option<i32>; 3]> {
-    let word = || proptest::option::of(prop_oneof![Just(0), -200_000..200_000i32, (-200..200i32).prop_map(|v| v * 1000)]);
+    let word = || {
+        proptest::option::of(prop_oneof![
+            Just(0),
+            -200_000..200_000i32,
+            (-200..200i32).prop_map(|v| v * 1000)
+        ])
+    };
     [word(), word(), word()]
 }
 
 fn piece() -> impl Strategy<Value = Piece> {
-    let holes = (0..3u8, -5_000..15_000i32, 1..30_000i32, 1..900u16, vec((-99_000..99_000i32, -99_000..99_000i32), 1..5));
+    let holes = (
+        0..3u8,
+        -5_000..15_000i32,
+        1..30_000i32,
+        1..900u16,
+        vec((-99_000..99_000i32, -99_000..99_000i32), 1..5),
+    );
     prop_oneof![
         4 => point().prop_map(Piece::Rapid),
         4 => (point(), 1..3000u16).prop_map(|(p, f)| Piece::Feed(p, f)),
@@ -82,7 +94,9 @@ pub fn number(micrometres: i32) -> String {
 /// Spells a program: Mach-9 or Fanuc.
 pub fn spell(pieces: &[Piece], fanuc: bool) -> String {
     let mut out = match fanuc {
-        true => String::from("%\nO0007\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 Z20. H1\n"),
+        true => String::from(
+            "%\nO0007\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 Z20. H1\n",
+        ),
         false => String::from("G99\nG90\nG71\nG17\nT1M6\nO1S500M3\nG0X0.Y0.\nZ20.\n"),
     };
     let mut at = [0, 0, 20_000];
@@ -126,7 +140,9 @@ fn one(piece: &Piece, fanuc: bool, incremental: bool, at: &mut [i32; 3], out: &m
             let end = (number(at[0]), number(at[1]));
             match fanuc {
                 true => writeln!(out, "G0{g} X{} Y{} I{} J{} F300.", end.0, end.1, number(i), number(j)),
-                false => writeln!(out, "G{g}X{}Y{}I{}J{}F300", end.0, end.1, number(centre.0), number(centre.1)),
+                false => {
+                    writeln!(out, "G{g}X{}Y{}I{}J{}F300", end.0, end.1, number(centre.0), number(centre.1))
+                }
             }
         }
         Piece::Holes { kind, retract, depth, feed, at: places } => {
@@ -136,7 +152,12 @@ fn one(piece: &Piece, fanuc: bool, incremental: bool, at: &mut [i32; 3], out: &m
                 let dwell = if *kind == 1 { " P250" } else { "" };
                 for (index, (x, y)) in places.iter().enumerate() {
                     let _ = match index {
-                        0 => writeln!(out, "G99 G{g} X{} Y{} Z{z} R{r}{dwell} F{feed}.", number(*x), number(*y)),
+                        0 => writeln!(
+                            out,
+                            "G99 G{g} X{} Y{} Z{z} R{r}{dwell} F{feed}.",
+                            number(*x),
+                            number(*y)
+                        ),
                         _ => writeln!(out, "X{} Y{}", number(*x), number(*y)),
                     };
                 }

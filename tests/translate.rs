@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
-use ncc::job::{Job, Outcome};
-use ncc::render::human::{self, Loudness};
 use codespan_reporting::term::termcolor::NoColor;
+use ncc::job::{Job, Outcome};
 use ncc::render::About;
+use ncc::render::human::{self, Loudness};
 use ncc_dialects::{Settings, builtin};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::AXES;
@@ -102,5 +102,6 @@ pub fn execute(program: &Program, world: &World, skip: u16) -> Result<Vec<Event>
     let mut events = Vec::new();
     let mut runner = Runner::new(program);
     runner.run(&mut exec, usize::MAX, &mut events).map_err(|d| format!("{:?}", d.fault))?;
+    exec.end_of_text(&mut events);
     Ok(events)
 }

@@ -106,10 +106,8 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let (first, second, normal) = m.axes();
             let mut ends = vec![*end_1, *end_2, *along];
             ends.extend(rotary);
-            let centre = (
-                number(m, centre_1)? * unit + m.shift(first),
-                number(m, centre_2)? * unit + m.shift(second),
-            );
+            let centre =
+                (number(m, centre_1)? * unit + m.shift(first), number(m, centre_2)? * unit + m.shift(second));
             let rotation = number(m, rotation)?;
             if rotation == 0.0 || rotation.fract() != 0.0 {
                 return m.halt("an arc of no turn, or of a part of one");

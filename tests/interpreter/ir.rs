@@ -20,7 +20,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         depth: 0,
     };
     let mut main = Vec::new();
-    let mut open: Option<(String, Vec<(usize, Vec<Token>)>)> = None;
+    let mut open: Option<(String, Vec<Line>)> = None;
     let mut nested = 0;
     for (index, line) in text.lines().enumerate() {
         control.m.line = index + 1;
@@ -56,6 +56,9 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     Ok(control.m)
 }
 
+/// A line: its number and its words.
+type Line = (usize, Vec<Token>);
+
 #[derive(Clone, Debug, PartialEq)]
 enum Token {
     Name(String),
@@ -84,7 +87,7 @@ struct Control {
     motion: u32,
     return_initial: bool,
     cycle: Option<Cycle>,
-    procedures: HashMap<String, Vec<(usize, Vec<Token>)>>,
+    procedures: HashMap<String, Vec<Line>>,
     depth: u32,
 }
 
@@ -111,7 +114,10 @@ impl Control {
                 tokens.push(Token::Text(text));
             } else if c.is_ascii_digit() || c == '.' || c == '-' {
                 let mut number = String::new();
-                while let Some(&c) = chars.peek().filter(|c| c.is_ascii_digit() || **c == '.' || (number.is_empty() && **c == '-')) {
+                while let Some(&c) = chars
+                    .peek()
+                    .filter(|c| c.is_ascii_digit() || **c == '.' || (number.is_empty() && **c == '-'))
+                {
                     number.push(c);
                     chars.next();
                 }
@@ -164,7 +170,7 @@ impl Control {
         }
     }
 
-    fn body(&mut self, lines: &[(usize, Vec<Token>)]) -> Result<Next, Halt> {
+    fn body(&mut self, lines: &[Line]) -> Result<Next, Halt> {
         let mut skip = 0;
         let mut lines = lines;
         while let [(line, tokens), after @ ..] = lines {
@@ -531,9 +537,14 @@ impl Control {
 
     fn circle(&mut self, a: &[Token]) -> Result<(), Halt> {
         let pair = |c: &Control, part: &[Token]| match part {
-            [_, Token::Sign('('), Token::Number(x, xu), Token::Sign(','), Token::Number(y, yu), Token::Sign(')')] => {
-                Some((c.base(*x, xu) + c.m.shift(0), c.base(*y, yu) + c.m.shift(1)))
-            }
+            [
+                _,
+                Token::Sign('('),
+                Token::Number(x, xu),
+                Token::Sign(','),
+                Token::Number(y, yu),
+                Token::Sign(')'),
+            ] => Some((c.base(*x, xu) + c.m.shift(0), c.base(*y, yu) + c.m.shift(1))),
             _ => None,
         };
         let parts = split(a);
@@ -558,16 +569,22 @@ impl Control {
 
     fn grid(&mut self, a: &[Token]) -> Result<(), Halt> {
         let row = |c: &Control, part: &[Token]| match part {
-            [_, Token::Sign('('), Token::Name(axis), Token::Sign(','), Token::Number(p, u), Token::Sign(','), Token::Number(n, _), Token::Sign(')')] => {
-                Some((usize::from(axis == "Y"), c.base(*p, u), *n as u32))
-            }
+            [
+                _,
+                Token::Sign('('),
+                Token::Name(axis),
+                Token::Sign(','),
+                Token::Number(p, u),
+                Token::Sign(','),
+                Token::Number(n, _),
+                Token::Sign(')'),
+            ] => Some((usize::from(axis == "Y"), c.base(*p, u), *n as u32)),
             _ => None,
         };
         let parts = split(a);
-        let (Some(columns), Some(rows)) = (
-            parts.first().and_then(|p| row(self, p)),
-            parts.get(1).and_then(|p| row(self, p)),
-        ) else {
+        let (Some(columns), Some(rows)) =
+            (parts.first().and_then(|p| row(self, p)), parts.get(1).and_then(|p| row(self, p)))
+        else {
             return self.m.halt("no grid");
         };
         let serpentine = parts.len() == 3;

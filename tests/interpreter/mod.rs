@@ -328,7 +328,8 @@ impl Machine {
         self.arc_of_turns(to, centre, clockwise, 0)
     }
 
-    /// The same, with so many full turns beyond the first, partial one.
+    /// The same, with so many full turns before the last, partial one; an event each. The other
+    /// axes move in proportion to the angle.
     pub fn arc_of_turns(
         &mut self,
         to: Place,
@@ -355,7 +356,21 @@ impl Machine {
         } else if !clockwise && sweep < 0.0 {
             sweep += 360.0;
         }
-        sweep += if clockwise { -360.0 } else { 360.0 } * f64::from(turns);
+        let total = sweep.abs() + 360.0 * f64::from(turns);
+        let from = self.at;
+        for turn in 1..=turns {
+            let part = 360.0 * f64::from(turn) / total;
+            for axis in 0..6 {
+                if axis != first && axis != second {
+                    self.at[axis] = from[axis] + (to[axis] - from[axis]) * part;
+                }
+            }
+            let mut middle = [0.0; 3];
+            middle[first] = centre.0;
+            middle[second] = centre.1;
+            let whole = if clockwise { -360.0 } else { 360.0 };
+            self.record(What::Arc { normal, centre: middle, sweep: whole });
+        }
         let mut full = [0.0; 3];
         full[first] = centre.0;
         full[second] = centre.1;

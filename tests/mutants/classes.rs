@@ -17,7 +17,9 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
         match mutant.is {
             Is::Text => return Ok("a comment, text or title"),
             Is::Letter(b'N') => return Ok("a block number"),
-            Is::Name if old[0] == b'N' && old[1..].iter().all(u8::is_ascii_digit) => return Ok("a block number"),
+            Is::Name if old[0] == b'N' && old[1..].iter().all(u8::is_ascii_digit) => {
+                return Ok("a block number");
+            }
             _ => {}
         }
     }
@@ -31,20 +33,28 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
         (_, Is::Letter(b'O')) if dialect == "fanuc" => "the program's number",
         (Change::Sibling(_), Is::Letter(b'M')) => "a code that ends the program alike",
         (Change::Sibling(_), Is::Letter(b'G') | Is::Name) => "a setting that nothing after it depends on",
-        (Change::Deleted, Is::Letter(b'G' | b'M')) => "a code that restates what is in force, or ends what is not",
-        (Change::Deleted, Is::Letter(b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')) => "an axis that stands there already",
+        (Change::Deleted, Is::Letter(b'G' | b'M')) => {
+            "a code that restates what is in force, or ends what is not"
+        }
+        (Change::Deleted, Is::Letter(b'X' | b'Y' | b'Z' | b'A' | b'B' | b'C')) => {
+            "an axis that stands there already"
+        }
         (Change::Deleted, Is::Letter(b'I' | b'J' | b'K')) => "a centre word of zero",
         (_, Is::Letter(b'F')) => "a feed that is in force, or that nothing is cut with",
         (_, Is::Letter(b'S')) => "a speed that is in force, or that nothing turns with",
         (_, Is::Letter(b'T')) => "a tool called ahead, and called again",
         (_, Is::Letter(b'H' | b'O')) => "a length that no Z takes up",
-        (_, Is::Letter(b'R' | b'Q' | b'P' | b'L' | b'D')) => "a cycle's word that is in force, or that makes no hole",
+        (_, Is::Letter(b'R' | b'Q' | b'P' | b'L' | b'D')) => {
+            "a cycle's word that is in force, or that makes no hole"
+        }
         (Change::Digit, Is::Letter(b'G' | b'M')) => "a setting that nothing after it depends on",
         (Change::Deleted, Is::Sign) => "a mark of the frame",
         (Change::Deleted, Is::Name | Is::Number) => "a word that restates what is in force",
         (_, Is::Number) => "a value that nothing depends on",
         (_, Is::Sign) => "a mark of the frame",
-        (_, Is::Name | Is::Letter(_)) => return Err("the same events, but of no class that has a name".into()),
+        (_, Is::Name | Is::Letter(_)) => {
+            return Err("the same events, but of no class that has a name".into());
+        }
         (_, Is::Text) => "a comment, text or title",
     })
 }

@@ -4,6 +4,9 @@
 //! A seeded sample by default; all of it by
 //! `NCC_ALL_MUTANTS=1 cargo test --release -p ncc-tests --test mutants -- --nocapture`.
 
+// What was tried is told with `--nocapture`.
+#![allow(clippy::print_stdout)]
+
 mod classes;
 mod words;
 
@@ -90,7 +93,9 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
     for (mutant, class) in found {
         match class {
             Ok(class) => *tally.classes.entry(class).or_default() += 1,
-            Err(why) => tally.failures.add(format!("{what}: {:?}", mutant.change), told(&text, &mutant, &why)),
+            Err(why) => {
+                tally.failures.add(format!("{what}: {:?}", mutant.change), told(&text, &mutant, &why))
+            }
         }
     }
 }
@@ -118,7 +123,9 @@ fn form(dialect: &str) -> Form {
 }
 
 fn seed(file: &str, to: &str) -> u64 {
-    file.bytes().chain(to.bytes()).fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
+    file.bytes()
+        .chain(to.bytes())
+        .fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3))
 }
 
 /// Some of them, the same ones in each run.

@@ -58,7 +58,14 @@ fn read(path: &PathBuf) -> Cited {
         moves.push(Plain { what, at, feed, tool: None, speed: 0.0, coolant: (false, false) });
     }
     let place = if page.fact("digits") == Some("3") { 0.0005001 } else { 1e-6 };
-    Cited { name, dialect, text: page.block(dialect).expect("a program").text.clone(), start, moves, within: Tolerance { place, feed: 1e-6 } }
+    Cited {
+        name,
+        dialect,
+        text: page.block(dialect).expect("a program").text.clone(),
+        start,
+        moves,
+        within: Tolerance { place, feed: 1e-6 },
+    }
 }
 
 /// Only moves and dwells, without what the examples leave out: tools, spindle, coolant, the end.

@@ -1,5 +1,8 @@
 //! The tests that cross crates.
 
+// What was tried is told with `--nocapture`.
+#![allow(clippy::print_stdout)]
+
 mod cycles;
 mod expected;
 mod faults;
@@ -8,5 +11,6 @@ mod pages;
 mod pairs;
 mod passes;
 mod second;
+mod shared;
 mod text_forms;
 mod tidy;

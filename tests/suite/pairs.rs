@@ -32,7 +32,8 @@ fn every_ordered_pair() {
                     refused += 1;
                     let codes: Vec<String> =
                         stopping(&job, &outcome).iter().map(|c| format!("NC{c:04}")).collect();
-                    let _ = writeln!(refusals, "{}/{} {to} {}", program.dialect, program.file, codes.join(","));
+                    let _ =
+                        writeln!(refusals, "{}/{} {to} {}", program.dialect, program.file, codes.join(","));
                 }
                 Err(Failure::VerificationFailed) => {
                     failures.add(&what, rendered(&job, &program.file, &program.text, &outcome.diagnostics));

@@ -12,15 +12,7 @@ fn runs_the_corpus() {
     let mut failures = Failures::default();
     for program in corpus::all() {
         let what = format!("{}/{}", program.dialect, program.file);
-        if let Some(m) = failures.check(&what, plain::second(program.dialect, &program.text, Setup::plain()))
-        {
-            if std::env::var_os("NCC_SHOW").is_some() {
-                println!("== {what}");
-                for e in plain::of_machine(&m, [0.0; 6]) {
-                    println!("{}", plain::show(&e));
-                }
-            }
-        }
+        failures.check(&what, plain::second(program.dialect, &program.text, Setup::plain()));
     }
     failures.finish();
 }
@@ -32,7 +24,9 @@ fn agrees_with_the_compiler_on_the_corpus() {
     let mut failures = Failures::default();
     for program in corpus::all() {
         let what = format!("{}/{}", program.dialect, program.file);
-        let Some(read) = failures.check(&what, translate::read(program.dialect, &program.text)) else { continue };
+        let Some(read) = failures.check(&what, translate::read(program.dialect, &program.text)) else {
+            continue;
+        };
         for world in [0, 1, 2].map(plain::world) {
             for skip in [0, 0b10, 0x3fe] {
                 let second = plain::second(program.dialect, &program.text, plain::setup(&world, skip));
@@ -64,7 +58,9 @@ fn emitted_programs_make_the_same_moves() {
                 continue;
             }
             pairs += 1;
-            for world in [0, 1, 2].map(plain::world) {
+            for mut world in [0, 1, 2].map(plain::world) {
+                // Where a peck cycle was written out, this is what the head says was assumed.
+                world.peck_clearance = ncc_ir::num::ONE;
                 let start = world.start.map(|n| n as f64 / 1e9);
                 let list = |dialect: &str, text: &[u8], skip| {
                     let machine = plain::second(dialect, text, plain::setup(&world, skip))?;

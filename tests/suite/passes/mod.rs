@@ -17,10 +17,10 @@ use std::path::{Path, PathBuf};
 use ncc_backends::{Layout, ir::Writer};
 use ncc_dialects::{Settings, builtin};
 use ncc_frontends::{Batch, ir::Reader};
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner};
+use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::passes::{Legaliser, PASSES, Target};
 use ncc_ir::program::{Procedure, Program, Stmt};
@@ -209,45 +209,13 @@ fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), Str
             let mut b = Machine::new(after, &world, on_after, told);
             let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, second: 3 };
             let mut comparison = Comparison::new(resolution, a.exec.machine());
-            let (mut source, mut target) = {
-                let start = a.exec.machine();
-                (single_turns(a.run()?, start), single_turns(b.run()?, start))
-            };
+            let (mut source, mut target) = (a.run()?, b.run()?);
             comparison
                 .advance(&mut source, &mut target, true)
                 .map_err(|d| format!("world {seed}, skip {skip:b}: {d:?}"))?;
         }
     }
     Ok(())
-}
-
-/// Arcs of several turns as single turns, so that it makes no difference how they are written.
-fn single_turns(events: Vec<Event>, start: [Nanos; AXES]) -> Vec<Event> {
-    let mut out: Vec<Event> = Vec::new();
-    for event in events {
-        let Kind::Arc { plane, turn, turns, full, centre } = event.kind else {
-            out.push(event);
-            continue;
-        };
-        let (first, second, normal) = plane.axes();
-        let (f, s, n) = (first as usize, second as usize, normal as usize);
-        let start = out.last().map_or(start, |last| last.end);
-        let angle = |p: &[Nanos; AXES]| {
-            ((p[s] - centre[1]) as f64).atan2((p[f] - centre[0]) as f64) / std::f64::consts::TAU
-        };
-        let part = angle(&event.end) - angle(&start);
-        let part = if turn == Turn::Clockwise { -part } else { part }.rem_euclid(1.0);
-        let all = f64::from(turns) + if full { 1.0 } else { part };
-        for k in 1..=turns {
-            let mut end = start;
-            end[n] += ((event.end[n] - start[n]) as f64 * f64::from(k) / all).round() as Nanos;
-            let kind = Kind::Arc { plane, turn, turns: 0, full: true, centre };
-            out.push(Event { kind, end, ..event.clone() });
-        }
-        let kind = Kind::Arc { plane, turn, turns: 0, full, centre };
-        out.push(Event { kind, ..event });
-    }
-    out
 }
 
 /// A world in which what the program takes for granted holds.

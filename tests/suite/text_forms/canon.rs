@@ -271,7 +271,7 @@ fn faults_of_the_whole_text() {
     assert_eq!(faults("FLOOD_ON()\n"), [110]);
     assert_eq!(faults("PROGRAM_END()\n\nCOMMENT(\"x\")\nFLOOD_ON()\nMIST_ON()\n"), [111]);
     assert_eq!(faults("CHANGE_TOOL(1)\nPROGRAM_END()\n"), [221]);
-    assert_eq!(faults("/PROGRAM_END()\nFLOOD_ON()\nPROGRAM_END()\n"), []);
+    assert_eq!(faults("/PROGRAM_END()\nFLOOD_ON()\nPROGRAM_END()\n"), Vec::<u16>::new());
 }
 
 /// Digits and unit that the text keeps.

@@ -1,0 +1,73 @@
+//! Material that is given beside the repository: the case study's tables, programs that nobody here
+//! wrote. Each test says so and passes where it is absent.
+
+use std::fs;
+use std::path::PathBuf;
+
+use ncc::job::Failure;
+use ncc_ir::num::{Num, Unit};
+use ncc_tests::corpus::{self, DIALECTS, files};
+use ncc_tests::expect::{self, Failures};
+use ncc_tests::translate::{job, rendered, translate};
+
+/// A folder beside the repository; says so if it is absent.
+fn beside(folder: &str) -> Option<PathBuf> {
+    let path = corpus::shared().map(|shared| shared.join(folder)).filter(|p| p.is_dir());
+    if path.is_none() {
+        println!("skipped: no ../shared/{folder} beside the repository");
+    }
+    path
+}
+
+/// The case study's programs are in the corpus byte for byte.
+#[test]
+fn the_case_study_is_unchanged() {
+    let Some(study) = beside("cases/mach9") else { return };
+    for name in ["teste.cn", "table9.cn"] {
+        let ours = fs::read(corpus::root().join("corpus/mach9").join(name)).expect("the corpus");
+        assert_eq!(ours, fs::read(study.join(name)).expect("the case study"), "{name}");
+    }
+}
+
+/// Table 9 gives table 12 exactly, from the stated start, with a corrector word that emits nothing.
+#[test]
+fn table_9_gives_table_12() {
+    let Some(study) = beside("cases/mach9") else { return };
+    let mut job = job("mach9", "canon", "table9.cn");
+    job.head = false;
+    job.from.choose("o_word", "ignore").expect("an option");
+    let start = [(-9, 0), (15_588, 3), (3, 0)];
+    for (axis, (mantissa, scale)) in start.into_iter().enumerate() {
+        job.start[axis] = Num { mantissa, scale, point: true, unit: Unit::Mm }.nanos(false);
+    }
+    let text = fs::read(study.join("table9.cn")).expect("the case study");
+    let (outcome, written) = translate(&job, &text);
+    assert!(outcome.release.is_ok(), "{}", rendered(&job, "table9.cn", &text, &outcome.diagnostics));
+    let table = fs::read(study.join("table12.canon")).expect("the case study");
+    assert!(written == table, "{}", expect::diff(&table, &written));
+}
+
+/// Programs from elsewhere: translated and verified, or refused with a reason; never a failed
+/// verification.
+#[test]
+fn programs_from_elsewhere() {
+    let Some(programs) = beside("programs/fanuc") else { return };
+    let mut failures = Failures::default();
+    let (mut done, mut refused) = (0, 0);
+    for path in files(&programs) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let text = fs::read(&path).expect("a program");
+        for to in DIALECTS {
+            let job = job("fanuc", to, &name);
+            let (outcome, _) = translate(&job, &text);
+            let said = rendered(&job, &name, &text, &outcome.diagnostics);
+            match outcome.release {
+                Ok(()) => done += 1,
+                Err(Failure::Refused) if !said.is_empty() => refused += 1,
+                Err(_) => failures.add(format!("{name} to {to}"), said),
+            }
+        }
+    }
+    println!("{done} translated and verified, {refused} refused");
+    failures.finish();
+}
