@@ -87,6 +87,10 @@ impl Reader {
         }
         // The rest of the opening line is a leader, which controls ignore.
         if self.frame.opened || self.frame.blocks || !self.frame.numbers.is_empty() {
+            if !self.frame.opened {
+                out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into() }, span);
+                self.frame.faulty = true;
+            }
             self.end_of_program(out);
             self.frame.closed = true;
         }

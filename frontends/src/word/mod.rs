@@ -101,15 +101,17 @@ impl Reader {
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
-            if !self.frame.closed && !self.lower.ended
+            if !self.frame.closed
+                && !self.lower.ended
                 && let Some(end) = plain::read(text, at, base, &mut self.block.words)
-                    && end - at <= self.longest {
-                        if !self.lower.fast_move(&self.block.words, out) {
-                            self.plain_block(at, end, src, out);
-                        }
-                        at = end + 1;
-                        continue;
-                    }
+                && end - at <= self.longest
+            {
+                if !self.lower.fast_move(&self.block.words, out) {
+                    self.plain_block(at, end, src, out);
+                }
+                at = end + 1;
+                continue;
+            }
             let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |len| at + len);
             self.line(at, end, src, out);
             if self.frame.is_binary {
