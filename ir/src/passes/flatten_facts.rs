@@ -19,46 +19,57 @@ pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<D
 
 /// The same for one body.
 pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
-    rebuild(body, |mut stmt, made| {
-        walk.enter(stmt.skip);
-        if let Op::Position(m) = &mut stmt.op {
-            let m = std::mem::take(m);
-            stmt.op = match walk.at.modes.motion {
-                Some(Motion::Traverse) => Op::StraightTraverse(m),
-                Some(Motion::Feed) => Op::StraightFeed(m),
-                Some(Motion::Cycle) => Op::Hole(m),
-                Some(Motion::Arc(_)) => {
-                    diags.push(Diagnostic::new(Fault::ArcWithoutCentre, stmt.span));
-                    Op::Position(m)
-                }
-                None => {
-                    let fact = ModeName::Motion;
-                    diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact }, stmt.span));
-                    Op::Position(m)
-                }
-            };
-        }
-        if let Op::ArcFeed(arc) = &mut stmt.op
-            && let Err(fault) = centre_from_zero(arc, walk)
-        {
-            diags.push(Diagnostic::new(fault, stmt.span));
-        }
-        walk.step(&stmt);
-        if matches!(stmt.op, Op::SetDistanceMode(_) | Op::SetReturnLevel(_)) {
-            return made.leave_out(stmt);
-        }
-        let to = match &mut stmt.op {
-            Op::StraightTraverse(m) | Op::StraightFeed(m) => Some(&mut m.to),
-            Op::ArcFeed(arc) => Some(&mut arc.to),
-            _ => None,
+    let mut superfluous = false;
+    for stmt in body.iter_mut() {
+        flatten(stmt, walk, diags);
+        superfluous |= is_superfluous(&stmt.op);
+    }
+    if superfluous {
+        rebuild(body, |stmt, made| match is_superfluous(&stmt.op) {
+            true => made.leave_out(stmt),
+            false => made.push(stmt),
+        });
+    }
+}
+
+/// Whether a statement only says how others are read.
+fn is_superfluous(op: &Op) -> bool {
+    matches!(op, Op::SetDistanceMode(_) | Op::SetReturnLevel(_))
+}
+
+fn flatten(stmt: &mut Stmt, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+    walk.enter(stmt.skip);
+    if let Op::Position(m) = &mut stmt.op {
+        let m = std::mem::take(m);
+        stmt.op = match walk.at.modes.motion {
+            Some(Motion::Traverse) => Op::StraightTraverse(m),
+            Some(Motion::Feed) => Op::StraightFeed(m),
+            Some(Motion::Cycle) => Op::Hole(m),
+            Some(Motion::Arc(_)) => {
+                diags.push(Diagnostic::new(Fault::ArcWithoutCentre, stmt.span));
+                Op::Position(m)
+            }
+            None => {
+                let fact = ModeName::Motion;
+                diags.push(Diagnostic::new(Fault::EntryFactNeeded { fact }, stmt.span));
+                Op::Position(m)
+            }
         };
-        if let Some(to) = to
-            && let Err(fault) = name_all(to, walk)
-        {
-            diags.push(Diagnostic::new(fault, stmt.span));
-        }
-        made.push(stmt);
-    });
+    }
+    if let Op::ArcFeed(arc) = &mut stmt.op
+        && let Err(fault) = centre_from_zero(arc, walk)
+    {
+        diags.push(Diagnostic::new(fault, stmt.span));
+    }
+    walk.step(stmt);
+    let to = match &mut stmt.op {
+        Op::StraightTraverse(m) | Op::StraightFeed(m) => &mut m.to,
+        Op::ArcFeed(arc) => &mut arc.to,
+        _ => return,
+    };
+    if let Err(fault) = name_all(to, walk) {
+        diags.push(Diagnostic::new(fault, stmt.span));
+    }
 }
 
 /// Gives every axis its word; the walk stands after the move.

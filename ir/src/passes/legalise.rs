@@ -84,15 +84,13 @@ impl Legaliser {
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
         let needs = self.needs(stmts);
-        if needs == 0 {
-            if self.follow {
-                for stmt in stmts.iter() {
-                    self.walk.step(stmt);
-                }
-            }
-            return;
+        let start = (needs != 0).then(|| self.walk.clone());
+        if self.follow {
+            self.walk.pass(stmts);
         }
-        self.mend(stmts, needs, assumed, diags);
+        if let Some(start) = start {
+            self.mend(stmts, needs, &start, assumed, diags);
+        }
     }
 
     /// Whether further statements of the main procedure would be rewritten.
@@ -117,7 +115,14 @@ impl Legaliser {
     }
 
     #[cold]
-    fn mend(&mut self, stmts: &mut Vec<Stmt>, needs: u16, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
+    fn mend(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        needs: u16,
+        start: &Walk,
+        assumed: &Modes,
+        diags: &mut Vec<Diagnostic>,
+    ) {
         if needs & CONTROL != 0 {
             expand_repeats::over(stmts, diags);
         }
@@ -130,13 +135,11 @@ impl Legaliser {
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);
         }
-        // Every pass walks from the same start: what it walks over does what the piece does.
-        let start = self.walk.clone();
-        if self.follow {
-            for stmt in stmts.iter() {
-                self.walk.step(stmt);
-            }
+        if self.follow && needs & (CONTROL | WORK | SHIFT) != 0 {
+            self.walk = start.clone();
+            self.walk.pass(stmts);
         }
+        // Every pass walks from the same start: what it walks over does what the piece does.
         if needs & (ARC | MESSAGE | CALL | CONTROL) != 0 {
             self.check(stmts, &mut start.clone(), diags);
         }

@@ -3,9 +3,9 @@
 //! A stretch of blocks with one skip level is executed whole or not at all, so that what holds
 //! afterwards is what holds on both ways; within the stretch nothing is in doubt.
 
-use crate::canon::{Axis, Modes, Plane};
+use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
 use crate::num::Unit;
-use crate::program::{Op, Stmt};
+use crate::program::{Coord, Move, Op, Point, Stmt};
 use crate::track::Tracker;
 
 /// A tracker that knows stretches of skipped blocks.
@@ -19,6 +19,33 @@ pub(super) struct Walk {
     skipped: Option<(u8, Box<Tracker>)>,
     /// Facts taken for granted that the tracker has already.
     assumed: Modes,
+}
+
+/// The last absolute words of plain moves.
+#[derive(Default)]
+struct Last<'s> {
+    words: [Option<&'s Coord>; AXES],
+    motion: Option<Motion>,
+}
+
+impl<'s> Last<'s> {
+    /// Notes a move, if all of its words are absolute.
+    #[inline]
+    fn note(&mut self, to: &'s Point, motion: Motion) -> bool {
+        let absolute = |word: &Option<Coord>| {
+            word.as_ref().is_none_or(|w| matches!(w.distance, Fact::Known(Distance::Absolute)))
+        };
+        if !to.axes.iter().all(absolute) {
+            return false;
+        }
+        for (last, word) in self.words.iter_mut().zip(&to.axes) {
+            if let Some(word) = word {
+                *last = Some(word);
+            }
+        }
+        self.motion = Some(motion);
+        true
+    }
 }
 
 impl Walk {
@@ -58,6 +85,45 @@ impl Walk {
         self.at.apply(&stmt.op);
     }
 
+    /// Executes statements, as [`Walk::step`] does one: plain moves leave no more than their last
+    /// words, so that a long surface costs little.
+    #[inline]
+    pub(super) fn pass(&mut self, stmts: &[Stmt]) {
+        let mut last = Last::default();
+        for stmt in stmts {
+            let (to, motion) = match &stmt.op {
+                Op::StraightFeed(m) => (&m.to, Motion::Feed),
+                Op::StraightTraverse(m) => (&m.to, Motion::Traverse),
+                _ => {
+                    self.take(&mut last);
+                    self.step(stmt);
+                    continue;
+                }
+            };
+            let plain = stmt.skip.is_none() && self.skipped.is_none() && !self.waiting;
+            if !(plain && last.note(to, motion)) {
+                self.take(&mut last);
+                self.step(stmt);
+            }
+        }
+        self.take(&mut last);
+    }
+
+    fn take(&mut self, last: &mut Last<'_>) {
+        let Some(motion) = last.motion.take() else { return };
+        let to = std::mem::take(&mut last.words);
+        for (axis, word) in to.into_iter().enumerate() {
+            if let Some(word) = word {
+                self.at.position[axis] = self.at.nanos(&word.value);
+            }
+        }
+        // What a move does besides: it sets the motion and ends a cycle.
+        self.at.apply(&match motion {
+            Motion::Feed => Op::StraightFeed(Move::default()),
+            Motion::Traverse | Motion::Arc(_) | Motion::Cycle => Op::StraightTraverse(Move::default()),
+        });
+    }
+
     /// Takes over facts that were taken for granted since the last time.
     pub(super) fn assume(&mut self, assumed: &Modes) {
         if self.assumed == *assumed {
@@ -87,8 +153,7 @@ impl Walk {
             Op::StraightTraverse(m) | Op::StraightFeed(m) => m.to.get(Axis::Z).is_some(),
             Op::ArcFeed(arc) => arc.to.get(Axis::Z).is_some(),
             Op::Position(m) => {
-                m.to.get(Axis::Z).is_some()
-                    || self.at.modes.motion == Some(crate::canon::Motion::Cycle) && normal_is_z()
+                m.to.get(Axis::Z).is_some() || self.at.modes.motion == Some(Motion::Cycle) && normal_is_z()
             }
             Op::Hole(m) => m.to.get(Axis::Z).is_some() || normal_is_z(),
             Op::Pattern(_) => normal_is_z(),

@@ -172,8 +172,7 @@ fn case(pass: &str, path: &Path) -> Result<(), String> {
 
 /// The legaliser's work on a program that comes block by block, unless it is refused.
 fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
-    let mut legaliser =
-        Legaliser::new(&told.target.caps, told.target.decimals, told.target.peck_clearance);
+    let mut legaliser = Legaliser::new(&told.target.caps, told.target.decimals, told.target.peck_clearance);
     legaliser.stand_at(&told.start);
     let mut after = before.clone();
     after.procedures[0].body.clear();
