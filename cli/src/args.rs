@@ -106,11 +106,11 @@ pub struct Translate {
     /// Write the program to this file instead of stdout; it appears whole or not at all
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,
-    /// Block numbers: none, those of the source, or new ones [default: keep]
+    /// Block numbers: none, those of the source, or new ones [default: off]
     #[arg(
         long,
         value_name = "off|keep|FIRST:STEP",
-        default_value = "keep",
+        default_value = "off",
         value_parser = numbering,
         hide_default_value = true,
         help_heading = "How the result looks"

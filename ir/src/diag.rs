@@ -160,6 +160,9 @@ faults! {
     /// Text after the end of the program.
     TextAfterEnd = 111, Warning;
 
+    /// Blocks before the only mark of the text: a control takes them for a leader and skips them.
+    OpeningMarkMissing { mark: Box<str> } = 112, Error;
+
     // NC02xx: the meaning.
     /// A code that the dialect's dictionary does not have.
     UnknownCode { code: Box<str> } = 201, Error;

@@ -94,6 +94,8 @@ pub(super) struct Block {
     pub after: Vec<u8>,
     pub number: Option<u32>,
     pub skip: Option<u8>,
+    /// Codes written of which no source confirms the meaning.
+    pub unsure: Vec<Code>,
     /// Whether the motion is a cycle's call.
     pub calls_up: bool,
     blanks: bool,
@@ -115,6 +117,7 @@ impl Block {
             after: Vec::new(),
             number: None,
             skip: None,
+            unsure: Vec::new(),
             calls_up: false,
             blanks,
             most_g,
@@ -204,6 +207,9 @@ impl Block {
     }
 
     pub(super) fn code(&mut self, part: Part, code: &Code) {
+        if code.unsure.is_some() {
+            self.unsure.push(*code);
+        }
         let text = code.text();
         self.part(part).extend_from_slice(text);
     }

@@ -16,6 +16,8 @@ pub(super) struct Code {
     len: u8,
     /// One bit for its modal group, 0 for a one-shot.
     pub group: u64,
+    /// What it means, if no source confirms it.
+    pub unsure: Option<Meaning>,
 }
 
 impl Code {
@@ -158,7 +160,12 @@ impl<'d> Finder<'d> {
         let group = self.groups.iter().position(|g| *g == row.group).filter(|_| !row.group.is_empty());
         let mut text = [0; 8];
         text[..code.len()].copy_from_slice(code.as_bytes());
-        Some(Code { text, len: code.len() as u8, group: group.map_or(0, |g| 1 << g.min(63)) })
+        Some(Code {
+            text,
+            len: code.len() as u8,
+            group: group.map_or(0, |g| 1 << g.min(63)),
+            unsure: (!row.sure).then_some(meaning),
+        })
     }
 
     fn format(&self, quantity: Quantity) -> Format {

@@ -100,6 +100,10 @@ pub struct Writer {
     /// Lines of plain moves that have not been passed on, and how many bytes they are.
     page: [u8; plain::PAGE],
     filled: usize,
+    /// Codes whose meaning is not confirmed, as far as reported.
+    told_unsure: Vec<codes::Code>,
+    /// Whether it was reported that entry 0 of the length table is taken for none.
+    told_no_length: bool,
     /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
     last_words: [Num; AXES],
     named: u8,
@@ -116,6 +120,8 @@ impl Writer {
         };
         Writer {
             dialect,
+            told_unsure: Vec::new(),
+            told_no_length: false,
             options: Options {
                 corrector_counts: settings.get("o_word") != "ignore",
                 circle_clockwise: settings.get("g24_direction") == "cw",
@@ -222,6 +228,7 @@ impl Writer {
         if let Err(fault) = written {
             sink.report(fault, stmt.span);
         }
+        self.tell_unsure(stmt.span, sink);
         if let Some(comment) = &stmt.comment {
             self.comment(comment, stmt.span, sink);
         }
@@ -231,6 +238,17 @@ impl Writer {
             self.lost = true;
             self.residue = [0; AXES];
             self.residual = false;
+        }
+    }
+
+    /// Reports, once each, the codes written of which no source confirms the meaning.
+    fn tell_unsure(&mut self, span: Span, sink: &mut Sink) {
+        while let Some(code) = self.block.unsure.pop() {
+            if let Some(meaning) = code.unsure.filter(|_| !self.told_unsure.contains(&code)) {
+                self.told_unsure.push(code);
+                let text = String::from_utf8_lossy(code.text()).into();
+                sink.report(Fault::AssumedRow { code: text, meaning: meaning.to_string().into() }, span);
+            }
         }
     }
 

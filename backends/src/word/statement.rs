@@ -1,5 +1,6 @@
 //! One statement: which words say it, and where they stand in the block.
 
+use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Call, Op, Stmt};
@@ -168,6 +169,12 @@ impl Writer {
         let letter = self.codes.corrector.filter(|_| self.options.corrector_counts);
         let letter = letter.ok_or_else(|| cannot("a length offset"))?;
         let value = self.value(&letter, entry, span, sink)?;
+        let sure = self.dialect.address_row(letter.letter).is_none_or(|row| row.zero_sure);
+        if none && !sure && !std::mem::replace(&mut self.told_no_length, true) {
+            let code = format!("{}0", letter.letter as char).into();
+            let meaning = Meaning::CancelToolLengthOffset.to_string().into();
+            sink.report(Fault::AssumedRow { code, meaning }, span);
+        }
         self.admit(&Need::new(Rank::Offset).letter(letter.letter), sink)?;
         self.block.word(Part::Offset, letter.letter, value);
         Ok(())

@@ -27,6 +27,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NoProgramEnd => {
             own("is the file complete? if so, end the program with its end code, such as M30")
         }
+        Fault::OpeningMarkMissing { mark } => {
+            vec![format!("put a line with `{mark}` before the first block, or take this one away")]
+        }
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
 
         Fault::UnknownCode { .. } => {

@@ -199,6 +199,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::Syntax { .. }
         | Fault::NoProgramEnd
         | Fault::TextAfterEnd
+        | Fault::OpeningMarkMissing { .. }
         | Fault::UnknownCode { .. }
         | Fault::NotSupported { .. }
         | Fault::CodesExclude { .. }

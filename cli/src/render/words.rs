@@ -59,6 +59,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             (format!("{} is not expected here", found_words(found)), format!("expected {}", plain(expected)))
         }
         Fault::NoProgramEnd => ("the program does not say that it ends".into(), "the text ends here".into()),
+        Fault::OpeningMarkMissing { mark } => (
+            format!("the program stands before the only {}", quoted(mark)),
+            "a control reads from here, and finds nothing".into(),
+        ),
         Fault::TextAfterEnd => {
             ("text after the end of the program".into(), "the control never comes here".into())
         }

@@ -12,7 +12,7 @@ use ncc_ir::program::{FrameSlot, Op};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::{Block, Word};
+use super::block::{Block, Value, Word};
 use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words, rank};
@@ -199,6 +199,12 @@ impl Lower {
             let _ = self.whole(&word, src, out);
             self.state.length_offset = Know::Said(());
             return;
+        }
+        let zero = matches!(word.value, Value::Number(d) if d.mantissa == 0);
+        let sure = self.settings.dialect.address_row(word.letter).is_none_or(|row| row.zero_sure);
+        if self.assume && zero && !sure && !std::mem::replace(&mut self.reported.no_length, true) {
+            let meaning = Meaning::CancelToolLengthOffset.to_string().into();
+            out.report(Fault::AssumedRow { code: src.text(word.span), meaning }, word.span);
         }
         self.length_offset(&word, word.span, words, src, out);
     }

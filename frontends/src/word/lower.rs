@@ -60,6 +60,8 @@ pub(super) struct Reported {
     codes: Vec<bool>,
     /// Address letters, a bit each.
     pub(super) letters: u32,
+    /// That entry 0 is no length offset.
+    pub(super) no_length: bool,
     /// Options of the dictionary, by place.
     options: u32,
 }

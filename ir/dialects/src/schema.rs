@@ -242,6 +242,9 @@ pub struct Address {
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
+    /// Whether it is confirmed that entry 0 of a table is none.
+    #[serde(default = "yes")]
+    pub zero_sure: bool,
     /// Who says so.
     pub source: String,
 }
