@@ -46,7 +46,9 @@ fn names_and_titles() {
 fn frame_marks() {
     assert_eq!(stmts(&read("fanuc", "% LEADER\nM30\n%\n")), ["ProgramEnd"]);
     assert_eq!(errors("fanuc", "%\nM30\n%\n\nREST 1\nMORE\n"), ["TextAfterEnd at 'REST 1'"]);
-    assert_eq!(errors("fanuc", "M30\n%\n"), Vec::<String>::new());
+    // All before the first mark is a leader, which the control ignores.
+    assert_eq!(errors("fanuc", "M30\n%\n"), ["OpeningMarkMissing { mark: '%' } at '%'"]);
+    assert_eq!(errors("fanuc", "(NOTE)\n%\nM30\n%\n"), Vec::<String>::new());
     assert_eq!(errors("mach9", "%\nM2\n"), ["UnexpectedCharacter { found: '%' } at '%'"]);
 }
 
