@@ -288,6 +288,7 @@ impl Machine {
 
     /// Records an event at the present place.
     pub fn record(&mut self, what: What) {
+        assert!(self.events.len() < 1_000_000, "line {}: a program without an end", self.line);
         let mut program = self.at;
         for (axis, value) in program.iter_mut().enumerate() {
             *value -= self.shift(axis);
@@ -415,6 +416,9 @@ impl Machine {
                 self.record(What::Dwell(seconds));
             }
             Hole::Peck(q) => {
+                if q <= 0.0 || (r - z) / q > 10_000.0 {
+                    return self.halt("a peck that leads nowhere");
+                }
                 let mut depth = r;
                 loop {
                     depth -= q;
