@@ -6,7 +6,7 @@ use std::ops::Range;
 use sha2::{Digest, Sha256};
 
 /// Bytes of a piece. Small enough that its statements stay in the second-level cache.
-const PIECE: usize = 64 * 1024;
+const PIECE: usize = 16 * 1024;
 
 /// Longest source: spans are 32 bits.
 const LONGEST: u64 = u32::MAX as u64;

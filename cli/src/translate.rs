@@ -79,7 +79,7 @@ impl<'j> Line<'j> {
         legaliser.stand_at(&job.start);
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
         writer.stand_at(&job.start);
-        Line {
+        let mut line = Line {
             job,
             reader: Reader::new(job.from.clone(), true),
             batch: Batch::default(),
@@ -96,7 +96,18 @@ impl<'j> Line<'j> {
             failed: false,
             statements: 0,
             blocks: 0,
-        }
+        };
+        line.open_frame();
+        line
+    }
+
+    /// Lets the verification read a head, which opens the frame of the text. The final one can be
+    /// written only at the end, and is read then.
+    fn open_frame(&mut self) {
+        let mut text = Vec::new();
+        let name = ProgramName { number: Some(1), title: None };
+        self.writer.head(&Head { name, lines: Vec::new() }, &mut text, &mut Vec::new());
+        self.check(|v| v.head(&text));
     }
 
     /// A piece of the source.
@@ -303,6 +314,16 @@ impl<'j> Line<'j> {
             }
             _ => None,
         };
+        let mut text = Vec::new();
+        let mut found = Vec::new();
+        let head = Head { name: self.name(), lines: self.head_lines(&hash) };
+        self.writer.head(&head, &mut text, &mut found);
+        self.take(found);
+        if self.verifier.is_some() {
+            let job = self.job;
+            self.check(|_| Verifier::new(job).head(&text));
+        }
+        self.output.set_head(text);
         let release = if self.refused {
             Err(Failure::Refused)
         } else if self.failed {
@@ -310,12 +331,6 @@ impl<'j> Line<'j> {
         } else {
             Ok(())
         };
-        let mut text = Vec::new();
-        let mut found = Vec::new();
-        let head = Head { name: self.name(), lines: self.head_lines(&hash) };
-        self.writer.head(&head, &mut text, &mut found);
-        self.take(found);
-        self.output.set_head(text);
         let mut counts = [0; Verdict::ALL.len()];
         for diagnostic in &self.diagnostics {
             if let Gravity::Verdict(verdict) = diagnostic.fault.gravity() {

@@ -7,7 +7,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::num::Nanos;
-use ncc_ir::program::{Control, Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Comparison, Difference, Resolution};
 use ncc_ir::world::World;
@@ -122,6 +122,20 @@ impl Verifier {
         }
     }
 
+    /// Reads the head of the output, which opens its frame; it makes no events.
+    pub(crate) fn head(&mut self, text: &[u8]) -> Result<(), Stop> {
+        self.reader.read(text, 0, &mut self.batch);
+        self.batch.name = ProgramName::default();
+        let silent = |s: &Stmt| matches!(s.op, Op::Comment(_) | Op::Blank);
+        if !self.batch.stmts.iter().all(silent) {
+            let fault =
+                Fault::NotTheSame { difference: "the head of the output is more than a comment".into() };
+            return Err(Stop::Target(Diagnostic::new(fault, self.last)));
+        }
+        self.batch.stmts.clear();
+        self.read_back(&Modes::default())
+    }
+
     /// The clearance of peck drilling that was taken for granted of both controls, in nanos.
     pub(crate) fn set_peck_clearance(&mut self, clearance: Nanos) {
         for run in &mut self.runs {
@@ -149,6 +163,8 @@ impl Verifier {
     pub(crate) fn target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
         self.reader.read(text, base, &mut self.batch);
         self.read_back(inherited)?;
+        let found = levels(&self.batch.stmts);
+        self.fork_for_target(&[found]);
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
@@ -199,6 +215,8 @@ impl Verifier {
         let mut procedures = vec![Procedure { body, ..Procedure::default() }];
         procedures.append(&mut self.batch.procedures);
         let target = Program { procedures, ..Program::default() };
+        let found: Vec<u16> = target.procedures.iter().map(|p| levels(&p.body)).collect();
+        self.fork_for_target(&found);
         for run in &mut self.runs {
             let mut a = Runner::new(source);
             let mut b = Runner::new(&target);
@@ -290,9 +308,20 @@ impl Verifier {
         }
     }
 
+    /// Adds the settings of levels that the output has and the source has not. (A target with one
+    /// level has no further ones.)
+    fn fork_for_target(&mut self, levels: &[u16]) {
+        if !self.one_level {
+            self.fork(levels.iter().fold(0, |all, level| all | level));
+        }
+    }
+
     /// Takes the facts that the output inherits, and refuses what could not be read back.
     fn read_back(&mut self, inherited: &Modes) -> Result<(), Stop> {
+        let own = self.batch.assumed;
         for run in &mut self.runs {
+            // What the text itself takes for granted goes before what it inherits.
+            run.target.assume(&own);
             run.target.assume(inherited);
         }
         let error = self.batch.diagnostics.iter().find(|d| d.fault.gravity() == Gravity::Error);

@@ -5,6 +5,12 @@
 /// Number of axes that a program can name.
 pub const AXES: usize = 6;
 
+/// Whether two points are the same. As fast as can be: `==` on arrays calls the library.
+#[inline]
+pub fn same_point(a: &[i64; AXES], b: &[i64; AXES]) -> bool {
+    a.iter().zip(b).fold(0, |differing, (a, b)| differing | (a ^ b)) == 0
+}
+
 /// An axis. X Y Z are linear, A B C turn about them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[allow(missing_docs)] // The names are the meaning.

@@ -5,7 +5,7 @@
 //! event and agree. Moves that rounding has brought to nothing vanish. The comparison consumes both
 //! streams as they come, so that its memory does not grow with the program.
 
-use crate::canon::{AXES, Axis};
+use crate::canon::{AXES, Axis, same_point};
 use crate::exec::{Event, Kind};
 use crate::num::{Nanos, POW10};
 
@@ -153,7 +153,7 @@ impl Comparison {
     /// The axis in which two points differ.
     #[inline]
     fn end(&self, a: &[Nanos; AXES], b: &[Nanos; AXES], inch: bool) -> Option<Axis> {
-        if a == b {
+        if same_point(a, b) {
             return None;
         }
         Axis::ALL.into_iter().find(|&axis| {

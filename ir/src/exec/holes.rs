@@ -50,8 +50,8 @@ impl Exec {
             CycleKind::Drill => Way::Drill { dwell: None },
             CycleKind::DrillDwell { dwell } => Way::Drill { dwell: Some(self.value(dwell, span)?) },
             CycleKind::DrillPeck { peck, clearance, dwell: d } => {
-                let peck = self.value(peck, span)?.abs();
-                if peck == 0 || (retract - depth) / peck > MOST_PECKS {
+                let peck = self.value(peck, span)?;
+                if peck <= 0 || (retract - depth) / peck > MOST_PECKS {
                     return self.fault(Fault::OutOfRange { word: "Q".into() }, span);
                 }
                 let clearance = match clearance {

@@ -11,7 +11,9 @@ mod run;
 pub use event::{Event, Kind, State};
 pub use run::{Progress, Runner};
 
-use crate::canon::{AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
+use crate::canon::{
+    AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, Units, same_point,
+};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
@@ -297,7 +299,7 @@ impl Exec {
     #[inline]
     fn emit_move(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let end = self.machine();
-        if end == self.last {
+        if same_point(&end, &self.last) {
             return Ok(());
         }
         let kind = if feed { Kind::Feed } else { Kind::Traverse };
