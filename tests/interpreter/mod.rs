@@ -277,7 +277,7 @@ impl Machine {
             if self.absolute {
                 to[axis] = value + self.shift(axis);
                 self.settled[axis] = true;
-            } else if self.settled[axis] {
+            } else if self.settled[axis] || value == 0.0 {
                 to[axis] = self.at[axis] + value;
             } else {
                 return self.halt("an incremental word after a change of offsets");
