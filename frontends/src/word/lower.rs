@@ -218,7 +218,13 @@ impl Lower {
             let place = left.trailing_zeros() as usize;
             left &= left - 1;
             let word = words.all[usize::from(words.at[place]) - 1];
-            self.fault(Fault::WordUnused { word: src.text(word.span) }, word.span, out);
+            // Some words have a function of their own, which is known and not translated.
+            let refused = self.letters[place].and_then(|row| row.refuse.as_deref());
+            let fault = match refused {
+                Some(name) => Fault::NotSupported { code: src.text(word.span), name: name.into() },
+                None => Fault::WordUnused { word: src.text(word.span) },
+            };
+            self.fault(fault, word.span, out);
         }
     }
 

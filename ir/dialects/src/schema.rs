@@ -242,6 +242,10 @@ pub struct Address {
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
+    /// What the word does where no code of the block uses it, if that is not translated: the name
+    /// by which it is refused.
+    #[serde(default)]
+    pub refuse: Option<String>,
     /// Whether it is confirmed that entry 0 of a table is none.
     #[serde(default = "yes")]
     pub zero_sure: bool,
