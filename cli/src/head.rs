@@ -3,9 +3,11 @@
 
 use std::collections::BTreeSet;
 
+use ncc_dialects::Dialect;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict};
 
 use crate::job::Job;
+use crate::render::words;
 
 /// The lines of the comment.
 pub(crate) fn lines(job: &Job, hash: &[u8; 32], diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -13,11 +15,12 @@ pub(crate) fn lines(job: &Job, hash: &[u8; 32], diagnostics: &[Diagnostic]) -> V
     let verified = if job.verify { "verified" } else { "UNVERIFIED" };
     let mut lines =
         vec![format!("ncc: {} {} sha256 {hash}, {verified}", job.from.dialect.id, job.source_name)];
+    let dialects = [job.to.dialect, job.from.dialect];
     let mut seen = BTreeSet::new();
     let assumed: Vec<String> = diagnostics
         .iter()
         .filter(|d| d.fault.gravity() == Gravity::Verdict(Verdict::Assumed))
-        .filter_map(|d| assumption(&d.fault))
+        .filter_map(|d| assumption(&d.fault, dialects))
         .filter(|text| seen.insert(text.clone()))
         .collect();
     if !assumed.is_empty() {
@@ -26,8 +29,9 @@ pub(crate) fn lines(job: &Job, hash: &[u8; 32], diagnostics: &[Diagnostic]) -> V
     lines
 }
 
-/// An assumption in the few words that fit a program's head; `None` for what is none.
-pub fn assumption(fault: &Fault) -> Option<String> {
+/// An assumption in the few words that fit a program's head; `None` for what is none. A work offset
+/// is named by the first of the dialects that has a word for it.
+pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
     Some(match fault {
         Fault::AssumedMode { fact, value } => match fact {
             ModeName::Motion => format!("motion = {value}"),
@@ -36,14 +40,19 @@ pub fn assumption(fault: &Fault) -> Option<String> {
             ModeName::Plane => format!("plane = {value}"),
             ModeName::FeedMode => format!("feed {value}"),
             ModeName::ReturnLevel => format!("cycles return to {value}"),
-            ModeName::WorkOffset => format!("work offset = {value}"),
+            ModeName::WorkOffset => match value.parse() {
+                Ok(number) => format!("work offset = {}", words::work_offset(number, dialects)),
+                Err(_) => format!("work offset = {value}"),
+            },
             ModeName::LengthOffset => "no length offset at the start".to_owned(),
             ModeName::OriginShift => "no origin shift at the start".to_owned(),
         },
         Fault::AssumedNoEffect { code } => format!("{code} has no effect"),
         Fault::AssumedBareNumber { word, value } => format!("{word} without point = {value}"),
         Fault::AssumedOffsetWithZ => "length offset taken up with the next Z".to_owned(),
-        Fault::AssumedWorkOffset { offset } => format!("set reference = work offset {offset}"),
+        Fault::AssumedWorkOffset { offset } => {
+            format!("the only work offset = {}", words::work_offset(*offset, dialects))
+        }
         Fault::AssumedRow { code, meaning } => format!("{code} = {meaning}"),
         Fault::AssumedOption { option, value } => format!("{option} = {value}"),
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),

@@ -164,14 +164,16 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
             format!("{} = {}, a question that the sources leave open", plain(option), plain(value))
         }
         Fault::AssumedWorkOffset { offset } => {
-            format!("the only work offset is {}", work_offset(*offset, at))
+            format!("the only work offset is {}", work_offset(*offset, [at.to, at.from]))
         }
         // In the words that the operator reads at the top of the program.
         Fault::AssumedMode { .. }
         | Fault::AssumedNoEffect { .. }
         | Fault::AssumedOffsetWithZ
         | Fault::AssumedRow { .. }
-        | Fault::AssumedParameter { .. } => assumption(fault).unwrap_or_else(|| words(fault, at).message),
+        | Fault::AssumedParameter { .. } => {
+            assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)
+        }
         Fault::CommentReformatted => format!("comments, in the characters of {to}"),
         Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
         Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),

@@ -172,7 +172,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "stands alone here; written into the next block with a Z".into(),
         ),
         Fault::AssumedWorkOffset { offset } => (
-            format!("the only work offset taken for {}", work_offset(*offset, at)),
+            format!("the only work offset taken for {}", work_offset(*offset, [at.to, at.from])),
             "here it is first relied on".into(),
         ),
         Fault::AssumedRow { code, meaning } => (
@@ -291,9 +291,9 @@ pub fn mode(fact: ModeName) -> &'static str {
     }
 }
 
-/// A work offset by the word that one of the two dialects has for it.
-pub fn work_offset(number: u16, at: Context) -> String {
-    let row = [at.to, at.from].into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
+/// A work offset by the word that one of the dialects has for it, the first one if it has.
+pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
+    let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
     row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
 }
 
