@@ -338,9 +338,11 @@ impl Control {
 
     /// A block while a cycle is in force: a hole if it has X, Y, Z, R or another axis.
     fn hole(&mut self, cycle: u32, words: &[Word]) -> Result<(), Halt> {
-        if number(words, 'K').is_some() || (number(words, 'L').is_some() && number(words, 'M').is_none()) {
-            return self.m.halt("repetition in a cycle");
+        if number(words, 'L').is_some() && number(words, 'M').is_none() {
+            return self.m.halt("repetition by L, as on older series");
         }
+        // K0 stores the data and makes no hole.
+        let times = number(words, 'K').map_or(1, |(k, _)| k as u32);
         let mut axes = self.axis_words(words);
         let r = self.length(words, 'R');
         if axes.iter().all(Option::is_none) && r.is_none() {
@@ -377,10 +379,13 @@ impl Control {
             (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),
             _ => return self.m.halt("a cycle without its Q or P"),
         };
-        let to = self.m.target(axes)?;
-        self.m.traverse(to);
         let back = if self.return_initial { self.initial.max(r) } else { r };
-        self.m.hole(hole, r, z, back)
+        for _ in 0..times {
+            let to = self.m.target(axes)?;
+            self.m.traverse(to);
+            self.m.hole(hole, r, z, back)?;
+        }
+        Ok(())
     }
 
     /// M98: P is the number, with L the count; more than four digits carry the count in front.
