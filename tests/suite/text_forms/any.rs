@@ -14,7 +14,7 @@ fn unit() -> impl Strategy<Value = Unit> {
     select(vec![Unit::One, Unit::Mm, Unit::Inch, Unit::Entry, Unit::Degree, Unit::Second])
 }
 
-pub fn num() -> impl Strategy<Value = Num> {
+pub(super) fn num() -> impl Strategy<Value = Num> {
     let mantissa = prop_oneof![Just(0), -20i64..20, any::<i64>(), -99_999_999i64..99_999_999];
     (mantissa, 0u8..=18, any::<bool>(), unit()).prop_map(|(mantissa, scale, point, unit)| Num {
         mantissa,
@@ -24,7 +24,7 @@ pub fn num() -> impl Strategy<Value = Num> {
     })
 }
 
-pub fn text() -> impl Strategy<Value = Text> {
+pub(super) fn text() -> impl Strategy<Value = Text> {
     prop_oneof!["[a-z]{0,5}", any::<String>(), "[\"\\\\\n\r\t#{}& ]{0,6}"].prop_map(Text::from)
 }
 
@@ -67,7 +67,7 @@ fn function() -> impl Strategy<Value = Function> {
     select(vec![Sin, Cos, Tan, Asin, Acos, Atan2, Sqrt, Abs, Round, Floor, Ceiling, Truncate, Ln, Exp])
 }
 
-pub fn expr() -> impl Strategy<Value = Expr> {
+pub(super) fn expr() -> impl Strategy<Value = Expr> {
     let leaf = prop_oneof![
         4 => num().prop_map(Expr::Num),
         1 => var().prop_map(|v| Expr::Node(Box::new(Node::Var(v)))),
@@ -267,7 +267,7 @@ fn stmts(op: BoxedStrategy<Op>) -> impl Strategy<Value = Vec<Stmt>> {
 }
 
 /// The body of a procedure.
-pub fn body() -> impl Strategy<Value = Vec<Stmt>> {
+pub(super) fn body() -> impl Strategy<Value = Vec<Stmt>> {
     let op = simple().prop_recursive(3, 20, 4, |inner| {
         let body = || stmts(inner.clone());
         prop_oneof![
@@ -324,7 +324,7 @@ fn modes() -> impl Strategy<Value = Modes> {
 }
 
 /// A whole program.
-pub fn program() -> impl Strategy<Value = Program> {
+pub(super) fn program() -> impl Strategy<Value = Program> {
     let procedure = (name(), of(text()), prop::collection::vec(var(), 0..3), body())
         .prop_map(|(name, title, parameters, body)| Procedure { name, title, parameters, body });
     let name = (of(any::<u32>()), of(text())).prop_map(|(number, title)| ProgramName { number, title });
