@@ -133,7 +133,8 @@ impl<'j> Line<'j> {
         let assumed = self.batch.assumed;
         let mut found = Vec::new();
         self.state_given(stmts);
-        if self.legaliser.touches(stmts) {
+        let touched = self.legaliser.touches(stmts);
+        if touched {
             // What the passes take for granted holds for the source as well.
             let original = stmts.clone();
             self.legaliser.run(stmts, &assumed, &mut found);
@@ -145,7 +146,7 @@ impl<'j> Line<'j> {
         }
         self.writer.write(stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
         self.take(found);
-        self.release_text(&assumed)
+        self.release_text(&assumed, (!touched).then_some(&stmts[..]))
     }
 
     /// The end of the source.
@@ -168,7 +169,7 @@ impl<'j> Line<'j> {
         self.writer.write(&stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
         self.writer.finish(&mut self.text, &mut found);
         self.take(found);
-        self.release_text(&assumed)?;
+        self.release_text(&assumed, None)?;
         self.check(Verifier::finish);
         Ok(())
     }
@@ -253,13 +254,14 @@ impl<'j> Line<'j> {
         }
     }
 
-    /// Verifies the text written so far and passes it on.
-    fn release_text(&mut self, assumed: &Modes) -> io::Result<()> {
+    /// Verifies the text written so far and passes it on; `said` are the statements that it says, if
+    /// they are the source's own.
+    fn release_text(&mut self, assumed: &Modes, said: Option<&[Stmt]>) -> io::Result<()> {
         let text = std::mem::take(&mut self.text);
         let inherited = self.inherited(assumed);
         // Places in the output are not shown, so a base that does not fit does no harm.
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
-        self.check(|v| v.target(&text, base, &inherited));
+        self.check(|v| v.target(&text, base, &inherited, said));
         self.output.push(&text)?;
         self.written += text.len() as u64;
         self.text = text;

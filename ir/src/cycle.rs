@@ -5,7 +5,7 @@
 
 use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel};
 use crate::expr::Expr;
-use crate::program::Coord;
+use crate::program::{Coord, Point};
 
 /// A hole-making cycle, complete: a back-end needs no earlier block to write it.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,6 +24,14 @@ pub struct Cycle {
     pub approach: Approach,
     /// Feed into the hole, if the cycle's own block says it. It is re-stated at every hole.
     pub feed: Option<Expr>,
+}
+
+impl Cycle {
+    /// Whether a position's words are measured as the cycle's own planes are.
+    pub fn measured_as(&self, to: &Point) -> bool {
+        let planes = [&self.retract, &self.depth].map(|c| c.distance);
+        to.axes.iter().flatten().all(|word| planes.iter().all(|p| *p == word.distance))
+    }
 }
 
 /// How a hole is made.

@@ -7,7 +7,9 @@
 
 use crate::canon::{AXES, Axis, same_point};
 use crate::exec::{Event, Kind};
+use crate::expr::Expr;
 use crate::num::{Nanos, POW10};
+use crate::program::{Op, Point, Stmt};
 
 /// What the target resolves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,6 +37,32 @@ impl Resolution {
     #[inline]
     fn lengths(&self, inch: bool) -> Nanos {
         Resolution::half(if inch { self.inch } else { self.mm }, inch)
+    }
+}
+
+/// Whether two statements are the same plain move or feed, so that controls in the same state do
+/// the same. What is not so plain is left to execution.
+pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
+    let value = |a: &Expr, b: &Expr| match (a, b) {
+        (Expr::Num(a), Expr::Num(b)) => a.mantissa == b.mantissa && a.scale == b.scale && a.unit == b.unit,
+        (Expr::Node(_), _) | (_, Expr::Node(_)) => false,
+    };
+    let words = |a: &Point, b: &Point| {
+        a.axes.iter().zip(&b.axes).all(|(a, b)| match (a, b) {
+            (None, None) => true,
+            (Some(a), Some(b)) => a.distance == b.distance && value(&a.value, &b.value),
+            (None, Some(_)) | (Some(_), None) => false,
+        })
+    };
+    if a.skip.is_some() || b.skip.is_some() {
+        return false;
+    }
+    match (&a.op, &b.op) {
+        (Op::StraightFeed(a), Op::StraightFeed(b)) | (Op::StraightTraverse(a), Op::StraightTraverse(b)) => {
+            words(&a.to, &b.to)
+        }
+        (Op::SetFeedRate(a), Op::SetFeedRate(b)) => value(a, b),
+        _ => false,
     }
 }
 
@@ -88,6 +116,13 @@ impl Comparison {
     pub fn start_at(&mut self, start: [Nanos; AXES]) {
         self.source_at = start;
         self.target_at = start;
+    }
+
+    /// Notes events that need no comparison, because both sides executed the same in the same state.
+    pub fn pass(&mut self, events: &mut Vec<Event>, at: [Nanos; AXES]) {
+        self.events += events.len() as u64;
+        events.clear();
+        self.start_at(at);
     }
 
     /// Compares as far as both streams go, and removes what was compared. With `over`, what is left

@@ -81,6 +81,11 @@ impl Writer {
     /// A hole at a position.
     pub(super) fn hole(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let with_call = self.dialect.cycles.hole_on_definition;
+        let mixed = self.held.as_ref().is_some_and(|h| !h.in_text && !h.cycle.measured_as(&to.to));
+        if mixed && with_call {
+            // One block has one distance mode, so the call stands alone.
+            self.call_up_now(stmt, sink)?;
+        }
         let in_force = self.force.motion == Some(Motion::Cycle);
         match self.held.take() {
             Some(held) if !held.in_text || !in_force || (with_call && to.to.is_empty()) => {

@@ -59,7 +59,7 @@ pub struct Exec {
 }
 
 /// Modes in force; a control always has a value for each.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct InModes {
     motion: Motion,
     distance: Distance,
@@ -193,6 +193,37 @@ impl Exec {
     pub fn be_at(&mut self, machine: [Nanos; AXES]) {
         self.last = machine;
         self.position = std::array::from_fn(|i| machine[i].wrapping_sub(self.frame[i]));
+    }
+
+    /// Whether two controls are in one state: whatever both execute next, both do the same. (Facts
+    /// about power-on do not count any more, and no cycle may be in force.)
+    pub fn agrees(&self, other: &Exec) -> bool {
+        self.modes == other.modes
+            && self.position == other.position
+            && self.frame == other.frame
+            && self.last == other.last
+            && self.waiting == other.waiting
+            && self.feed == other.feed
+            && self.selected == other.selected
+            && self.state == other.state
+            && self.cycle.is_none()
+            && other.cycle.is_none()
+            && self.ended == other.ended
+            && self.world.seed == other.world.seed
+    }
+
+    /// Takes over the state of a control that it agreed with before both executed the same.
+    pub fn follow(&mut self, other: &Exec) {
+        self.modes = other.modes;
+        self.position = other.position;
+        self.frame = other.frame;
+        self.last = other.last;
+        self.waiting = other.waiting;
+        self.feed = other.feed;
+        self.selected = other.selected;
+        self.state = other.state;
+        self.said |= other.said;
+        self.ended = other.ended;
     }
 
     /// Makes no events of messages: for a comparison with a control that cannot show them.
