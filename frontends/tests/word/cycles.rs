@@ -118,7 +118,10 @@ fn repetitions_of_a_cycle() {
         after_head("fanuc", "G81 Z-5. R2. F50. K0\nG91 X10. K3\n"),
         [DRILL, "SetDistanceMode(Incremental)", "& HOLE X+=10.", "HOLE X+=10.", "HOLE X+=10."]
     );
-    assert_eq!(faults("fanuc", "G81 Z-5. R2. F50. L3\n"), ["NotSupported { code: 'L3', name: 'repetition by L' } at 'L3'"]);
+    assert_eq!(
+        faults("fanuc", "G81 Z-5. R2. F50. L3\n"),
+        ["NotSupported { code: 'L3', name: 'repetition by L' } at 'L3'"]
+    );
     assert_eq!(faults("fanuc", "G81 X1. Z-5. R2. K99999\n"), ["OutOfRange { word: 'K99999' } at 'K99999'"]);
 }
 

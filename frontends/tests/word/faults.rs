@@ -115,7 +115,10 @@ fn words_that_are_too_many_or_too_few() {
         faults("fanuc", "G0 X1. R2. H3\n"),
         ["WordUnused { word: 'H3' } at 'H3'", "WordUnused { word: 'R2.' } at 'R2.'"]
     );
-    assert_eq!(faults("mach9", "G1X60.Q10.\n"), ["NotSupported { code: 'Q10.', name: 'corner rounding or chamfer' } at 'Q10.'"]);
+    assert_eq!(
+        faults("mach9", "G1X60.Q10.\n"),
+        ["NotSupported { code: 'Q10.', name: 'corner rounding or chamfer' } at 'Q10.'"]
+    );
     assert_eq!(faults("mach9", "H90E240L25\n").len(), 3);
 }
 
