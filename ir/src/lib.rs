@@ -2,7 +2,7 @@
 //!
 //! Two representations answer two questions. [`program::Program`] is what the program *says*:
 //! structured, symbolic, the form that passes rewrite. The canonical stream, [`exec::Event`]s made
-//! by executing a `Program` in a [`exec::World`], is what the machine *does*; [`verify`] compares
+//! by executing a `Program` in a [`world::World`], is what the machine *does*; [`verify`] compares
 //! two of them. Numbers are exact decimals ([`num`]); a binary float lives only in geometry.
 //!
 //! This crate knows no dialect by name, reads no file and prints nothing.
