@@ -57,8 +57,11 @@ fn programs_from_elsewhere() {
     for path in files(&programs) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let text = fs::read(&path).expect("a program");
-        for to in DIALECTS {
-            let job = job("fanuc", to, &name);
+        // Some of them leave points away as a control in calculator mode allows.
+        let ways = DIALECTS.into_iter().flat_map(|to| [(to, "increment"), (to, "calculator")]);
+        for (to, decimal_point) in ways {
+            let mut job = job("fanuc", to, &name);
+            job.from.choose("decimal_point", decimal_point).expect("an option");
             let (outcome, _) = translate(&job, &text);
             let said = rendered(&job, &name, &text, &outcome.diagnostics);
             match outcome.release {
