@@ -229,6 +229,21 @@ fn functions_and_stops_have_their_codes() {
 }
 
 #[test]
+fn a_row_that_nobody_confirms_is_told_once() {
+    let stmts = lines(vec![Op::FloodOn, Op::CoolantOff, Op::FloodOn, Op::UseToolLengthOffset(count("0"))]);
+    let (_, told) = text("mach9", &stmts);
+    let codes: Vec<&str> = faults(&told)
+        .into_iter()
+        .map(|fault| match fault {
+            Fault::AssumedRow { code, .. } => &**code,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert_eq!(codes, ["M8", "M9", "O0"]);
+    assert_eq!(text("fanuc", &stmts).1, []);
+}
+
+#[test]
 fn facts_that_a_control_has_alone_need_no_word() {
     let stmts = lines(vec![
         rapid("X0."),
