@@ -257,7 +257,7 @@ pub enum Op {
     /// `STRAIGHT_FEED`
     StraightFeed(Move),
     /// `ARC_FEED`
-    ArcFeed(Arc),
+    ArcFeed(Box<Arc>),
     /// `POSITION`: axis words that do whatever motion is in force.
     Position(Move),
 

@@ -14,7 +14,7 @@ fn arc(turn: Turn, to: &str, centre: Centre) -> Arc {
 }
 
 fn after(start: &str, arc: Arc) -> Vec<Stmt> {
-    lines(vec![rapid(start), Op::ArcFeed(arc)])
+    lines(vec![rapid(start), Op::ArcFeed(Box::new(arc))])
 }
 
 use CentreFrom::{Start, Zero};
@@ -62,7 +62,7 @@ fn inches_are_converted_exactly() {
     let stmts = lines(vec![
         Op::UseLengthUnits(Units::Inch),
         Op::StraightTraverse(Move { to: inch("X.5 Y0."), said: true }),
-        Op::ArcFeed(arc),
+        Op::ArcFeed(Box::new(arc)),
     ]);
     let (text, diags) = text("fanuc", &stmts);
     assert!(text.ends_with("G00 X0.5 Y0.\nG02 X1.5 Y0. I0.5 J0.0001\n"), "{text}{diags:?}");
@@ -86,14 +86,15 @@ fn a_radius_stays_where_there_is_a_word_for_it() {
 fn planes_have_their_own_letters() {
     let zx =
         Arc { plane: Fact::Known(Plane::Zx), ..arc(Clockwise, "X10. Z0.", centre(Start, "5.", "", "0.")) };
-    let stmts = lines(vec![rapid("X0. Y0. Z0."), Op::SelectPlane(Plane::Zx), Op::ArcFeed(zx.clone())]);
+    let stmts =
+        lines(vec![rapid("X0. Y0. Z0."), Op::SelectPlane(Plane::Zx), Op::ArcFeed(Box::new(zx.clone()))]);
     assert_eq!(clean("fanuc", &stmts), "G00 X0. Y0. Z0.\nG18\nG02 X10. Z0. I5. K0.\n");
     let (mach9, _) = text("mach9", &stmts);
     assert_eq!(mach9, "G0X0.Y0.Z0.\nG18\nG2X10.Z0.I5.K0.\n");
     // A plane that is not in force is put in, and one word outside the plane is no centre.
     let yz = Arc { plane: Fact::Known(Plane::Yz), centre: centre(Start, "9.", "5.", ""), ..zx };
     let yz = Arc { to: point("Y10. Z0."), ..yz };
-    let stmts = lines(vec![rapid("Y0. Z0."), Op::ArcFeed(yz)]);
+    let stmts = lines(vec![rapid("Y0. Z0."), Op::ArcFeed(Box::new(yz))]);
     assert_eq!(clean("fanuc", &stmts), "G00 Y0. Z0.\nG19 G02 Y10. Z0. J5.\n");
 }
 
@@ -137,7 +138,7 @@ fn plain_moves_before_an_arc_are_followed() {
         by("X1."),
         by("X0.5 Y0."),
         by("X0.5"),
-        Op::ArcFeed(half),
+        Op::ArcFeed(Box::new(half)),
     ]);
     let (text, _) = text("fanuc", &stmts);
     assert!(text.ends_with("G01 X0.5\nG02 X10. I5. J0.\n"), "{text}");

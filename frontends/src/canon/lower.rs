@@ -124,7 +124,7 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
             let m = Move { to, said: false };
             if name == "STRAIGHT_FEED" { Op::StraightFeed(m) } else { Op::StraightTraverse(m) }
         }
-        "ARC_FEED" => Op::ArcFeed(arc(&mut args, length, state)?),
+        "ARC_FEED" => Op::ArcFeed(Box::new(arc(&mut args, length, state)?)),
         "SET_FEED_RATE" => Op::SetFeedRate(args.number("rate", length)?),
         "SET_SPINDLE_SPEED" => Op::SetSpindleSpeed(args.number("speed", Unit::One)?),
         "DWELL" => Op::Dwell(args.number("seconds", Unit::Second)?),

@@ -8,7 +8,7 @@ use ncc_dialects::Quantity;
 use ncc_ir::canon::{Axis, Distance, Fact, Motion};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
+use ncc_ir::program::{Coord, Move, Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Value, Word};
@@ -89,31 +89,42 @@ impl Lower {
         if axes.is_empty() || axes.len() > 3 {
             return false;
         }
-        let mut to = Point::default();
+        let mut seen = 0u8;
         for word in axes {
-            let place = usize::from(word.letter.wrapping_sub(b'X'));
+            let place = word.letter.wrapping_sub(b'X');
             let Value::Number(digits) = word.value else {
                 return false;
             };
             let plain = digits.point && digits.scale <= 8 || digits.mantissa == 0 && digits.scale == 0;
-            if place > 2 || !plain || digits.mantissa.unsigned_abs() >= 10_000_000 || to.axes[place].is_some()
-            {
+            let large = digits.mantissa.unsigned_abs() >= 10_000_000;
+            if place > 2 || !plain || large || seen >> place & 1 == 1 {
                 return false;
             }
-            to.axes[place] = Some(Coord {
-                value: Expr::Num(Num {
-                    mantissa: digits.mantissa,
-                    scale: digits.scale,
-                    point: digits.point,
-                    unit: fast.unit,
-                }),
-                distance: fast.distance,
-            });
+            seen |= 1 << place;
         }
-        let to = Move { to, said: false };
-        let op = if fast.feed { Op::StraightFeed(to) } else { Op::StraightTraverse(to) };
-        let stmt = Stmt { span, number, skip: None, joined: false, comment: None, op };
-        self.target(out).push(stmt);
+        // A statement is large: it goes to its place empty, and is filled there.
+        let stmts = self.target(out);
+        let empty = Move::default();
+        let op = if fast.feed { Op::StraightFeed(empty) } else { Op::StraightTraverse(empty) };
+        stmts.push(Stmt { span, number, skip: None, joined: false, comment: None, op });
+        let Some(Op::StraightFeed(Move { to, .. }) | Op::StraightTraverse(Move { to, .. })) =
+            stmts.last_mut().map(|stmt| &mut stmt.op)
+        else {
+            return false;
+        };
+        for word in axes {
+            if let Value::Number(digits) = word.value {
+                to.axes[usize::from(word.letter - b'X')] = Some(Coord {
+                    value: Expr::Num(Num {
+                        mantissa: digits.mantissa,
+                        scale: digits.scale,
+                        point: digits.point,
+                        unit: fast.unit,
+                    }),
+                    distance: fast.distance,
+                });
+            }
+        }
         true
     }
 }

@@ -203,7 +203,7 @@ impl Lower {
             None if self.now.failed => return,
             None => return self.fault(Fault::ArcWithoutCentre, block, out),
         };
-        self.push(block, Op::ArcFeed(Arc { plane, turn, to, centre, turns: 0, said }), out);
+        self.push(block, Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns: 0, said })), out);
     }
 
     /// Whether words are incremental where the dialect's cycles are not known to take them.

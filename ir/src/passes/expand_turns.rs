@@ -37,7 +37,9 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
                 let first = stmt.joined;
                 made.replace(
                     stmt,
-                    arcs.into_iter().enumerate().map(|(k, arc)| (first && k == 0, Op::ArcFeed(arc))),
+                    arcs.into_iter()
+                        .enumerate()
+                        .map(|(k, arc)| (first && k == 0, Op::ArcFeed(Box::new(arc)))),
                 );
             }
             Some(Err(fault)) => {

@@ -109,7 +109,7 @@ fn arc() -> impl Strategy<Value = Op> {
             if let Some(z) = z {
                 to.set(Axis::Z, z);
             }
-            Op::ArcFeed(Arc {
+            Op::ArcFeed(Box::new(Arc {
                 plane: Fact::Known(Plane::Xy),
                 turn: if cw { Turn::Clockwise } else { Turn::Counterclockwise },
                 to,
@@ -119,7 +119,7 @@ fn arc() -> impl Strategy<Value = Op> {
                 },
                 turns,
                 said: true,
-            })
+            }))
         },
     )
 }

@@ -227,14 +227,14 @@ fn simple() -> BoxedStrategy<Op> {
         moves().prop_map(Op::Position),
         moves().prop_map(Op::Hole),
         (fact(planes()), turn(), point(), centre(), 0u32..3, any::<bool>()).prop_map(
-            |(plane, turn, to, centre, turns, said)| Op::ArcFeed(Arc {
+            |(plane, turn, to, centre, turns, said)| Op::ArcFeed(Box::new(Arc {
                 plane,
                 turn,
                 to,
                 centre,
                 turns,
                 said
-            })
+            }))
         ),
         cycle().prop_map(|c| Op::StartCycle(Box::new(c))),
         pattern().prop_map(|p| Op::Pattern(Box::new(p))),
