@@ -201,6 +201,10 @@ impl Writer {
             _ => self.digits(in_force),
         };
         let n = n.trimmed();
+        // The digit that stands after every point is one of the 18 that can be read back.
+        if n.scale == 0 && n.mantissa.unsigned_abs() >= POW10[17] as u64 {
+            return Err(Fault::TargetRange { word: word.into() });
+        }
         if in_force == n.unit && n.scale <= decimals {
             put(n, out);
             return Ok(());
