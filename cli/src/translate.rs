@@ -142,7 +142,6 @@ impl<'j> Line<'j> {
             self.check(|v| v.source(&original, &assumed));
         } else {
             self.legaliser.run(stmts, &assumed, &mut found);
-            self.check(|v| v.source(stmts, &assumed));
         }
         self.writer.write(stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
         self.take(found);
@@ -261,7 +260,10 @@ impl<'j> Line<'j> {
         let inherited = self.inherited(assumed);
         // Places in the output are not shown, so a base that does not fit does no harm.
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
-        self.check(|v| v.target(&text, base, &inherited, said));
+        self.check(|v| match said {
+            Some(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
+            None => v.target(&text, base, &inherited),
+        });
         self.output.push(&text)?;
         self.written += text.len() as u64;
         self.text = text;

@@ -161,21 +161,45 @@ impl Verifier {
         Ok(())
     }
 
-    /// Reads a further piece of emitted text back, executes it and compares. `inherited` are the
-    /// assumed facts that the text does not state itself; `said` the source's statements of this
-    /// piece, if the text is to say them one by one.
-    pub(crate) fn target(
+    /// A piece of which the text is to say the source's statements one by one: executes and compares
+    /// both. Plain moves that are read back as they were said are executed once by controls in one
+    /// state, because both do the same.
+    pub(crate) fn piece(
         &mut self,
+        stmts: &[Stmt],
+        assumed: &Modes,
         text: &[u8],
         base: u32,
         inherited: &Modes,
-        said: Option<&[Stmt]>,
     ) -> Result<(), Stop> {
         self.reader.read(text, base, &mut self.batch);
-        self.read_back(inherited)?;
-        if self.same_plain(said) {
-            return Ok(());
+        if !self.same_plain(stmts) {
+            self.source(stmts, assumed)?;
+            return self.target_read(inherited);
         }
+        self.prepare(stmts, assumed);
+        self.read_back(inherited)?;
+        for run in &mut self.runs {
+            let events = run.source.pass(stmts).map_err(Stop::Source)?;
+            run.target.follow(&run.source);
+            run.comparison.pass(events, run.source.machine());
+        }
+        self.batch.stmts.clear();
+        if let Some(stmt) = stmts.last() {
+            self.last = stmt.span;
+        }
+        Ok(())
+    }
+
+    /// Reads a further piece of emitted text back, executes it and compares. `inherited` are the
+    /// assumed facts that the text does not state itself.
+    pub(crate) fn target(&mut self, text: &[u8], base: u32, inherited: &Modes) -> Result<(), Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        self.target_read(inherited)
+    }
+
+    fn target_read(&mut self, inherited: &Modes) -> Result<(), Stop> {
+        self.read_back(inherited)?;
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
         for run in &mut self.runs {
@@ -192,20 +216,12 @@ impl Verifier {
         Ok(())
     }
 
-    /// Plain moves that were read back as they were said need not be executed a second time by
-    /// controls in one state: both do the same, and only one need do it.
-    fn same_plain(&mut self, said: Option<&[Stmt]>) -> bool {
-        let Some(said) = said.filter(|_| self.runs.iter().all(|run| run.level)) else { return false };
+    /// Whether the text just read says plain moves as they were said, and all controls are level.
+    fn same_plain(&self, said: &[Stmt]) -> bool {
         let read = &self.batch.stmts;
-        if said.len() != read.len() || !said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b)) {
-            return false;
-        }
-        for run in &mut self.runs {
-            run.target.follow(&run.source);
-            run.comparison.pass(&mut run.source_events, run.source.machine());
-        }
-        self.batch.stmts.clear();
-        true
+        self.runs.iter().all(|run| run.level)
+            && said.len() == read.len()
+            && said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b))
     }
 
     /// Ends a program that was streamed to its end.

@@ -56,6 +56,9 @@ pub struct Exec {
     ended: bool,
     /// Whether messages make no events.
     muted: bool,
+    /// Whether events are counted only.
+    quiet: bool,
+    counted: u64,
 }
 
 /// Modes in force; a control always has a value for each.
@@ -110,6 +113,8 @@ impl Exec {
             cycle: None,
             ended: false,
             muted: false,
+            quiet: false,
+            counted: 0,
         };
         exec.reframe(world.start);
         exec
@@ -224,6 +229,18 @@ impl Exec {
         self.state = other.state;
         self.said |= other.said;
         self.ended = other.ended;
+    }
+
+    /// Executes statements for their effect on the state alone; gives the number of their events.
+    ///
+    /// # Errors
+    /// As of [`Exec::step`].
+    pub fn pass(&mut self, stmts: &[Stmt]) -> Result<u64, Diagnostic> {
+        (self.quiet, self.counted) = (true, 0);
+        let mut none = Vec::new();
+        let passed = stmts.iter().try_for_each(|stmt| self.step(stmt, &mut none));
+        self.quiet = false;
+        passed.map(|()| self.counted)
     }
 
     /// Makes no events of messages: for a comparison with a control that cannot show them.
@@ -343,6 +360,10 @@ impl Exec {
         let cutting = matches!(kind, Kind::Feed | Kind::Arc { .. });
         if cutting && self.feed == 0 {
             return self.fault(Fault::NoFeed, span);
+        }
+        if self.quiet {
+            self.counted += 1;
+            return Ok(());
         }
         let rate = if cutting { self.feed } else { 0 };
         out.push(Event { kind, end: self.last, rate, state: self.state, inch: self.modes.inch, span });
