@@ -407,3 +407,59 @@ fn different(difference: &Difference, last: Span) -> Stop {
     let difference = difference::describe(difference).into();
     Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ncc_backends::Layout;
+    use ncc_dialects::builtin;
+
+    const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
+    const SECOND: &str = "X10.\nY10. Z-1.5\nX0. F200.\nG00 Z5.\n";
+
+    fn job() -> Job {
+        let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
+        Job {
+            from: settings.clone(),
+            to: settings,
+            layout: Layout::default(),
+            verify: true,
+            head: true,
+            start: [None; AXES],
+            program_number: None,
+            source_name: "piece.nc".to_owned(),
+            allow: Vec::new(),
+            deny: Vec::new(),
+        }
+    }
+
+    /// Verifies a first piece as it is, and a second one of which the output says something else.
+    fn second_piece(said: &str, written: &str) -> Result<Verifier, Stop> {
+        let job = job();
+        let mut reader = Reader::new(job.from.clone(), true);
+        let mut verifier = Verifier::new(&job);
+        let mut batch = Batch::default();
+        for (said, written) in [(FIRST, FIRST), (said, written)] {
+            reader.read(said.as_bytes(), 0, &mut batch);
+            let stmts = std::mem::take(&mut batch.stmts);
+            verifier.piece(&stmts, &batch.assumed, written.as_bytes(), 0, &batch.assumed)?;
+        }
+        Ok(verifier)
+    }
+
+    #[test]
+    fn level_controls_make_the_same_events_once() {
+        let verifier = second_piece(SECOND, SECOND).expect("the same program");
+        assert!(verifier.runs.iter().all(|run| run.level && run.source.agrees(&run.target)));
+        // A tool change and three moves, then four moves, in each world.
+        assert_eq!(verifier.covered().events, u64::from(WORLDS) * 8);
+    }
+
+    #[test]
+    fn a_late_piece_that_says_something_else_is_seen() {
+        for (from, to) in [("Y10.", "Y10.001"), ("F200.", "F201."), ("G00 Z5.", "Z5."), ("X10.\n", "")] {
+            let written = SECOND.replacen(from, to, 1);
+            assert!(matches!(second_piece(SECOND, &written), Err(Stop::Target(_))), "{from} → {to}");
+        }
+    }
+}
