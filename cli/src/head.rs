@@ -56,6 +56,8 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedRow { code, meaning } => format!("{code} = {meaning}"),
         Fault::AssumedOption { option, value } => format!("{option} = {value}"),
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
+        Fault::AssumedHoleOrder { pattern } => format!("order of the holes of {pattern}"),
+        Fault::AssumedEdge { tool } => format!("edge 1 of T{tool} = length entry {tool}"),
         _ => return None,
     })
 }

@@ -12,6 +12,16 @@ pub struct Caps {
     pub circle_pattern: bool,
     /// Grids up to this many columns and rows; 0 is none.
     pub grid_pattern: u32,
+    /// Lines of holes.
+    pub line_pattern: bool,
+    /// Lists of positions of at most so many holes; 0 is none.
+    pub list_pattern: u32,
+    /// A circle's first hole is at a radius and an angle (`true`) or at a position; `None` if either.
+    pub circle_polar: Option<bool>,
+    /// Patterns begin at a stated position, not where the tool stands.
+    pub pattern_start: bool,
+    /// Rows and lines at any angle.
+    pub pattern_angle: bool,
     /// The way through its grids: whether every second row runs backwards; `None` if either.
     pub grid_serpentine: Option<bool>,
     /// Whether the circle's centre must be program zero and where the tool stands.
@@ -26,6 +36,19 @@ pub struct Caps {
     pub work_offsets: u16,
     /// A word that cancels a temporary shift of the origin.
     pub clears_shift: bool,
+    /// A chain of frames: translation, rotation in the plane, scale, mirror.
+    pub frames: bool,
+    /// Moves in machine coordinates.
+    pub machine_coordinates: bool,
+    /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
+    /// if either.
+    pub tool_edges: Option<bool>,
+    /// Cycles state the plane to which they return (`true`) or return to a level; `None` if either.
+    pub return_planes: Option<bool>,
+    /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.
+    pub arc_forms: bool,
+    /// Repetition of blocks between labels.
+    pub repeat_blocks: bool,
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
     /// Arcs by radius.
@@ -59,8 +82,17 @@ pub struct CycleCap {
     pub returns: Vec<ReturnLevel>,
     /// Whether it can dwell at the bottom.
     pub dwell: bool,
-    /// Whether it can say the clearance of a peck; else that is a parameter of the control.
+    /// Whether it can say the clearance of a peck, or the lift that breaks a chip; else that is a
+    /// parameter of the control.
     pub clearance: bool,
+    /// Whether that can be left to a parameter of the control.
+    pub parameter: bool,
+    /// Whether it can say another first peck, and dwells between pecks.
+    pub strokes: bool,
+    /// Whether it can say another feed on the way out.
+    pub feed_out: bool,
+    /// Whether the lift that breaks a chip is at feed (`true`) or rapid; `None` if either.
+    pub lift_at_feed: Option<bool>,
 }
 
 impl Caps {

@@ -20,6 +20,9 @@ pub struct Cycle {
     pub depth: Coord,
     /// Where the tool goes after each hole.
     pub return_level: Fact<ReturnLevel>,
+    /// The plane to which it goes after each hole, absolute, if the cycle states one; then
+    /// `return_level` does not count.
+    pub return_plane: Option<Coord>,
     /// What the tool does first if it stands below the retract plane.
     pub approach: Approach,
     /// Feed into the hole, if the cycle's own block says it. It is re-stated at every hole.
@@ -49,8 +52,29 @@ pub enum CycleKind {
     DrillPeck {
         /// Depth of a peck, positive.
         peck: Expr,
+        /// Depth of the first peck below the retract plane, where it is another.
+        first: Option<Expr>,
         /// How far above the last depth the rapid back ends.
         clearance: Clearance,
+        /// Seconds after every peck but the last, if any.
+        pause: Option<Expr>,
+        /// Seconds at the retract plane after every peck but the last, if any.
+        settle: Option<Expr>,
+        /// Seconds at the bottom, if any.
+        dwell: Option<Expr>,
+    },
+    /// Feed by pecks; after each but the last, up a little to break the chip.
+    DrillBreak {
+        /// Depth of a peck, positive.
+        peck: Expr,
+        /// Depth of the first peck below the retract plane, where it is another.
+        first: Option<Expr>,
+        /// How far up.
+        lift: Clearance,
+        /// Whether the lift is at feed; else it is rapid.
+        lift_at_feed: bool,
+        /// Seconds after every peck but the last, if any.
+        pause: Option<Expr>,
         /// Seconds at the bottom, if any.
         dwell: Option<Expr>,
     },
@@ -58,6 +82,9 @@ pub enum CycleKind {
     Bore {
         /// Seconds at the bottom, if any.
         dwell: Option<Expr>,
+        /// Feed on the way out, where it is another. Which feed is in force after the cycle is then
+        /// not known.
+        feed_out: Option<Expr>,
     },
 }
 
@@ -81,12 +108,13 @@ pub enum Approach {
 
 /// Names used by the text form and by dictionaries.
 impl CycleKind {
-    /// A short name: `drill`, `drill-dwell`, `drill-peck`, `bore`.
+    /// A short name: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`.
     pub const fn name(&self) -> &'static str {
         match self {
             CycleKind::Drill => "drill",
             CycleKind::DrillDwell { .. } => "drill-dwell",
             CycleKind::DrillPeck { .. } => "drill-peck",
+            CycleKind::DrillBreak { .. } => "drill-break",
             CycleKind::Bore { .. } => "bore",
         }
     }
@@ -100,28 +128,68 @@ pub enum Pattern {
         /// Centre in the plane; `None` is where the tool stands.
         centre: Option<[Coord; 2]>,
         /// Position of the first hole.
-        first: [Coord; 2],
+        first: First,
         /// Angle from one hole to the next, degrees; negative is clockwise.
         step: Expr,
         /// Number of holes, the first included.
         count: u32,
     },
-    /// Rows of holes from where the tool stands, which is the first hole.
+    /// Holes on a straight line.
+    Line {
+        /// Where it begins; `None` is where the tool stands.
+        start: Option<[Coord; 2]>,
+        /// Its direction in the plane, degrees from the first axis, counter-clockwise.
+        angle: Expr,
+        /// Distance of the first hole from the beginning.
+        offset: Expr,
+        /// Distance from hole to hole.
+        pitch: Expr,
+        /// Number of holes.
+        count: u32,
+    },
+    /// Holes at positions one after another.
+    List(Vec<Point>),
+    /// Rows of holes.
     Grid {
-        /// Axis of a row and pitch along it, signed.
+        /// The first hole; `None` is where the tool stands.
+        start: Option<[Coord; 2]>,
+        /// Direction of a row and pitch along it, signed.
         columns: Row,
-        /// Axis from row to row and pitch along it, signed.
+        /// Direction from row to row and pitch along it, signed.
         rows: Row,
         /// Whether every second row runs backwards.
         serpentine: bool,
     },
 }
 
+/// Where the first hole of a circle is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum First {
+    /// At a position.
+    At([Coord; 2]),
+    /// At a radius and an angle in degrees from the plane's first axis, counter-clockwise.
+    Polar {
+        /// The radius.
+        radius: Expr,
+        /// The angle.
+        angle: Expr,
+    },
+}
+
+/// A direction in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// An axis.
+    Axis(Axis),
+    /// Degrees from the plane's first axis, counter-clockwise.
+    Angle(Expr),
+}
+
 /// One direction of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// Along which axis.
-    pub axis: Axis,
+    /// Along what.
+    pub along: Along,
     /// Distance from hole to hole.
     pub pitch: Expr,
     /// Number of holes.

@@ -219,6 +219,9 @@ faults! {
     /// A program that does not come to an end.
     NoEnd { steps: u64 } = 227, Error;
 
+    /// A label that stands nowhere before the block that repeats from it.
+    LabelUnknown { name: Box<str> } = 228, Error;
+
     // NC03xx: assumptions.
     /// The program relies on a state at power-on that it never says.
     AssumedMode { fact: ModeName, value: Box<str> } = 301, verdict(Verdict::Assumed);
@@ -236,6 +239,12 @@ faults! {
     AssumedOption { option: Box<str>, value: Box<str> } = 307, verdict(Verdict::Assumed);
     /// A parameter of the machine has this value.
     AssumedParameter { parameter: Box<str>, value: Box<str> } = 308, verdict(Verdict::Assumed);
+
+    /// A pattern whose order of holes a control may choose by where the tool stands is made in the
+    /// order of its parameters.
+    AssumedHoleOrder { pattern: Box<str> } = 309, verdict(Verdict::Assumed);
+    /// The length of edge 1 of a tool is the entry of the length table with the tool's number.
+    AssumedEdge { tool: u32 } = 310, verdict(Verdict::Assumed);
 
     // NC04xx: what became of it.
     /// A comment in the target's characters.
@@ -262,6 +271,13 @@ faults! {
     MessageDropped = 411, verdict(Verdict::Dropped);
     /// A repetition written out.
     RepeatExpanded { times: u32 } = 412, verdict(Verdict::Expanded);
+
+    /// A chain of frames worked into the coordinates.
+    FramesExpanded = 413, verdict(Verdict::Expanded);
+    /// Long-hand moves written as a cycle.
+    CycleFolded { kind: Box<str>, holes: u32 } = 414, verdict(Verdict::Reformatted);
+    /// Positions written as a pattern.
+    PatternFolded { pattern: Box<str>, holes: u32 } = 415, verdict(Verdict::Reformatted);
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.

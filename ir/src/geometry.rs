@@ -92,6 +92,102 @@ pub fn circle_position(centre: [Nanos; 2], first: [Nanos; 2], step: Nanos, k: u3
     [centre[0] + (x * cos - y * sin).round() as Nanos, centre[1] + (x * sin + y * cos).round() as Nanos]
 }
 
+/// The point at a distance and an angle (nanos of a degree) from the origin.
+pub fn polar(distance: Nanos, angle: Nanos) -> [Nanos; 2] {
+    let (sin, cos) = sin_cos(angle);
+    [(distance as f64 * cos).round() as Nanos, (distance as f64 * sin).round() as Nanos]
+}
+
+/// Sine and cosine of an angle in nanos of a degree, exact at multiples of 90°.
+pub fn sin_cos(angle: Nanos) -> (f64, f64) {
+    sin_cos_degrees(angle.rem_euclid(360 * ONE) as f64 / ONE as f64)
+}
+
+/// Centre of an arc by its opening angle (nanos of a degree, more than 0 and less than 360).
+///
+/// # Errors
+/// [`ArcFault::NoWay`] if start and end are one point or the angle opens none.
+pub fn centre_by_angle(
+    start: [Nanos; 2],
+    end: [Nanos; 2],
+    angle: Nanos,
+    turn: Turn,
+) -> Result<[Nanos; 2], ArcFault> {
+    let (dx, dy) = ((end[0] - start[0]) as f64, (end[1] - start[1]) as f64);
+    if dx == 0.0 && dy == 0.0 || angle <= 0 || angle >= 360 * ONE {
+        return Err(ArcFault::NoWay);
+    }
+    // The centre lies on the chord's bisector; left of the chord for less than half a turn
+    // counter-clockwise.
+    let half = (angle as f64 / ONE as f64 / 2.0).to_radians();
+    let rise = if angle == 180 * ONE { 0.0 } else { 1.0 / half.tan() / 2.0 };
+    let side = if turn == Turn::Counterclockwise { rise } else { -rise };
+    Ok([
+        start[0] + (dx / 2.0 - dy * side).round() as Nanos,
+        start[1] + (dy / 2.0 + dx * side).round() as Nanos,
+    ])
+}
+
+/// A point turned about a centre; the angle in nanos of a degree, counter-clockwise positive.
+pub fn turned(centre: [Nanos; 2], point: [Nanos; 2], angle: Nanos) -> [Nanos; 2] {
+    circle_position(centre, point, angle, 1)
+}
+
+/// Centre and sense of the arc from `start` through `via` to `end`.
+///
+/// # Errors
+/// [`ArcFault::NoWay`] if two of the points are one, or all lie on a line.
+pub fn arc_through(
+    start: [Nanos; 2],
+    via: [Nanos; 2],
+    end: [Nanos; 2],
+) -> Result<([Nanos; 2], Turn), ArcFault> {
+    let from_start = |p: [Nanos; 2]| ((p[0] - start[0]) as f64, (p[1] - start[1]) as f64);
+    let ((ax, ay), (bx, by)) = (from_start(via), from_start(end));
+    let cross = ax * by - ay * bx;
+    let (a, b) = (ax * ax + ay * ay, bx * bx + by * by);
+    // A height of less than a micrometre over the chord is a line.
+    if a == 0.0 || b == 0.0 || cross.abs() < 1000.0 * b.sqrt() {
+        return Err(ArcFault::NoWay);
+    }
+    let x = (by * a - ay * b) / (2.0 * cross);
+    let y = (ax * b - bx * a) / (2.0 * cross);
+    let turn = if cross > 0.0 { Turn::Counterclockwise } else { Turn::Clockwise };
+    Ok(([start[0] + x.round() as Nanos, start[1] + y.round() as Nanos], turn))
+}
+
+/// Centre and sense of the arc from `start` to `end` that leaves in a direction.
+///
+/// # Errors
+/// [`ArcFault::NoWay`] if there is no direction, or the end lies in it.
+pub fn arc_tangent(
+    start: [Nanos; 2],
+    end: [Nanos; 2],
+    direction: [f64; 2],
+) -> Result<([Nanos; 2], Turn), ArcFault> {
+    let length = direction[0].hypot(direction[1]);
+    let (dx, dy) = ((end[0] - start[0]) as f64, (end[1] - start[1]) as f64);
+    let (ux, uy) = (direction[0] / length, direction[1] / length);
+    // How far the end lies to the left of the direction.
+    let left = ux * dy - uy * dx;
+    if length == 0.0 || left.abs() < 1000.0 {
+        return Err(ArcFault::NoWay);
+    }
+    let radius = (dx * dx + dy * dy) / (2.0 * left);
+    let turn = if left > 0.0 { Turn::Counterclockwise } else { Turn::Clockwise };
+    let centre = [start[0] + (-uy * radius).round() as Nanos, start[1] + (ux * radius).round() as Nanos];
+    Ok((centre, turn))
+}
+
+/// Direction in which an arc ends.
+pub fn tangent(end: [Nanos; 2], centre: [Nanos; 2], turn: Turn) -> [f64; 2] {
+    let (x, y) = ((end[0] - centre[0]) as f64, (end[1] - centre[1]) as f64);
+    match turn {
+        Turn::Counterclockwise => [-y, x],
+        Turn::Clockwise => [y, -x],
+    }
+}
+
 /// Sine and cosine of degrees in 0..360, exact at multiples of 90.
 fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     let quarter = (degrees / 90.0).floor();

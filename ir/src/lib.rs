@@ -16,6 +16,7 @@ pub mod expr;
 pub mod geometry;
 pub mod num;
 pub mod passes;
+pub mod places;
 pub mod program;
 pub mod source;
 pub mod track;

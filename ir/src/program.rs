@@ -58,7 +58,7 @@ pub struct Stmt {
     pub span: Span,
     /// Block number, on the first statement of its block.
     pub number: Option<u32>,
-    /// Block-skip level, 1 to 9: not executed while that switch is on. Every statement of the
+    /// Block-skip level, 1 to 10: not executed while that switch is on. Every statement of the
     /// block carries it.
     pub skip: Option<u8>,
     /// Whether it stands in the same block as the statement before.
@@ -152,6 +152,105 @@ pub enum Centre {
     Radius(Expr),
 }
 
+/// An arc given so that its centre, its end or its sense must be computed: not by centre or radius.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArcForm {
+    /// Its plane.
+    pub plane: Fact<Plane>,
+    /// End point; words outside the plane make it a helix.
+    pub to: Point,
+    /// What gives it its shape.
+    pub shape: Shape,
+    /// Full turns made beyond the first, partial one.
+    pub turns: u32,
+    /// Whether the block itself says the motion code.
+    pub said: bool,
+}
+
+/// What gives an arc its shape.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// Opening angle in degrees, more than 0 and less than 360, to the end point.
+    Angle {
+        /// Its sense.
+        turn: Turn,
+        /// The angle.
+        angle: Expr,
+    },
+    /// Opening angle about a centre: the end point follows, and has no words in the plane.
+    AngleAbout {
+        /// Its sense.
+        turn: Turn,
+        /// The angle.
+        angle: Expr,
+        /// Words along X, Y and Z, each from where its distance says: from program zero
+        /// (absolute) or the start of the arc (incremental). A missing one is the start's.
+        centre: Box<[Option<Coord>; 3]>,
+    },
+    /// Centre with words some of which are from program zero and some from the start.
+    Mixed {
+        /// Its sense.
+        turn: Turn,
+        /// As of [`Shape::AngleAbout`].
+        centre: Box<[Option<Coord>; 3]>,
+    },
+    /// Through a point between start and end.
+    Through(Box<Point>),
+    /// Goes on in the direction in which the move before ended.
+    Tangent,
+}
+
+impl Shape {
+    /// The upper-case name in text of an arc in this form.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Shape::Angle { .. } => "ARC_BY_ANGLE",
+            Shape::AngleAbout { .. } => "ARC_ABOUT_BY_ANGLE",
+            Shape::Mixed { .. } => "ARC_ABOUT",
+            Shape::Through(_) => "ARC_THROUGH",
+            Shape::Tangent => "ARC_TANGENT",
+        }
+    }
+}
+
+/// A step of the chain of frames: what it does to the coordinates that follow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Whether it is appended as the innermost step; else it replaces the chain.
+    pub added: bool,
+    /// What it does.
+    pub step: FrameStep,
+}
+
+/// What a step of the chain of frames does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FrameStep {
+    /// Moves the origin.
+    Translate(Box<[Option<Expr>; AXES]>),
+    /// Turns in the plane, degrees, counter-clockwise positive.
+    Rotate {
+        /// The plane.
+        plane: Fact<Plane>,
+        /// The angle.
+        angle: Expr,
+    },
+    /// Factors along X, Y and Z.
+    Scale(Box<[Option<Expr>; 3]>),
+    /// Turns the axis round: X, Y, Z.
+    Mirror([bool; 3]),
+}
+
+/// Blocks that are executed again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RepeatBlocks {
+    /// Label where they begin: the last one of that name before this statement.
+    pub from: Text,
+    /// Label where they end, its own block included; without, they end before this statement.
+    pub to: Option<Text>,
+    /// How many times, after they have been passed once.
+    pub times: u32,
+}
+
 /// From where the words of a centre are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CentreFrom {
@@ -221,8 +320,11 @@ pub enum Op {
     SetOriginOffsets(u16),
     /// `CLEAR_FRAME`: empties a slot of the coordinate chain.
     ClearFrame(FrameSlot),
-    /// `SET_FRAME`: fills a slot; the arguments' meaning belongs to the slot. Not executed yet.
-    SetFrame(FrameSlot, Vec<Expr>),
+    /// `SET_FRAME` or `ADD_FRAME`: a step of [`FrameSlot::Chain`].
+    SetFrame(Box<Frame>),
+    /// `USE_MACHINE_COORDINATES`: words of the straight move that follows in this block are machine
+    /// coordinates; work offset and frames are off for it, the tool's length stays.
+    UseMachineCoordinates,
     /// `STOP_CUTTER_RADIUS_COMPENSATION`
     StopCutterRadiusCompensation,
 
@@ -237,6 +339,15 @@ pub enum Op {
     /// `USE_TOOL_LENGTH_OFFSET`: entry of the length table, 0 for none. Moves nothing; taken up
     /// with the next move of the drilling axis (Z).
     UseToolLengthOffset(Expr),
+    /// `USE_TOOL_EDGE`: length of an edge of the tool in the spindle, 0 for none. Moves nothing;
+    /// taken up with the next move of the drilling axis (Z). Edge 1 of a tool is the entry of the
+    /// length table with the tool's number.
+    UseToolEdge {
+        /// Its number.
+        edge: Expr,
+        /// Whether the block itself says it; else it comes with the tool.
+        said: bool,
+    },
     /// `START_SPINDLE_CLOCKWISE`
     StartSpindleClockwise,
     /// `START_SPINDLE_COUNTERCLOCKWISE`
@@ -258,6 +369,9 @@ pub enum Op {
     StraightFeed(Move),
     /// `ARC_FEED`
     ArcFeed(Box<Arc>),
+    /// `ARC_BY_ANGLE`, `ARC_ABOUT_BY_ANGLE`, `ARC_ABOUT`, `ARC_THROUGH`, `ARC_TANGENT`: arcs in other
+    /// forms.
+    ArcForm(Box<ArcForm>),
     /// `POSITION`: axis words that do whatever motion is in force.
     Position(Move),
 
@@ -265,7 +379,8 @@ pub enum Op {
     StartCycle(Box<Cycle>),
     /// `HOLE`: the cycle in force at a position.
     Hole(Move),
-    /// `CIRCLE_PATTERN` or `RECTANGULAR_LAYOUT`: the cycle in force at each position.
+    /// `CIRCLE_PATTERN`, `LINE_PATTERN`, `RECTANGULAR_LAYOUT` or `POSITION_LIST`: the cycle in force
+    /// at each position.
     Pattern(Box<Pattern>),
     /// `END_CYCLE`
     EndCycle,
@@ -283,6 +398,8 @@ pub enum Op {
     Call(Box<Call>),
     /// `RETURN`
     Return,
+    /// `REPEAT_BLOCKS`: blocks from a label to here, or to another label, again.
+    RepeatBlocks(Box<RepeatBlocks>),
     /// Assignment.
     Assign(Var, Expr),
     /// Structured control.
@@ -307,7 +424,15 @@ impl Op {
             Op::SetReturnLevel(_) => "SET_RETURN_LEVEL",
             Op::SetOriginOffsets(_) => "SET_ORIGIN_OFFSETS",
             Op::ClearFrame(_) => "CLEAR_FRAME",
-            Op::SetFrame(..) => "SET_FRAME",
+            Op::SetFrame(frame) => {
+                if frame.added {
+                    "ADD_FRAME"
+                } else {
+                    "SET_FRAME"
+                }
+            }
+            Op::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
+            Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Op::SetFeedRate(_) => "SET_FEED_RATE",
             Op::SetSpindleSpeed(_) => "SET_SPINDLE_SPEED",
@@ -324,12 +449,15 @@ impl Op {
             Op::StraightTraverse(_) => "STRAIGHT_TRAVERSE",
             Op::StraightFeed(_) => "STRAIGHT_FEED",
             Op::ArcFeed(_) => "ARC_FEED",
+            Op::ArcForm(arc) => arc.shape.name(),
             Op::Position(_) => "POSITION",
             Op::StartCycle(_) => "START_CYCLE",
             Op::Hole(_) => "HOLE",
             Op::Pattern(pattern) => match **pattern {
                 Pattern::Circle { .. } => "CIRCLE_PATTERN",
+                Pattern::Line { .. } => "LINE_PATTERN",
                 Pattern::Grid { .. } => "RECTANGULAR_LAYOUT",
+                Pattern::List(_) => "POSITION_LIST",
             },
             Op::EndCycle => "END_CYCLE",
             Op::ProgramStop => "PROGRAM_STOP",
@@ -338,6 +466,7 @@ impl Op {
             Op::Message(_) => "MESSAGE",
             Op::Call(_) => "CALL",
             Op::Return => "RETURN",
+            Op::RepeatBlocks(_) => "REPEAT_BLOCKS",
             Op::Assign(..) => "assignment",
             Op::Control(control) => match **control {
                 Control::Repeat { .. } => "repeat",

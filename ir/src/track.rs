@@ -8,7 +8,8 @@ use crate::cycle::{Cycle, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
 use crate::num::Nanos;
-use crate::program::{Arc, Coord, FrameSlot, Move, Op, Point, Stmt};
+use crate::places::{Here, Places};
+use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Stmt};
 
 /// State of the abstract execution.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,6 +24,12 @@ pub struct Tracker {
     pub cycle_in_doubt: bool,
     /// The selected tool, if it is a literal.
     pub selected: Option<i64>,
+    /// The tool in the spindle, if it is known.
+    pub tool: Option<i64>,
+    /// Whether a frame of the chain may be in force.
+    pub framed: bool,
+    /// Whether the next straight move is in machine coordinates.
+    pub raw: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -36,14 +43,49 @@ pub struct InForce {
     pub retract: Option<Nanos>,
     /// The bottom.
     pub depth: Option<Nanos>,
+    /// The plane to which it returns, if the cycle states one.
+    pub return_plane: Option<Nanos>,
     /// Whether it has made a hole since its call.
     pub drilled: bool,
+}
+
+/// What is known of where holes are.
+struct Known<'t> {
+    at: &'t Tracker,
+    axes: [Axis; 2],
+}
+
+impl Here for Known<'_> {
+    type Unknown = ();
+
+    fn at(&self, side: usize) -> Result<Nanos, ()> {
+        self.at.position[self.axes[side] as usize].ok_or(())
+    }
+
+    fn word(&self, word: &Coord, side: usize) -> Result<Nanos, ()> {
+        self.at.resolve(word, self.at.position[self.axes[side] as usize]).ok_or(())
+    }
+
+    fn after(&self, word: &Coord, _: usize, last: Nanos) -> Result<Nanos, ()> {
+        self.at.resolve(word, Some(last)).ok_or(())
+    }
+
+    fn value(&self, value: &Expr) -> Result<Nanos, ()> {
+        self.at.nanos(value).ok_or(())
+    }
+
+    fn out_of_range(&self) {}
 }
 
 impl Tracker {
     /// A start with these facts in force and no axis known.
     pub fn new(entry: Modes) -> Tracker {
         Tracker { modes: entry, ..Tracker::default() }
+    }
+
+    /// The start of a subprogram: whatever its caller has done.
+    pub fn unknown() -> Tracker {
+        Tracker { framed: true, ..Tracker::default() }
     }
 
     /// The value of a literal in nanos; `None` if it is computed, too fine, or of unknown unit.
@@ -112,43 +154,15 @@ impl Tracker {
     /// Hole positions of a pattern in the plane's two axes, as far as they are known.
     pub fn positions(&self, pattern: &Pattern) -> Option<Vec<[Nanos; 2]>> {
         let plane = self.cycle.as_ref().map_or(Fact::Entry, |c| c.cycle.plane);
-        let (first, second, _) = self.plane(plane)?.axes();
-        let at = |axis: Axis| self.position[axis as usize];
-        match pattern {
-            Pattern::Circle { centre, first: start, step, count } => {
-                let centre = match centre {
-                    Some([x, y]) => [self.resolve(x, at(first))?, self.resolve(y, at(second))?],
-                    None => [at(first)?, at(second)?],
-                };
-                let start = [self.resolve(&start[0], at(first))?, self.resolve(&start[1], at(second))?];
-                let step = self.nanos(step)?;
-                Some((0..*count).map(|k| geometry::circle_position(centre, start, step, k)).collect())
-            }
-            Pattern::Grid { columns, rows, serpentine } => {
-                let (dx, dy) = (self.nanos(&columns.pitch)?, self.nanos(&rows.pitch)?);
-                let origin = [at(first)?, at(second)?];
-                let total = columns.count.checked_mul(rows.count)?;
-                let place = |axis: Axis, pitch: Nanos, n: u32, p: &mut [Nanos; 2]| -> Option<()> {
-                    let along = &mut p[usize::from(axis == second)];
-                    *along = along.checked_add(pitch.checked_mul(i64::from(n))?)?;
-                    Some(())
-                };
-                (0..total)
-                    .map(|k| {
-                        let (c, r) = geometry::grid_position(columns.count, *serpentine, k);
-                        let mut p = origin;
-                        place(columns.axis, dx, c, &mut p)?;
-                        place(rows.axis, dy, r, &mut p)?;
-                        Some(p)
-                    })
-                    .collect()
-            }
-        }
+        let plane = self.plane(plane)?;
+        let (first, second, _) = plane.axes();
+        let places = Places::of(pattern, plane, &Known { at: self, axes: [first, second] }).ok()?;
+        Some((0..places.count()).map(|k| places.get(k)).collect())
     }
 
     /// Forgets everything: after a call, at a label.
     pub fn forget(&mut self) {
-        *self = Tracker::default();
+        *self = Tracker::unknown();
     }
 
     /// Executes a statement.
@@ -197,6 +211,9 @@ impl Tracker {
         }
         self.cycle_in_doubt |= other.cycle_in_doubt;
         both(&mut self.selected, &other.selected);
+        both(&mut self.tool, &other.tool);
+        self.framed |= other.framed;
+        self.raw |= other.raw;
     }
 
     /// Executes an operation, whatever the block-skip switches say.
@@ -205,6 +222,7 @@ impl Tracker {
             Op::StraightTraverse(m) => self.go(&m.to, Motion::Traverse),
             Op::StraightFeed(m) => self.go(&m.to, Motion::Feed),
             Op::ArcFeed(arc) => self.go(&arc.to, Motion::Arc(arc.turn)),
+            Op::ArcForm(arc) => self.go_form(arc),
             Op::Position(m) => match self.modes.motion {
                 Some(Motion::Cycle) => self.hole(m),
                 Some(motion) => self.go(&m.to, motion),
@@ -253,20 +271,50 @@ impl Tracker {
                     self.position = [None; AXES];
                 }
             }
-            Op::ClearFrame(_) | Op::SetFrame(..) => self.position = [None; AXES],
+            Op::ClearFrame(FrameSlot::Chain) if !self.framed => {}
+            Op::ClearFrame(_) => {
+                self.position = [None; AXES];
+                self.framed = false;
+            }
+            Op::SetFrame(frame) => {
+                match &frame.step {
+                    // A translation moves the origin; where the axes stand is then counted from there.
+                    FrameStep::Translate(words) if frame.added || !self.framed => {
+                        for (axis, word) in words.iter().enumerate() {
+                            if let Some(word) = word {
+                                let by = self.nanos(word);
+                                let at = self.position[axis].zip(by);
+                                self.position[axis] = at.and_then(|(at, by)| at.checked_sub(by));
+                            }
+                        }
+                    }
+                    FrameStep::Translate(_)
+                    | FrameStep::Rotate { .. }
+                    | FrameStep::Scale(_)
+                    | FrameStep::Mirror(_) => self.position = [None; AXES],
+                }
+                self.framed = true;
+            }
+            Op::UseMachineCoordinates => self.raw = true,
+            Op::UseToolEdge { .. } => self.modes.length_offset = None,
             Op::UseToolLengthOffset(entry) => {
                 let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;
             }
+            Op::ChangeTool => self.tool = self.selected,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
-            Op::Call(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::Return => self.forget(),
+            Op::Call(_)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+            | Op::Return
+            | Op::RepeatBlocks(_) => self.forget(),
             Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank
             | Op::StopCutterRadiusCompensation
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)
-            | Op::ChangeTool
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
@@ -284,10 +332,31 @@ impl Tracker {
 
     #[inline]
     fn go(&mut self, to: &Point, motion: Motion) {
-        self.position = self.target(to);
+        self.position = if self.raw { [None; AXES] } else { self.target(to) };
+        self.raw = false;
         self.modes.motion = Some(motion);
         self.cycle = None;
         self.cycle_in_doubt = false;
+    }
+
+    fn go_form(&mut self, arc: &ArcForm) {
+        self.go(&arc.to, Motion::Traverse);
+        let (turn, end_follows) = match &arc.shape {
+            Shape::Angle { turn, .. } | Shape::Mixed { turn, .. } => (Some(*turn), false),
+            Shape::AngleAbout { turn, .. } => (Some(*turn), true),
+            Shape::Through(_) | Shape::Tangent => (None, false),
+        };
+        if end_follows {
+            match self.plane(arc.plane) {
+                Some(plane) => {
+                    let (first, second, _) = plane.axes();
+                    self.position[first as usize] = None;
+                    self.position[second as usize] = None;
+                }
+                None => self.position[..3].fill(None),
+            }
+        }
+        self.modes.motion = turn.map(Motion::Arc);
     }
 
     fn start_cycle(&mut self, cycle: &Cycle) {
@@ -299,7 +368,9 @@ impl Tracker {
         };
         let retract = self.resolve(&cycle.retract, initial);
         let depth = self.resolve(&cycle.depth, retract);
-        self.cycle = Some(InForce { cycle: cycle.clone(), initial, retract, depth, drilled: false });
+        let return_plane = cycle.return_plane.as_ref().and_then(|word| self.resolve(word, retract));
+        let cycle = cycle.clone();
+        self.cycle = Some(InForce { cycle, initial, retract, depth, return_plane, drilled: false });
         self.cycle_in_doubt = false;
         self.modes.motion = Some(Motion::Cycle);
     }
@@ -315,10 +386,14 @@ impl Tracker {
             return;
         };
         in_force.drilled = true;
-        let level = match in_force.cycle.return_level.known().or(self.modes.return_level) {
-            Some(ReturnLevel::Retract) => in_force.retract,
-            Some(ReturnLevel::Initial) => in_force.initial,
-            None => None,
+        let level = match (in_force.return_plane, in_force.cycle.return_level.known()) {
+            (Some(plane), _) => Some(plane),
+            (None, _) if in_force.cycle.return_plane.is_some() => None,
+            (None, level) => match level.or(self.modes.return_level) {
+                Some(ReturnLevel::Retract) => in_force.retract,
+                Some(ReturnLevel::Initial) => in_force.initial,
+                None => None,
+            },
         };
         match in_force.cycle.plane.known().or(self.modes.plane) {
             Some(plane) => self.position[plane.axes().2 as usize] = level,

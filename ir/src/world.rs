@@ -17,6 +17,8 @@ pub struct World {
     pub start: [Nanos; AXES],
     /// The control's own clearance of the peck-drilling cycle, in millimetres.
     pub peck_clearance: Nanos,
+    /// The control's own lift of the chip-breaking cycle, in millimetres.
+    pub break_lift: Nanos,
 }
 
 impl World {
@@ -45,9 +47,10 @@ impl World {
             length_offset: fixed.length_offset.or(Some(pick(91, 92))),
             no_origin_shift: fixed.no_origin_shift.or(Some(false)),
         };
-        let mut world = World { seed, power_on, start: [0; AXES], peck_clearance: 0 };
+        let mut world = World { seed, power_on, start: [0; AXES], peck_clearance: 0, break_lift: 0 };
         world.start = std::array::from_fn(|axis| world.odd(50_000 + axis as u32, 400));
         world.peck_clearance = ONE / 2 + world.odd(60_000, 1).abs() / 2;
+        world.break_lift = ONE / 2 + world.odd(60_001, 1).abs() / 2;
         world
     }
 
@@ -67,6 +70,18 @@ impl World {
     /// Length of an entry of the tool-length table, in millimetres; entry 0 is none.
     pub fn tool_length(&self, entry: u32) -> Nanos {
         if self.seed == 0 || entry == 0 { 0 } else { 40 * ONE + self.odd(entry * 8 + 7, 35) }
+    }
+
+    /// Length of an edge of a tool, in millimetres; -1 is the tool that was in the spindle at the
+    /// start. Edge 1 is the table's entry with the tool's number.
+    pub fn edge_length(&self, tool: i64, edge: u32) -> Nanos {
+        let entry = u32::try_from(tool).unwrap_or(97);
+        match edge {
+            0 => 0,
+            1 if entry != 0 => self.tool_length(entry),
+            _ if self.seed == 0 => 0,
+            _ => 40 * ONE + self.odd(100_000 + (entry.wrapping_mul(10).wrapping_add(edge)) * 8, 35),
+        }
     }
 
     /// A value between -range and range mm that looks like no other: to six decimals, so that no

@@ -271,7 +271,11 @@ impl Writer {
             | Op::ProgramEnd => self.open(s, out),
 
             Op::ClearFrame(_)
-            | Op::SetFrame(..)
+            | Op::SetFrame(_)
+            | Op::UseMachineCoordinates
+            | Op::UseToolEdge { .. }
+            | Op::ArcForm(_)
+            | Op::RepeatBlocks(_)
             | Op::StartCycle(_)
             | Op::Hole(_)
             | Op::Pattern(_)

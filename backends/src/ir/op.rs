@@ -1,9 +1,11 @@
 //! Statements of the `ir` text, each without its block's marks.
 
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Arc, Call, Centre, CentreFrom, Control, Coord, FrameSlot, Op, Point};
+use ncc_ir::program::{
+    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Frame, FrameSlot, FrameStep, Op, Point, Shape,
+};
 
 use super::expr::{expr, var};
 use crate::canon::text::{quote, whole};
@@ -13,6 +15,8 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
     let said = match op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => m.said,
         Op::ArcFeed(arc) => arc.said,
+        Op::ArcForm(arc) => arc.said,
+        Op::UseToolEdge { said, .. } => *said,
         Op::Assign(v, value) => {
             var(v, out);
             put(" = ", out);
@@ -29,7 +33,9 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetReturnLevel(_)
         | Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
-        | Op::SetFrame(..)
+        | Op::SetFrame(_)
+        | Op::UseMachineCoordinates
+        | Op::RepeatBlocks(_)
         | Op::StopCutterRadiusCompensation
         | Op::SetFeedRate(_)
         | Op::SetSpindleSpeed(_)
@@ -74,11 +80,9 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::SetReturnLevel(r) => put(return_level(*r), out),
         Op::SetOriginOffsets(n) => whole(u64::from(*n), out),
         Op::ClearFrame(s) => put(slot(*s), out),
-        Op::SetFrame(s, arguments) => {
-            put(slot(*s), out);
-            further(arguments, out);
-        }
-        Op::SetFeedRate(e)
+        Op::SetFrame(f) => frame(f, out),
+        Op::UseToolEdge { edge: e, .. }
+        | Op::SetFeedRate(e)
         | Op::SetSpindleSpeed(e)
         | Op::SelectTool(e)
         | Op::UseToolLengthOffset(e)
@@ -87,11 +91,22 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             point(&m.to, b"", out);
         }
         Op::ArcFeed(a) => arc(a, out),
+        Op::ArcForm(a) => arc_form(a, out),
         Op::StartCycle(c) => cycle(c, out),
         Op::Pattern(p) => pattern(p, out),
         Op::Call(c) => call(c, out),
         Op::Goto(label) | Op::Label(label) => name(label, out),
+        Op::RepeatBlocks(r) => {
+            name(&r.from, out);
+            if let Some(to) = &r.to {
+                put(" to ", out);
+                name(to, out);
+            }
+            put(", times ", out);
+            whole(u64::from(r.times), out);
+        }
         Op::Blank
+        | Op::UseMachineCoordinates
         | Op::StopCutterRadiusCompensation
         | Op::ChangeTool
         | Op::StartSpindleClockwise
@@ -227,28 +242,140 @@ fn arc(a: &Arc, out: &mut Vec<u8>) {
     }
 }
 
+fn arc_form(a: &ArcForm, out: &mut Vec<u8>) {
+    put(a.plane.known().map_or("entry", plane), out);
+    put(", ", out);
+    point(&a.to, b", ", out);
+    let about = |words: &[Option<Coord>; 3], out: &mut Vec<u8>| {
+        put("centre(", out);
+        let mut first = true;
+        for (word, letter) in words.iter().zip(["I ", "J ", "K "]) {
+            if let Some(word) = word {
+                put(if first { "" } else { ", " }, out);
+                first = false;
+                put(letter, out);
+                coord(word, out);
+            }
+        }
+        put(")", out);
+    };
+    let opened = |sense, angle: &Expr, out: &mut Vec<u8>| {
+        put(turn(sense), out);
+        put(", angle ", out);
+        expr(angle, out);
+    };
+    match &a.shape {
+        Shape::Angle { turn, angle } => opened(*turn, angle, out),
+        Shape::AngleAbout { turn, angle, centre } => {
+            opened(*turn, angle, out);
+            put(" about ", out);
+            about(centre, out);
+        }
+        Shape::Mixed { turn: sense, centre } => {
+            put(turn(*sense), out);
+            put(", ", out);
+            about(centre, out);
+        }
+        Shape::Through(via) => {
+            put("through(", out);
+            point(via, b"", out);
+            put(")", out);
+        }
+        Shape::Tangent => put("tangent", out),
+    }
+    if a.turns > 0 {
+        put(", turns ", out);
+        whole(u64::from(a.turns), out);
+    }
+}
+
+fn frame(f: &Frame, out: &mut Vec<u8>) {
+    let words = |words: &[Option<Expr>], out: &mut Vec<u8>| {
+        for (axis, word) in Axis::ALL.into_iter().zip(words) {
+            if let Some(value) = word {
+                put(", ", out);
+                out.push(axis.letter());
+                put(" ", out);
+                expr(value, out);
+            }
+        }
+    };
+    match &f.step {
+        FrameStep::Translate(by) => {
+            put("translate", out);
+            words(&by[..], out);
+        }
+        FrameStep::Rotate { plane: p, angle } => {
+            put("rotate, ", out);
+            put(p.known().map_or("entry", plane), out);
+            put(", ", out);
+            expr(angle, out);
+        }
+        FrameStep::Scale(by) => {
+            put("scale", out);
+            words(&by[..], out);
+        }
+        FrameStep::Mirror(axes) => {
+            put("mirror", out);
+            for (axis, turned) in Axis::ALL.into_iter().zip(axes) {
+                if *turned {
+                    put(", ", out);
+                    out.push(axis.letter());
+                }
+            }
+        }
+    }
+}
+
+/// What a kind of cycle says, in brackets if there is anything.
+fn details(words: &[(&str, Option<&Expr>)], out: &mut Vec<u8>) {
+    for (word, value) in words {
+        if let Some(value) = value {
+            put(word, out);
+            expr(value, out);
+        }
+    }
+    put(")", out);
+}
+
+fn clearance(c: &Clearance, out: &mut Vec<u8>) {
+    match c {
+        Clearance::Stated(e) => expr(e, out),
+        Clearance::Parameter => put("parameter", out),
+    }
+}
+
 fn cycle(c: &Cycle, out: &mut Vec<u8>) {
     put(c.kind.name(), out);
     match &c.kind {
-        CycleKind::Drill | CycleKind::Bore { dwell: None } => {}
-        CycleKind::DrillDwell { dwell } | CycleKind::Bore { dwell: Some(dwell) } => {
-            put("(dwell ", out);
-            expr(dwell, out);
-            put(")", out);
+        CycleKind::Drill | CycleKind::Bore { dwell: None, feed_out: None } => {}
+        CycleKind::DrillDwell { dwell } => details(&[("(dwell ", Some(dwell))], out),
+        CycleKind::Bore { dwell, feed_out } => {
+            let feed = if dwell.is_some() { ", feed-out " } else { "(feed-out " };
+            details(&[("(dwell ", dwell.as_ref()), (feed, feed_out.as_ref())], out);
         }
-        CycleKind::DrillPeck { peck, clearance, dwell } => {
+        CycleKind::DrillPeck { peck, first, clearance: c, pause, settle, dwell } => {
             put("(peck ", out);
             expr(peck, out);
             put(", clearance ", out);
-            match clearance {
-                Clearance::Stated(e) => expr(e, out),
-                Clearance::Parameter => put("parameter", out),
-            }
-            if let Some(dwell) = dwell {
-                put(", dwell ", out);
-                expr(dwell, out);
-            }
-            put(")", out);
+            clearance(c, out);
+            let words = [
+                (", first ", first.as_ref()),
+                (", pause ", pause.as_ref()),
+                (", settle ", settle.as_ref()),
+                (", dwell ", dwell.as_ref()),
+            ];
+            details(&words, out);
+        }
+        CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell } => {
+            put("(peck ", out);
+            expr(peck, out);
+            put(", lift ", out);
+            clearance(lift, out);
+            put(if *lift_at_feed { ", at-feed" } else { "" }, out);
+            let words =
+                [(", first ", first.as_ref()), (", pause ", pause.as_ref()), (", dwell ", dwell.as_ref())];
+            details(&words, out);
         }
     }
     put(", ", out);
@@ -259,6 +386,10 @@ fn cycle(c: &Cycle, out: &mut Vec<u8>) {
     coord(&c.depth, out);
     put(", return ", out);
     put(c.return_level.known().map_or("entry", return_level), out);
+    if let Some(plane) = &c.return_plane {
+        put(", return-plane ", out);
+        coord(plane, out);
+    }
     put(
         match c.approach {
             Approach::RaiseFirst => ", raise-first",
@@ -281,13 +412,47 @@ fn pattern(p: &Pattern, out: &mut Vec<u8>) {
                 None => put("here", out),
             }
             put(", first ", out);
-            pair(first, out);
+            match first {
+                First::At(first) => pair(first, out),
+                First::Polar { radius, angle } => {
+                    put("(radius ", out);
+                    expr(radius, out);
+                    put(", angle ", out);
+                    expr(angle, out);
+                    put(")", out);
+                }
+            }
             put(", step ", out);
             expr(step, out);
             put(", count ", out);
             whole(u64::from(*count), out);
         }
-        Pattern::Grid { columns, rows, serpentine } => {
+        Pattern::Line { start, angle, offset, pitch, count } => {
+            put("start ", out);
+            match start {
+                Some(start) => pair(start, out),
+                None => put("here", out),
+            }
+            for (word, value) in [(", angle ", angle), (", offset ", offset), (", pitch ", pitch)] {
+                put(word, out);
+                expr(value, out);
+            }
+            put(", count ", out);
+            whole(u64::from(*count), out);
+        }
+        Pattern::List(points) => {
+            for (at, to) in points.iter().enumerate() {
+                put(if at > 0 { ", (" } else { "(" }, out);
+                point(to, b"", out);
+                put(")", out);
+            }
+        }
+        Pattern::Grid { start, columns, rows, serpentine } => {
+            if let Some(start) = start {
+                put("start ", out);
+                pair(start, out);
+                put(", ", out);
+            }
             put("columns ", out);
             row(columns, out);
             put(", rows ", out);
@@ -307,7 +472,13 @@ fn pair([a, b]: &[Coord; 2], out: &mut Vec<u8>) {
 
 fn row(r: &Row, out: &mut Vec<u8>) {
     put("(", out);
-    out.push(r.axis.letter());
+    match &r.along {
+        Along::Axis(axis) => out.push(axis.letter()),
+        Along::Angle(angle) => {
+            put("angle ", out);
+            expr(angle, out);
+        }
+    }
     put(", ", out);
     expr(&r.pitch, out);
     put(", ", out);

@@ -5,7 +5,7 @@
 //! its feed.
 
 use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
@@ -165,13 +165,14 @@ impl Writer {
         let dwell = match &cycle.kind {
             CycleKind::Drill => None,
             CycleKind::DrillDwell { dwell } => Some(dwell),
-            CycleKind::DrillPeck { dwell, clearance, .. } => {
+            CycleKind::DrillPeck { dwell, clearance, .. }
+            | CycleKind::DrillBreak { dwell, lift: clearance, .. } => {
                 if *clearance != Clearance::Parameter {
                     return Err(cannot("the clearance of a peck, which is a parameter of the machine"));
                 }
                 dwell.as_ref()
             }
-            CycleKind::Bore { dwell } => dwell.as_ref(),
+            CycleKind::Bore { dwell, .. } => dwell.as_ref(),
         };
         let code = self.codes.cycle(cycle.kind.name(), dwell.is_some());
         code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
@@ -283,8 +284,10 @@ impl Writer {
         let (peck, dwell) = match &cycle.kind {
             CycleKind::Drill => (None, None),
             CycleKind::DrillDwell { dwell } => (None, Some(dwell)),
-            CycleKind::DrillPeck { peck, dwell, .. } => (Some(peck), dwell.as_ref()),
-            CycleKind::Bore { dwell } => (None, dwell.as_ref()),
+            CycleKind::DrillPeck { peck, dwell, .. } | CycleKind::DrillBreak { peck, dwell, .. } => {
+                (Some(peck), dwell.as_ref())
+            }
+            CycleKind::Bore { dwell, .. } => (None, dwell.as_ref()),
         };
         // A change keeps code and plane, and needs a word that makes a hole.
         let moves = at.is_some_and(|p| !p.is_empty());
@@ -390,10 +393,14 @@ impl Writer {
             None => return Err(cannot("holes of a cycle that is not known")),
         }
         match pattern {
-            Pattern::Circle { centre, first, step, count } => {
+            Pattern::Circle { first: First::Polar { .. }, .. } => Err(cannot("a bolt circle by radius")),
+            Pattern::Line { .. } => Err(cannot("a line of holes")),
+            Pattern::List(_) => Err(cannot("a list of positions")),
+            Pattern::Grid { start: Some(_), .. } => Err(cannot("a grid from a stated position")),
+            Pattern::Circle { centre, first: First::At(first), step, count } => {
                 self.circle(centre.as_ref(), first, step, *count, stmt.span, sink)
             }
-            Pattern::Grid { columns, rows, serpentine } => {
+            Pattern::Grid { start: None, columns, rows, serpentine } => {
                 self.grid(columns, rows, *serpentine, stmt.span, sink)
             }
         }
@@ -445,7 +452,8 @@ impl Writer {
         let (x, y) = (Axis::from_letter(row.pitch[0].letter), Axis::from_letter(row.pitch[1].letter));
         // The order of the holes shows only where there is more than one row.
         let order = serpentine == row.serpentine || rows.count <= 1 || columns.count <= 1;
-        if Some(columns.axis) != x || Some(rows.axis) != y || !order {
+        let along = |row: &Row, axis: Option<Axis>| axis.is_some_and(|a| row.along == Along::Axis(a));
+        if !along(columns, x) || !along(rows, y) || !order {
             return Err(cannot("a grid in this order"));
         }
         let mut words = Vec::with_capacity(4);

@@ -50,7 +50,11 @@ impl Setting {
             | Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank
-            | Op::SetFrame(..)
+            | Op::SetFrame(_)
+            | Op::UseMachineCoordinates
+            | Op::UseToolEdge { .. }
+            | Op::ArcForm(_)
+            | Op::RepeatBlocks(_)
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)
             | Op::SelectTool(_)

@@ -44,7 +44,11 @@ impl Writer {
                 Some(setting) => self.write_setting(setting, sink),
                 None => Err(cannot("clearing this frame")),
             },
-            Op::SetFrame(..) => Err(cannot("a frame")),
+            Op::SetFrame(_) => Err(cannot("a frame")),
+            Op::UseMachineCoordinates => Err(cannot("machine coordinates")),
+            Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
+            Op::ArcForm(_) => Err(cannot("an arc in this form")),
+            Op::RepeatBlocks(_) => Err(cannot("a repetition of blocks")),
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::SetSpindleSpeed(speed) => {
                 let letter = codes.speed;

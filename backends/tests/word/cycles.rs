@@ -2,7 +2,7 @@
 
 use crate::*;
 use ncc_ir::canon::ReturnLevel;
-use ncc_ir::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::program::Call;
 
 fn cycle(kind: CycleKind, depth: &str, feed: Option<&str>) -> Cycle {
@@ -12,9 +12,14 @@ fn cycle(kind: CycleKind, depth: &str, feed: Option<&str>) -> Cycle {
         retract: coord("3."),
         depth: coord(depth),
         return_level: Fact::Known(ReturnLevel::Retract),
+        return_plane: None,
         approach: Approach::RaiseFirst,
         feed: feed.map(mm),
     }
+}
+
+fn peck(clearance: Clearance, dwell: Option<Expr>) -> CycleKind {
+    CycleKind::DrillPeck { peck: mm("2."), first: None, clearance, pause: None, settle: None, dwell }
 }
 
 fn start(cycle: Cycle) -> Op {
@@ -28,14 +33,14 @@ fn drill(depth: &str, feed: Option<&str>) -> Op {
 fn circle() -> Pattern {
     Pattern::Circle {
         centre: None,
-        first: [coord("0"), coord("18.")],
+        first: First::At([coord("0"), coord("18.")]),
         step: Expr::Num(num("30.", Unit::Degree)),
         count: 12,
     }
 }
 
 fn row(axis: Axis, pitch: &str, count: u32) -> Row {
-    Row { axis, pitch: mm(pitch), count }
+    Row { along: Along::Axis(axis), pitch: mm(pitch), count }
 }
 
 #[test]
@@ -127,7 +132,7 @@ fn a_change_of_the_cycle_is_written_by_what_changes() {
         vec![drill("-6.", Some("100.")), hole("X1.")],
         vec![drill("-8.", Some("100.")), hole("X2.")],
         vec![drill("-8.", Some("120.")), hole("X3.")],
-        vec![start(cycle(CycleKind::Bore { dwell: None }, "-8.", Some("120."))), hole("X4.")],
+        vec![start(cycle(CycleKind::Bore { dwell: None, feed_out: None }, "-8.", Some("120."))), hole("X4.")],
     ]);
     assert_eq!(
         clean("fanuc", &stmts),
@@ -160,11 +165,11 @@ fn the_kinds_have_their_words() {
     let kinds = [
         (CycleKind::DrillDwell { dwell: seconds("0.5") }, "G99 G82 X1. Z-6. R3. P500"),
         (
-            CycleKind::DrillPeck { peck: mm("2."), clearance: Clearance::Parameter, dwell: None },
+            peck(Clearance::Parameter, None),
             "G99 G83 X1. Z-6. R3. Q2.",
         ),
-        (CycleKind::Bore { dwell: None }, "G99 G85 X1. Z-6. R3."),
-        (CycleKind::Bore { dwell: Some(seconds("1")) }, "G99 G89 X1. Z-6. R3. P1000"),
+        (CycleKind::Bore { dwell: None, feed_out: None }, "G99 G85 X1. Z-6. R3."),
+        (CycleKind::Bore { dwell: Some(seconds("1")), feed_out: None }, "G99 G89 X1. Z-6. R3. P1000"),
     ];
     for (kind, expected) in kinds {
         let stmts = lines(vec![start(cycle(kind, "-6.", None)), hole("X1.")]);
@@ -172,13 +177,12 @@ fn the_kinds_have_their_words() {
     }
     let dwell = start(cycle(CycleKind::DrillDwell { dwell: seconds("0.5") }, "-6.", None));
     assert_eq!(clean("mach9", &lines(vec![dwell, hole("X1.")])), "G82Z-6.R3.D0.5\nX1.\n");
-    let peck = |clearance, dwell| {
-        let kind = CycleKind::DrillPeck { peck: mm("2."), clearance, dwell };
-        lines(vec![start(cycle(kind, "-6.", None)), hole("X1.")])
+    let pecked = |clearance, dwell| {
+        lines(vec![start(cycle(peck(clearance, dwell), "-6.", None)), hole("X1.")])
     };
-    refused("fanuc", &peck(Clearance::Stated(mm("1.")), None));
-    refused("fanuc", &peck(Clearance::Parameter, Some(seconds("1."))));
-    refused("mach9", &peck(Clearance::Parameter, None));
+    refused("fanuc", &pecked(Clearance::Stated(mm("1.")), None));
+    refused("fanuc", &pecked(Clearance::Parameter, Some(seconds("1."))));
+    refused("mach9", &pecked(Clearance::Parameter, None));
     let zx = Cycle { plane: Fact::Known(Plane::Zx), ..cycle(CycleKind::Drill, "-6.", None) };
     refused("fanuc", &lines(vec![start(zx), hole("X1.")]));
 }
@@ -186,7 +190,7 @@ fn the_kinds_have_their_words() {
 #[test]
 fn patterns_stay_patterns() {
     let grid =
-        Pattern::Grid { columns: row(Axis::X, "30.", 2), rows: row(Axis::Y, "130.", 2), serpentine: true };
+        Pattern::Grid { start: None, columns: row(Axis::X, "30.", 2), rows: row(Axis::Y, "130.", 2), serpentine: true };
     let stmts = lines(vec![
         rapid("X0 Y0"),
         drill("-6.", Some("191")),
@@ -200,7 +204,7 @@ fn patterns_stay_patterns() {
     other.choose("g24_direction", "cw").expect("an option");
     other.choose("g25_xy", "extent").expect("an option");
     let three =
-        Pattern::Grid { columns: row(Axis::X, "30.", 3), rows: row(Axis::Y, "5.5", 1), serpentine: false };
+        Pattern::Grid { start: None, columns: row(Axis::X, "30.", 3), rows: row(Axis::Y, "5.5", 1), serpentine: false };
     let stmts = lines(vec![
         rapid("X0 Y0"),
         drill("-6.", None),

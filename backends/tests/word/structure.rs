@@ -3,7 +3,7 @@
 use crate::*;
 use ncc_backends::Head;
 use ncc_ir::canon::ReturnLevel;
-use ncc_ir::program::{Call, FrameSlot, ProgramName};
+use ncc_ir::program::{Call, Frame, FrameSlot, FrameStep, ProgramName};
 
 #[test]
 fn a_port_of_the_case_study_begins_clean() {
@@ -263,7 +263,9 @@ fn what_has_no_word_is_refused() {
     for op in [
         Op::SetFeedMode(FeedMode::PerRevolution),
         Op::ClearFrame(FrameSlot::Rotation),
-        Op::SetFrame(FrameSlot::Shift, vec![]),
+        Op::SetFrame(Box::new(Frame { added: true, step: FrameStep::Mirror([true, false, false]) })),
+        Op::UseMachineCoordinates,
+        Op::UseToolEdge { edge: count("1"), said: true },
         Op::Message("CHECK".into()),
         Op::Goto("10".into()),
         Op::Label("10".into()),

@@ -171,6 +171,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedNoEffect { .. }
         | Fault::AssumedOffsetWithZ
         | Fault::AssumedRow { .. }
+        | Fault::AssumedHoleOrder { .. }
+        | Fault::AssumedEdge { .. }
         | Fault::AssumedParameter { .. } => {
             assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)
         }
@@ -180,6 +182,13 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
+        Fault::FramesExpanded => "frames into the coordinates".to_owned(),
+        Fault::CycleFolded { kind, holes } => {
+            format!("moves into the {} cycle ({holes} {})", plain(kind), plural(u64::from(*holes), "hole"))
+        }
+        Fault::PatternFolded { pattern, holes } => {
+            format!("{holes} positions into a {}", plain(pattern))
+        }
         Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
         Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
         Fault::NumbersLeftOut { count } => {
@@ -219,6 +228,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::ArcRadiusNoWay
         | Fault::PositionUnknown { .. }
         | Fault::CallUnknown { .. }
+        | Fault::LabelUnknown { .. }
         | Fault::CallRecursive { .. }
         | Fault::ProgramTwice { .. }
         | Fault::MacroLanguage { .. }

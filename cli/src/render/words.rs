@@ -151,6 +151,26 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{} cannot be verified", plain(what)),
             "can be written down, but not executed by this version".into(),
         ),
+        Fault::LabelUnknown { name } => {
+            (format!("label {} does not stand before this block", quoted(name)), "repeated from here".into())
+        }
+        Fault::AssumedHoleOrder { pattern } => (
+            format!("{}: order of the holes as written assumed", plain(pattern)),
+            "a control may begin at another corner or end, by where the tool stands".into(),
+        ),
+        Fault::AssumedEdge { tool } => (
+            format!("edge 1 of tool {tool} = entry {tool} of the length table assumed"),
+            "one control has lengths by edge, the other by entry".into(),
+        ),
+        Fault::FramesExpanded => {
+            ("frame worked into the coordinates".into(), "the target has no words for it".into())
+        }
+        Fault::CycleFolded { kind, holes } => {
+            (format!("{holes} holes written as the cycle {}", plain(kind)), "long-hand moves here".into())
+        }
+        Fault::PatternFolded { pattern, holes } => {
+            (format!("{holes} positions written as a {}", plain(pattern)), "positions here".into())
+        }
         Fault::NoEnd { steps } => {
             ("the program does not come to an end".into(), format!("still running after {steps} blocks"))
         }

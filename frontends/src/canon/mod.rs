@@ -144,7 +144,13 @@ impl State {
                 self.stands = [None; AXES];
             }
             Op::SelectPlane(plane) => set(&mut self.plane, *plane, skipped),
-            Op::SetOriginOffsets(_) | Op::ClearFrame(_) | Op::UseToolLengthOffset(_) => {
+            Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::SetFrame(_)
+            | Op::UseMachineCoordinates
+            | Op::UseToolEdge { .. }
+            | Op::ArcForm(_)
+            | Op::UseToolLengthOffset(_) => {
                 self.stands = [None; AXES];
             }
             Op::Comment(_)
@@ -153,7 +159,6 @@ impl State {
             | Op::SetDistanceMode(_)
             | Op::SetFeedMode(_)
             | Op::SetReturnLevel(_)
-            | Op::SetFrame(..)
             | Op::StopCutterRadiusCompensation
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)
@@ -177,6 +182,7 @@ impl State {
             | Op::Message(_)
             | Op::Call(_)
             | Op::Return
+            | Op::RepeatBlocks(_)
             | Op::Assign(..)
             | Op::Control(_)
             | Op::Goto(_)

@@ -47,6 +47,10 @@ impl Literal {
     }
 }
 
+/// Name of an arc's function that is not the plain one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Form(pub(crate) &'static str);
+
 /// A function with one number as its argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 
@@ -160,6 +164,7 @@ pub(crate) enum Token {
     #[token("PROGRAM_STOP", |_| Box::new(Op::ProgramStop))]
     #[token("OPTIONAL_PROGRAM_STOP", |_| Box::new(Op::OptionalProgramStop))]
     #[token("PROGRAM_END", |_| Box::new(Op::ProgramEnd))]
+    #[token("USE_MACHINE_COORDINATES", |_| Box::new(Op::UseMachineCoordinates))]
     #[token("RETURN", |_| Box::new(Op::Return))]
     /// A function without arguments; in a box, since most words are small.
     Bare(Box<Op>),
@@ -189,6 +194,22 @@ pub(crate) enum Token {
     ClearFrame,
     #[token("SET_FRAME")]
     SetFrame,
+    #[token("ADD_FRAME")]
+    AddFrame,
+    #[token("USE_TOOL_EDGE")]
+    UseToolEdge,
+    #[token("LINE_PATTERN")]
+    LinePattern,
+    #[token("POSITION_LIST")]
+    PositionList,
+    #[token("REPEAT_BLOCKS")]
+    RepeatBlocks,
+    #[token("ARC_BY_ANGLE", |_| Form("ARC_BY_ANGLE"))]
+    #[token("ARC_ABOUT_BY_ANGLE", |_| Form("ARC_ABOUT_BY_ANGLE"))]
+    #[token("ARC_ABOUT", |_| Form("ARC_ABOUT"))]
+    #[token("ARC_THROUGH", |_| Form("ARC_THROUGH"))]
+    #[token("ARC_TANGENT", |_| Form("ARC_TANGENT"))]
+    ArcForm(Form),
     #[token("STRAIGHT_TRAVERSE")]
     StraightTraverse,
     #[token("STRAIGHT_FEED")]
@@ -288,6 +309,36 @@ pub(crate) enum Token {
     Radius,
     #[token("turns")]
     Turns,
+    #[token("return-plane")]
+    ReturnPlane,
+    #[token("about")]
+    About,
+    #[token("angle")]
+    Angle,
+    #[token("offset")]
+    Offset,
+    #[token("pitch")]
+    Pitch,
+    #[token("translate")]
+    Translate,
+    #[token("rotate")]
+    Rotate,
+    #[token("through")]
+    Through,
+    #[token("tangent")]
+    Tangent,
+    #[token("at-feed")]
+    AtFeed,
+    #[token("lift")]
+    Lift,
+    #[token("pause")]
+    Pause,
+    #[token("settle")]
+    Settle,
+    #[token("drill-break")]
+    DrillBreak,
+    #[token("feed-out")]
+    FeedOut,
     #[token("drill")]
     Drill,
     #[token("drill-dwell")]

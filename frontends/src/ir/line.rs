@@ -6,7 +6,7 @@ use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::Num;
-use ncc_ir::program::{Coord, Point, Procedure, ProgramName, Stmt, Text};
+use ncc_ir::program::{Coord, Point, Procedure, ProgramName, Shape, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::lexer::{LexFault, Literal};
@@ -46,6 +46,9 @@ pub(crate) enum Refusal {
 /// Coordinates along the plane's two axes.
 pub(crate) type Pair = [Coord; 2];
 
+/// Words of a centre that say each from where they are measured.
+pub(crate) type About = [Option<Coord>; 3];
+
 type Parsed<T> = Result<T, lalrpop_util::ParseError<usize, super::lexer::Token, Refusal>>;
 
 fn refuse<T>(l: usize, r: usize, fault: Fault) -> Parsed<T> {
@@ -60,7 +63,7 @@ pub(crate) fn span(l: usize, r: usize) -> Span {
 /// A block-skip level: a mark alone is level 1.
 pub(crate) fn skip(level: Option<Literal>, l: usize, r: usize) -> Parsed<u8> {
     match level.map_or(Some(1), Literal::plain) {
-        Some(level @ 0..=9) => Ok(level as u8),
+        Some(level @ 0..=10) => Ok(level as u8),
         _ => refuse(l, r, Fault::OutOfRange { word: "skip level".into() }),
     }
 }
@@ -110,6 +113,57 @@ pub(crate) fn centre(words: Vec<(usize, Expr)>, l: usize, r: usize) -> Parsed<[O
         }
     }
     Ok(all)
+}
+
+/// The words of a centre that say each from where they are measured.
+pub(crate) fn places(words: Vec<(usize, Coord)>, l: usize, r: usize) -> Parsed<[Option<Coord>; 3]> {
+    let mut all = [None, None, None];
+    for (axis, word) in words {
+        if all[axis].replace(word).is_some() {
+            return refuse(l, r, Fault::WordTwice { letter: char::from(b"IJK"[axis]) });
+        }
+    }
+    Ok(all)
+}
+
+/// Values along axes, of which there are the first `N`.
+pub(crate) fn along<const N: usize>(
+    words: Vec<(Axis, Expr)>,
+    l: usize,
+    r: usize,
+) -> Parsed<[Option<Expr>; N]> {
+    let mut all = [const { None }; N];
+    for (axis, value) in words {
+        match all.get_mut(axis as usize) {
+            None => return refuse(l, r, Fault::WordUnused { word: char::from(axis.letter()).to_string().into() }),
+            Some(place) if place.is_some() => {
+                return refuse(l, r, Fault::WordTwice { letter: axis.letter() as char });
+            }
+            Some(place) => *place = Some(value),
+        }
+    }
+    Ok(all)
+}
+
+/// Axes that are turned round.
+pub(crate) fn mirrored(axes: &[Axis], l: usize, r: usize) -> Parsed<[bool; 3]> {
+    let mut all = [false; 3];
+    for axis in axes {
+        match all.get_mut(*axis as usize) {
+            None => return refuse(l, r, Fault::WordUnused { word: char::from(axis.letter()).to_string().into() }),
+            Some(turned) => *turned = true,
+        }
+    }
+    Ok(all)
+}
+
+/// The shape of an arc, which must be the one of its function.
+pub(crate) fn shape(form: &'static str, shape: Shape, l: usize, r: usize) -> Parsed<Shape> {
+    if shape.name() == form {
+        Ok(shape)
+    } else {
+        refuse(l, r, Fault::Syntax { found: shape.name().into(), expected: form.into() })
+    }
 }
 
 /// An expression of two operands.

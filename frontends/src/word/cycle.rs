@@ -196,6 +196,7 @@ impl Lower {
             retract: active.retract.clone(),
             depth: active.depth.clone(),
             return_level,
+            return_plane: None,
             approach: self.settings.dialect.cycles.approach.into(),
             feed: active.feed.map(Expr::Num),
         };
@@ -321,10 +322,13 @@ fn kind_of(row: &CycleRow, dwell: Option<Num>, peck: Option<Num>) -> Result<Cycl
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
         "drill-peck" => CycleKind::DrillPeck {
             peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
+            first: None,
             clearance: Clearance::Parameter,
+            pause: None,
+            settle: None,
             dwell: bottom,
         },
-        "bore" => CycleKind::Bore { dwell: bottom },
+        "bore" => CycleKind::Bore { dwell: bottom, feed_out: None },
         // The loader lets no other kind pass.
         _ => CycleKind::Drill,
     })

@@ -5,7 +5,7 @@
 
 use ncc_dialects::{PatternRow, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact};
-use ncc_ir::cycle::{Pattern, Row};
+use ncc_ir::cycle::{Along, First, Pattern, Row};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
@@ -92,7 +92,7 @@ impl Lower {
         }
         Some(Pattern::Circle {
             centre,
-            first: [coord(x?, distance), coord(y?, distance)],
+            first: First::At([coord(x?, distance), coord(y?, distance)]),
             step: Expr::Num(turn?),
             count,
         })
@@ -129,11 +129,11 @@ impl Lower {
                 },
             };
             let axis = Axis::from_letter(letter as u8)?;
-            Some(Row { axis, pitch: Expr::Num(pitch), count })
+            Some(Row { along: Along::Axis(axis), pitch: Expr::Num(pitch), count })
         };
         let columns = row(pitch[0], x, columns);
         let rows = row(pitch[1], y, rows);
-        Some(Pattern::Grid { columns: columns?, rows: rows?, serpentine })
+        Some(Pattern::Grid { start: None, columns: columns?, rows: rows?, serpentine })
     }
 
     /// A word that the code needs.

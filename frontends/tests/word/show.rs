@@ -2,7 +2,7 @@
 //! whatever is in force; a unit stands behind a number unless it is millimetres or a pure number.
 
 use ncc_ir::canon::{Axis, Distance, Fact};
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Pattern};
+use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Stmt};
@@ -109,11 +109,15 @@ fn cycle(c: &Cycle) -> String {
     let kind = match &c.kind {
         CycleKind::Drill => String::new(),
         CycleKind::DrillDwell { dwell } => format!(" dwell {}", expr(dwell)),
-        CycleKind::DrillPeck { peck, clearance, dwell } => {
+        CycleKind::DrillPeck { peck, clearance, dwell, .. } => {
             assert_eq!((clearance, dwell), (&Clearance::Parameter, &None));
             format!(" peck {}", expr(peck))
         }
-        CycleKind::Bore { dwell } => dwell.as_ref().map_or(String::new(), |d| format!(" dwell {}", expr(d))),
+        CycleKind::DrillBreak { peck, lift, dwell, .. } => {
+            assert_eq!((lift, dwell), (&Clearance::Parameter, &None));
+            format!(" break {}", expr(peck))
+        }
+        CycleKind::Bore { dwell, .. } => dwell.as_ref().map_or(String::new(), |d| format!(" dwell {}", expr(d))),
     };
     let feed = c.feed.as_ref().map_or(String::new(), |f| format!(" F{}", expr(f)));
     let (plane, level) = (fact(&c.plane), fact(&c.return_level));
@@ -130,11 +134,16 @@ fn pattern(p: &Pattern) -> String {
     match p {
         Pattern::Circle { centre, first, step, count } => {
             let centre = centre.as_ref().map_or("here".into(), |[x, y]| format!("{} {}", coord(x), coord(y)));
-            let [x, y] = first;
+            let First::At([x, y]) = first else { return "POLAR".into() };
             format!("CIRCLE {count} from {} {} step {} about {centre}", coord(x), coord(y), expr(step))
         }
-        Pattern::Grid { columns, rows, serpentine } => {
-            let row = |r: &ncc_ir::cycle::Row| format!("{}x{:?}{}", r.count, r.axis, expr(&r.pitch));
+        Pattern::Line { .. } => "LINE".into(),
+        Pattern::List(points) => format!("LIST {}", points.len()),
+        Pattern::Grid { columns, rows, serpentine, .. } => {
+            let row = |r: &ncc_ir::cycle::Row| match &r.along {
+                Along::Axis(axis) => format!("{}x{axis:?}{}", r.count, expr(&r.pitch)),
+                Along::Angle(angle) => format!("{}@{}:{}", r.count, expr(angle), expr(&r.pitch)),
+            };
             format!("GRID {} {}{}", row(columns), row(rows), if *serpentine { " serpentine" } else { "" })
         }
     }

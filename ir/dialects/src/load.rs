@@ -134,12 +134,16 @@ fn caps(dialect: &Dialect) -> Caps {
     let everything = dialect.can.everything;
     Caps {
         cycles: if everything {
-            let all = ["drill", "drill-dwell", "drill-peck", "bore"];
+            let all = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
             let cap = |kind: &str| CycleCap {
                 kind: kind.to_owned(),
                 returns: vec![ReturnLevel::Initial, ReturnLevel::Retract],
                 dwell: true,
                 clearance: true,
+                parameter: true,
+                strokes: true,
+                feed_out: true,
+                lift_at_feed: None,
             };
             all.into_iter().map(cap).collect()
         } else {
@@ -148,6 +152,10 @@ fn caps(dialect: &Dialect) -> Caps {
                 returns: returns.clone(),
                 dwell: row.dwell.is_some(),
                 clearance: false,
+                parameter: true,
+                strokes: false,
+                feed_out: false,
+                lift_at_feed: Some(false),
             };
             dialect.cycle.iter().map(cap).collect()
         },
@@ -157,6 +165,17 @@ fn caps(dialect: &Dialect) -> Caps {
             PatternRow::Grid { serpentine, .. } => Some(*serpentine),
             PatternRow::Circle { .. } => None,
         }),
+        line_pattern: everything,
+        list_pattern: if everything { u32::MAX } else { 0 },
+        circle_polar: (!everything).then_some(false),
+        pattern_start: everything,
+        pattern_angle: everything,
+        frames: everything,
+        machine_coordinates: everything,
+        tool_edges: (!everything).then_some(false),
+        return_planes: (!everything).then_some(false),
+        arc_forms: everything,
+        repeat_blocks: everything,
         circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
         incremental_cycles: everything || dialect.cycles.incremental,
         calls: everything || (dialect.program.subprograms && says(Meaning::Call)),
@@ -174,7 +193,7 @@ fn caps(dialect: &Dialect) -> Caps {
         arc_radius: everything || dialect.letter_for(crate::Role::Radius).is_some(),
         helix: everything || dialect.can.flat || dialect.arc.helix,
         arc_turns: everything || dialect.can.flat,
-        skip_levels: if everything { 9 } else { dialect.block.skip_levels },
+        skip_levels: if everything { 10 } else { dialect.block.skip_levels },
         incremental: everything || says(Meaning::SetDistanceMode(ncc_ir::canon::Distance::Incremental)),
         inch: true,
         flat: dialect.can.flat,

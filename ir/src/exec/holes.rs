@@ -4,12 +4,13 @@
 //! tests holds the two together.
 
 use super::{Event, Exec, Kind};
-use crate::canon::{AXES, Axis, Motion, Plane, ReturnLevel};
+use crate::canon::{AXES, Motion, Plane, ReturnLevel};
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern};
 use crate::diag::{Diagnostic, Fault};
-use crate::geometry;
+use crate::expr::Expr;
 use crate::num::Nanos;
-use crate::program::Point;
+use crate::places::{Here, Places};
+use crate::program::{Coord, Point};
 use crate::source::Span;
 
 /// Most pecks of one hole; more is a slip of the pen.
@@ -23,6 +24,7 @@ pub(super) struct InForce {
     retract: Nanos,
     depth: Nanos,
     return_level: Option<ReturnLevel>,
+    return_plane: Option<Nanos>,
     approach: Approach,
     way: Way,
 }
@@ -31,8 +33,53 @@ pub(super) struct InForce {
 #[derive(Clone, Copy, Debug)]
 enum Way {
     Drill { dwell: Option<Nanos> },
-    Peck { peck: Nanos, clearance: Nanos, dwell: Option<Nanos> },
-    Bore { dwell: Option<Nanos> },
+    Peck { strokes: Strokes, clearance: Nanos, settle: Option<Nanos> },
+    Break { strokes: Strokes, lift: Nanos, at_feed: bool },
+    Bore { dwell: Option<Nanos>, feed_out: Option<Nanos> },
+}
+
+/// Pecks of a hole.
+#[derive(Clone, Copy, Debug)]
+struct Strokes {
+    /// Depth of the first below the retract plane.
+    first: Nanos,
+    /// Depth of each further one.
+    peck: Nanos,
+    /// Seconds after every one but the last.
+    pause: Option<Nanos>,
+    /// Seconds at the bottom.
+    dwell: Option<Nanos>,
+}
+
+/// What execution knows of where holes are.
+struct Now<'e> {
+    exec: &'e Exec,
+    axes: [usize; 2],
+    span: Span,
+}
+
+impl Here for Now<'_> {
+    type Unknown = Diagnostic;
+
+    fn at(&self, side: usize) -> Result<Nanos, Diagnostic> {
+        Ok(self.exec.position[self.axes[side]])
+    }
+
+    fn word(&self, word: &Coord, side: usize) -> Result<Nanos, Diagnostic> {
+        self.exec.target(word, self.exec.position[self.axes[side]], self.span)
+    }
+
+    fn after(&self, word: &Coord, _: usize, last: Nanos) -> Result<Nanos, Diagnostic> {
+        self.exec.target(word, last, self.span)
+    }
+
+    fn value(&self, value: &Expr) -> Result<Nanos, Diagnostic> {
+        self.exec.value(value, self.span)
+    }
+
+    fn out_of_range(&self) -> Diagnostic {
+        Diagnostic::new(Fault::OutOfRange { word: "".into() }, self.span)
+    }
 }
 
 impl Exec {
@@ -45,22 +92,36 @@ impl Exec {
         if depth > retract {
             return self.fault(Fault::CycleUpsideDown, span);
         }
-        let dwell = |d: &Option<crate::expr::Expr>| d.as_ref().map(|d| self.value(d, span)).transpose();
+        let dwell = |d: &Option<Expr>| d.as_ref().map(|d| self.value(d, span)).transpose();
         let way = match &cycle.kind {
             CycleKind::Drill => Way::Drill { dwell: None },
             CycleKind::DrillDwell { dwell } => Way::Drill { dwell: Some(self.value(dwell, span)?) },
-            CycleKind::DrillPeck { peck, clearance, dwell: d } => {
-                let peck = self.value(peck, span)?;
-                if peck <= 0 || (retract - depth) / peck > MOST_PECKS {
-                    return self.fault(Fault::OutOfRange { word: "Q".into() }, span);
-                }
+            CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell: d } => {
+                let strokes = self.strokes([peck, first.as_ref().unwrap_or(peck)], retract - depth, span)?;
+                let strokes = Strokes { pause: dwell(pause)?, dwell: dwell(d)?, ..strokes };
                 let clearance = match clearance {
                     Clearance::Stated(value) => self.value(value, span)?,
                     Clearance::Parameter => self.world.peck_clearance,
                 };
-                Way::Peck { peck, clearance, dwell: dwell(d)? }
+                Way::Peck { strokes, clearance, settle: dwell(settle)? }
             }
-            CycleKind::Bore { dwell: d } => Way::Bore { dwell: dwell(d)? },
+            CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell: d } => {
+                let strokes = self.strokes([peck, first.as_ref().unwrap_or(peck)], retract - depth, span)?;
+                let strokes = Strokes { pause: dwell(pause)?, dwell: dwell(d)?, ..strokes };
+                let lift = match lift {
+                    Clearance::Stated(value) => self.value(value, span)?,
+                    Clearance::Parameter => self.world.break_lift,
+                };
+                Way::Break { strokes, lift, at_feed: *lift_at_feed }
+            }
+            CycleKind::Bore { dwell: d, feed_out } => Way::Bore {
+                dwell: dwell(d)?,
+                feed_out: feed_out.as_ref().map(|f| self.value(f, span)).transpose()?,
+            },
+        };
+        let return_plane = match &cycle.return_plane {
+            Some(word) => Some(self.target(word, retract, span)?),
+            None => None,
         };
         if let Some(feed) = &cycle.feed {
             self.feed = self.value(feed, span)?;
@@ -72,10 +133,19 @@ impl Exec {
             retract,
             depth,
             return_level: cycle.return_level.known(),
+            return_plane,
             approach: cycle.approach,
             way,
         });
         Ok(())
+    }
+
+    fn strokes(&self, words: [&Expr; 2], way: Nanos, span: Span) -> Result<Strokes, Diagnostic> {
+        let (peck, first) = (self.value(words[0], span)?, self.value(words[1], span)?);
+        if peck <= 0 || first <= 0 || way / peck > MOST_PECKS {
+            return self.fault(Fault::OutOfRange { word: "depth of a peck".into() }, span);
+        }
+        Ok(Strokes { first, peck, pause: None, dwell: None })
     }
 
     pub(super) fn hole(&mut self, to: &Point, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
@@ -102,35 +172,9 @@ impl Exec {
         };
         let (first, second, _) = cycle.plane.axes();
         let (f, s) = (first as usize, second as usize);
-        let origin = [self.position[f], self.position[s]];
-        match pattern {
-            Pattern::Circle { centre, first, step, count } => {
-                let pair = |exec: &Exec, p: &[crate::program::Coord; 2]| -> Result<_, Diagnostic> {
-                    Ok([exec.target(&p[0], origin[0], span)?, exec.target(&p[1], origin[1], span)?])
-                };
-                let centre = centre.as_ref().map_or(Ok(origin), |c| pair(self, c))?;
-                let first = pair(self, first)?;
-                let step = self.value(step, span)?;
-                for k in 0..*count {
-                    let p = geometry::circle_position(centre, first, step, k);
-                    self.hole_at(&cycle, f, s, p, span, out)?;
-                }
-            }
-            Pattern::Grid { columns, rows, serpentine } => {
-                let (dx, dy) = (self.value(&columns.pitch, span)?, self.value(&rows.pitch, span)?);
-                let total = u64::from(columns.count) * u64::from(rows.count);
-                let Ok(total) = u32::try_from(total) else {
-                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
-                };
-                let side = |axis: Axis| usize::from(axis == second);
-                for k in 0..total {
-                    let (c, r) = geometry::grid_position(columns.count, *serpentine, k);
-                    let mut p = origin;
-                    p[side(columns.axis)] += dx.wrapping_mul(i64::from(c));
-                    p[side(rows.axis)] += dy.wrapping_mul(i64::from(r));
-                    self.hole_at(&cycle, f, s, p, span, out)?;
-                }
-            }
+        let places = Places::of(pattern, cycle.plane, &Now { exec: self, axes: [f, s], span })?;
+        for k in 0..places.count() {
+            self.hole_at(&cycle, f, s, places.get(k), span, out)?;
         }
         Ok(())
     }
@@ -177,27 +221,44 @@ impl Exec {
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
                 self.dwell(dwell, span, out)?;
             }
-            Way::Peck { peck, clearance, dwell } => {
-                let mut bottom = cycle.retract - peck;
+            Way::Peck { strokes, clearance, settle } => {
+                let mut bottom = cycle.retract - strokes.first;
                 while bottom > cycle.depth {
                     self.go_to_level(normal, bottom, true, span, out)?;
+                    self.dwell(strokes.pause, span, out)?;
                     self.go_to_level(normal, cycle.retract, false, span, out)?;
+                    self.dwell(settle, span, out)?;
                     self.go_to_level(normal, bottom + clearance, false, span, out)?;
-                    bottom -= peck;
+                    bottom -= strokes.peck;
                 }
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
-                self.dwell(dwell, span, out)?;
+                self.dwell(strokes.dwell, span, out)?;
             }
-            Way::Bore { dwell } => {
+            Way::Break { strokes, lift, at_feed } => {
+                let mut bottom = cycle.retract - strokes.first;
+                while bottom > cycle.depth {
+                    self.go_to_level(normal, bottom, true, span, out)?;
+                    self.dwell(strokes.pause, span, out)?;
+                    self.go_to_level(normal, bottom + lift, at_feed, span, out)?;
+                    bottom -= strokes.peck;
+                }
+                self.go_to_level(normal, cycle.depth, true, span, out)?;
+                self.dwell(strokes.dwell, span, out)?;
+            }
+            Way::Bore { dwell, feed_out } => {
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
                 self.dwell(dwell, span, out)?;
+                let feed_in = self.feed;
+                self.feed = feed_out.unwrap_or(feed_in);
                 self.go_to_level(normal, cycle.retract, true, span, out)?;
+                self.feed = feed_in;
             }
         }
-        let out_to = match cycle.return_level.unwrap_or(self.modes.return_level) {
+        let level = || match cycle.return_level.unwrap_or(self.modes.return_level) {
             ReturnLevel::Retract => cycle.retract,
             ReturnLevel::Initial => cycle.initial,
         };
+        let out_to = cycle.return_plane.unwrap_or_else(level);
         self.go_to_level(normal, out_to, false, span, out)
     }
 

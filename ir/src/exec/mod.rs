@@ -4,7 +4,9 @@
 //! coordinates, so that a lost work offset or a wrong length entry shows. Statements whose meaning
 //! is not executed yet (variables, jumps) are refused by name.
 
+mod arcs;
 mod event;
+mod frame;
 mod holes;
 mod run;
 
@@ -16,20 +18,15 @@ use crate::canon::{
 };
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::geometry::{self, ArcFault};
-use crate::num::{Nanos, ONE, Unit};
-use crate::program::{Arc, Centre, CentreFrom, Coord, FrameSlot, Op, Point, Stmt};
+use crate::num::{Nanos, Unit};
+use crate::program::{Coord, FrameSlot, Op, Point, Stmt};
 use crate::source::Span;
 use crate::world::World;
+use arcs::Heading;
+use frame::Chain;
 use holes::InForce;
 
 const Z: usize = Axis::Z as usize;
-
-/// Greatest difference of an arc's two radii, 0.02 mm; a control's parameter is of this order.
-const ARC_TOLERANCE: Nanos = ONE / 50;
-
-/// Most turns of one arc; more is a slip of the pen.
-const MOST_TURNS: u32 = 10_000;
 
 /// A control that executes statements one by one.
 #[derive(Clone, Debug)]
@@ -44,10 +41,16 @@ pub struct Exec {
     position: [Nanos; AXES],
     /// Machine coordinates of program zero, tool length included.
     frame: [Nanos; AXES],
+    /// Frames between the program and that.
+    chain: Option<Box<Chain>>,
     /// Position of the last move's event.
     last: [Nanos; AXES],
-    /// Entry of the length table that the next Z takes up.
-    waiting: Option<u32>,
+    /// Direction of the last move.
+    heading: Heading,
+    /// The next straight move is in machine coordinates.
+    raw: bool,
+    /// The length that the next Z takes up.
+    waiting: Option<Length>,
     feed: Nanos,
     selected: i64,
     state: State,
@@ -70,8 +73,17 @@ struct InModes {
     plane: Plane,
     return_level: ReturnLevel,
     work_offset: u16,
-    length: u32,
+    length: Length,
     shifted: bool,
+}
+
+/// Which length of a tool is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Length {
+    /// An entry of the table; 0 is none.
+    Entry(u32),
+    /// An edge of a tool, where that is not an entry.
+    Edge(i64, u32),
 }
 
 // Bits of `Exec::said`.
@@ -95,7 +107,7 @@ impl Exec {
             plane: p.plane.unwrap_or(Plane::Xy),
             return_level: p.return_level.unwrap_or(ReturnLevel::Initial),
             work_offset: p.work_offset.unwrap_or(1),
-            length: p.length_offset.unwrap_or(0),
+            length: Length::Entry(p.length_offset.unwrap_or(0)),
             shifted: p.no_origin_shift == Some(false),
         };
         let mut exec = Exec {
@@ -105,7 +117,10 @@ impl Exec {
             said: 0,
             position: [0; AXES],
             frame: [0; AXES],
+            chain: None,
             last: world.start,
+            heading: Heading::None,
+            raw: false,
             waiting: None,
             feed: 0,
             selected: -1,
@@ -149,7 +164,7 @@ impl Exec {
             self.said |= WORK;
         }
         if let (Some(l), true) = (facts.length_offset, fresh(self.said, LENGTH)) {
-            self.modes.length = l;
+            self.modes.length = Length::Entry(l);
             self.said |= LENGTH;
         }
         if let (Some(n), true) = (facts.no_origin_shift, fresh(self.said, SHIFT)) {
@@ -197,7 +212,7 @@ impl Exec {
     /// Puts the machine somewhere.
     pub fn be_at(&mut self, machine: [Nanos; AXES]) {
         self.last = machine;
-        self.position = std::array::from_fn(|i| machine[i].wrapping_sub(self.frame[i]));
+        self.position = self.unplace(&machine);
     }
 
     /// Whether two controls are in one state: whatever both execute next, both do the same. (Facts
@@ -206,7 +221,10 @@ impl Exec {
         self.modes == other.modes
             && self.position == other.position
             && self.frame == other.frame
+            && self.chain == other.chain
             && self.last == other.last
+            && self.heading == other.heading
+            && self.raw == other.raw
             && self.waiting == other.waiting
             && self.feed == other.feed
             && self.selected == other.selected
@@ -222,7 +240,10 @@ impl Exec {
         self.modes = other.modes;
         self.position = other.position;
         self.frame = other.frame;
+        self.chain.clone_from(&other.chain);
         self.last = other.last;
+        self.heading = other.heading;
+        self.raw = other.raw;
         self.waiting = other.waiting;
         self.feed = other.feed;
         self.selected = other.selected;
@@ -261,7 +282,28 @@ impl Exec {
     /// Where the axes stand, in machine coordinates.
     #[inline]
     pub fn machine(&self) -> [Nanos; AXES] {
-        std::array::from_fn(|i| self.position[i].wrapping_add(self.frame[i]))
+        self.place(&self.position)
+    }
+
+    /// A point of the program in machine coordinates.
+    #[inline]
+    fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+        match &self.chain {
+            None => std::array::from_fn(|i| p[i].wrapping_add(self.frame[i])),
+            Some(chain) => {
+                let p = chain.place(p);
+                std::array::from_fn(|i| p[i].wrapping_add(self.frame[i]))
+            }
+        }
+    }
+
+    /// A point of the machine in program coordinates.
+    fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+        let p = std::array::from_fn(|i| p[i].wrapping_sub(self.frame[i]));
+        match &self.chain {
+            None => p,
+            Some(chain) => chain.unplace(&p),
+        }
     }
 
     /// Computes the frame anew; the machine stays at `here`.
@@ -273,16 +315,17 @@ impl Exec {
                 *f += s;
             }
         }
-        self.frame[Z] += self.world.tool_length(self.modes.length);
-        self.position = std::array::from_fn(|i| here[i].wrapping_sub(self.frame[i]));
+        self.frame[Z] += self.length_of(self.modes.length);
+        self.position = self.unplace(&here);
+        self.heading = Heading::None;
     }
 
     /// Takes up a waiting length entry: the coming Z is measured with it.
     #[inline]
     fn take_up_length(&mut self) {
-        if let Some(entry) = self.waiting.take() {
-            self.frame[Z] += self.world.tool_length(entry) - self.world.tool_length(self.modes.length);
-            self.modes.length = entry;
+        if let Some(length) = self.waiting.take() {
+            self.frame[Z] += self.length_of(length) - self.length_of(self.modes.length);
+            self.modes.length = length;
         }
     }
 
@@ -406,88 +449,26 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        self.set_axes(to, span)?;
+        let before = self.position;
+        if std::mem::take(&mut self.raw) {
+            self.to_machine_coordinates(to, span)?;
+        } else {
+            self.set_axes(to, span)?;
+        }
+        if !same_point(&before, &self.position) {
+            self.heading = Heading::From(before);
+        }
         self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
         self.said |= MOTION;
         self.cycle = None;
         self.emit_move(feed, span, out)
     }
 
-    fn arc(&mut self, arc: &Arc, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        let plane = arc.plane.or(self.modes.plane);
-        let (first, second, _) = plane.axes();
-        let (f, s) = (first as usize, second as usize);
-        let start = [self.position[f], self.position[s]];
-        let before = self.position;
-        self.set_axes(&arc.to, span)?;
-        let end = [self.position[f], self.position[s]];
-        let centre = match &arc.centre {
-            Centre::Point { words, from } => {
-                let mut centre = start;
-                for (c, axis) in centre.iter_mut().zip([f, s]) {
-                    *c = match (&words[axis], from) {
-                        (Some(word), CentreFrom::Start) => before[axis].wrapping_add(self.value(word, span)?),
-                        (Some(word), CentreFrom::Zero) => self.value(word, span)?,
-                        (None, CentreFrom::Start) => before[axis],
-                        (None, CentreFrom::Zero) => return self.fault(Fault::ArcWithoutCentre, span),
-                    };
-                }
-                geometry::check_on_circle(start, end, centre, ARC_TOLERANCE).map(|()| centre)
-            }
-            Centre::Radius(radius) => {
-                geometry::centre_by_radius(start, end, self.value(radius, span)?, arc.turn)
-            }
-        };
-        let centre = match centre {
-            Ok(centre) => centre,
-            Err(ArcFault::RadiusTooSmall) => return self.fault(Fault::ArcRadiusTooSmall, span),
-            Err(ArcFault::NoWay) => return self.fault(Fault::ArcRadiusNoWay, span),
-            Err(ArcFault::EndOffCircle(by)) => return self.fault(Fault::ArcEndOffCircle { by }, span),
-            Err(ArcFault::NoRadius) => return self.fault(Fault::ArcWithoutCentre, span),
-        };
-        self.modes.motion = Motion::Arc(arc.turn);
-        self.said |= MOTION;
-        self.cycle = None;
-        let centre_here = [centre[0] + self.frame[f], centre[1] + self.frame[s]];
-        let kind = |full| Kind::Arc { plane, turn: arc.turn, full, centre: centre_here };
-        if arc.turns > 0 {
-            self.whole_turns(arc, [start, end, centre], &before, &kind(true), span, out)?;
-        }
-        self.last = self.machine();
-        self.emit(kind(start == end), span, out)
-    }
-
-    /// The whole turns of an arc of several: an event each; the third axis goes with the angle.
-    fn whole_turns(
-        &mut self,
-        arc: &Arc,
-        [start, end, centre]: [[Nanos; 2]; 3],
-        before: &[Nanos; AXES],
-        kind: &Kind,
-        span: Span,
-        out: &mut Vec<Event>,
-    ) -> Result<(), Diagnostic> {
-        if arc.turns > MOST_TURNS {
-            return self.fault(Fault::OutOfRange { word: "number of turns".into() }, span);
-        }
-        let (first, second, _) = arc.plane.or(self.modes.plane).axes();
-        let total = geometry::sweep_degrees(start, end, centre, arc.turn, arc.turns).abs();
-        let (from, to) = (self.last, self.machine());
-        for k in 1..=arc.turns {
-            let part = 360.0 * f64::from(k) / total;
-            self.last = std::array::from_fn(|i| from[i] + ((to[i] - from[i]) as f64 * part).round() as Nanos);
-            for axis in [first as usize, second as usize] {
-                self.last[axis] = before[axis] + self.frame[axis];
-            }
-            self.emit(kind.clone(), span, out)?;
-        }
-        Ok(())
-    }
-
     /// Everything but plain moves and feeds.
     fn other(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
         match &stmt.op {
+            Op::ArcForm(arc) => self.arc_form(arc, span, out)?,
             Op::StraightFeed(_)
             | Op::StraightTraverse(_)
             | Op::ArcFeed(_)
@@ -525,8 +506,10 @@ impl Exec {
                 self.said |= SHIFT;
                 self.reframe(here);
             }
+            Op::ClearFrame(FrameSlot::Chain) => self.clear_chain(),
             Op::ClearFrame(_) => {}
-            Op::SetFrame(..) => return self.not_executed("a frame", span),
+            Op::SetFrame(frame) => self.set_frame(frame, span)?,
+            Op::UseMachineCoordinates => self.raw = true,
             Op::SetSpindleSpeed(speed) => self.state.speed = self.value(speed, span)?,
             Op::SelectTool(tool) => self.selected = self.whole(tool, span)?,
             Op::ChangeTool => {
@@ -542,7 +525,14 @@ impl Exec {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
                 self.said |= LENGTH;
-                self.waiting = Some(entry);
+                self.waiting = Some(Length::Entry(entry));
+            }
+            Op::UseToolEdge { edge, .. } => {
+                let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
+                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                };
+                self.said |= LENGTH;
+                self.waiting = Some(self.edge(edge));
             }
             Op::StartSpindleClockwise => self.state.spindle = Spindle::Clockwise,
             Op::StartSpindleCounterclockwise => self.state.spindle = Spindle::Counterclockwise,
@@ -568,6 +558,7 @@ impl Exec {
             Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),
+            Op::RepeatBlocks(_) => return self.not_executed("a repetition in the midst of a stream", span),
             Op::Assign(..) => return self.not_executed("a variable", span),
             Op::Control(_) => return self.not_executed("control of the program's flow", span),
             Op::Goto(_) => return self.not_executed("a jump", span),

@@ -104,6 +104,16 @@ impl<'p> Runner<'p> {
                         self.stack.pop();
                     }
                 }
+                Op::RepeatBlocks(repeat) => {
+                    let (body, at) = (level.body, level.next - 1);
+                    let Some(blocks) = again(body, at, &repeat.from, repeat.to.as_deref()) else {
+                        let name = repeat.from.clone();
+                        return Err(Diagnostic::new(Fault::LabelUnknown { name }, stmt.span));
+                    };
+                    if repeat.times > 0 {
+                        self.push(blocks, u64::from(repeat.times - 1), false, stmt)?;
+                    }
+                }
                 Op::Control(control) => match &**control {
                     Control::Repeat { times, body } => match times.literal().and_then(|n| n.whole()) {
                         Some(0) => {}
@@ -132,4 +142,25 @@ impl<'p> Runner<'p> {
         self.stack.push(Level { body, next: 0, again, call });
         Ok(())
     }
+}
+
+/// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of
+/// another label's block.
+pub(crate) fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str>) -> Option<&'p [Stmt]> {
+    let label = |name: &str| {
+        body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name))
+    };
+    let start = label(from)?;
+    let end = match to {
+        None => {
+            // The repetition's own block is not executed again.
+            (start..=at).rev().find(|&i| !body[i].joined)?.max(start)
+        }
+        Some(to) => {
+            let last = label(to).filter(|last| *last >= start)?;
+            let block = body[last + 1..at].iter().take_while(|s| s.joined).count();
+            last + 1 + block
+        }
+    };
+    Some(&body[start..end])
 }

@@ -6,8 +6,8 @@ use super::expand_cycles::level;
 use super::walk::Walk;
 use super::write::{at, is_absolute};
 use super::{Target, each_body};
-use crate::canon::Axis;
-use crate::cycle::Pattern;
+use crate::canon::{Axis, Plane};
+use crate::cycle::{First, Pattern};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::program::{Coord, Op, Program, Stmt};
 use crate::track::Tracker;
@@ -43,21 +43,10 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
                     None => Ok(()),
                 })
             }
-            Op::Pattern(pattern) => match (&mut **pattern, before.at.cycle.as_ref()) {
-                (Pattern::Circle { centre, first, .. }, Some(in_force)) => {
-                    match before.at.plane(in_force.cycle.plane) {
-                        Some(plane) => {
-                            let (one, two, _) = plane.axes();
-                            let pairs = centre.iter_mut().chain(std::iter::once(first));
-                            pairs.into_iter().try_for_each(|pair| {
-                                make_absolute(&mut pair[0], one, &before)?;
-                                make_absolute(&mut pair[1], two, &before)
-                            })
-                        }
-                        None => Err(Fault::EntryFactNeeded { fact: ModeName::Plane }),
-                    }
-                }
-                (Pattern::Circle { .. } | Pattern::Grid { .. }, _) => Ok(()),
+            Op::Pattern(pattern) => match before.at.cycle.as_ref().and_then(|c| before.at.plane(c.cycle.plane)) {
+                Some(plane) => pattern_absolute(pattern, plane, &before),
+                None if words_of(pattern).next().is_none() => Ok(()),
+                None => Err(Fault::EntryFactNeeded { fact: ModeName::Plane }),
             },
             _ => Ok(()),
         };
@@ -65,6 +54,38 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
             diags.push(Diagnostic::new(fault, stmt.span));
         }
     }
+}
+
+/// Words that say where a pattern is, in pairs.
+fn words_of(pattern: &mut Pattern) -> impl Iterator<Item = &mut [Coord; 2]> {
+    let pairs: [Option<&mut [Coord; 2]>; 2] = match pattern {
+        Pattern::Circle { centre, first: First::At(first), .. } => [centre.as_mut(), Some(first)],
+        Pattern::Circle { centre: start, first: First::Polar { .. }, .. }
+        | Pattern::Line { start, .. }
+        | Pattern::Grid { start, .. } => [start.as_mut(), None],
+        Pattern::List(_) => [None, None],
+    };
+    pairs.into_iter().flatten()
+}
+
+fn pattern_absolute(pattern: &mut Pattern, plane: Plane, before: &Walk) -> Result<(), Fault> {
+    let (first, second, _) = plane.axes();
+    for pair in words_of(pattern) {
+        make_absolute(&mut pair[0], first, before)?;
+        make_absolute(&mut pair[1], second, before)?;
+    }
+    if let Pattern::List(points) = pattern {
+        let mut at = before.clone();
+        for point in points {
+            for axis in [first, second] {
+                if let Some(word) = &mut point.axes[axis as usize] {
+                    make_absolute(word, axis, &at)?;
+                }
+            }
+            at.at.position = at.at.target(point);
+        }
+    }
+    Ok(())
 }
 
 fn make_absolute(coord: &mut Coord, axis: Axis, before: &Walk) -> Result<(), Fault> {

@@ -137,6 +137,7 @@ fn is_last(body: &[Stmt], i: usize) -> bool {
             | Op::StraightTraverse(_)
             | Op::StraightFeed(_)
             | Op::ArcFeed(_)
+            | Op::ArcForm(_)
             | Op::ProgramEnd
                 if stmt.skip.is_none() =>
             {
@@ -148,6 +149,7 @@ fn is_last(body: &[Stmt], i: usize) -> bool {
             | Op::Control(_)
             | Op::Goto(_)
             | Op::Label(_)
+            | Op::RepeatBlocks(_)
             | Op::Position(_) => return false,
             _ => {}
         }
@@ -157,7 +159,8 @@ fn is_last(body: &[Stmt], i: usize) -> bool {
 
 fn has_holes(pattern: &Pattern) -> bool {
     match pattern {
-        Pattern::Circle { count, .. } => *count > 0,
+        Pattern::Circle { count, .. } | Pattern::Line { count, .. } => *count > 0,
+        Pattern::List(points) => !points.is_empty(),
         Pattern::Grid { columns, rows, .. } => columns.count > 0 && rows.count > 0,
     }
 }

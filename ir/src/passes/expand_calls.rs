@@ -9,11 +9,13 @@ use super::walk::Walk;
 use super::write::Rebuild;
 use super::{MOST_STATEMENTS, Target};
 use crate::canon::{Fact, Motion};
-use crate::cycle::{Clearance, CycleKind, Pattern};
+use crate::cycle::{Clearance, CycleKind, First, Pattern};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
 use crate::num::Unit;
-use crate::program::{Call, Centre, Control, Coord, Op, Point, Procedure, Program, Stmt};
+use crate::program::{
+    Call, Centre, Control, Coord, FrameStep, Op, Point, Procedure, Program, Shape, Stmt,
+};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -205,23 +207,58 @@ fn settle(op: &mut Op, here: &Tracker) {
             settle_fact(&mut cycle.return_level, here.modes.return_level);
             settle_coord(&mut cycle.retract, here);
             settle_coord(&mut cycle.depth, here);
+            cycle.return_plane.iter_mut().for_each(|c| settle_coord(c, here));
             cycle.feed.iter_mut().for_each(|f| settle_expr(f, here));
-            if let CycleKind::DrillPeck { peck, clearance, .. } = &mut cycle.kind {
-                settle_expr(peck, here);
-                if let Clearance::Stated(clearance) = clearance {
-                    settle_expr(clearance, here);
+            match &mut cycle.kind {
+                CycleKind::DrillPeck { peck, first, clearance, .. }
+                | CycleKind::DrillBreak { peck, first, lift: clearance, .. } => {
+                    settle_expr(peck, here);
+                    first.iter_mut().for_each(|f| settle_expr(f, here));
+                    if let Clearance::Stated(clearance) = clearance {
+                        settle_expr(clearance, here);
+                    }
                 }
+                CycleKind::Bore { feed_out, .. } => {
+                    feed_out.iter_mut().for_each(|f| settle_expr(f, here));
+                }
+                CycleKind::Drill | CycleKind::DrillDwell { .. } => {}
             }
         }
         Op::Pattern(pattern) => match &mut **pattern {
             Pattern::Circle { centre, first, .. } => {
                 centre.iter_mut().flatten().for_each(|c| settle_coord(c, here));
-                first.iter_mut().for_each(|c| settle_coord(c, here));
+                match first {
+                    First::At(first) => first.iter_mut().for_each(|c| settle_coord(c, here)),
+                    First::Polar { radius, .. } => settle_expr(radius, here),
+                }
             }
-            Pattern::Grid { columns, rows, .. } => {
+            Pattern::Line { start, offset, pitch, .. } => {
+                start.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+                settle_expr(offset, here);
+                settle_expr(pitch, here);
+            }
+            Pattern::List(points) => points.iter_mut().for_each(|p| settle_point(p, here)),
+            Pattern::Grid { start, columns, rows, .. } => {
+                start.iter_mut().flatten().for_each(|c| settle_coord(c, here));
                 settle_expr(&mut columns.pitch, here);
                 settle_expr(&mut rows.pitch, here);
             }
+        },
+        Op::ArcForm(arc) => {
+            settle_fact(&mut arc.plane, here.modes.plane);
+            settle_point(&mut arc.to, here);
+            match &mut arc.shape {
+                Shape::AngleAbout { centre, .. } | Shape::Mixed { centre, .. } => {
+                    centre.iter_mut().flatten().for_each(|c| settle_coord(c, here));
+                }
+                Shape::Through(via) => settle_point(via, here),
+                Shape::Angle { .. } | Shape::Tangent => {}
+            }
+        }
+        Op::SetFrame(frame) => match &mut frame.step {
+            FrameStep::Translate(words) => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
+            FrameStep::Rotate { plane, .. } => settle_fact(plane, here.modes.plane),
+            FrameStep::Scale(_) | FrameStep::Mirror(_) => {}
         },
         Op::SetFeedRate(feed) => settle_expr(feed, here),
         Op::Comment(_)
@@ -234,7 +271,9 @@ fn settle(op: &mut Op, here: &Tracker) {
         | Op::SetReturnLevel(_)
         | Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
-        | Op::SetFrame(..)
+        | Op::UseMachineCoordinates
+        | Op::UseToolEdge { .. }
+        | Op::RepeatBlocks(_)
         | Op::StopCutterRadiusCompensation
         | Op::SetSpindleSpeed(_)
         | Op::SelectTool(_)

@@ -17,10 +17,11 @@ use super::walk::Walk;
 use super::write::{Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of};
 use super::{Target, each_body, expand_patterns};
 use crate::canon::{Axis, Motion, ReturnLevel};
+use crate::caps::CycleCap;
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
-use crate::num::Nanos;
+use crate::num::{Nanos, Num};
 use crate::program::{Coord, Op, Point, Program, Stmt};
 use crate::source::Span;
 use crate::track::{InForce, Tracker};
@@ -165,6 +166,7 @@ fn ends(op: &Op) -> bool {
         Op::StraightTraverse(_)
             | Op::StraightFeed(_)
             | Op::ArcFeed(_)
+            | Op::ArcForm(_)
             | Op::Position(_)
             | Op::ProgramEnd
             | Op::Call(_)
@@ -172,6 +174,7 @@ fn ends(op: &Op) -> bool {
             | Op::Control(_)
             | Op::Goto(_)
             | Op::Label(_)
+            | Op::RepeatBlocks(_)
     )
 }
 
@@ -235,11 +238,19 @@ impl State {
 fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
     let Op::StartCycle(cycle) = &stmt.op else { return };
     diags.push(Diagnostic::new(Fault::CycleExpanded { kind: cycle.kind.name().into() }, stmt.span));
-    let parameter = matches!(&cycle.kind, CycleKind::DrillPeck { clearance: Clearance::Parameter, .. });
-    if let (true, Some(value)) = (parameter, target.peck_clearance) {
+    let (parameter, value) = match &cycle.kind {
+        CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
+            ("clearance of peck drilling", target.peck_clearance)
+        }
+        CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
+            ("lift of chip-breaking drilling", target.break_lift)
+        }
+        _ => return,
+    };
+    if let Some(value) = value {
         let nanos = value.nanos(false).unwrap_or(0);
         let value = format!("{} mm", nanos as f64 / 1e9).into();
-        let parameter = "clearance of peck drilling".into();
+        let parameter = parameter.into();
         diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
     }
 }
@@ -257,14 +268,30 @@ pub(super) fn sayable(
         return false;
     }
     let kind = cycle.kind.name();
-    let (dwell, stated) = match &cycle.kind {
-        CycleKind::Drill => (false, false),
-        CycleKind::DrillDwell { .. } => (true, false),
-        CycleKind::DrillPeck { dwell, clearance, .. } => {
-            (dwell.is_some(), matches!(clearance, Clearance::Stated(_)))
+    let cap = |has: fn(&CycleCap) -> bool| caps.cycles.iter().any(|c| c.kind == kind && has(c));
+    let (dwell, details) = match &cycle.kind {
+        CycleKind::Drill => (false, true),
+        CycleKind::DrillDwell { .. } => (true, true),
+        CycleKind::DrillPeck { dwell, clearance, first, pause, settle, .. } => {
+            let strokes = first.is_some() || pause.is_some() || settle.is_some();
+            (dwell.is_some(), says_pecks(&cap, clearance, strokes))
         }
-        CycleKind::Bore { dwell } => (dwell.is_some(), false),
+        CycleKind::DrillBreak { dwell, lift, first, pause, lift_at_feed, .. } => {
+            let strokes = first.is_some() || pause.is_some();
+            let rapid = cap(|c| c.lift_at_feed != Some(true));
+            let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
+            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way)
+        }
+        CycleKind::Bore { dwell, feed_out } => {
+            (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
+        }
     };
+    if !details || caps.return_planes.is_some_and(|p| p != cycle.return_plane.is_some()) {
+        return false;
+    }
+    if cycle.return_plane.is_some() {
+        return caps.cycles.iter().any(|c| c.kind == kind && (c.dwell || !dwell));
+    }
     let says = |level| caps.cycle(kind, Some(level), dwell);
     let level = match cycle.return_level.known().or(walk.at.modes.return_level) {
         Some(level) => says(level),
@@ -276,7 +303,16 @@ pub(super) fn sayable(
             initial || retract
         }
     };
-    level && (!stated || caps.cycles.iter().any(|c| c.kind == kind && c.clearance))
+    level
+}
+
+/// Whether the target can say how a hole is pecked.
+fn says_pecks(cap: &dyn Fn(fn(&CycleCap) -> bool) -> bool, clearance: &Clearance, strokes: bool) -> bool {
+    let stated = match clearance {
+        Clearance::Stated(_) => cap(|c| c.clearance),
+        Clearance::Parameter => cap(|c| c.parameter),
+    };
+    stated && (!strokes || cap(|c| c.strokes))
 }
 
 fn must_expand(
@@ -299,6 +335,9 @@ pub(super) fn is_above(walk: &Walk, in_force: &InForce) -> bool {
     let Some(retract) = in_force.retract else { return false };
     let above = |level: Option<Nanos>| level.is_some_and(|level| level >= retract);
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
+    if cycle.return_plane.is_some() {
+        return above(walk.at.position[plane.axes().2 as usize]) && above(in_force.return_plane);
+    }
     above(walk.at.position[plane.axes().2 as usize])
         && (returns == Some(ReturnLevel::Retract) || above(in_force.initial))
 }
@@ -344,6 +383,11 @@ fn hole(
         return Err(Fault::CycleUpsideDown);
     }
     let out = match cycle.return_level.known().or(here.modes.return_level) {
+        _ if let Some(plane) = &cycle.return_plane => {
+            let same = in_force.return_plane.is_some() && in_force.return_plane == in_force.retract;
+            let word = level(walk, plane, in_force.return_plane, normal)?;
+            (!same).then(|| only(normal, word))
+        }
         Some(ReturnLevel::Retract) => None,
         Some(ReturnLevel::Initial) => {
             let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
@@ -391,15 +435,15 @@ fn hole(
     if let Some(feed) = feed {
         moves.push((false, Op::SetFeedRate(feed.clone())));
     }
-    if let CycleKind::DrillPeck { peck, clearance, .. } = &cycle.kind {
-        pecks(walk, in_force, peck, clearance, normal, target, stated, moves)?;
-    }
+    pecks(walk, in_force, normal, target, stated, moves)?;
     let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
     moves.push((stated && first_cut, cut(depth)));
     let dwell = match &cycle.kind {
         CycleKind::Drill => None,
         CycleKind::DrillDwell { dwell } => Some(dwell),
-        CycleKind::DrillPeck { dwell, .. } | CycleKind::Bore { dwell } => dwell.as_ref(),
+        CycleKind::DrillPeck { dwell, .. }
+        | CycleKind::DrillBreak { dwell, .. }
+        | CycleKind::Bore { dwell, .. } => dwell.as_ref(),
     };
     if let Some(dwell) = dwell {
         moves.push((false, Op::Dwell(dwell.clone())));
@@ -407,8 +451,11 @@ fn hole(
 
     // 3. Out.
     match (&cycle.kind, out) {
-        (CycleKind::Bore { .. }, out) => {
-            moves.push((false, cut(retract)));
+        (CycleKind::Bore { feed_out, .. }, out) => {
+            if let Some(feed) = feed_out {
+                moves.push((false, Op::SetFeedRate(feed.clone())));
+            }
+            moves.push((feed_out.is_some(), cut(retract)));
             if let Some(out) = out {
                 moves.push((false, traverse(out)));
             }
@@ -418,45 +465,86 @@ fn hole(
     Ok(())
 }
 
+/// What comes between two pecks.
+enum Between<'c> {
+    /// Out of the hole and back to the clearance.
+    Out { clearance: Nanos, settle: Option<&'c Expr> },
+    /// Up a little.
+    Up { lift: Nanos, at_feed: bool },
+}
+
 /// All pecks but the last.
-#[allow(clippy::too_many_arguments)]
 fn pecks(
     walk: &Walk,
     in_force: &InForce,
-    peck: &Expr,
-    clearance: &Clearance,
     normal: Axis,
     target: &Target,
     stated: bool,
     moves: &mut Vec<(bool, Op)>,
 ) -> Result<(), Fault> {
     let unknown = Fault::PositionUnknown { axis: normal.letter() as char };
+    let parameter = |value: Option<Num>, what: &str| match value.and_then(|n| n.nanos(false)) {
+        Some(nanos) => Ok(nanos),
+        None => Err(Fault::CannotSay { what: what.into() }),
+    };
+    let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
+    let (peck, first, pause, between) = match &in_force.cycle.kind {
+        CycleKind::DrillPeck { peck, first, clearance, pause, settle, .. } => {
+            let clearance = match clearance {
+                Clearance::Stated(value) => length(value)?,
+                Clearance::Parameter => parameter(
+                    target.peck_clearance,
+                    "peck drilling whose clearance is a parameter of the control",
+                )?,
+            };
+            (peck, first, pause, Between::Out { clearance, settle: settle.as_ref() })
+        }
+        CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, .. } => {
+            let lift = match lift {
+                Clearance::Stated(value) => length(value)?,
+                Clearance::Parameter => parameter(
+                    target.break_lift,
+                    "chip-breaking drilling whose lift is a parameter of the control",
+                )?,
+            };
+            (peck, first, pause, Between::Up { lift, at_feed: *lift_at_feed })
+        }
+        CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::Bore { .. } => return Ok(()),
+    };
     let (Some(retract), Some(depth)) = (in_force.retract, in_force.depth) else { return Err(unknown) };
-    let peck = walk.at.nanos(peck).ok_or_else(|| unknown.clone())?.checked_abs().unwrap_or(0);
-    if peck == 0 || retract.saturating_sub(depth) / peck > MOST_PECKS {
+    let peck = length(peck)?.checked_abs().unwrap_or(0);
+    let first = match first {
+        Some(first) => length(first)?,
+        None => peck,
+    };
+    if peck == 0 || first <= 0 || retract.saturating_sub(depth) / peck > MOST_PECKS {
         return Err(Fault::OutOfRange { word: "depth of a peck".into() });
     }
-    let clearance = match clearance {
-        Clearance::Stated(value) => walk.at.nanos(value).ok_or(unknown)?,
-        Clearance::Parameter => match target.peck_clearance.and_then(|n| n.nanos(false)) {
-            Some(nanos) => nanos,
-            None => {
-                let what = "peck drilling whose clearance is a parameter of the control".into();
-                return Err(Fault::CannotSay { what });
-            }
-        },
-    };
     let unit = unit_of(normal, walk.unit());
     let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
     let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
-    let mut bottom = retract.saturating_sub(peck);
-    let mut first = true;
+    let mut bottom = retract.saturating_sub(first);
+    let mut joined = stated;
     while bottom > depth {
-        moves.push((stated && first, cut(go(bottom))));
-        moves.push((false, traverse(up.clone())));
-        moves.push((false, traverse(go(bottom.saturating_add(clearance)))));
+        moves.push((joined, cut(go(bottom))));
+        joined = false;
+        if let Some(pause) = pause {
+            moves.push((false, Op::Dwell(pause.clone())));
+        }
+        match &between {
+            Between::Out { clearance, settle } => {
+                moves.push((false, traverse(up.clone())));
+                if let Some(settle) = settle {
+                    moves.push((false, Op::Dwell((*settle).clone())));
+                }
+                moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
+            }
+            Between::Up { lift, at_feed } => {
+                let to = go(bottom.saturating_add(*lift));
+                moves.push((false, if *at_feed { cut(to) } else { traverse(to) }));
+            }
+        }
         bottom = bottom.saturating_sub(peck);
-        first = false;
     }
     Ok(())
 }

@@ -4,9 +4,9 @@ use super::walk::Walk;
 use super::write::{Rebuild, as_absolute, exact, is_absolute, rebuild, rounded, unit_of};
 use super::{Target, each_body};
 use crate::canon::{AXES, Axis, Plane};
-use crate::cycle::{Pattern, absolute};
+use crate::cycle::{Along, First, Pattern, Row, absolute};
 use crate::diag::{Diagnostic, Fault};
-use crate::num::{Nanos, ONE};
+use crate::num::{Nanos, ONE, Unit};
 use crate::program::{Coord, Move, Op, Point, Program, Stmt};
 use crate::track::Tracker;
 
@@ -54,7 +54,11 @@ fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
     let Some(plane) = plane(walk) else { return caps.repeats };
     let (first, second, _) = plane.axes();
     match pattern {
-        Pattern::Circle { centre, .. } => {
+        Pattern::Circle { centre, first: at, .. } => {
+            let polar = matches!(at, First::Polar { .. });
+            if caps.circle_polar.is_some_and(|p| p != polar) {
+                return false;
+            }
             let here = [first, second].map(|axis| walk.at.position[axis as usize]);
             let centre = match centre {
                 None => here,
@@ -63,10 +67,16 @@ fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
             let at_zero = here == [Some(0); 2] && centre == [Some(0); 2];
             caps.circle_pattern && (at_zero || !caps.circle_centre_at_zero_only)
         }
-        Pattern::Grid { columns, rows, serpentine } => {
+        Pattern::Line { .. } => caps.line_pattern,
+        Pattern::List(points) => points.len() <= caps.list_pattern as usize,
+        Pattern::Grid { start, columns, rows, serpentine } => {
+            let along = |row: &Row, axis| row.along == Along::Axis(axis);
+            if start.is_some() && !caps.pattern_start {
+                return false;
+            }
             let straight = columns.count <= 1 || rows.count <= 1;
             let way = straight || caps.grid_serpentine.is_none_or(|s| s == *serpentine);
-            let axes = caps.grid_pattern == u32::MAX || (columns.axis == first && rows.axis == second);
+            let axes = caps.pattern_angle || along(columns, first) && along(rows, second);
             way && axes && columns.count.max(rows.count) <= caps.grid_pattern
         }
     }
@@ -87,7 +97,8 @@ fn plane(walk: &Walk) -> Option<Plane> {
 /// What must be known and is not.
 pub(super) fn holes(walk: &Walk, pattern: &Pattern, decimals: u8) -> Result<Vec<Point>, Fault> {
     let count = match pattern {
-        Pattern::Circle { count, .. } => Some(*count),
+        Pattern::Circle { count, .. } | Pattern::Line { count, .. } => Some(*count),
+        Pattern::List(points) => u32::try_from(points.len()).ok(),
         Pattern::Grid { columns, rows, .. } => columns.count.checked_mul(rows.count),
     };
     if count.is_none_or(|n| n > MOST_HOLES) {
@@ -133,17 +144,40 @@ fn word(
 ) -> Coord {
     let unit = unit_of(axis, walk.unit());
     match pattern {
-        Pattern::Grid { .. } => absolute(exact(nanos, unit)),
-        Pattern::Circle { first, .. } if k == 0 && is_absolute(&first[side], walk.at.modes.distance) => {
+        Pattern::List(points) => match points.get(k).and_then(|p| p.get(axis)) {
+            Some(word) if is_absolute(word, walk.at.modes.distance) => as_absolute(word),
+            Some(_) | None => absolute(exact(nanos, unit)),
+        },
+        Pattern::Circle { first: First::At(first), .. }
+            if k == 0 && is_absolute(&first[side], walk.at.modes.distance) =>
+        {
             as_absolute(&first[side])
         }
-        Pattern::Circle { step, .. } => {
-            let turned = walk.at.nanos(step).map_or(1, |s| i128::from(s) * k as i128);
-            let exactly = turned % (90 * i128::from(ONE)) == 0;
-            let number = if exactly { exact(nanos, unit) } else { rounded(nanos, decimals, unit) };
-            absolute(number)
+        Pattern::Circle { first, step, .. } => {
+            let from = match first {
+                First::At(_) => Some(0),
+                First::Polar { angle, .. } => walk.at.nanos(angle),
+            };
+            let turned = from.zip(walk.at.nanos(step)).map(|(f, s)| i128::from(f) + i128::from(s) * k as i128);
+            placed(nanos, turned, decimals, unit)
+        }
+        Pattern::Line { angle, .. } => {
+            placed(nanos, walk.at.nanos(angle).map(i128::from), decimals, unit)
+        }
+        Pattern::Grid { columns, rows, .. } => {
+            let angle = [columns, rows].into_iter().find_map(|row| match &row.along {
+                Along::Axis(_) => None,
+                Along::Angle(angle) => Some(walk.at.nanos(angle).map_or(1, i128::from)),
+            });
+            placed(nanos, Some(angle.unwrap_or(0)), decimals, unit)
         }
     }
+}
+
+/// A coordinate that is exact where the angle it comes from is one of an axis, else rounded.
+fn placed(nanos: Nanos, angle: Option<i128>, decimals: u8, unit: Unit) -> Coord {
+    let exactly = angle.is_some_and(|a| a % (90 * i128::from(ONE)) == 0);
+    absolute(if exactly { exact(nanos, unit) } else { rounded(nanos, decimals, unit) })
 }
 
 /// The axis of a plane that is not known.

@@ -52,7 +52,7 @@ impl Legaliser {
     pub fn new(caps: &Caps, decimals: u8, peck_clearance: Option<Num>) -> Legaliser {
         let lacks = lacks(caps);
         Legaliser {
-            target: Target { caps: caps.clone(), decimals: decimals.min(8), peck_clearance },
+            target: Target { caps: caps.clone(), decimals: decimals.min(8), peck_clearance, break_lift: None },
             lacks,
             follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL) != 0,
             walk: Walk::default(),
@@ -180,7 +180,7 @@ impl Legaliser {
             self.finish(&mut main.body, diags);
         }
         for procedure in procedures {
-            self.walk = Walk::default();
+            self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
@@ -251,16 +251,24 @@ fn is_helix(arc: &Arc, here: &Tracker) -> bool {
 /// What a target lacks.
 fn lacks(caps: &Caps) -> u16 {
     let levels = [ReturnLevel::Initial, ReturnLevel::Retract];
-    let kinds = ["drill", "drill-dwell", "drill-peck", "bore"];
+    let kinds = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
     let says_all = |kind: &str| {
-        let cap = caps.cycles.iter().any(|c| c.kind == kind && c.dwell && c.clearance);
+        let cap = caps.cycles.iter().any(|c| c.kind == kind && c.dwell && c.clearance && c.strokes && c.feed_out && c.lift_at_feed.is_none());
         cap && levels.iter().all(|level| caps.cycle(kind, Some(*level), true))
     };
     let cycles =
-        kinds.into_iter().all(says_all) && caps.approach.is_none() && caps.incremental_cycles && !caps.flat;
+        kinds.into_iter().all(says_all) && caps.approach.is_none()
+        && caps.incremental_cycles
+        && caps.return_planes.is_none()
+        && !caps.flat;
     let patterns = caps.circle_pattern
         && caps.grid_pattern == u32::MAX
         && caps.grid_serpentine.is_none()
+        && caps.line_pattern
+        && caps.list_pattern == u32::MAX
+        && caps.circle_polar.is_none()
+        && caps.pattern_start
+        && caps.pattern_angle
         && !caps.circle_centre_at_zero_only
         && !caps.flat;
     let mut lacks = 0;
@@ -274,10 +282,10 @@ fn lacks(caps: &Caps) -> u16 {
     needs(LENGTH, !caps.offset_with_z);
     needs(WORK, caps.work_offsets == u16::MAX);
     needs(SHIFT, caps.clears_shift);
-    needs(ARC, caps.helix && caps.arc_turns);
-    needs(CONTROL, caps.repeats);
+    needs(ARC, caps.helix && caps.arc_turns && caps.arc_forms);
+    needs(CONTROL, caps.repeats && caps.repeat_blocks);
     needs(MESSAGE, caps.messages);
-    needs(SKIP, caps.skip_levels >= 9);
+    needs(SKIP, caps.skip_levels >= 10);
     needs(EVERY, !caps.flat);
     needs(CALL, caps.calls);
     lacks
@@ -289,13 +297,13 @@ fn interest(stmt: &Stmt) -> u16 {
     let skip = if stmt.skip.is_some() { SKIP } else { 0 };
     skip | match &stmt.op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
-        Op::ArcFeed(_) => ARC,
+        Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
         Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
         Op::Pattern(_) => PATTERN | CYCLE,
-        Op::UseToolLengthOffset(_) => LENGTH,
+        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => LENGTH,
         Op::SetOriginOffsets(_) => WORK,
         Op::ClearFrame(_) => SHIFT,
-        Op::Control(_) | Op::Goto(_) | Op::Label(_) => CONTROL,
+        Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,
         Op::Comment(_)
@@ -306,7 +314,8 @@ fn interest(stmt: &Stmt) -> u16 {
         | Op::SelectPlane(_)
         | Op::SetFeedMode(_)
         | Op::SetReturnLevel(_)
-        | Op::SetFrame(..)
+        | Op::SetFrame(_)
+        | Op::UseMachineCoordinates
         | Op::StopCutterRadiusCompensation
         | Op::SetSpindleSpeed(_)
         | Op::SelectTool(_)

@@ -44,6 +44,8 @@ pub struct Target {
     /// Clearance of a peck cycle whose own control has it as a parameter: taken for granted where
     /// the cycle is written out.
     pub peck_clearance: Option<Num>,
+    /// Lift of a chip-breaking cycle whose own control has it as a parameter, likewise.
+    pub break_lift: Option<Num>,
 }
 
 impl Target {
@@ -130,7 +132,7 @@ pub const PASSES: &[Pass] = &[
 /// Runs a pass over each procedure; what holds before a subprogram is not known.
 fn each_body(program: &mut Program, entry: &Tracker, mut over: impl FnMut(&mut Vec<Stmt>, &mut Walk)) {
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
-        let mut walk = Walk::new(if at == 0 { entry.clone() } else { Tracker::default() });
+        let mut walk = Walk::new(if at == 0 { entry.clone() } else { Tracker::unknown() });
         over(&mut procedure.body, &mut walk);
     }
 }

@@ -77,7 +77,7 @@ impl Walk {
     #[inline]
     pub(super) fn step(&mut self, stmt: &Stmt) {
         self.enter(stmt.skip);
-        if matches!(stmt.op, Op::UseToolLengthOffset(_)) {
+        if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. }) {
             self.waiting = true;
         } else if self.waiting && stmt.skip.is_none() && self.commands_z(&stmt.op) {
             self.waiting = false;
@@ -152,6 +152,7 @@ impl Walk {
         match op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) => m.to.get(Axis::Z).is_some(),
             Op::ArcFeed(arc) => arc.to.get(Axis::Z).is_some(),
+            Op::ArcForm(arc) => arc.to.get(Axis::Z).is_some(),
             Op::Position(m) => {
                 m.to.get(Axis::Z).is_some() || self.at.modes.motion == Some(Motion::Cycle) && normal_is_z()
             }
@@ -167,7 +168,10 @@ impl Walk {
             | Op::SetReturnLevel(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
-            | Op::SetFrame(..)
+            | Op::SetFrame(_)
+            | Op::UseMachineCoordinates
+            | Op::UseToolEdge { .. }
+            | Op::RepeatBlocks(_)
             | Op::StopCutterRadiusCompensation
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)

@@ -5,7 +5,7 @@
 //! much, little and nothing, as a whole and block by block, and executed before and after.
 
 use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Row};
+use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Procedure, Program, Stmt};
@@ -44,14 +44,25 @@ fn seconds() -> impl Strategy<Value = Expr> {
 
 fn kind() -> impl Strategy<Value = CycleKind> {
     let clearance =
-        prop_oneof![Just(Clearance::Parameter), (1i64..20).prop_map(|t| Clearance::Stated(mm(t).into()))];
+        || prop_oneof![Just(Clearance::Parameter), (1i64..20).prop_map(|t| Clearance::Stated(mm(t).into()))];
+    let pause = || prop::option::of(seconds());
+    let first = || prop::option::of((5i64..90).prop_map(|t| Expr::from(mm(t))));
     prop_oneof![
         3 => Just(CycleKind::Drill),
         1 => seconds().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
-        1 => (10i64..80, clearance, prop::option::of(seconds())).prop_map(|(peck, clearance, dwell)| {
-            CycleKind::DrillPeck { peck: mm(peck).into(), clearance, dwell }
+        1 => (10i64..80, clearance(), first(), [pause(), pause(), pause()]).prop_map(
+            |(peck, clearance, first, [pause, settle, dwell])| {
+                CycleKind::DrillPeck { peck: mm(peck).into(), first, clearance, pause, settle, dwell }
+            }
+        ),
+        1 => (10i64..80, clearance(), first(), [pause(), pause()], any::<bool>()).prop_map(
+            |(peck, lift, first, [pause, dwell], lift_at_feed)| {
+                CycleKind::DrillBreak { peck: mm(peck).into(), first, lift, lift_at_feed, pause, dwell }
+            }
+        ),
+        1 => (pause(), prop::option::of(100i64..900)).prop_map(|(dwell, out)| {
+            CycleKind::Bore { dwell, feed_out: out.map(|f| mm(f).into()) }
         }),
-        1 => prop::option::of(seconds()).prop_map(|dwell| CycleKind::Bore { dwell }),
     ]
 }
 
@@ -60,8 +71,9 @@ fn cycle() -> impl Strategy<Value = Op> {
     let approach = prop_oneof![Just(Approach::PlaneFirst), Just(Approach::RaiseFirst)];
     let plane = prop_oneof![8 => Just(Plane::Xy), 1 => Just(Plane::Zx), 1 => Just(Plane::Yz)];
     let feed = prop::option::of((100i64..3000).prop_map(|f| Expr::from(mm(f))));
-    (kind(), plane, coord(-100, 100), 1i64..200, any::<bool>(), level, approach, feed).prop_map(
-        |(kind, plane, retract, below, incremental, level, approach, feed)| {
+    let planes = prop::option::weighted(0.3, coord(0, 300));
+    (kind(), plane, coord(-100, 100), 1i64..200, any::<bool>(), (level, planes), approach, feed).prop_map(
+        |(kind, plane, retract, below, incremental, (level, return_plane), approach, feed)| {
             let (tenths, distance) = match (&retract.value, retract.distance, incremental) {
                 (Expr::Num(n), Fact::Known(Distance::Absolute), false) => {
                     (n.mantissa - below, Distance::Absolute)
@@ -75,6 +87,7 @@ fn cycle() -> impl Strategy<Value = Op> {
                 retract,
                 depth,
                 return_level: Fact::Known(level),
+                return_plane,
                 approach,
                 feed,
             }))
@@ -86,17 +99,52 @@ fn pattern() -> impl Strategy<Value = Op> {
     let pair = || (coord(-200, 200), coord(-200, 200)).prop_map(|(a, b)| [a, b]);
     let degrees = |d: i64| Expr::from(Num::int(d, Unit::Degree));
     let circle = (prop::option::of(pair()), pair(), -180i64..180, 1u32..6).prop_map(
-        move |(centre, first, step, count)| Pattern::Circle { centre, first, step: degrees(step), count },
+        move |(centre, first, step, count)| Pattern::Circle {
+            centre,
+            first: First::At(first),
+            step: degrees(step),
+            count,
+        },
     );
+    let polar = (prop::option::of(pair()), 1i64..200, [-180i64..180, -180i64..180], 1u32..6).prop_map(
+        move |(centre, radius, [angle, step], count)| Pattern::Circle {
+            centre,
+            first: First::Polar { radius: mm(radius).into(), angle: degrees(angle) },
+            step: degrees(step),
+            count,
+        },
+    );
+    let line = (prop::option::of(pair()), -180i64..180, [0i64..50, -50i64..50], 1u32..6).prop_map(
+        move |(start, angle, [offset, pitch], count)| Pattern::Line {
+            start,
+            angle: degrees(angle),
+            offset: mm(offset).into(),
+            pitch: mm(pitch).into(),
+            count,
+        },
+    );
+    let list = prop::collection::vec(pair(), 1..5).prop_map(|pairs| {
+        let point = |[x, y]: [Coord; 2]| {
+            let mut to = Point::default();
+            to.set(Axis::X, x);
+            to.set(Axis::Y, y);
+            to
+        };
+        Pattern::List(pairs.into_iter().map(point).collect())
+    });
     let grid =
-        (-50i64..50, 1u32..4, -50i64..50, 1u32..4, any::<bool>()).prop_map(|(x, nx, y, ny, serpentine)| {
-            Pattern::Grid {
-                columns: Row { axis: Axis::X, pitch: mm(x).into(), count: nx },
-                rows: Row { axis: Axis::Y, pitch: mm(y).into(), count: ny },
+        (-50i64..50, 1u32..4, -50i64..50, 1u32..4, any::<bool>(), prop::option::of(pair()), -90i64..90)
+            .prop_map(move |(x, nx, y, ny, serpentine, start, angle)| Pattern::Grid {
+                start,
+                columns: Row { along: Along::Axis(Axis::X), pitch: mm(x).into(), count: nx },
+                rows: Row {
+                    along: if angle < 0 { Along::Axis(Axis::Y) } else { Along::Angle(degrees(angle)) },
+                    pitch: mm(y).into(),
+                    count: ny,
+                },
                 serpentine,
-            }
-        });
-    prop_oneof![circle, grid].prop_map(|p| Op::Pattern(Box::new(p)))
+            });
+    prop_oneof![circle, polar, line, list, grid].prop_map(|p| Op::Pattern(Box::new(p)))
 }
 
 /// A half circle, flat or as a helix, with whole turns before.
@@ -203,7 +251,7 @@ fn the_machine_does_the_same() {
         .run(&(program(), start), |(program, start)| {
             for (id, caps) in &targets {
                 let mut told = Told {
-                    target: super::Target { caps: caps.clone(), decimals: 3, peck_clearance: Some(mm(10)) },
+                    target: super::Target { caps: caps.clone(), decimals: 3, peck_clearance: Some(mm(10)), break_lift: Some(mm(7)) },
                     start: [None; 6],
                 };
                 told.start[..3].copy_from_slice(&start);

@@ -41,7 +41,7 @@ fn folder() -> PathBuf {
 
 fn told(text: &str) -> Result<Told, String> {
     let mut told = Told {
-        target: Target { caps: Caps::default(), decimals: 3, peck_clearance: None },
+        target: Target { caps: Caps::default(), decimals: 3, peck_clearance: None, break_lift: None },
         start: [None; AXES],
     };
     for line in text.lines().filter_map(|l| l.strip_prefix("#! ")) {
@@ -233,6 +233,9 @@ fn world(seed: u32, program: &Program, told: &Told) -> World {
     let mut world = World::generate(seed, &usual);
     if let Some(clearance) = told.target.peck_clearance.and_then(|n| n.nanos(false)) {
         world.peck_clearance = clearance;
+    }
+    if let Some(lift) = told.target.break_lift.and_then(|n| n.nanos(false)) {
+        world.break_lift = lift;
     }
     world
 }

@@ -144,21 +144,37 @@ fn cycle() -> impl Strategy<Value = Cycle> {
     let kind = prop_oneof![
         Just(CycleKind::Drill),
         expr().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
-        (expr(), of(expr()), of(expr())).prop_map(|(peck, clearance, dwell)| CycleKind::DrillPeck {
-            peck,
-            clearance: clearance.map_or(Clearance::Parameter, Clearance::Stated),
-            dwell,
-        }),
-        of(expr()).prop_map(|dwell| CycleKind::Bore { dwell }),
+        ([of(expr()), of(expr()), of(expr()), of(expr()), of(expr())], expr()).prop_map(
+            |([clearance, first, pause, settle, dwell], peck)| CycleKind::DrillPeck {
+                peck,
+                first,
+                clearance: clearance.map_or(Clearance::Parameter, Clearance::Stated),
+                pause,
+                settle,
+                dwell,
+            }
+        ),
+        ([of(expr()), of(expr()), of(expr()), of(expr())], expr(), any::<bool>()).prop_map(
+            |([lift, first, pause, dwell], peck, lift_at_feed)| CycleKind::DrillBreak {
+                peck,
+                first,
+                lift: lift.map_or(Clearance::Parameter, Clearance::Stated),
+                lift_at_feed,
+                pause,
+                dwell,
+            }
+        ),
+        (of(expr()), of(expr())).prop_map(|(dwell, feed_out)| CycleKind::Bore { dwell, feed_out }),
     ];
     let approach = select(vec![Approach::PlaneFirst, Approach::RaiseFirst]);
-    (kind, fact(planes()), coord(), coord(), fact(levels()), approach, of(expr())).prop_map(
-        |(kind, plane, retract, depth, return_level, approach, feed)| Cycle {
+    (kind, fact(planes()), coord(), coord(), fact(levels()), of(coord()), approach, of(expr())).prop_map(
+        |(kind, plane, retract, depth, return_level, return_plane, approach, feed)| Cycle {
             kind,
             plane,
             retract,
             depth,
             return_level,
+            return_plane,
             approach,
             feed,
         },
@@ -166,22 +182,55 @@ fn cycle() -> impl Strategy<Value = Cycle> {
 }
 
 fn row() -> impl Strategy<Value = Row> {
-    (select(Axis::ALL.to_vec()), expr(), any::<u32>()).prop_map(|(axis, pitch, count)| Row {
-        axis,
-        pitch,
-        count,
-    })
+    let along =
+        prop_oneof![select(Axis::ALL.to_vec()).prop_map(Along::Axis), expr().prop_map(Along::Angle)];
+    (along, expr(), any::<u32>()).prop_map(|(along, pitch, count)| Row { along, pitch, count })
+}
+
+fn first() -> impl Strategy<Value = First> {
+    prop_oneof![
+        [coord(), coord()].prop_map(First::At),
+        (expr(), expr()).prop_map(|(radius, angle)| First::Polar { radius, angle }),
+    ]
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    let about = || [of(coord()), of(coord()), of(coord())].prop_map(Box::new);
+    prop_oneof![
+        (turn(), expr()).prop_map(|(turn, angle)| Shape::Angle { turn, angle }),
+        (turn(), expr(), about())
+            .prop_map(|(turn, angle, centre)| Shape::AngleAbout { turn, angle, centre }),
+        (turn(), about()).prop_map(|(turn, centre)| Shape::Mixed { turn, centre }),
+        point().prop_map(|via| Shape::Through(Box::new(via))),
+        Just(Shape::Tangent),
+    ]
+}
+
+fn frame() -> impl Strategy<Value = Frame> {
+    let step = prop_oneof![
+        prop::collection::vec(of(expr()), AXES).prop_map(|words| {
+            let mut by = [const { None }; AXES];
+            by.iter_mut().zip(words).for_each(|(by, word)| *by = word);
+            FrameStep::Translate(Box::new(by))
+        }),
+        (fact(planes()), expr()).prop_map(|(plane, angle)| FrameStep::Rotate { plane, angle }),
+        [of(expr()), of(expr()), of(expr())].prop_map(|by| FrameStep::Scale(Box::new(by))),
+        any::<[bool; 3]>().prop_map(FrameStep::Mirror),
+    ];
+    (any::<bool>(), step).prop_map(|(added, step)| Frame { added, step })
 }
 
 fn pattern() -> impl Strategy<Value = Pattern> {
     prop_oneof![
-        (of([coord(), coord()]), [coord(), coord()], expr(), any::<u32>())
+        (of([coord(), coord()]), first(), expr(), any::<u32>())
             .prop_map(|(centre, first, step, count)| Pattern::Circle { centre, first, step, count }),
-        (row(), row(), any::<bool>()).prop_map(|(columns, rows, serpentine)| Pattern::Grid {
-            columns,
-            rows,
-            serpentine
-        }),
+        (of([coord(), coord()]), expr(), expr(), expr(), any::<u32>()).prop_map(
+            |(start, angle, offset, pitch, count)| Pattern::Line { start, angle, offset, pitch, count }
+        ),
+        prop::collection::vec(point(), 0..4).prop_map(Pattern::List),
+        (of([coord(), coord()]), row(), row(), any::<bool>()).prop_map(
+            |(start, columns, rows, serpentine)| Pattern::Grid { start, columns, rows, serpentine }
+        ),
     ]
 }
 
@@ -202,6 +251,7 @@ fn simple() -> BoxedStrategy<Op> {
         Op::OptionalProgramStop,
         Op::ProgramEnd,
         Op::Return,
+        Op::UseMachineCoordinates,
     ]);
     let setting = prop_oneof![
         select(units()).prop_map(Op::UseLengthUnits),
@@ -211,8 +261,8 @@ fn simple() -> BoxedStrategy<Op> {
         select(levels()).prop_map(Op::SetReturnLevel),
         any::<u16>().prop_map(Op::SetOriginOffsets),
         select(FrameSlot::ALL.to_vec()).prop_map(Op::ClearFrame),
-        (select(FrameSlot::ALL.to_vec()), prop::collection::vec(expr(), 0..3))
-            .prop_map(|(slot, args)| Op::SetFrame(slot, args)),
+        frame().prop_map(|frame| Op::SetFrame(Box::new(frame))),
+        (expr(), any::<bool>()).prop_map(|(edge, said)| Op::UseToolEdge { edge, said }),
     ];
     let valued = prop_oneof![
         expr().prop_map(Op::SetFeedRate),
@@ -235,6 +285,9 @@ fn simple() -> BoxedStrategy<Op> {
                 turns,
                 said
             }))
+        ),
+        (fact(planes()), point(), shape(), 0u32..3, any::<bool>()).prop_map(
+            |(plane, to, shape, turns, said)| Op::ArcForm(Box::new(ArcForm { plane, to, shape, turns, said }))
         ),
         cycle().prop_map(|c| Op::StartCycle(Box::new(c))),
         pattern().prop_map(|p| Op::Pattern(Box::new(p))),

@@ -206,7 +206,8 @@ fn what_the_stream_cannot_say_is_refused() {
         Op::Label("1".into()),
         Op::Return,
         Op::Hole(Move::default()),
-        Op::SetFrame(FrameSlot::Shift, vec![]),
+        Op::SetFrame(Box::new(Frame { added: true, step: FrameStep::Mirror([true, false, false]) })),
+        Op::UseMachineCoordinates,
         Op::Control(Box::new(Control::Loop { body: vec![] })),
         Op::Call(Box::new(Call { name: "1".into(), times: 1, arguments: vec![] })),
     ] {

@@ -1,0 +1,188 @@
+//! The chain of frames between program and work offset.
+//!
+//! A chain of translations stays exact; with rotations or factors, positions pass through floats
+//! and are rounded to a nano. Rotations are in a plane of two axes; others are refused.
+
+use super::{Exec, Length};
+use crate::canon::{AXES, Axis, Distance, Plane, Turn};
+use crate::diag::{Diagnostic, Fault};
+use crate::geometry;
+use crate::num::{Nanos, ONE};
+use crate::program::{Frame, FrameStep, Point};
+use crate::source::Span;
+
+/// Frames in force: what the program calls `p` is `turn · p + shift` in the work offset.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Chain {
+    /// `None` is no rotation, factor or mirror.
+    turn: Option<[[f64; 3]; 3]>,
+    shift: [Nanos; AXES],
+}
+
+const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+impl Chain {
+    const NONE: Chain = Chain { turn: None, shift: [0; AXES] };
+
+    /// A point of the program in the work offset.
+    pub(super) fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+        let mut out = *p;
+        if let Some(turn) = &self.turn {
+            for (out, row) in out.iter_mut().zip(turn) {
+                *out = (row[0] * p[0] as f64 + row[1] * p[1] as f64 + row[2] * p[2] as f64).round() as Nanos;
+            }
+        }
+        for (out, shift) in out.iter_mut().zip(&self.shift) {
+            *out = out.wrapping_add(*shift);
+        }
+        out
+    }
+
+    /// A point of the work offset in the program.
+    pub(super) fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+        let mut q: [Nanos; AXES] = std::array::from_fn(|i| p[i].wrapping_sub(self.shift[i]));
+        if let Some(turn) = &self.turn {
+            let x = [q[0] as f64, q[1] as f64, q[2] as f64];
+            let back = inverse(turn);
+            for (q, row) in q.iter_mut().zip(back) {
+                *q = (row[0] * x[0] + row[1] * x[1] + row[2] * x[2]).round() as Nanos;
+            }
+        }
+        q
+    }
+
+    /// Appends a step as the innermost one.
+    fn append(&mut self, step: [[f64; 3]; 3]) {
+        let turn = self.turn.unwrap_or(STRAIGHT);
+        let product = std::array::from_fn(|i| {
+            std::array::from_fn(|j| (0..3).map(|k| turn[i][k] * step[k][j]).sum())
+        });
+        self.turn = (product != STRAIGHT).then_some(product);
+    }
+
+    /// The sense that an arc of a plane has outside, if it is an arc of the same plane there.
+    pub(super) fn sense(&self, plane: Plane, turn: Turn) -> Option<Turn> {
+        let Some(m) = &self.turn else { return Some(turn) };
+        let (f, s, n) = plane.axes();
+        let (f, s, n) = (f as usize, s as usize, n as usize);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        let flat = [m[n][f], m[n][s], m[f][n], m[s][n]].into_iter().all(|v| near(v, 0.0));
+        let straight = near(m[f][f], m[s][s]) && near(m[f][s], -m[s][f]);
+        let mirrored = near(m[f][f], -m[s][s]) && near(m[f][s], m[s][f]);
+        match (flat, straight, mirrored) {
+            (true, true, _) => Some(turn),
+            (true, false, true) => Some(match turn {
+                Turn::Clockwise => Turn::Counterclockwise,
+                Turn::Counterclockwise => Turn::Clockwise,
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// The inverse of a matrix that has one.
+fn inverse(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let minor = |i: usize, j: usize| {
+        let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+        let (c, d) = ((j + 1) % 3, (j + 2) % 3);
+        m[a][c] * m[b][d] - m[a][d] * m[b][c]
+    };
+    let det: f64 = (0..3).map(|j| m[0][j] * minor(0, j)).sum();
+    std::array::from_fn(|i| std::array::from_fn(|j| minor(j, i) / det))
+}
+
+impl Exec {
+    pub(super) fn set_frame(&mut self, frame: &Frame, span: Span) -> Result<(), Diagnostic> {
+        let here = self.machine();
+        let mut chain = match self.chain.take() {
+            Some(chain) if frame.added => *chain,
+            Some(_) | None => Chain::NONE,
+        };
+        match &frame.step {
+            FrameStep::Translate(words) => {
+                let mut by = [0; AXES];
+                for (by, word) in by.iter_mut().zip(words.iter()) {
+                    if let Some(word) = word {
+                        *by = self.value(word, span)?;
+                    }
+                }
+                chain.shift = chain.place(&by);
+            }
+            FrameStep::Rotate { plane, angle } => {
+                let (f, s, _) = self.plane_of(*plane).axes();
+                let (sin, cos) = geometry::sin_cos(self.value(angle, span)?);
+                let mut step = STRAIGHT;
+                let (f, s) = (f as usize, s as usize);
+                (step[f][f], step[f][s], step[s][f], step[s][s]) = (cos, -sin, sin, cos);
+                chain.append(step);
+            }
+            FrameStep::Scale(words) => {
+                let mut step = STRAIGHT;
+                for (i, word) in words.iter().enumerate() {
+                    if let Some(word) = word {
+                        let factor = self.value(word, span)?;
+                        if factor <= 0 {
+                            return self.fault(Fault::OutOfRange { word: "factor".into() }, span);
+                        }
+                        step[i][i] = factor as f64 / ONE as f64;
+                    }
+                }
+                chain.append(step);
+            }
+            FrameStep::Mirror(axes) => {
+                let mut step = STRAIGHT;
+                for (i, axis) in axes.iter().enumerate() {
+                    if *axis {
+                        step[i][i] = -1.0;
+                    }
+                }
+                chain.append(step);
+            }
+        }
+        self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
+        self.reframe(here);
+        Ok(())
+    }
+
+    pub(super) fn clear_chain(&mut self) {
+        let here = self.machine();
+        self.chain = None;
+        self.reframe(here);
+    }
+
+    /// A straight move in machine coordinates: frames and work offset are off, the length is not.
+    #[cold]
+    pub(super) fn to_machine_coordinates(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
+        if to.get(Axis::Z).is_some() {
+            self.take_up_length();
+        }
+        let mut machine = self.machine();
+        for (axis, word) in to.axes.iter().enumerate() {
+            let Some(word) = word else { continue };
+            if word.distance.or(self.modes.distance) == Distance::Incremental {
+                let what = "an incremental word in machine coordinates".into();
+                return self.fault(Fault::NotExecuted { what }, span);
+            }
+            let length = if axis == super::Z { self.length_of(self.modes.length) } else { 0 };
+            machine[axis] = self.value(&word.value, span)?.wrapping_add(length);
+        }
+        self.position = self.unplace(&machine);
+        Ok(())
+    }
+
+    pub(super) fn length_of(&self, length: Length) -> Nanos {
+        match length {
+            Length::Entry(entry) => self.world.tool_length(entry),
+            Length::Edge(tool, edge) => self.world.edge_length(tool, edge),
+        }
+    }
+
+    /// The length of an edge: one and the same thing has one name only.
+    pub(super) fn edge(&self, edge: u32) -> Length {
+        match (u32::try_from(self.state.tool), edge) {
+            (_, 0) => Length::Entry(0),
+            (Ok(tool), 1) if tool != 0 => Length::Entry(tool),
+            _ => Length::Edge(self.state.tool, edge),
+        }
+    }
+}
