@@ -67,13 +67,15 @@ impl Tolerance {
 
 /// A world in the second interpreter's terms.
 pub fn setup(world: &World, skip: u16) -> Setup {
-    let (offsets, lengths) = (world.clone(), world.clone());
+    let (offsets, lengths, edges) = (world.clone(), world.clone(), world.clone());
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
         length: Box::new(move |entry| mm(lengths.tool_length(entry))),
+        edge_length: Box::new(move |tool, edge| mm(edges.edge_length(tool.map_or(-1, i64::from), edge))),
         skip: std::array::from_fn(|level| skip >> level & 1 == 1),
         peck_clearance: mm(world.peck_clearance),
+        break_lift: mm(world.break_lift),
         power_on: PowerOn::default(),
     }
 }
@@ -281,7 +283,7 @@ pub fn show(event: &Plain) -> String {
     )
 }
 
-/// Runs the second interpreter on a program of one of the two dialects that it knows.
+/// Runs the second interpreter on a program of a dialect that it knows.
 ///
 /// # Errors
 /// It stopped, and why.
@@ -291,6 +293,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "fanuc" => interpreter::fanuc::run(text, setup),
         "canon" => interpreter::canon::run(text, setup),
         "ir" => interpreter::ir::run(text, setup),
+        "siemens" => interpreter::siemens::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

@@ -189,7 +189,7 @@ impl Control {
             }
             match g / 10 {
                 g @ 0..=3 => motion_last = Some(g),
-                g @ (80 | 81 | 82 | 83 | 85 | 89) => motion_last = Some(g),
+                g @ (73 | 80 | 81 | 82 | 83 | 85 | 89) => motion_last = Some(g),
                 4 => dwell = true,
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
@@ -235,7 +235,7 @@ impl Control {
 
         match motion_last {
             Some(80) => self.end_cycle(),
-            Some(cycle @ 81..=89) => {
+            Some(cycle @ (73 | 81..=89)) => {
                 if self.cycle.is_none() {
                     self.initial = self.m.at[2];
                     if !self.m.settled[2] {
@@ -374,6 +374,7 @@ impl Control {
         let hole = match (cycle, self.kept.q, self.kept.p) {
             (81, ..) => Hole::Drill,
             (82, _, Some(p)) => Hole::DrillDwell(p),
+            (73, Some(q), _) if q > 0.0 => Hole::Break(q),
             (83, Some(q), _) if q > 0.0 => Hole::Peck(q),
             (85, ..) => Hole::Bore(0.0),
             (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),

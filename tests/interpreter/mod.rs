@@ -1,4 +1,4 @@
-//! A second interpreter: what a Mach-9 or a Fanuc program makes the machine do.
+//! A second interpreter: what a program of each dialect makes the machine do.
 //!
 //! It is here to be compared with the compiler, so it shares nothing with it: no dictionary, no
 //! number type, no geometry. It was written from the reference notes alone, reads text line by
@@ -11,6 +11,7 @@ pub mod canon;
 pub mod fanuc;
 pub mod ir;
 pub mod mach9;
+pub mod siemens;
 
 /// X Y Z A B C; millimetres and degrees.
 pub type Place = [f64; 6];
@@ -23,10 +24,15 @@ pub struct Setup {
     pub work_offset: Box<dyn Fn(u32) -> Place>,
     /// Length of each entry of the tool table; 0 is none.
     pub length: Box<dyn Fn(u32) -> f64>,
-    /// Block-skip switches, by level; place 0 is not used.
-    pub skip: [bool; 10],
+    /// Length of an edge of a tool, on a control whose tools have edges; `None` is a tool that was
+    /// in the spindle at power-on and that nothing is known of. Edge 0 is none.
+    pub edge_length: Box<dyn Fn(Option<u32>, u32) -> f64>,
+    /// Block-skip switches, by level; place 0 is not used, place 10 is a Sinumerik's `/1`.
+    pub skip: [bool; 11],
     /// A Fanuc's parameter 5115, millimetres.
     pub peck_clearance: f64,
+    /// A Fanuc's parameter 5114, millimetres.
+    pub break_lift: f64,
     /// Modes at power-on.
     pub power_on: PowerOn,
 }
@@ -48,6 +54,10 @@ pub struct PowerOn {
     pub return_initial: bool,
     /// Motion code on a Fanuc: 0 to 3.
     pub motion: u32,
+    /// Tool in the spindle, on a control whose tools have edges.
+    pub tool: Option<u32>,
+    /// Edge of that tool.
+    pub edge: u32,
 }
 
 impl Default for PowerOn {
@@ -60,6 +70,8 @@ impl Default for PowerOn {
             entry: 0,
             return_initial: true,
             motion: 0,
+            tool: None,
+            edge: 0,
         }
     }
 }
@@ -71,8 +83,10 @@ impl Setup {
             start: [0.0; 6],
             work_offset: Box::new(|_| [0.0; 6]),
             length: Box::new(|_| 0.0),
-            skip: [false; 10],
+            edge_length: Box::new(|_, _| 0.0),
+            skip: [false; 11],
             peck_clearance: 1.0,
+            break_lift: 1.0,
             power_on: PowerOn::default(),
         }
     }
@@ -168,6 +182,8 @@ pub enum Hole {
     DrillDwell(f64),
     /// Pecks of so much.
     Peck(f64),
+    /// Pecks of so much, the tool staying in the hole.
+    Break(f64),
     /// Feed in, dwell if not zero, feed out to R.
     Bore(f64),
 }
@@ -415,7 +431,7 @@ impl Machine {
                 self.straight(level(self.at, z))?;
                 self.record(What::Dwell(seconds));
             }
-            Hole::Peck(q) => {
+            Hole::Peck(q) | Hole::Break(q) => {
                 if q <= 0.0 || (r - z) / q > 10_000.0 {
                     return self.halt("a peck that leads nowhere");
                 }
@@ -426,8 +442,12 @@ impl Machine {
                         break;
                     }
                     self.straight(level(self.at, depth))?;
-                    self.traverse(level(self.at, r));
-                    self.traverse(level(self.at, depth + self.setup.peck_clearance));
+                    if let Hole::Break(_) = hole {
+                        self.traverse(level(self.at, depth + self.setup.break_lift));
+                    } else {
+                        self.traverse(level(self.at, r));
+                        self.traverse(level(self.at, depth + self.setup.peck_clearance));
+                    }
                 }
                 self.straight(level(self.at, z))?;
             }

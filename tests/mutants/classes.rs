@@ -83,6 +83,8 @@ fn the_same_moves(dialect: &str, text: &[u8], mutant: &[u8]) -> Result<(), Strin
         entry: 9,
         return_initial: false,
         motion: 1,
+        tool: None,
+        edge: 1,
     };
     let mut ran = 0;
     for power_on in [PowerOn::default(), unusual] {

@@ -1,0 +1,564 @@
+//! Sinumerik programs of the corpus' scope, from `reference/siemens.md` and its sources alone.
+//!
+//! What it takes for granted of the machine: M6 changes and takes edge 1 with it; a tool's length
+//! lies along Z in every plane; the plain slash is the first skip level; F stays in millimetres under
+//! G70. Not here: variables and expressions, cutter compensation, feeds other than G94, polar
+//! coordinates, rounded corners, frames about other axes than the plane's, cycles out of G17.
+
+mod arcs;
+mod cycles;
+mod frame;
+mod moves;
+mod text;
+
+use super::{Halt, Machine, Place, Setup, Spindle, What, characters};
+use frame::Frame;
+use text::{Argument, Block, Item, Mark, Unit, Value};
+
+/// Runs the main program of a text.
+///
+/// # Errors
+/// The program is wrong, out of scope, or says something that the notes leave open.
+pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    let units = text::units(&characters(text));
+    let modes = setup.power_on;
+    let mut m = Machine::new(setup);
+    m.tool = modes.tool;
+    let mut control = Control {
+        units: &units,
+        m,
+        motion: None,
+        frame: Frame::NONE,
+        suppressed: false,
+        edge: modes.edge,
+        feed_inch: false,
+        modal: None,
+        tangent: None,
+        depth: 0,
+    };
+    let Some(main) = units.iter().find(|unit| unit.main) else { return control.m.halt("no main program") };
+    if control.blocks(main, 0, main.blocks.len())? != Next::End {
+        control.m.record(What::TextEnd);
+    }
+    Ok(control.m)
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Motion {
+    Rapid,
+    Straight,
+    Clockwise,
+    Counterclockwise,
+    ThroughPoint,
+    Tangent,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Next {
+    Block,
+    Back,
+    End,
+}
+
+struct Control<'a> {
+    units: &'a [Unit],
+    m: Machine,
+    motion: Option<Motion>,
+    /// The programmable chain.
+    frame: Frame,
+    /// Frames and work offset are off in this block.
+    suppressed: bool,
+    /// Edge of the tool in the spindle.
+    edge: u32,
+    /// G700: F in inches.
+    feed_inch: bool,
+    /// The cycle of MCALL.
+    modal: Option<cycles::Cycle>,
+    /// Direction in which the last move at feed ended, in program coordinates.
+    tangent: Option<[f64; 3]>,
+    depth: u32,
+}
+
+/// The words of a block.
+#[derive(Default)]
+struct Words<'b> {
+    letters: Vec<(char, Value, &'b str)>,
+    named: Vec<(&'b str, Value)>,
+    names: Vec<&'b str>,
+    call: Option<(&'b str, &'b [Argument])>,
+}
+
+impl Words<'_> {
+    fn letter(&self, letter: char) -> Option<Value> {
+        self.letters.iter().find(|w| w.0 == letter).map(|w| w.1)
+    }
+
+    fn named(&self, name: &str) -> Option<Value> {
+        self.named.iter().find(|w| w.0 == name).map(|w| w.1)
+    }
+
+    fn name(&self, name: &str) -> bool {
+        self.names.contains(&name)
+    }
+}
+
+const AXES: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
+const FRAMES: [&str; 8] = ["TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE", "MIRROR", "AMIRROR"];
+const SUPPRESS: [u32; 2] = [53, 153];
+
+impl<'a> Control<'a> {
+    /// Runs the blocks from one place up to another.
+    fn blocks(&mut self, unit: &'a Unit, from: usize, to: usize) -> Result<Next, Halt> {
+        for at in from..to {
+            let (line, block) = &unit.blocks[at];
+            self.m.line = *line;
+            let block = match block {
+                Ok(block) => block,
+                Err(why) => return self.m.halt(why.as_str()),
+            };
+            if block.skip.is_some_and(|place| self.m.setup.skip[place]) {
+                continue;
+            }
+            let next = match block.items.first() {
+                Some(Item::Name(name)) if name == "REPEAT" => self.repeat(unit, at, block)?,
+                _ => self.block(block)?,
+            };
+            if next != Next::Block {
+                return Ok(next);
+            }
+        }
+        Ok(Next::Block)
+    }
+
+    /// `REPEAT LABEL P=n` and `REPEAT FIRST LAST P=n`.
+    fn repeat(&mut self, unit: &'a Unit, at: usize, block: &Block) -> Result<Next, Halt> {
+        let mut labels = Vec::new();
+        let mut times = 1;
+        for item in &block.items[1..] {
+            match item {
+                Item::Name(name) => labels.push(name.as_str()),
+                Item::Named(name, value) if name == "P" => times = self.whole(value.number)?,
+                Item::Word('P', value, _) => times = self.whole(value.number)?,
+                _ => return self.m.halt("REPEAT and other words"),
+            }
+        }
+        let place = |label: &str| -> Result<usize, Halt> {
+            let has = |b: &Result<Block, String>| b.as_ref().is_ok_and(|b| b.label.as_deref() == Some(label));
+            let mut found = (0..unit.blocks.len()).filter(|k| has(&unit.blocks[*k].1));
+            match (found.next(), found.next()) {
+                (Some(place), None) => Ok(place),
+                _ => self.m.halt(format!("no label {label}, or several")),
+            }
+        };
+        let (from, to) = match labels[..] {
+            [label] => {
+                let from = place(label)?;
+                let end = unit
+                    .blocks
+                    .iter()
+                    .any(|b| b.1.as_ref().is_ok_and(|b| b.label.as_deref() == Some("ENDLABEL")));
+                if end || from > at {
+                    return self.m.halt("REPEAT of a label further on, or ENDLABEL");
+                }
+                (from, at)
+            }
+            [first, last] => (place(first)?, place(last)? + 1),
+            _ => return self.m.halt("REPEAT of one label or two"),
+        };
+        if from >= to || (from..to).contains(&at) {
+            return self.m.halt("REPEAT of itself");
+        }
+        for _ in 0..times {
+            let next = self.blocks(unit, from, to)?;
+            if next != Next::Block {
+                return Ok(next);
+            }
+        }
+        Ok(Next::Block)
+    }
+
+    fn whole(&self, number: f64) -> Result<u32, Halt> {
+        if !(0.0..=9999.0).contains(&number) || number.fract() != 0.0 {
+            return self.m.halt(format!("a whole number, not {number}"));
+        }
+        Ok(number as u32)
+    }
+
+    fn block(&mut self, block: &'a Block) -> Result<Next, Halt> {
+        let mut w = Words::default();
+        for item in &block.items {
+            match item {
+                Item::Word(letter, value, written) => {
+                    let twice = *letter != 'G' && *letter != 'M' && w.letter(*letter).is_some();
+                    if twice
+                        || (!AXES.contains(letter) && !"IJK".contains(*letter) && value.mark != Mark::None)
+                    {
+                        return self.m.halt(format!("{letter} twice, or with AC or IC"));
+                    }
+                    w.letters.push((*letter, *value, written));
+                }
+                Item::Named(name, value) => {
+                    let centre = ["I1", "J1", "K1"].contains(&name.as_str());
+                    if w.named(name).is_some() || (!centre && value.mark != Mark::None) {
+                        return self.m.halt(format!("{name} twice, or with AC or IC"));
+                    }
+                    w.named.push((name, *value));
+                }
+                Item::Name(name) => w.names.push(name),
+                Item::Call(name, arguments) if w.call.is_none() => w.call = Some((name, arguments)),
+                Item::Call(..) => return self.m.halt("two calls in a block"),
+            }
+        }
+        let events = self.m.events.len();
+        if let Some(next) = self.alone(&w)? {
+            if w.call.is_some() {
+                self.tell_places(events);
+            }
+            return Ok(next);
+        }
+        self.words(&w)
+    }
+
+    /// The machine does not know the frame, in whose coordinates the program's places are.
+    fn tell_places(&mut self, from: usize) {
+        for event in from..self.m.events.len() {
+            self.m.events[event].program = self.program(self.m.events[event].machine);
+        }
+    }
+
+    /// Statements that stand alone in their block.
+    fn alone(&mut self, w: &Words<'a>) -> Result<Option<Next>, Halt> {
+        let bare = w.letters.is_empty() && w.named.is_empty();
+        if let Some((name, arguments)) = w.call {
+            match (name, bare, &w.names[..]) {
+                ("MSG", true, []) => {
+                    if arguments.len() != 1 || matches!(arguments[0], Argument::Number(_)) {
+                        return self.m.halt("MSG of something else than a text");
+                    }
+                    self.m.record(What::Message);
+                }
+                (_, true, ["MCALL"]) if cycles::is_cycle(name) => {
+                    self.modal = Some(self.cycle(name, arguments)?)
+                }
+                (_, true, []) if cycles::is_cycle(name) => {
+                    if self.modal.is_some() {
+                        return self.m.halt("a cycle called while another is modal");
+                    }
+                    let cycle = self.cycle(name, arguments)?;
+                    self.run_cycle(cycle)?;
+                }
+                ("HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802", true, []) => self.pattern(name, arguments)?,
+                _ => return self.m.halt(format!("the call of {name}, or other words beside it")),
+            }
+            return Ok(Some(Next::Block));
+        }
+        if let Some((_, value, digits)) = w.letters.iter().find(|l| l.0 == 'L') {
+            if digits.is_empty() || value.number.fract() != 0.0 {
+                return self.m.halt("L and no number");
+            }
+            return self.call(&format!("L{digits}"), w, 1).map(Some);
+        }
+        let Some(first) = w.names.first() else { return Ok(None) };
+        match *first {
+            "SUPA" | "CIP" | "CT" => return Ok(None),
+            "MCALL" if bare && w.names.len() == 1 => self.modal = None,
+            "RET" if bare && w.names.len() == 1 => {
+                if self.depth == 0 {
+                    return self.m.halt("RET in the main program");
+                }
+                return Ok(Some(Next::Back));
+            }
+            "PROC" if bare && w.names.len() == 2 => {}
+            name if FRAMES.contains(&name) && w.names.len() == 1 => self.change_frame(name, w)?,
+            name if w.names.len() == 1 => return self.call(name, w, 0).map(Some),
+            name => return self.m.halt(format!("{name} and other names")),
+        }
+        Ok(Some(Next::Block))
+    }
+
+    /// A subprogram of the same text, P times; `letters` other words belong to the call.
+    fn call(&mut self, name: &str, w: &Words<'a>, letters: usize) -> Result<Next, Halt> {
+        let times = w.letter('P').or(w.named("P"));
+        let beside = w.letters.len() + w.named.len() - letters - usize::from(times.is_some());
+        if beside != 0 || w.names.len() + letters != 1 {
+            return self.m.halt(format!("other words beside the call of {name}"));
+        }
+        let times = times.map_or(Ok(1), |p| self.whole(p.number))?;
+        let units = self.units;
+        let mut found = units.iter().filter(|unit| !unit.main && unit.name == name);
+        let (Some(unit), None) = (found.next(), found.next()) else {
+            return self.m.halt(format!("no subprogram {name}, or several"));
+        };
+        if self.depth == 11 || times == 0 {
+            return self.m.halt("calls too deep, or P0");
+        }
+        for _ in 0..times {
+            let line = self.m.line;
+            self.depth += 1;
+            // M30 in a subprogram leads back too.
+            self.blocks(unit, 0, unit.blocks.len())?;
+            self.depth -= 1;
+            self.m.line = line;
+        }
+        Ok(Next::Block)
+    }
+
+    fn change_frame(&mut self, name: &str, w: &Words<'a>) -> Result<(), Halt> {
+        let kind = name.strip_prefix('A').unwrap_or(name);
+        let scale = if kind == "TRANS" { self.unit() } else { 1.0 };
+        let mut by = [None; 3];
+        for (letter, value, _) in &w.letters {
+            let axis = AXES.iter().position(|a| a == letter).filter(|axis| *axis < 3);
+            let (Some(axis), Mark::None) = (axis, value.mark) else {
+                return self.m.halt(format!("{name} and {letter}"));
+            };
+            by[axis] = Some(value.number * scale);
+        }
+        let angle = w.named("RPL").map(|v| v.number);
+        if w.named.len() > usize::from(angle.is_some()) {
+            return self.m.halt(format!("{name} and other words"));
+        }
+        let (first, second, normal) = self.m.axes();
+        let inner = match (kind, angle) {
+            ("TRANS", None) => Frame::shift(by.map(|v| v.unwrap_or(0.0))),
+            ("SCALE", None) if !by.contains(&Some(0.0)) => Frame::factors(by.map(|v| v.unwrap_or(1.0))),
+            ("MIRROR", None) => Frame::factors(by.map(|v| if v.is_some() { -1.0 } else { 1.0 })),
+            ("ROT", Some(angle)) if by == [None; 3] => Frame::turn(angle, first, second),
+            ("ROT", None) => {
+                let others = (0..3).any(|axis| axis != normal && by[axis].is_some());
+                if others {
+                    return self.m.halt("a rotation out of the plane");
+                }
+                by[normal].map_or(Frame::NONE, |angle| Frame::turn(angle, first, second))
+            }
+            _ => return self.m.halt(format!("{name} with these words")),
+        };
+        self.frame = if name.starts_with('A') { self.frame.then(&inner) } else { inner };
+        self.m.settled[..3].fill(false);
+        Ok(())
+    }
+
+    /// Millimetres to a unit of length.
+    fn unit(&self) -> f64 {
+        if self.m.inch { 25.4 } else { 1.0 }
+    }
+
+    /// What lies between program and machine beside the frame.
+    fn shift(&self) -> Place {
+        let mut shift = if self.suppressed { [0.0; 6] } else { (self.m.setup.work_offset)(self.m.offset) };
+        shift[2] += (self.m.setup.edge_length)(self.m.tool, self.edge);
+        shift
+    }
+
+    fn chain(&self) -> Frame {
+        if self.suppressed { Frame::NONE } else { self.frame }
+    }
+
+    /// Where the machine stands, in program coordinates.
+    fn here(&self) -> Place {
+        self.program(self.m.at)
+    }
+
+    /// Machine to program coordinates.
+    fn program(&self, place: Place) -> Place {
+        let shift = self.shift();
+        let mut at: Place = std::array::from_fn(|axis| place[axis] - shift[axis]);
+        let xyz = self.chain().undo([at[0], at[1], at[2]]);
+        at[..3].copy_from_slice(&xyz);
+        at
+    }
+
+    /// Program to machine coordinates.
+    fn machine(&self, place: Place) -> Place {
+        let shift = self.shift();
+        let xyz = self.chain().apply([place[0], place[1], place[2]]);
+        std::array::from_fn(|axis| shift[axis] + if axis < 3 { xyz[axis] } else { place[axis] })
+    }
+
+    fn take_edge(&mut self, edge: u32, tool: Option<u32>) -> Result<(), Halt> {
+        if tool.is_none() && edge > 0 {
+            return self.m.halt("an edge of a tool that is not known");
+        }
+        if (edge, tool) != (self.edge, self.m.tool) {
+            let turned = self.frame.turns();
+            self.m.settled[2] = false;
+            if turned {
+                self.m.settled[..3].fill(false);
+            }
+        }
+        self.edge = edge;
+        self.m.entry = if edge == 0 { 0 } else { tool.unwrap_or(0) };
+        Ok(())
+    }
+
+    fn words(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
+        if let Some((letter, ..)) = w.letters.iter().find(|l| !"XYZABCIJKFSTDMG".contains(l.0)) {
+            return self.m.halt(format!("the word {letter}"));
+        }
+        if let Some((name, _)) =
+            w.named.iter().find(|n| !["CR", "AR", "TURN", "I1", "J1", "K1"].contains(&n.0))
+        {
+            return self.m.halt(format!("the word {name}"));
+        }
+        if let Some(name) = w.names.iter().find(|n| !["SUPA", "CIP", "CT"].contains(n)) {
+            return self.m.halt(format!("{name} among other words"));
+        }
+        self.suppressed = w.name("SUPA");
+        let events = self.m.events.len();
+        let result = self.with_modes(w);
+        self.tell_places(events);
+        self.suppressed = false;
+        result
+    }
+
+    fn with_modes(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
+        let dwell = self.modes(w)?;
+        let m_codes: Vec<u32> = w
+            .letters
+            .iter()
+            .filter(|l| l.0 == 'M')
+            .map(|l| self.whole(l.1.number))
+            .collect::<Result<_, _>>()?;
+        let axes: Vec<usize> = (0..6).filter(|axis| w.letter(AXES[*axis]).is_some()).collect();
+        let centre = w.letters.iter().any(|l| "IJK".contains(l.0)) || !w.named.is_empty();
+        let moves = !axes.is_empty() || centre;
+        if dwell {
+            let (1, Some(seconds)) = (w.letters.len() - 1, w.letter('F')) else {
+                return self.m.halt("G4 and other words than F");
+            };
+            self.m.record(What::Dwell(seconds.number));
+            return Ok(Next::Block);
+        }
+        if let Some(feed) = w.letter('F') {
+            self.m.feed = Some(feed.number * if self.feed_inch { 25.4 } else { 1.0 });
+        }
+        if let Some(speed) = w.letter('S') {
+            self.m.speed = Some(speed.number);
+        }
+        if let Some(tool) = w.letter('T') {
+            self.m.selected = Some(self.whole(tool.number)?);
+        }
+        let edge = w.letter('D').map(|d| self.whole(d.number)).transpose()?;
+        if m_codes.contains(&6) {
+            if moves || m_codes.len() > 1 {
+                return self.m.halt("M6 with a move or another M");
+            }
+            let tool = self.m.selected;
+            self.take_edge(edge.unwrap_or(1), tool)?;
+            self.m.change_tool()?;
+        } else if let Some(edge) = edge {
+            self.take_edge(edge, self.m.tool)?;
+        }
+        for code in &m_codes {
+            match code {
+                3 => self.m.turn(Spindle::Clockwise),
+                4 => self.m.turn(Spindle::Counterclockwise),
+                7 => self.m.cool(self.m.coolant.0, true),
+                8 => self.m.cool(true, self.m.coolant.1),
+                5 | 9 if moves => {
+                    return self.m.halt("M5 or M9 with a move: machine data decide which is first");
+                }
+                5 => self.m.turn(Spindle::Stopped),
+                9 => self.m.cool(false, false),
+                0 | 1 | 2 | 6 | 17 | 30 => {}
+                other => return self.m.halt(format!("M{other}")),
+            }
+        }
+        if moves {
+            self.go(w, &axes)?;
+            if let Some(cycle) = self.modal {
+                self.suppressed = false;
+                self.run_cycle(cycle)?;
+            }
+        }
+        self.end_codes(&m_codes)
+    }
+
+    fn end_codes(&mut self, codes: &[u32]) -> Result<Next, Halt> {
+        let last: Vec<u32> = codes.iter().copied().filter(|c| [0, 1, 2, 17, 30].contains(c)).collect();
+        match (&last[..], self.depth) {
+            ([], _) => {}
+            ([0], _) => self.m.record(What::Stop),
+            ([1], _) => self.m.record(What::OptionalStop),
+            (_, 1..) if last.len() == 1 => return Ok(Next::Back),
+            (_, 0) if last.len() == 1 => {
+                self.m.record(What::End);
+                return Ok(Next::End);
+            }
+            _ => return self.m.halt("several stops or ends"),
+        }
+        Ok(Next::Block)
+    }
+
+    /// G codes and their like; true at G4.
+    fn modes(&mut self, w: &Words<'a>) -> Result<bool, Halt> {
+        let mut seen = Vec::new();
+        let mut group = |number: u32| {
+            let twice = seen.contains(&number);
+            seen.push(number);
+            twice
+        };
+        let mut twice = false;
+        let mut dwell = false;
+        for (_, value, _) in w.letters.iter().filter(|l| l.0 == 'G') {
+            let code = self.whole(value.number)?;
+            twice |= match code {
+                0..=3 => {
+                    self.motion = Some(
+                        [Motion::Rapid, Motion::Straight, Motion::Clockwise, Motion::Counterclockwise]
+                            [code as usize],
+                    );
+                    group(1)
+                }
+                4 => {
+                    dwell = true;
+                    group(2)
+                }
+                17..=19 => {
+                    self.m.plane = code;
+                    group(6)
+                }
+                // Nothing that they end can have begun.
+                40 => group(7),
+                94 => group(15),
+                code if SUPPRESS.contains(&code) => {
+                    self.suppressed = true;
+                    group(9)
+                }
+                54..=57 | 500 | 505..=599 => {
+                    self.m.use_offset(if code < 58 { code - 53 } else { code - 500 });
+                    group(8)
+                }
+                70 | 71 | 700 | 710 => {
+                    self.m.inch = code % 100 == 70 || code == 700;
+                    let feed_inch = code == 700;
+                    if feed_inch != self.feed_inch {
+                        // A feed without its unit is no feed.
+                        self.m.feed = None;
+                    }
+                    self.feed_inch = feed_inch;
+                    group(13)
+                }
+                90 | 91 => {
+                    self.m.absolute = code == 90;
+                    group(14)
+                }
+                other => return self.m.halt(format!("G{other}")),
+            };
+        }
+        for name in &w.names {
+            twice |= match *name {
+                "CIP" => {
+                    self.motion = Some(Motion::ThroughPoint);
+                    group(1)
+                }
+                "CT" => {
+                    self.motion = Some(Motion::Tangent);
+                    group(1)
+                }
+                _ => group(9),
+            };
+        }
+        if twice { self.m.halt("two codes of a group") } else { Ok(dwell) }
+    }
+}

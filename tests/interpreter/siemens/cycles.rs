@@ -1,0 +1,328 @@
+//! Drilling cycles and patterns of positions, from `reference/siemens.md` section 9.
+//!
+//! Lengths are in millimetres as soon as a call is read. Not here: cycles out of G17, degression,
+//! a first feed of its own, dwells in revolutions, the newer lists' ways of meaning something else.
+
+use super::super::{Halt, What};
+use super::Control;
+use super::text::Argument;
+
+/// A cycle, its arguments worked out.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cycle {
+    kind: Kind,
+    /// Where the tool ends.
+    retract: f64,
+    /// Where the first stroke of a deep hole is measured from.
+    reference: f64,
+    /// Down to here in rapid: the reference plane and the safety clearance on it.
+    safe: f64,
+    depth: f64,
+    dwell: f64,
+    /// The unit in force at the call.
+    inch: bool,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Drill,
+    Bore { feed_in: f64, feed_out: f64 },
+    Deep { stroke: f64, at_start: f64, last_dwell: f64, clear: bool, step: f64 },
+}
+
+/// Arguments of a call, by place.
+struct Arguments<'a> {
+    given: &'a [Argument],
+    unit: f64,
+}
+
+impl Arguments<'_> {
+    fn number(&self, place: usize) -> Option<f64> {
+        match self.given.get(place) {
+            Some(Argument::Number(number)) => Some(*number),
+            _ => None,
+        }
+    }
+
+    fn length(&self, place: usize) -> Option<f64> {
+        self.number(place).map(|number| number * self.unit)
+    }
+
+    fn or_zero(&self, place: usize) -> f64 {
+        self.number(place).unwrap_or(0.0)
+    }
+
+    /// All from a place on are empty or zero.
+    fn unused(&self, from: usize) -> bool {
+        (from..self.given.len()).all(|place| match self.given[place] {
+            Argument::Empty => true,
+            Argument::Number(number) => number == 0.0,
+            Argument::Text => false,
+        })
+    }
+}
+
+/// Whether a name is one of the drilling cycles here.
+pub(super) fn is_cycle(name: &str) -> bool {
+    matches!(name, "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85")
+}
+
+impl Control<'_> {
+    /// Reads the call of a cycle.
+    pub(super) fn cycle(&self, name: &str, given: &[Argument]) -> Result<Cycle, Halt> {
+        if given.contains(&Argument::Text) {
+            return self.m.halt("a text as an argument of a cycle");
+        }
+        let a = Arguments { given, unit: self.unit() };
+        let Some(retract) = a.length(0) else { return self.m.halt("a cycle without RTP") };
+        let reference = a.length(1).unwrap_or(0.0);
+        let clearance = a.length(2).unwrap_or(0.0);
+        let depth = match (a.length(3), a.length(4)) {
+            (Some(depth), None) => depth,
+            (None, Some(down)) if down > 0.0 && retract > reference => reference - down,
+            (None, Some(_)) => return self.m.halt("alarm 61101: DPR with RTP = RFP, or no depth"),
+            _ => return self.m.halt("DP and DPR, or neither"),
+        };
+        if clearance < 0.0 || retract < reference || depth > reference {
+            return self.m.halt("alarm 61101: planes out of order");
+        }
+        // Place of the dwell, and of the list that newer controls append.
+        let (dwell, appended, mode) = match name {
+            "CYCLE81" => (Some(5), 6, 10.0),
+            "CYCLE82" => (Some(5), 6, 10.0),
+            "CYCLE85" => (Some(5), 8, 10.0),
+            _ => (Some(8), 17, 1_001_110.0),
+        };
+        let dwell = dwell.map_or(0.0, |place| a.or_zero(place));
+        let modes = [0, 1, 2].map(|k| a.or_zero(appended + k));
+        if modes[0] != 0.0 || modes[1] != 0.0 || ![0.0, mode].contains(&modes[2]) || !a.unused(appended + 3) {
+            return self.m.halt("a way of machining in the appended arguments");
+        }
+        let kind = match name {
+            "CYCLE81" | "CYCLE82" => Kind::Drill,
+            "CYCLE85" => {
+                let scale = if self.feed_inch { 25.4 } else { 1.0 };
+                let (Some(feed_in), Some(feed_out)) = (a.number(6), a.number(7)) else {
+                    return self.m.halt("CYCLE85 without FFR and RFF");
+                };
+                if feed_in <= 0.0 || feed_out <= 0.0 {
+                    return self.m.halt("CYCLE85 and a feed that is none");
+                }
+                Kind::Bore { feed_in: feed_in * scale, feed_out: feed_out * scale }
+            }
+            _ => self.deep(&a, reference, depth, dwell)?,
+        };
+        if dwell < 0.0 {
+            return self.m.halt("a dwell in revolutions");
+        }
+        let safe = reference + clearance;
+        Ok(Cycle { kind, retract, reference, safe, depth, dwell, inch: self.m.inch })
+    }
+
+    fn deep(&self, a: &Arguments, reference: f64, depth: f64, dwell: f64) -> Result<Kind, Halt> {
+        let stroke = match (a.length(5), a.length(6)) {
+            (Some(first), None) => reference - first,
+            (None, Some(down)) => down,
+            _ => return self.m.halt("FDEP and FDPR, or neither"),
+        };
+        if stroke <= 0.0 || reference - stroke < depth - 1e-9 {
+            return self.m.halt("alarm 61107: the first depth");
+        }
+        if a.or_zero(7) != 0.0 || ![None, Some(1.0)].contains(&a.number(10)) {
+            return self.m.halt("DAM or FRF");
+        }
+        if ![None, Some(3.0), Some(0.0)].contains(&a.number(12)) {
+            return self.m.halt("_AXN");
+        }
+        let clear = match a.number(11) {
+            None | Some(0.0) => false,
+            Some(1.0) => true,
+            _ => return self.m.halt("VARI"),
+        };
+        let own = |place: usize| a.length(place).filter(|v| *v != 0.0);
+        let step = if clear {
+            let hole = reference - depth;
+            own(16).unwrap_or(if hole <= 30.0 { 0.6 } else { (hole / 50.0).min(7.0) })
+        } else {
+            own(14).unwrap_or(1.0)
+        };
+        let last_dwell = a.number(15).filter(|v| *v != 0.0).unwrap_or(dwell);
+        let at_start = a.or_zero(9);
+        if step < 0.0 || last_dwell < 0.0 || at_start < 0.0 {
+            return self.m.halt("a negative argument: another unit");
+        }
+        Ok(Kind::Deep { stroke, at_start, last_dwell, clear, step })
+    }
+
+    /// Runs a cycle where the tool stands.
+    pub(super) fn run_cycle(&mut self, cycle: Cycle) -> Result<(), Halt> {
+        if self.m.plane != 17 {
+            return self.m.halt("a cycle out of G17");
+        }
+        if cycle.inch != self.m.inch {
+            return self.m.halt("a cycle called in another unit than defined");
+        }
+        self.rapid_to(cycle.safe);
+        match cycle.kind {
+            Kind::Drill => {
+                self.feed_to(cycle.depth)?;
+                self.stay(cycle.dwell);
+            }
+            Kind::Bore { feed_in, feed_out } => {
+                self.m.feed = Some(feed_in);
+                self.feed_to(cycle.depth)?;
+                self.stay(cycle.dwell);
+                self.m.feed = Some(feed_out);
+                self.feed_to(cycle.safe)?;
+            }
+            Kind::Deep { stroke, at_start, last_dwell, clear, step } => {
+                let mut strokes = 1.0;
+                loop {
+                    let bottom = cycle.reference - strokes * stroke;
+                    if bottom <= cycle.depth + 1e-9 {
+                        break;
+                    }
+                    self.feed_to(bottom)?;
+                    self.stay(cycle.dwell);
+                    if clear {
+                        self.rapid_to(cycle.safe);
+                        self.stay(at_start);
+                        self.rapid_to(bottom + step);
+                    } else {
+                        self.feed_to(bottom + step)?;
+                    }
+                    strokes += 1.0;
+                }
+                self.feed_to(cycle.depth)?;
+                self.stay(last_dwell);
+            }
+        }
+        self.rapid_to(cycle.retract);
+        if let Kind::Bore { .. } = cycle.kind {
+            // Which of the feeds stays in force is not said.
+            self.m.feed = None;
+        }
+        self.m.settled[2] = true;
+        self.tangent = None;
+        Ok(())
+    }
+
+    fn at_level(&self, z: f64) -> [f64; 6] {
+        let mut at = self.here();
+        at[2] = z;
+        at
+    }
+
+    fn rapid_to(&mut self, z: f64) {
+        if (self.here()[2] - z).abs() > 1e-9 {
+            let to = self.machine(self.at_level(z));
+            self.m.traverse(to);
+        }
+    }
+
+    fn feed_to(&mut self, z: f64) -> Result<(), Halt> {
+        if (self.here()[2] - z).abs() > 1e-9 {
+            let to = self.machine(self.at_level(z));
+            self.m.straight(to)?;
+        }
+        Ok(())
+    }
+
+    fn stay(&mut self, seconds: f64) {
+        if seconds > 0.0 {
+            self.m.record(What::Dwell(seconds));
+        }
+    }
+
+    /// A pattern: the cycle in force at each of its positions.
+    pub(super) fn pattern(&mut self, name: &str, given: &[Argument]) -> Result<(), Halt> {
+        let Some(cycle) = self.modal else { return self.m.halt("a pattern and no cycle in force") };
+        for (x, y) in self.positions(name, given)? {
+            let mut to = self.here();
+            (to[0], to[1]) = (x, y);
+            let to = self.machine(to);
+            self.m.traverse(to);
+            self.m.settled[0] = true;
+            self.m.settled[1] = true;
+            self.run_cycle(cycle)?;
+        }
+        Ok(())
+    }
+
+    fn positions(&self, name: &str, given: &[Argument]) -> Result<Vec<(f64, f64)>, Halt> {
+        let a = Arguments { given, unit: self.unit() };
+        let (lengths, numbers, appended): (&[usize], &[usize], usize) = match name {
+            "HOLES1" => (&[0, 1, 3, 4], &[2, 5], 6),
+            "HOLES2" => (&[0, 1, 2], &[3, 4, 5], 6),
+            "CYCLE801" => (&[0, 1, 3, 4], &[2, 5, 6], 7),
+            _ => return self.points(&a),
+        };
+        if lengths.iter().chain(numbers).any(|place| a.number(*place).is_none()) || !a.unused(appended) {
+            return self.m.halt(format!("an empty argument of {name}, or one appended"));
+        }
+        let number = |place: usize| a.or_zero(place);
+        let length = |place: usize| a.or_zero(place) * a.unit;
+        let count = |place: usize| {
+            let n = number(place);
+            if (1.0..=10_000.0).contains(&n) && n.fract() == 0.0 {
+                Ok(n as u32)
+            } else {
+                self.m.halt(format!("so many positions: {n}"))
+            }
+        };
+        let turned = |x: f64, y: f64, degrees: f64| {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            (length(0) + x * cos - y * sin, length(1) + x * sin + y * cos)
+        };
+        let list = match name {
+            "HOLES1" => {
+                (0..count(5)?).map(|k| turned(length(3) + f64::from(k) * length(4), 0.0, number(2))).collect()
+            }
+            "HOLES2" => {
+                let step = if number(4) == 0.0 { 360.0 / f64::from(count(5)?) } else { number(4) };
+                if length(2) <= 0.0 {
+                    return self.m.halt("HOLES2 and no radius");
+                }
+                (0..count(5)?).map(|k| turned(length(2), 0.0, number(3) + f64::from(k) * step)).collect()
+            }
+            _ => {
+                let (columns, rows) = (count(5)?, count(6)?);
+                let mut list = Vec::new();
+                for row in 0..rows {
+                    for k in 0..columns {
+                        // Every other row is run backwards.
+                        let column = if row % 2 == 0 { k } else { columns - 1 - k };
+                        let (x, y) = (f64::from(column) * length(3), f64::from(row) * length(4));
+                        list.push(turned(x, y, number(2)));
+                    }
+                }
+                list
+            }
+        };
+        Ok(list)
+    }
+
+    /// CYCLE802: two flags of nine digits, up to nine pairs, then three more arguments.
+    fn points(&self, a: &Arguments) -> Result<Vec<(f64, f64)>, Halt> {
+        if [0, 1].iter().any(|place| a.number(*place) != Some(111_111_111.0)) {
+            return self.m.halt("CYCLE802: positions that are not all absolute");
+        }
+        if ![None, Some(0.0), Some(1.0)].contains(&a.number(22))
+            || ![20, 21].iter().all(|p| a.or_zero(*p) == 0.0)
+        {
+            return self.m.halt("CYCLE802: appended arguments");
+        }
+        let mut list = Vec::new();
+        for pair in 0..9 {
+            match (a.length(2 + 2 * pair), a.length(3 + 2 * pair)) {
+                (Some(x), Some(y)) if list.len() == pair => list.push((x, y)),
+                (None, None) => {}
+                _ => return self.m.halt("CYCLE802: a gap between the positions"),
+            }
+        }
+        if list.is_empty() || a.given.len() > 23 {
+            return self.m.halt("CYCLE802: no positions, or too many arguments");
+        }
+        Ok(list)
+    }
+}
