@@ -7,6 +7,7 @@
 
 pub mod canon;
 pub mod ir;
+pub mod siemens;
 pub mod word;
 
 use ncc_dialects::{Family, Settings};

@@ -74,3 +74,37 @@ fn programs_from_elsewhere() {
     println!("{done} translated and verified, {refused} refused");
     failures.finish();
 }
+
+/// Lines of foreign Sinumerik programs that are wrong on purpose, by the remarks beside them.
+const WRONG_LINES: &[(&str, &[usize])] = &[
+    ("s840d_syntax_test_archive.arc", &[15]),
+    ("s840d_syntax_test_call.spf", &[8, 12, 17, 30, 38, 60]),
+    ("s840d_syntax_test_din.spf", &[39, 70, 75, 422]),
+    ("s840d_syntax_test_repeat.spf", &[61, 69, 78, 88, 141, 150, 162, 171]),
+];
+
+/// The Sinumerik's grammar takes every line of programs from elsewhere that is not wrong on purpose.
+#[test]
+fn sinumerik_lines_from_elsewhere_have_their_form() {
+    let mut failures = Failures::default();
+    for folder in ["programs/siemens", "cases/siemens-peer"] {
+        let Some(programs) = beside(folder) else { continue };
+        for path in files(&programs) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if [".csv", ".md"].iter().any(|end| name.ends_with(end)) {
+                continue;
+            }
+            let text = fs::read(&path).expect("a program");
+            let faults = ncc_frontends::siemens::form(&text);
+            let line = |at: u32| text[..at as usize].iter().filter(|b| **b == b'\n').count() + 1;
+            let lines: Vec<usize> = faults.iter().map(|d| line(d.span.start)).collect();
+            let wrong = WRONG_LINES.iter().find(|(n, _)| *n == name).map_or(&[][..], |(_, lines)| lines);
+            if lines != wrong {
+                let said: Vec<_> =
+                    faults.iter().map(|d| format!("{}: {:?}", line(d.span.start), d.fault)).collect();
+                failures.add(&name, said.join("\n"));
+            }
+        }
+    }
+    failures.finish();
+}

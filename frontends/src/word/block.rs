@@ -28,7 +28,7 @@ pub(crate) struct Digits {
 
 impl Digits {
     /// Digits with at most one point among them; `None` for more than 18 digits that count.
-    pub(super) fn parse(text: &[u8]) -> Option<Digits> {
+    pub(crate) fn parse(text: &[u8]) -> Option<Digits> {
         let mut digits = Digits { mantissa: 0, scale: 0, point: false };
         for &byte in text {
             if byte == b'.' {

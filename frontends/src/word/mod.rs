@@ -10,7 +10,7 @@
 //!
 //! Not here: what execution makes of a program, and everything about files.
 
-mod block;
+pub(crate) mod block;
 mod call;
 mod cycle;
 mod facts;
@@ -21,12 +21,12 @@ mod lower;
 mod motion;
 mod number;
 mod pattern;
-mod plain;
+pub(crate) mod plain;
 mod sort;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]
 mod tests;
-mod token;
+pub(crate) mod token;
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;

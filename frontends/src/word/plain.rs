@@ -14,7 +14,7 @@ const MOST_WORDS: usize = 32;
 /// Reads the block that begins at `from` of `text`. Fills `words` and gives where the line's end
 /// is (the index of its `\n`, or the end of the text); `None` if the block is not plain.
 #[inline]
-pub(super) fn read(text: &[u8], from: usize, base: u32, words: &mut Vec<Word>) -> Option<usize> {
+pub(crate) fn read(text: &[u8], from: usize, base: u32, words: &mut Vec<Word>) -> Option<usize> {
     words.clear();
     let mut at = from;
     loop {

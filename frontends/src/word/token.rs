@@ -346,7 +346,7 @@ impl Iterator for Tokens<'_> {
 }
 
 /// The first character, as UTF-8 or else Latin-1, and its length in bytes.
-fn first_char(bytes: &[u8]) -> (char, usize) {
+pub(crate) fn first_char(bytes: &[u8]) -> (char, usize) {
     for len in 1..=bytes.len().min(4) {
         if let Some(c) = std::str::from_utf8(&bytes[..len]).ok().and_then(|s| s.chars().next()) {
             return (c, len);
