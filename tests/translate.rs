@@ -29,6 +29,8 @@ pub fn job(from: &str, to: &str, file: &str) -> Job {
         from: settings(from),
         to: settings(to),
         layout: ncc_backends::Layout { numbering: ncc_backends::Numbering::Keep, crlf: false },
+        passes: Vec::new(),
+        fold: None,
         verify: true,
         head: true,
         start: [None; AXES],

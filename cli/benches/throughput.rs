@@ -40,6 +40,8 @@ fn job(from: &str, to: &str, verify: bool) -> Job {
         from: settings(from),
         to: settings(to),
         layout: Layout::default(),
+        passes: Vec::new(),
+        fold: None,
         verify,
         head: true,
         start: [None; 6],

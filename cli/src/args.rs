@@ -10,6 +10,7 @@ use ncc_backends::Numbering;
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Verdict;
 use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::passes::Pass;
 
 /// `ncc` and its verbs.
 #[derive(Debug, Parser)]
@@ -102,6 +103,19 @@ pub struct Translate {
         help_heading = "What to translate"
     )]
     pub start: Option<Start>,
+
+    /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
+    #[arg(long, value_name = "NAME", value_parser = pass, help_heading = "What to translate")]
+    pub pass: Vec<&'static Pass>,
+    /// 0 keeps the source's structure; 1 folds long-hand holes into cycles, and positions into
+    /// patterns [default: 0; 1 from canon]
+    #[arg(
+        short = 'O',
+        value_name = "LEVEL",
+        value_parser = clap::value_parser!(u8).range(0..=1),
+        help_heading = "What to translate"
+    )]
+    pub optimise: Option<u8>,
 
     /// Write the program to this file instead of stdout; it appears whole or not at all
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
@@ -262,6 +276,10 @@ pub enum Color {
 
 /// Where the axes stand before the first block.
 pub type Start = [Option<Nanos>; AXES];
+
+fn pass(name: &str) -> Result<&'static Pass, String> {
+    crate::rewrite::pass(name).ok_or_else(|| "there is no such pass; `ncc passes` lists them".to_owned())
+}
 
 fn verdicts() -> impl TypedValueParser<Value = Verdict> {
     PossibleValuesParser::new(Verdict::ALL.map(Verdict::name))

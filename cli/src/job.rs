@@ -10,6 +10,7 @@ use ncc_dialects::Settings;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::num::Nanos;
+use ncc_ir::passes::Pass;
 use tempfile::SpooledTempFile;
 
 /// A translation to be done.
@@ -21,6 +22,11 @@ pub struct Job {
     pub to: Settings,
     /// How the output is laid out.
     pub layout: Layout,
+    /// Passes that the source's program goes through first, in this order.
+    pub passes: Vec<&'static Pass>,
+    /// Whether long-hand holes and lists of positions are folded into cycles and patterns; `None`
+    /// where the source is a list of events that has no other form.
+    pub fold: Option<bool>,
     /// Whether the output is read back and compared. Without, its head says UNVERIFIED.
     pub verify: bool,
     /// Whether the output opens with the comment that names source, hash and assumptions.
@@ -39,6 +45,12 @@ pub struct Job {
 }
 
 impl Job {
+    /// Whether long-hand text is folded. A list of events is, unless the target is one as well.
+    pub fn folds(&self) -> bool {
+        let (from, to) = (&self.from.dialect.caps, &self.to.dialect.caps);
+        !to.flat && self.fold.unwrap_or(from.flat)
+    }
+
     /// Whether a verdict stops this translation. What is denied stops even if it is allowed.
     pub fn stops(&self, verdict: Verdict) -> bool {
         self.deny.contains(&verdict) || (verdict.stops() && !self.allow.contains(&verdict))

@@ -17,6 +17,7 @@ pub mod judge;
 pub mod problem;
 pub mod render;
 pub mod report;
+pub mod rewrite;
 pub mod run;
 pub mod sugar;
 pub mod translate;

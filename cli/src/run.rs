@@ -166,6 +166,8 @@ fn translated(
         from: settings(from, &args.from_option)?,
         to,
         layout: Layout { numbering: args.number, crlf },
+        passes: args.pass.clone(),
+        fold: args.optimise.map(|level| level > 0),
         verify: !args.no_verify,
         head: !args.no_head,
         start: args.start.unwrap_or_default(),

@@ -11,13 +11,15 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::passes::Legaliser;
+use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
 
 use crate::chunks::{Chunk, Chunks};
 use crate::head;
 use crate::job::{Failure, Job, Outcome, Output};
+use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
 
 /// After so many errors, reading more of the program would help nobody.
@@ -57,6 +59,7 @@ struct Line<'j> {
     job: &'j Job,
     reader: Reader,
     batch: Batch,
+    folder: Option<Folder>,
     legaliser: Legaliser,
     writer: Writer,
     text: Vec<u8>,
@@ -77,12 +80,15 @@ impl<'j> Line<'j> {
     fn new(job: &'j Job) -> Line<'j> {
         let mut legaliser = Legaliser::new(&job.to.dialect.caps, legal_decimals(job), peck_clearance(job));
         legaliser.stand_at(&job.start);
+        let start = Tracker { position: job.start, ..Tracker::default() };
+        let folder = job.folds().then(|| Folder::new(target(job), start));
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
         writer.stand_at(&job.start);
         let mut line = Line {
             job,
             reader: Reader::new(job.from.clone(), true),
             batch: Batch::default(),
+            folder,
             legaliser,
             writer,
             text: Vec::new(),
@@ -114,29 +120,33 @@ impl<'j> Line<'j> {
     fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
         self.reader.read(text, base, &mut self.batch);
         self.take_diagnostics();
-        if self.batch.whole {
+        if self.batch.whole || !self.job.passes.is_empty() {
             return Ok(());
         }
         self.count();
         let mut stmts = std::mem::take(&mut self.batch.stmts);
-        self.streamed(&mut stmts)?;
+        self.streamed(&mut stmts, false)?;
         stmts.clear();
         self.batch.stmts = stmts;
         Ok(())
     }
 
     /// Statements of a program that streams.
-    fn streamed(&mut self, stmts: &mut Vec<Stmt>) -> io::Result<()> {
+    fn streamed(&mut self, stmts: &mut Vec<Stmt>, over: bool) -> io::Result<()> {
         if self.errors > 0 {
             return Ok(());
         }
         let assumed = self.batch.assumed;
         let mut found = Vec::new();
+        let unfolded = match &mut self.folder {
+            Some(folder) => Some(folder.piece(stmts, &assumed, over, &mut found)),
+            None => None,
+        };
         self.state_given(stmts);
-        let touched = self.legaliser.touches(stmts);
+        let touched = unfolded.is_some() || self.legaliser.touches(stmts);
         if touched {
             // What the passes take for granted holds for the source as well.
-            let original = stmts.clone();
+            let original = unfolded.unwrap_or_else(|| stmts.clone());
             self.legaliser.run(stmts, &assumed, &mut found);
             self.take_parameters(&found);
             self.check(|v| v.source(&original, &assumed));
@@ -156,11 +166,11 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         self.count();
-        if self.batch.whole {
+        if self.batch.whole || !self.job.passes.is_empty() {
             return self.end_whole();
         }
         let mut stmts = std::mem::take(&mut self.batch.stmts);
-        self.streamed(&mut stmts)?;
+        self.streamed(&mut stmts, true)?;
         stmts.clear();
         let assumed = self.batch.assumed;
         let mut found = Vec::new();
@@ -176,7 +186,8 @@ impl<'j> Line<'j> {
     /// The end of a program of which the rest was kept whole.
     fn end_whole(&mut self) -> io::Result<()> {
         let assumed = self.batch.assumed;
-        let body = std::mem::take(&mut self.batch.stmts);
+        let mut body = self.folder.as_mut().map(Folder::held).unwrap_or_default();
+        body.append(&mut self.batch.stmts);
         let mut procedures = vec![Procedure { body, ..Procedure::default() }];
         procedures.append(&mut self.batch.procedures);
         let source = Program { name: self.batch.name.clone(), assumed, procedures };
@@ -185,6 +196,13 @@ impl<'j> Line<'j> {
             self.state_given(&mut main.body);
         }
         let mut found = Vec::new();
+        let start = Tracker { position: self.job.start, modes: assumed, ..Tracker::default() };
+        let entry = self.folder.as_ref().map_or(&start, |folder| &folder.entry);
+        let mut passes = self.job.passes.clone();
+        if self.folder.is_some() {
+            passes.extend(rewrite::folds());
+        }
+        rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
         self.legaliser.run_program(&mut program, &mut found);
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {
@@ -393,6 +411,12 @@ fn without(assumed: &Modes, stated: &Modes) -> Modes {
         length_offset: keep(assumed.length_offset, stated.length_offset),
         no_origin_shift: keep(assumed.no_origin_shift, stated.no_origin_shift),
     }
+}
+
+/// The target as the passes see it.
+fn target(job: &Job) -> Target {
+    let caps = job.to.dialect.caps.clone();
+    Target { caps, decimals: legal_decimals(job), peck_clearance: peck_clearance(job), break_lift: None }
 }
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.

@@ -423,6 +423,8 @@ mod tests {
             from: settings.clone(),
             to: settings,
             layout: Layout::default(),
+            passes: Vec::new(),
+            fold: None,
             verify: true,
             head: true,
             start: [None; AXES],

@@ -14,6 +14,8 @@ fuzz_target!(|data: &[u8]| {
         from: pick(*from),
         to: pick(*to),
         layout: ncc_backends::Layout::default(),
+        passes: Vec::new(),
+        fold: None,
         verify: true,
         head: true,
         start: [None; 6],

@@ -1,0 +1,122 @@
+//! Rewriting that the user asks for: passes by name, and folding long-hand text back into cycles and
+//! patterns.
+//!
+//! Folding works on a program that streams: what could be the beginning of a hole or of a pattern is
+//! held back until a statement comes that can be part of neither.
+
+use ncc_ir::canon::{Axis, Modes};
+use ncc_ir::caps::Caps;
+use ncc_ir::diag::Diagnostic;
+use ncc_ir::passes::{FOLDS, PASSES, Pass, Target};
+use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::track::Tracker;
+
+/// Statements that are held back at most; a program of holes alone is folded in stretches.
+const MOST_HELD: usize = 1 << 16;
+
+/// The pass of a name.
+pub fn pass(name: &str) -> Option<&'static Pass> {
+    PASSES.iter().find(|pass| pass.name == name)
+}
+
+/// Runs passes on a program, one after the other. An expansion that is asked for expands everything,
+/// whatever the target could say; a fold writes what the target can say.
+pub(crate) fn run(
+    passes: &[&'static Pass],
+    program: &mut Program,
+    target: &Target,
+    entry: &Tracker,
+    found: &mut Vec<Diagnostic>,
+) {
+    let nothing = Target { caps: Caps::default(), ..target.clone() };
+    for pass in passes {
+        let target = if FOLDS.contains(&pass.name) { target } else { &nothing };
+        (pass.run)(program, target, entry, found);
+    }
+}
+
+/// The passes that fold.
+pub(crate) fn folds() -> Vec<&'static Pass> {
+    FOLDS.iter().filter_map(|name| pass(name)).collect()
+}
+
+/// Folding of a program that streams.
+pub(crate) struct Folder {
+    passes: Vec<&'static Pass>,
+    target: Target,
+    /// Statements that more may have to be known about.
+    held: Vec<Stmt>,
+    /// What holds before the held ones.
+    pub(crate) entry: Tracker,
+    assumed: Modes,
+}
+
+impl Folder {
+    pub(crate) fn new(target: Target, entry: Tracker) -> Folder {
+        Folder { passes: folds(), target, held: Vec::new(), entry, assumed: Modes::default() }
+    }
+
+    /// Further statements. What need not be held back is given as it was, and folded.
+    pub(crate) fn piece(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        assumed: &Modes,
+        over: bool,
+        found: &mut Vec<Diagnostic>,
+    ) -> Vec<Stmt> {
+        self.assume(assumed);
+        self.held.append(stmts);
+        let ready = if over || self.held.len() > MOST_HELD {
+            self.held.len()
+        } else {
+            // A block stays whole.
+            let end = self.held.iter().rposition(|s| separates(&s.op)).map_or(0, |at| at + 1);
+            end + self.held[end..].iter().take_while(|s| s.joined).count()
+        };
+        let original: Vec<Stmt> = self.held.drain(..ready).collect();
+        let procedures = vec![Procedure { body: original.clone(), ..Procedure::default() }];
+        let mut program = Program { procedures, ..Program::default() };
+        run(&self.passes, &mut program, &self.target, &self.entry, found);
+        for stmt in &original {
+            self.entry.step(stmt);
+        }
+        if let Some(main) = program.procedures.first_mut() {
+            stmts.append(&mut main.body);
+        }
+        original
+    }
+
+    /// The statements that are held back, for a program of which the rest is kept whole.
+    pub(crate) fn held(&mut self) -> Vec<Stmt> {
+        std::mem::take(&mut self.held)
+    }
+
+    /// Takes over facts that were taken for granted since the last time.
+    fn assume(&mut self, assumed: &Modes) {
+        if self.assumed == *assumed {
+            return;
+        }
+        let modes = &mut self.entry.modes;
+        modes.motion = modes.motion.or(assumed.motion);
+        modes.distance = modes.distance.or(assumed.distance);
+        modes.units = modes.units.or(assumed.units);
+        modes.plane = modes.plane.or(assumed.plane);
+        modes.feed_mode = modes.feed_mode.or(assumed.feed_mode);
+        modes.return_level = modes.return_level.or(assumed.return_level);
+        modes.work_offset = modes.work_offset.or(assumed.work_offset);
+        modes.length_offset = modes.length_offset.or(assumed.length_offset);
+        modes.no_origin_shift = modes.no_origin_shift.or(assumed.no_origin_shift);
+        self.assumed = *assumed;
+    }
+}
+
+/// Whether a statement can be part neither of a hole nor of a pattern: a cut in the plane, an arc, a
+/// change of the tool, the end.
+fn separates(op: &Op) -> bool {
+    match op {
+        Op::StraightFeed(m) => [Axis::X, Axis::Y].into_iter().any(|axis| m.to.get(axis).is_some())
+            && m.to.get(Axis::Z).is_none(),
+        Op::ArcFeed(_) | Op::ArcForm(_) | Op::ChangeTool | Op::EndCycle | Op::ProgramEnd => true,
+        _ => false,
+    }
+}
