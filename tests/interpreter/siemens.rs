@@ -375,20 +375,16 @@ impl<'a> Control<'a> {
         std::array::from_fn(|axis| shift[axis] + if axis < 3 { xyz[axis] } else { place[axis] })
     }
 
-    fn take_edge(&mut self, edge: u32, tool: Option<u32>) -> Result<(), Halt> {
-        if tool.is_none() && edge > 0 {
-            return self.m.halt("an edge of a tool that is not known");
-        }
+    /// Length is that of an edge of the tool in the spindle; like another work offset it moves nothing.
+    fn take_edge(&mut self, edge: u32, tool: Option<u32>) {
         if (edge, tool) != (self.edge, self.m.tool) {
-            let turned = self.frame.turns();
             self.m.settled[2] = false;
-            if turned {
+            if self.frame.turns() {
                 self.m.settled[..3].fill(false);
             }
         }
         self.edge = edge;
         self.m.entry = if edge == 0 { 0 } else { tool.unwrap_or(0) };
-        Ok(())
     }
 
     fn words(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
@@ -444,10 +440,10 @@ impl<'a> Control<'a> {
                 return self.m.halt("M6 with a move or another M");
             }
             let tool = self.m.selected;
-            self.take_edge(edge.unwrap_or(1), tool)?;
+            self.take_edge(edge.unwrap_or(1), tool);
             self.m.change_tool()?;
         } else if let Some(edge) = edge {
-            self.take_edge(edge, self.m.tool)?;
+            self.take_edge(edge, self.m.tool);
         }
         for code in &m_codes {
             match code {

@@ -1,7 +1,7 @@
-//! Canned cycles against the moves that a source from outside gives for them.
+//! Canned cycles, and what else is cited, against the moves that a source from outside gives.
 //!
 //! `tests/cycles/*.md`: the source, the program, the moves. Both the second interpreter and the
-//! compiler must make exactly these moves.
+//! compiler must make exactly these moves; the compiler in the dialects that it reads.
 
 use std::path::PathBuf;
 
@@ -11,6 +11,9 @@ use ncc_tests::interpreter::Setup;
 use ncc_tests::page::{self, Page};
 use ncc_tests::plain::{self, Happening, Plain, Tolerance};
 use ncc_tests::translate;
+
+/// Dialects of cited programs.
+const CITED: [&str; 3] = ["mach9", "fanuc", "siemens"];
 
 /// A cited example.
 struct Cited {
@@ -33,7 +36,7 @@ fn read(path: &PathBuf) -> Cited {
     let page: Page = page::read(&std::fs::read_to_string(path).expect("a page that can be read"));
     assert!(page.fact("source").is_some_and(|s| s.len() > 20), "{name}: no source");
     let unit = if page.fact("unit") == Some("inch") { 25.4 } else { 1.0 };
-    let dialect = ["mach9", "fanuc"].into_iter().find(|d| page.block(d).is_some()).expect("a program");
+    let dialect = CITED.into_iter().find(|d| page.block(d).is_some()).expect("a program");
     let number = |word: &str| word.parse::<f64>().unwrap_or_else(|_| panic!("{name}: {word}"));
     let mut start = [0.0; 6];
     for (axis, word) in page.fact("start").expect("a start").split(' ').enumerate() {
@@ -54,6 +57,15 @@ fn read(path: &PathBuf) -> Cited {
             "traverse" => (Happening::Traverse, place(&words[1..]), 0.0),
             "feed" => (Happening::Feed, place(&words[1..]), number(&words[4][1..]) * unit),
             "dwell" => (Happening::Dwell(number(words[1])), last, 0.0),
+            // End point, plane, centre on its two axes, sweep.
+            "arc" => {
+                let normal = ["yz", "zx", "xy"].iter().position(|p| *p == words[4]).expect("a plane");
+                let (first, second) = [(1, 2), (2, 0), (0, 1)][normal];
+                let centre = [number(words[5]) * unit, number(words[6]) * unit];
+                let radius = (last[first] - centre[0]).hypot(last[second] - centre[1]);
+                let what = Happening::Arc { normal, centre, sweep: number(words[7]), radius };
+                (what, place(&words[1..]), number(&words[8][1..]) * unit)
+            }
             other => panic!("{name}: {other}"),
         };
         moves.push(Plain { what, at, feed, tool: None, speed: 0.0, coolant: (false, false) });
@@ -70,11 +82,19 @@ fn read(path: &PathBuf) -> Cited {
     }
 }
 
+/// The pages of dialects that the compiler reads.
+fn cited_to_the_compiler() -> Vec<Cited> {
+    cited().into_iter().filter(|c| corpus::DIALECTS.contains(&c.dialect)).collect()
+}
+
 /// Only moves and dwells, without what the examples leave out: tools, spindle, coolant, the end.
 fn bare(events: Vec<Plain>) -> Vec<Plain> {
     events
         .into_iter()
-        .filter(|e| matches!(e.what, Happening::Traverse | Happening::Feed | Happening::Dwell(_)))
+        .filter(|e| {
+            use Happening::{Arc, Dwell, Feed, Traverse};
+            matches!(e.what, Traverse | Feed | Dwell(_) | Arc { .. })
+        })
         .map(|e| Plain { tool: None, speed: 0.0, coolant: (false, false), ..e })
         .collect()
 }
@@ -114,11 +134,12 @@ fn the_second_interpreter_makes_the_cited_moves() {
 #[test]
 fn the_compiler_makes_the_cited_moves() {
     let mut failures = Failures::default();
-    for c in cited() {
+    for c in cited_to_the_compiler() {
         let result = translate::read(c.dialect, c.text.as_bytes()).and_then(|program| {
             let mut world = plain::world(0);
             world.start = c.start.map(|mm| (mm * 1e9).round() as i64);
             world.peck_clearance = ncc_ir::num::ONE;
+            world.break_lift = ncc_ir::num::ONE;
             let events = translate::execute(&program, &world, 0)?;
             let made = bare(plain::of_events(&events, c.start));
             plain::compare(&joined(&c.moves), &joined(&made), c.within)
@@ -132,7 +153,7 @@ fn the_compiler_makes_the_cited_moves() {
 #[test]
 fn written_out_they_make_the_cited_moves() {
     let mut failures = Failures::default();
-    for c in cited() {
+    for c in cited_to_the_compiler() {
         let mut job = translate::job(c.dialect, "canon", "cited");
         let mut program = c.text.clone();
         if c.dialect == "fanuc" {

@@ -12,5 +12,6 @@ mod pairs;
 mod passes;
 mod second;
 mod shared;
+mod siemens_second;
 mod text_forms;
 mod tidy;

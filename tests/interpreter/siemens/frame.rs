@@ -18,8 +18,8 @@ impl Frame {
     /// Factors along the axes; -1 mirrors.
     pub(super) fn factors(by: [f64; 3]) -> Frame {
         let mut frame = Frame::NONE;
-        for axis in 0..3 {
-            frame.m[axis][axis] = by[axis];
+        for (axis, factor) in by.into_iter().enumerate() {
+            frame.m[axis][axis] = factor;
         }
         frame
     }
