@@ -7,6 +7,9 @@
 
 pub mod absolute_holes;
 pub mod approach;
+pub mod convert_arcs;
+pub mod convert_distance;
+pub mod convert_units;
 pub mod expand_calls;
 pub mod expand_cycles;
 pub mod expand_patterns;
@@ -126,6 +129,33 @@ pub const PASSES: &[Pass] = &[
         name: "flatten-facts",
         about: "gives every move all its axes, from program zero",
         run: flatten_facts::run,
+    },
+    // Only when asked for: another way to write the same.
+    Pass {
+        name: "millimetres",
+        about: "writes lengths and feeds in millimetres",
+        run: convert_units::millimetres,
+    },
+    Pass { name: "inches", about: "writes lengths and feeds in inches", run: convert_units::inches },
+    Pass {
+        name: "arcs-by-centre",
+        about: "gives arcs by radius their centre",
+        run: convert_arcs::by_centre,
+    },
+    Pass {
+        name: "arcs-by-radius",
+        about: "gives arcs their radius instead of the centre, where it says the same",
+        run: convert_arcs::by_radius,
+    },
+    Pass {
+        name: "absolute",
+        about: "measures words of moves from program zero",
+        run: convert_distance::absolute,
+    },
+    Pass {
+        name: "incremental",
+        about: "measures words of moves from where the axes stand",
+        run: convert_distance::incremental,
     },
 ];
 

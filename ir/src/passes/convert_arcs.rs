@@ -1,0 +1,111 @@
+//! `arcs-by-centre` and `arcs-by-radius`: every arc is given in one way.
+//!
+//! A radius is written where it says the same arc to within the target's digits: not for whole
+//! circles and turns, and not near half a turn, where a digit of the radius moves the centre far.
+//! Such arcs keep their centre.
+
+use super::walk::Walk;
+use super::write::{rounded, unit_of};
+use super::{Target, each_body};
+use crate::canon::{Axis, Units};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::geometry;
+use crate::num::{Nanos, POW10, Unit};
+use crate::program::{Arc, Centre, CentreFrom, Op, Program, Stmt};
+use crate::track::Tracker;
+
+/// By centre, from the start of the arc.
+pub fn by_centre(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_arc(program, entry, diags, |arc, walk| {
+        if matches!(arc.centre, Centre::Point { .. }) {
+            return Ok(());
+        }
+        let Some((first, second, start, centre)) = round(arc, &walk.at) else {
+            return Err(unknown(arc, &walk.at));
+        };
+        let mut words: [Option<Expr>; 3] = [None, None, None];
+        for (i, axis) in [first, second].into_iter().enumerate() {
+            let unit = unit_of(axis, walk.unit());
+            let word = rounded(centre[i].wrapping_sub(start[i]), target.decimals_in(unit), unit);
+            words[axis as usize] = Some(word.into());
+        }
+        arc.centre = Centre::Point { words, from: CentreFrom::Start };
+        Ok(())
+    });
+}
+
+/// By radius, where that says the same.
+pub fn by_radius(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_arc(program, entry, diags, |arc, walk| {
+        if matches!(arc.centre, Centre::Radius(_)) || arc.turns > 0 {
+            return Ok(());
+        }
+        let Some((first, second, start, centre)) = round(arc, &walk.at) else {
+            return Err(unknown(arc, &walk.at));
+        };
+        let end = walk.at.target(&arc.to);
+        let (Some(x), Some(y)) = (end[first as usize], end[second as usize]) else {
+            return Err(unknown(arc, &walk.at));
+        };
+        let end = [x, y];
+        let radius = ((start[0] - centre[0]) as f64).hypot((start[1] - centre[1]) as f64).round() as Nanos;
+        let long = geometry::sweep_degrees(start, end, centre, arc.turn, 0).abs() > 180.0;
+        let decimals = target.decimals_in(walk.unit());
+        let word = rounded(if long { -radius } else { radius }, decimals, walk.unit());
+        let Some(said) = word.nanos(false) else { return Ok(()) };
+        let half = match walk.unit() {
+            Unit::Inch => POW10[9 - decimals.min(9) as usize] * 127 / 10,
+            Unit::One | Unit::Mm | Unit::Entry | Unit::Degree | Unit::Second => {
+                POW10[9 - decimals.min(9) as usize] / 2
+            }
+        };
+        if let Ok(again) = geometry::centre_by_radius(start, end, said, arc.turn)
+            && start != end
+            && again.iter().zip(centre).all(|(a, b)| a.abs_diff(b) <= half as u64)
+        {
+            arc.centre = Centre::Radius(word.into());
+        }
+        Ok(())
+    });
+}
+
+/// Axes of the plane, start and centre, as far as they are known.
+fn round(arc: &Arc, at: &Tracker) -> Option<(Axis, Axis, [Nanos; 2], [Nanos; 2])> {
+    let (first, second, _) = at.plane(arc.plane)?.axes();
+    let start = [at.position[first as usize]?, at.position[second as usize]?];
+    Some((first, second, start, at.centre(arc)?))
+}
+
+fn unknown(arc: &Arc, at: &Tracker) -> Fault {
+    let Some(plane) = at.plane(arc.plane) else {
+        return Fault::EntryFactNeeded { fact: crate::diag::ModeName::Plane };
+    };
+    let (first, second, _) = plane.axes();
+    let axis = [first, second].into_iter().find(|a| at.position[*a as usize].is_none());
+    match (axis, at.modes.units) {
+        (Some(axis), _) => Fault::PositionUnknown { axis: axis.letter() as char },
+        (None, None::<Units>) => Fault::EntryFactNeeded { fact: crate::diag::ModeName::Units },
+        (None, Some(_)) => Fault::ArcRadiusTooSmall,
+    }
+}
+
+fn each_arc(
+    program: &mut Program,
+    entry: &Tracker,
+    diags: &mut Vec<Diagnostic>,
+    mut each: impl FnMut(&mut Arc, &Walk) -> Result<(), Fault>,
+) {
+    each_body(program, entry, |body, walk| {
+        for stmt in body {
+            walk.enter(stmt.skip);
+            let Stmt { op, span, .. } = stmt;
+            if let Op::ArcFeed(arc) = op
+                && let Err(fault) = each(arc, walk)
+            {
+                diags.push(Diagnostic::new(fault, *span));
+            }
+            walk.step(stmt);
+        }
+    });
+}
