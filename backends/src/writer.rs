@@ -24,7 +24,7 @@ impl Writer {
         match settings.dialect.family {
             Family::Word => Writer::Word(Box::new(word::Writer::new(settings, layout))),
             Family::Canon => Writer::Canon(Box::new(canon::Writer::new(settings, layout))),
-            Family::Ir => Writer::Ir(Box::new(ir::Writer::new(settings, layout))),
+            Family::Ir | Family::Sinumerik => Writer::Ir(Box::new(ir::Writer::new(settings, layout))),
         }
     }
 

@@ -101,6 +101,7 @@ fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
         match dialect.family {
             Family::Word => word_line(dialect, number, line, &mut evidence),
             Family::Canon => canon_line(number, line, &mut evidence),
+            Family::Sinumerik => {}
             Family::Ir => {
                 match line.starts_with(b"ncc-ir") {
                     true => {

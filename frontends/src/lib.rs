@@ -60,7 +60,8 @@ impl Reader {
         match settings.dialect.family {
             Family::Word => Reader::Word(Box::new(word::Reader::new(settings, assume))),
             Family::Canon => Reader::Canon(Box::new(canon::Reader::new(settings, assume))),
-            Family::Ir => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
+            // A family is not offered before its reader is there.
+            Family::Ir | Family::Sinumerik => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
         }
     }
 

@@ -24,6 +24,11 @@ pub struct Caps {
     pub pattern_angle: bool,
     /// The way through its grids: whether every second row runs backwards; `None` if either.
     pub grid_serpentine: Option<bool>,
+    /// Grids only with rows that stand at +90 degrees to the columns, both pitches counted positive.
+    pub grid_square: bool,
+    /// Whether the control begins a line or a grid at the end, or corner, that is nearest to where
+    /// the tool stands: the order is that of the pattern only where the tool stands at its first hole.
+    pub order_by_position: bool,
     /// Whether the circle's centre must be program zero and where the tool stands.
     pub circle_centre_at_zero_only: bool,
     /// Whether hole positions may be incremental while a cycle is in force.

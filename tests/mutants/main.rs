@@ -118,7 +118,7 @@ fn form(dialect: &str) -> Form {
             let open = dialect.comment.open.chars().next().expect("comments");
             Form::Letters(open, dialect.comment.close.chars().next())
         }
-        Family::Canon | Family::Ir => Form::Functions,
+        Family::Canon | Family::Ir | Family::Sinumerik => Form::Functions,
     }
 }
 

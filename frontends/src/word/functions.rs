@@ -146,6 +146,7 @@ impl Lower {
                 }
                 Op::ChangeTool
             }
+            Meaning::UseMachineCoordinates => Op::UseMachineCoordinates,
             Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
             Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
             Meaning::StopSpindleTurning => Op::StopSpindleTurning,

@@ -29,7 +29,7 @@ pub(super) struct Lower {
     /// Whether what the program never says is taken for granted and reported.
     pub(super) assume: bool,
     /// Number rules by quantity.
-    pub(super) rules: [NumberRules; 7],
+    pub(super) rules: [NumberRules; 8],
     /// Whether a number without a point counts whole units where the dictionary says increments.
     pub(super) calculator: bool,
     /// Rows of the address letters.
@@ -100,8 +100,9 @@ impl Lower {
             Quantity::Seconds,
             Quantity::Milliseconds,
             Quantity::Integer,
+            Quantity::Factor,
         ];
-        let mut table = [NumberRules::default(); 7];
+        let mut table = [NumberRules::default(); 8];
         for quantity in rules {
             table[quantity as usize] = dialect.numbers(quantity);
         }

@@ -49,6 +49,7 @@ impl Lower {
             }
             Quantity::Angle => (Unit::Degree, Fact::Entry),
             Quantity::Seconds => (Unit::Second, Fact::Entry),
+            Quantity::Factor => (Unit::One, Fact::Entry),
             Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => {
                 if digits.point {
                     return self.refuse(Fault::PointNotAllowed { word: src.text(word.span) }, word.span, out);

@@ -224,6 +224,7 @@ pub(super) fn rank(meaning: Meaning) -> u8 {
         Meaning::FloodOn | Meaning::MistOn => 12,
         Meaning::Dwell => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
+        Meaning::UseMachineCoordinates => 15,
         Meaning::EndCycle => RANK_MOTION,
         Meaning::StraightTraverse | Meaning::StraightFeed | Meaning::ArcFeed(_) => 21,
         Meaning::StartCycle | Meaning::Pattern => 22,
@@ -256,6 +257,8 @@ fn role_name(role: Role) -> &'static str {
         Role::LengthEntry => "entry of the length table",
         Role::Corrector => "tool corrector",
         Role::RadiusEntry => "entry of the radius table",
+        Role::ToolEdge => "edge of the tool",
+        Role::Call => "number of a subprogram",
         Role::Parameter => "parameter of codes",
     }
 }

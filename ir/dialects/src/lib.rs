@@ -9,10 +9,12 @@
 
 mod load;
 mod meaning;
+mod names;
 mod schema;
 mod settings;
 
 pub use load::{DialectError, builtin, builtins, parse};
 pub use meaning::Meaning;
+pub use names::*;
 pub use schema::*;
 pub use settings::{SettingError, Settings};

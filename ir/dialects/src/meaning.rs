@@ -24,6 +24,7 @@ pub enum Meaning {
     SetReturnLevel(ReturnLevel),
     SetOriginOffsets(u16),
     ClearFrame(FrameSlot),
+    UseMachineCoordinates,
     StopCutterRadiusCompensation,
     /// Takes up the length entry that a word of the block names.
     UseToolLengthOffset,
@@ -82,6 +83,7 @@ impl fmt::Display for Meaning {
             Meaning::ClearFrame(slot) => {
                 return write!(f, "CLEAR_FRAME {}", format!("{slot:?}").to_lowercase());
             }
+            Meaning::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::UseToolLengthOffset => "USE_TOOL_LENGTH_OFFSET",
             Meaning::CancelToolLengthOffset => "USE_TOOL_LENGTH_OFFSET 0",
@@ -132,6 +134,7 @@ impl FromStr for Meaning {
                 Meaning::SetOriginOffsets(number.parse().map_err(|_| format!("no work offset: {text}"))?)
             }
             ("CLEAR_FRAME", "shift") => Meaning::ClearFrame(FrameSlot::Shift),
+            ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates,
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("USE_TOOL_LENGTH_OFFSET", "") => Meaning::UseToolLengthOffset,
             ("USE_TOOL_LENGTH_OFFSET", "0") => Meaning::CancelToolLengthOffset,
@@ -160,7 +163,7 @@ impl FromStr for Meaning {
 mod tests {
     #[test]
     fn every_meaning_in_a_dictionary_is_written_as_it_is_read() {
-        for row in crate::builtins().iter().flat_map(|d| &d.code) {
+        for row in crate::load::DIALECTS.iter().flat_map(|d| &d.code) {
             if let Some(meaning) = row.means {
                 assert_eq!(meaning.to_string().parse(), Ok(meaning));
             }

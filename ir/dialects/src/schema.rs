@@ -11,6 +11,7 @@ use ncc_ir::cycle::Approach;
 use serde::Deserialize;
 
 use crate::meaning::Meaning;
+use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
 
 /// A dialect's dictionary.
 #[derive(Clone, Debug, Deserialize)]
@@ -58,6 +59,12 @@ pub struct Dialect {
     /// G and M codes.
     #[serde(default)]
     pub code: Vec<CodeRow>,
+    /// Words of several letters.
+    #[serde(default)]
+    pub name: Vec<NameRow>,
+    /// Cycles and patterns that are called by name with arguments.
+    #[serde(default)]
+    pub call: Vec<CallRow>,
     /// State at power-on.
     #[serde(default)]
     pub power_on: PowerOn,
@@ -88,6 +95,8 @@ pub enum Family {
     Canon,
     /// The text form of the IR.
     Ir,
+    /// Words and names in blocks, with a grammar of its own.
+    Sinumerik,
 }
 
 /// The frame of a program's text.
@@ -151,8 +160,11 @@ pub struct BlockRules {
     pub number: Option<char>,
     /// What marks a block that can be skipped; empty if there is no such thing.
     pub skip: String,
-    /// Highest skip level that can be written after the mark; 1 means the mark alone.
+    /// Highest skip level that can be written after the mark; 1 means the mark alone. Where the
+    /// plain mark is the digit 0, level 10 is the digit 1.
     pub skip_levels: u8,
+    /// Whether a word can say by itself that it is absolute or incremental: `X=IC(5)`.
+    pub qualifiers: bool,
     /// Whether the skip rows are confirmed.
     pub skip_unsure: bool,
     /// Longest block when reading, in bytes.
@@ -179,6 +191,8 @@ pub enum Quantity {
     Milliseconds,
     /// A whole number.
     Integer,
+    /// A pure number.
+    Factor,
 }
 
 /// How numbers of one kind are read and written.
@@ -279,6 +293,10 @@ pub enum Role {
     Corrector,
     /// Entry of the radius table.
     RadiusEntry,
+    /// Edge of the tool in the spindle: its length.
+    ToolEdge,
+    /// Number of a subprogram: calls it.
+    Call,
     /// Only a parameter of codes that name it.
     Parameter,
 }
@@ -379,6 +397,10 @@ impl PatternRow {
 pub struct CodeRow {
     /// The code as it is written: `G01`, `M6`.
     pub code: String,
+    /// The number of the last code, if the row stands for several work offsets in sequence, each
+    /// with the next number: `G505` up to 599. The loader makes a row of each.
+    #[serde(default)]
+    pub upto: Option<u16>,
     /// What it means; without, it is refused by `refuse`.
     #[serde(default)]
     pub means: Option<Meaning>,
@@ -536,7 +558,7 @@ pub struct CodeIndex {
     pub letter: [Option<u8>; 26],
 }
 
-fn yes() -> bool {
+pub(crate) fn yes() -> bool {
     true
 }
 
@@ -578,5 +600,30 @@ impl Dialect {
     /// The pattern row of a code.
     pub fn pattern_row(&self, code: &str) -> Option<&PatternRow> {
         self.pattern.iter().find(|row| row.code() == code)
+    }
+
+    /// The row of a word of several letters, which must be in capitals.
+    pub fn name_row(&self, name: &str) -> Option<&NameRow> {
+        self.name.iter().find(|row| row.name == name)
+    }
+
+    /// The row of a call, whose name must be in capitals.
+    pub fn call_row(&self, name: &str) -> Option<&CallRow> {
+        self.call.iter().find(|row| row.name == name)
+    }
+
+    /// The word of several letters that is written for a meaning.
+    pub fn name_for(&self, meaning: NameMeaning) -> Option<&NameRow> {
+        self.name.iter().find(|row| row.write && row.means == Some(meaning))
+    }
+
+    /// The address of several letters that has a role.
+    pub fn name_with(&self, role: NameRole) -> Option<&NameRow> {
+        self.name.iter().find(|row| row.write && row.role == Some(role))
+    }
+
+    /// The call that is written for a cycle or a pattern.
+    pub fn call_for(&self, kind: CallKind) -> Option<&CallRow> {
+        self.call.iter().find(|row| row.kind == kind)
     }
 }

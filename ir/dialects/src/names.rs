@@ -1,0 +1,321 @@
+//! Words of several letters, and cycles and patterns that are called by name with arguments in
+//! parentheses.
+//!
+//! Not here: what a call's arguments amount to, which is lowering; and rows for letters.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::Deserialize;
+
+use crate::meaning::Meaning;
+use crate::schema::Quantity;
+
+/// A word of several letters: `TRANS`, `SUPA`, `CR`. It has a meaning of its own, or it is an
+/// address with a value behind `=`, or it is refused by a name.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NameRow {
+    /// The word, in capitals. In a data file, a row may name several that are one, parted by a
+    /// blank; the loader makes a row of each.
+    pub name: String,
+    /// What it means.
+    #[serde(default)]
+    pub means: Option<NameMeaning>,
+    /// What its value is, if it is an address.
+    #[serde(default)]
+    pub role: Option<NameRole>,
+    /// What the value counts.
+    #[serde(default)]
+    pub quantity: Option<Quantity>,
+    /// The name by which it is refused.
+    #[serde(default)]
+    pub refuse: Option<String>,
+    /// Its modal group, shared with the codes; empty for one-shots and addresses.
+    #[serde(default)]
+    pub group: String,
+    /// Whether it is written when several words mean the same.
+    #[serde(default = "crate::schema::yes")]
+    pub write: bool,
+    /// Whether the row is confirmed.
+    #[serde(default = "crate::schema::yes")]
+    pub sure: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// What a word of several letters means: what a code can mean, or one of these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(try_from = "String")]
+pub enum NameMeaning {
+    /// As a code.
+    Code(Meaning),
+    /// `SET_FRAME`: replaces the chain of frames; alone, it clears the chain.
+    SetFrame(FrameWord),
+    /// `ADD_FRAME`: appends to the chain of frames; alone, it clears the chain.
+    AddFrame(FrameWord),
+    /// `ARC_THROUGH`: motion, arc through an intermediate point.
+    ArcThrough,
+    /// `ARC_TANGENT`: motion, arc that goes on in the direction of the block before.
+    ArcTangent,
+    /// `CALL modal`: calls what follows after every block with path motion; alone, it ends that.
+    CallModal,
+    /// `MESSAGE`: text for the operator.
+    Message,
+    /// `REPEAT_BLOCKS`
+    RepeatBlocks,
+}
+
+/// What a word for a frame does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // The names are those of `ncc_ir::program::FrameStep`.
+pub enum FrameWord {
+    Translate,
+    Rotate,
+    Scale,
+    Mirror,
+}
+
+impl FrameWord {
+    const ALL: [(FrameWord, &'static str); 4] = [
+        (FrameWord::Translate, "translate"),
+        (FrameWord::Rotate, "rotate"),
+        (FrameWord::Scale, "scale"),
+        (FrameWord::Mirror, "mirror"),
+    ];
+
+    fn named(name: &str) -> Option<FrameWord> {
+        FrameWord::ALL.into_iter().find(|(_, n)| *n == name).map(|(word, _)| word)
+    }
+
+    const fn name(self) -> &'static str {
+        FrameWord::ALL[self as usize].1
+    }
+}
+
+impl TryFrom<String> for NameMeaning {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<NameMeaning, String> {
+        text.parse()
+    }
+}
+
+impl fmt::Display for NameMeaning {
+    /// As a data file spells it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NameMeaning::Code(meaning) => meaning.fmt(f),
+            NameMeaning::SetFrame(word) => write!(f, "SET_FRAME {}", word.name()),
+            NameMeaning::AddFrame(word) => write!(f, "ADD_FRAME {}", word.name()),
+            NameMeaning::ArcThrough => f.write_str("ARC_THROUGH"),
+            NameMeaning::ArcTangent => f.write_str("ARC_TANGENT"),
+            NameMeaning::CallModal => f.write_str("CALL modal"),
+            NameMeaning::Message => f.write_str("MESSAGE"),
+            NameMeaning::RepeatBlocks => f.write_str("REPEAT_BLOCKS"),
+        }
+    }
+}
+
+impl FromStr for NameMeaning {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<NameMeaning, String> {
+        let frame = |name| FrameWord::named(name).ok_or_else(|| format!("no frame: {text}"));
+        Ok(match text.split_once(' ').unwrap_or((text, "")) {
+            ("SET_FRAME", name) => NameMeaning::SetFrame(frame(name)?),
+            ("ADD_FRAME", name) => NameMeaning::AddFrame(frame(name)?),
+            ("ARC_THROUGH", "") => NameMeaning::ArcThrough,
+            ("ARC_TANGENT", "") => NameMeaning::ArcTangent,
+            ("CALL", "modal") => NameMeaning::CallModal,
+            ("MESSAGE", "") => NameMeaning::Message,
+            ("REPEAT_BLOCKS", "") => NameMeaning::RepeatBlocks,
+            _ => NameMeaning::Code(text.parse()?),
+        })
+    }
+}
+
+/// What the value of a named address is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NameRole {
+    /// Radius of an arc, negative for more than 180 degrees.
+    Radius,
+    /// Opening angle of an arc.
+    OpeningAngle,
+    /// Full turns of an arc beyond the first.
+    Turns,
+    /// Intermediate point of an arc along X.
+    ThroughX,
+    /// Along Y.
+    ThroughY,
+    /// Along Z.
+    ThroughZ,
+    /// Angle of a rotation in the plane in force.
+    PlaneAngle,
+}
+
+/// A cycle or a pattern that is called by name with arguments.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CallRow {
+    /// Its name, in capitals.
+    pub name: String,
+    /// What it is.
+    pub kind: CallKind,
+    /// Its parameters in the order of the arguments. Trailing arguments may be left out.
+    pub parameters: Vec<Parameter>,
+    /// Whether the control begins at the end, or corner, that is nearest to where the tool stands;
+    /// the order of the holes is that of the parameters only if the tool stands at the first.
+    #[serde(default)]
+    pub order_by_position: bool,
+    /// Whether the row is confirmed.
+    #[serde(default = "crate::schema::yes")]
+    pub sure: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// What a call is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CallKind {
+    /// Cycle `drill`.
+    Drill,
+    /// Cycle `drill-dwell`.
+    DrillDwell,
+    /// Cycle `drill-peck` or `drill-break`, by [`ParameterRole::Way`].
+    DrillPeck,
+    /// Cycle `bore`.
+    Bore,
+    /// Pattern on a straight line.
+    Line,
+    /// Pattern on a circle.
+    Circle,
+    /// Pattern in rows, every second one backwards.
+    Grid,
+    /// Pattern of positions one after another.
+    List,
+}
+
+impl CallKind {
+    /// Cycles of the neutral program that it can say, by their names.
+    pub const fn cycles(self) -> &'static [&'static str] {
+        match self {
+            CallKind::Drill => &["drill"],
+            CallKind::DrillDwell => &["drill-dwell"],
+            CallKind::DrillPeck => &["drill-peck", "drill-break"],
+            CallKind::Bore => &["bore"],
+            CallKind::Line | CallKind::Circle | CallKind::Grid | CallKind::List => &[],
+        }
+    }
+}
+
+/// A parameter of a call.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Parameter {
+    /// Its name in the maker's manual.
+    pub name: String,
+    /// What it is; without, an argument must be one of `neutral`, or is refused by `refuse`.
+    #[serde(default)]
+    pub role: Option<ParameterRole>,
+    /// What it counts.
+    #[serde(default)]
+    pub quantity: Option<Quantity>,
+    /// Values that change nothing; 0 and an empty argument count always.
+    #[serde(default)]
+    pub neutral: Vec<i64>,
+    /// What another value does.
+    #[serde(default)]
+    pub refuse: Option<String>,
+}
+
+/// What an argument is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ParameterRole {
+    /// Plane to which the tool returns, absolute.
+    ReturnPlane,
+    /// Reference plane, absolute; empty is 0.
+    ReferencePlane,
+    /// Safety distance above the reference plane, unsigned; empty is 0.
+    SafetyDistance,
+    /// Bottom, absolute.
+    Depth,
+    /// Bottom below the reference plane, unsigned; goes before the absolute one.
+    RelativeDepth,
+    /// Dwell at the bottom; of pecks, after each of them.
+    Dwell,
+    /// First depth, absolute.
+    FirstDepth,
+    /// First depth below the reference plane, unsigned.
+    RelativeFirstDepth,
+    /// Dwell above the hole before each further peck.
+    Settle,
+    /// 0 breaks the chip, 1 clears it.
+    Way,
+    /// How far up to break the chip; empty or 0 is 1 mm.
+    Lift,
+    /// Dwell at the bottom; empty or 0 is as after each peck.
+    LastDwell,
+    /// Clearance above the last depth; empty or 0 is the control's own rule.
+    Clearance,
+    /// Feed into the hole.
+    FeedIn,
+    /// Feed out of it.
+    FeedOut,
+    /// Centre or start along the plane's first axis, absolute.
+    First,
+    /// Along its second axis.
+    Second,
+    /// Radius.
+    Radius,
+    /// Angle of the first hole, of the line, or of the rows; empty is 0.
+    Angle,
+    /// Angle from hole to hole; 0 or empty shares a full circle out.
+    Step,
+    /// Number of holes.
+    Count,
+    /// Distance of the first hole from the start.
+    Offset,
+    /// Distance from hole to hole.
+    Pitch,
+    /// Distance from column to column.
+    ColumnPitch,
+    /// Distance from row to row.
+    RowPitch,
+    /// Number of columns: holes of a row.
+    Columns,
+    /// Number of rows.
+    Rows,
+    /// A digit for each position: 1 absolute, 2 incremental along the first axis.
+    FirstFlags,
+    /// Along the second axis.
+    SecondFlags,
+    /// A position along the first axis; there are several such parameters.
+    PointFirst,
+    /// Along the second axis.
+    PointSecond,
+}
+
+impl CallRow {
+    /// Place of the parameter with a role, from 0.
+    pub fn place(&self, role: ParameterRole) -> Option<usize> {
+        self.parameters.iter().position(|p| p.role == Some(role))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::NameMeaning;
+
+    #[test]
+    fn every_meaning_of_a_name_is_written_as_it_is_read() {
+        for row in crate::load::DIALECTS.iter().flat_map(|d| &d.name) {
+            if let Some(meaning) = row.means {
+                assert_eq!(meaning.to_string().parse::<NameMeaning>(), Ok(meaning));
+            }
+        }
+    }
+}
