@@ -12,9 +12,12 @@
 
 use ncc::job::Failure;
 use ncc::judge::Judge;
+use ncc_ir::num::ONE;
+use ncc_ir::world::World;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::page::{self, Page};
+use ncc_tests::plain::{self, Tolerance};
 use ncc_tests::translate::{job, rendered, stopping, translate};
 
 #[test]
@@ -82,6 +85,45 @@ fn pair(page: &Page, from: &str, to: &str) -> Result<bool, String> {
         (Ok(_), true) => Err(format!("the {to} block is the same cut, and the page says that it differs")),
         (Err(d), false) => Err(format!("the {to} block is not the same cut: {:?}", d.fault)),
     }
+}
+
+/// The blocks of a page make the same moves for the second interpreter too, which judges without the
+/// compiler. A control's own peck clearance is the one that the pages name, so nothing differs here.
+#[test]
+fn blocks_agree_by_the_second_interpreter() {
+    let mut failures = Failures::default();
+    let mut compared = 0;
+    for path in corpus::files(&corpus::root().join("tests/pages")) {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let page = page::read(&std::fs::read_to_string(&path).expect("a page"));
+        let blocks: Vec<_> =
+            page.blocks.iter().filter(|b| b.notes.is_empty() && !b.text.is_empty()).collect();
+        for world in [0, 1, 2].map(plain::world) {
+            let world = World { peck_clearance: ONE, break_lift: ONE, ..world };
+            let start = world.start.map(|n| n as f64 / 1e9);
+            for skip in [0, 0b10, 0b100, 0x7fe] {
+                let moves = |dialect: &str, text: &str| {
+                    let machine = plain::second(dialect, text.as_bytes(), plain::setup(&world, skip))?;
+                    Ok::<_, String>(plain::of_machine(&machine, start))
+                };
+                let lists: Vec<_> =
+                    blocks.iter().map(|b| (b.language.as_str(), moves(&b.language, &b.text))).collect();
+                let Some((first, (Ok(expected), rest))) =
+                    lists.split_first().map(|((d, list), rest)| (d, (list, rest)))
+                else {
+                    failures.add(&name, format!("{:?}", lists.first().map(|l| l.1.as_ref().err())));
+                    continue;
+                };
+                for (dialect, list) in rest {
+                    compared += 1;
+                    let result = list.clone().and_then(|l| plain::compare(expected, &l, Tolerance::ROUNDED));
+                    failures.check(format!("{name}: {first} and {dialect}, skip {skip:b}"), result);
+                }
+            }
+        }
+    }
+    println!("{compared} comparisons");
+    failures.finish();
 }
 
 /// The page with its empty blocks translated from the first one that has a text.
