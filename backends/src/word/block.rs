@@ -7,7 +7,9 @@ use super::number::{self, Shaped};
 /// Parts of a block, in the order in which a move is written; in a cycle's call the offset stands
 /// before the motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(crate) enum Part {
+    /// The label of the block.
+    Label,
     /// Codes of settings, dwell and cycle end, with their own words.
     Mode,
     /// Motion, cycle and pattern codes.
@@ -22,11 +24,11 @@ pub(super) enum Part {
     Tail,
 }
 
-const PARTS: usize = 6;
+const PARTS: usize = 7;
 
 /// Place of a statement in the order of one block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Rank {
+pub(crate) enum Rank {
     Setting,
     Feed,
     Speed,
@@ -46,7 +48,7 @@ pub(super) enum Rank {
 
 /// What a statement takes of a block.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Need {
+pub(crate) struct Need {
     rank: Rank,
     g: u8,
     m: u8,
@@ -62,11 +64,11 @@ fn bit(letter: u8) -> u32 {
 }
 
 impl Need {
-    pub(super) fn new(rank: Rank) -> Need {
+    pub(crate) fn new(rank: Rank) -> Need {
         Need { rank, g: 0, m: 0, groups: 0, letters: 0, clash: false }
     }
 
-    pub(super) fn code(mut self, code: Option<Code>) -> Need {
+    pub(crate) fn code(mut self, code: Option<Code>) -> Need {
         if let Some(code) = code {
             if code.is_g() {
                 self.g += 1;
@@ -79,7 +81,7 @@ impl Need {
         self
     }
 
-    pub(super) fn letter(mut self, letter: u8) -> Need {
+    pub(crate) fn letter(mut self, letter: u8) -> Need {
         self.letters |= bit(letter);
         self
     }
@@ -87,7 +89,7 @@ impl Need {
 
 /// A block under construction.
 #[derive(Clone, Debug)]
-pub(super) struct Block {
+pub(crate) struct Block {
     parts: [Vec<u8>; PARTS],
     pub comment: Vec<u8>,
     /// Lines of comment that follow the block.
@@ -110,7 +112,7 @@ pub(super) struct Block {
 
 impl Block {
     /// An empty block; 0 of `most_g` or `most_m` is no limit.
-    pub(super) fn new(blanks: bool, most_g: u8, most_m: u8) -> Block {
+    pub(crate) fn new(blanks: bool, most_g: u8, most_m: u8) -> Block {
         Block {
             parts: Default::default(),
             comment: Vec::new(),
@@ -131,17 +133,17 @@ impl Block {
     }
 
     /// Whether no word stands in it.
-    pub(super) fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.parts.iter().all(Vec::is_empty)
     }
 
     /// Whether an address letter stands in it.
-    pub(super) fn has(&self, letter: u8) -> bool {
+    pub(crate) fn has(&self, letter: u8) -> bool {
         self.letters & bit(letter) != 0
     }
 
     /// Whether the block can take a statement and still be read in the order of its statements.
-    pub(super) fn fits(&self, need: &Need) -> bool {
+    pub(crate) fn fits(&self, need: &Need) -> bool {
         let Some(rank) = self.rank else { return true };
         let ordered = rank < need.rank || (rank == need.rank && rank == Rank::Setting);
         // A dwell takes over letters of the block, so no motion goes with it.
@@ -158,14 +160,14 @@ impl Block {
     }
 
     /// Whether a statement fits into a block at all.
-    pub(super) fn possible(&self, need: &Need) -> bool {
+    pub(crate) fn possible(&self, need: &Need) -> bool {
         !need.clash
             && (self.most_g == 0 || need.g <= self.most_g)
             && (self.most_m == 0 || need.m <= self.most_m)
     }
 
     /// Whether the feed may go over to the next block, which is a motion.
-    pub(super) fn feed_can_wait(&self, need: &Need) -> bool {
+    pub(crate) fn feed_can_wait(&self, need: &Need) -> bool {
         need.rank == Rank::Motion
             && self.rank.is_some_and(|r| r < Rank::Motion)
             && !self.parts[Part::Feed as usize].is_empty()
@@ -177,20 +179,20 @@ impl Block {
     }
 
     /// Takes the feed out.
-    pub(super) fn take_feed(&mut self) -> Vec<u8> {
+    pub(crate) fn take_feed(&mut self) -> Vec<u8> {
         self.letters &= !self.feed_letter();
         std::mem::take(&mut self.parts[Part::Feed as usize])
     }
 
     /// Puts a feed in that [`Block::take_feed`] took out.
-    pub(super) fn put_feed(&mut self, feed: Vec<u8>) {
+    pub(crate) fn put_feed(&mut self, feed: Vec<u8>) {
         self.parts[Part::Feed as usize] = feed;
         self.letters |= self.feed_letter();
         self.rank = self.rank.max(Some(Rank::Feed));
     }
 
     /// Notes what a statement takes.
-    pub(super) fn take(&mut self, need: &Need) {
+    pub(crate) fn take(&mut self, need: &Need) {
         self.rank = Some(need.rank);
         self.g += need.g;
         self.m += need.m;
@@ -206,7 +208,7 @@ impl Block {
         to
     }
 
-    pub(super) fn code(&mut self, part: Part, code: &Code) {
+    pub(crate) fn code(&mut self, part: Part, code: &Code) {
         if code.unsure.is_some() {
             self.unsure.push(*code);
         }
@@ -214,24 +216,29 @@ impl Block {
         self.part(part).extend_from_slice(text);
     }
 
-    pub(super) fn word(&mut self, part: Part, letter: u8, value: Shaped) {
+    pub(crate) fn word(&mut self, part: Part, letter: u8, value: Shaped) {
         let to = self.part(part);
         to.push(letter);
         number::append(to, value);
     }
 
+    /// A word that is not a letter and a number.
+    pub(crate) fn text(&mut self, part: Part, text: &str) {
+        self.part(part).extend_from_slice(text.as_bytes());
+    }
+
     /// A word with digits of its own.
-    pub(super) fn digits(&mut self, part: Part, letter: u8, digits: &str) {
+    pub(crate) fn digits(&mut self, part: Part, letter: u8, digits: &str) {
         let to = self.part(part);
         to.push(letter);
         to.extend_from_slice(digits.as_bytes());
     }
 
     /// Appends the words to a line and empties the block, all but its skip level.
-    pub(super) fn write(&mut self, to: &mut Vec<u8>, mut blank: bool) {
+    pub(crate) fn write(&mut self, to: &mut Vec<u8>, mut blank: bool) {
         let order = match self.calls_up {
-            true => [Part::Mode, Part::Offset, Part::Motion, Part::Axes, Part::Feed, Part::Tail],
-            false => [Part::Mode, Part::Motion, Part::Offset, Part::Axes, Part::Feed, Part::Tail],
+            true => [Part::Label, Part::Mode, Part::Offset, Part::Motion, Part::Axes, Part::Feed, Part::Tail],
+            false => [Part::Label, Part::Mode, Part::Motion, Part::Offset, Part::Axes, Part::Feed, Part::Tail],
         };
         for part in order {
             let from = &mut self.parts[part as usize];

@@ -11,7 +11,7 @@ use super::number::Format;
 
 /// A G or M code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Code {
+pub(crate) struct Code {
     text: [u8; 8],
     len: u8,
     /// One bit for its modal group, 0 for a one-shot.
@@ -23,37 +23,37 @@ pub(super) struct Code {
 impl Code {
     /// The text with what fills it up, and its length.
     #[inline]
-    pub(super) fn padded(&self) -> (&[u8; 8], usize) {
+    pub(crate) fn padded(&self) -> (&[u8; 8], usize) {
         (&self.text, usize::from(self.len))
     }
 
-    pub(super) fn text(&self) -> &[u8] {
+    pub(crate) fn text(&self) -> &[u8] {
         &self.text[..usize::from(self.len)]
     }
 
     /// Whether it is a G code.
-    pub(super) fn is_g(&self) -> bool {
+    pub(crate) fn is_g(&self) -> bool {
         self.text[0] == b'G'
     }
 }
 
 /// An address letter and the form of its numbers.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Letter {
+pub(crate) struct Letter {
     pub letter: u8,
     pub format: Format,
 }
 
 /// A word that says how long to dwell.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Dwell {
+pub(crate) struct Dwell {
     pub word: Letter,
     pub milliseconds: bool,
 }
 
 /// A canned cycle's words.
 #[derive(Clone, Debug)]
-pub(super) struct CycleCode {
+pub(crate) struct CycleCode {
     pub kind: String,
     pub code: Code,
     pub depth: Letter,
@@ -64,7 +64,7 @@ pub(super) struct CycleCode {
 
 /// A bolt circle's words.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CircleCode {
+pub(crate) struct CircleCode {
     pub code: Code,
     pub first: [Letter; 2],
     pub centre: [Letter; 2],
@@ -74,7 +74,7 @@ pub(super) struct CircleCode {
 
 /// A grid's words.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct GridCode {
+pub(crate) struct GridCode {
     pub code: Code,
     pub pitch: [Letter; 2],
     pub counts: [Letter; 2],
@@ -83,7 +83,7 @@ pub(super) struct GridCode {
 
 /// A call's words: the number, and the count where it has a letter of its own.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct CallCode {
+pub(crate) struct CallCode {
     pub code: Code,
     pub number: u8,
     pub count: Option<u8>,
@@ -91,7 +91,7 @@ pub(super) struct CallCode {
 
 /// Every word that can be written. `None` where the dialect has none.
 #[derive(Clone, Debug)]
-pub(super) struct Codes {
+pub(crate) struct Codes {
     pub traverse: Option<Code>,
     pub feed: Option<Code>,
     pub arcs: [Option<Code>; 2],
@@ -244,6 +244,14 @@ impl<'d> Finder<'d> {
         Some(CallCode { code: self.code(Meaning::Call)?, number: words.next()?, count: words.next() })
     }
 
+    /// Edge 0 of the tool is no length.
+    fn no_edge(&self) -> Option<Code> {
+        let letter = self.role(Role::ToolEdge)?.letter;
+        let mut text = [0; 8];
+        text[..2].copy_from_slice(&[letter, b'0']);
+        Some(Code { text, len: 2, group: 0, unsure: None })
+    }
+
     fn dwell_code(&self) -> Option<(Code, Dwell)> {
         let row = self.dialect.code_for(Meaning::Dwell)?;
         Some((self.code(Meaning::Dwell)?, self.dwell(*row.dwell.first()?)?))
@@ -251,7 +259,7 @@ impl<'d> Finder<'d> {
 }
 
 impl Codes {
-    pub(super) fn new(dialect: &Dialect) -> Codes {
+    pub(crate) fn new(dialect: &Dialect) -> Codes {
         let mut groups: Vec<&str> = dialect.code.iter().map(|row| row.group.as_str()).collect();
         groups.sort_unstable();
         groups.dedup();
@@ -281,7 +289,7 @@ impl Codes {
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             length: code(Meaning::UseToolLengthOffset),
-            no_length: code(Meaning::CancelToolLengthOffset),
+            no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
             end_cycle: code(Meaning::EndCycle),
             spindle_clockwise: code(Meaning::StartSpindleClockwise),
             spindle_counterclockwise: code(Meaning::StartSpindleCounterclockwise),
@@ -316,7 +324,7 @@ impl Codes {
     }
 
     /// The row of a cycle: of its kind, with a word for the dwell if and only if there is one.
-    pub(super) fn cycle(&self, kind: &str, dwell: bool) -> Option<&CycleCode> {
+    pub(crate) fn cycle(&self, kind: &str, dwell: bool) -> Option<&CycleCode> {
         self.cycles.iter().find(|c| c.kind == kind && c.dwell.is_some() == dwell)
     }
 }

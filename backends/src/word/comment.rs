@@ -7,7 +7,7 @@ use ncc_dialects::CommentRules;
 
 /// Writes comments; keeps its memory between them.
 #[derive(Clone, Debug)]
-pub(super) struct Comments {
+pub(crate) struct Comments {
     open: String,
     close: String,
     upper_ascii: bool,
@@ -17,7 +17,7 @@ pub(super) struct Comments {
 }
 
 impl Comments {
-    pub(super) fn new(rules: &CommentRules) -> Comments {
+    pub(crate) fn new(rules: &CommentRules) -> Comments {
         Comments {
             open: rules.open.clone(),
             close: rules.close.clone(),
@@ -30,7 +30,7 @@ impl Comments {
 
     /// Appends a comment to `line`, and to `after`, one line each, what is too long for it.
     /// Returns whether it reads otherwise than the text.
-    pub(super) fn write(&mut self, text: &str, line: &mut Vec<u8>, after: &mut Vec<u8>, eol: &[u8]) -> bool {
+    pub(crate) fn write(&mut self, text: &str, line: &mut Vec<u8>, after: &mut Vec<u8>, eol: &[u8]) -> bool {
         self.shown.clear();
         for c in text.chars() {
             self.show(c);

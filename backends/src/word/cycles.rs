@@ -20,7 +20,7 @@ use super::{Sink, Writer};
 
 /// A cycle that the program has in force.
 #[derive(Clone, Debug)]
-pub(super) struct Held {
+pub(crate) struct Held {
     pub cycle: Cycle,
     /// Whether the text has called it up, on every way.
     pub in_text: bool,
@@ -47,7 +47,7 @@ struct CallWords {
 }
 
 impl Writer {
-    pub(super) fn start_cycle(&mut self, cycle: &Cycle, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn start_cycle(&mut self, cycle: &Cycle, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let mut held = Held {
             cycle: cycle.clone(),
             in_text: false,
@@ -79,7 +79,7 @@ impl Writer {
     }
 
     /// A hole at a position.
-    pub(super) fn hole(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn hole(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let with_call = self.dialect.cycles.hole_on_definition;
         let mixed = self.held.as_ref().is_some_and(|h| !h.in_text && !h.cycle.measured_as(&to.to));
         if mixed && with_call {
@@ -140,7 +140,7 @@ impl Writer {
         Ok(to)
     }
 
-    pub(super) fn end_cycle(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn end_cycle(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let held = self.held.take().filter(|h| !h.in_text);
         let dropped = held.is_some() && self.dialect.cycles.hole_on_definition;
         if let Some(feed) = held.and_then(|h| h.cycle.feed) {
@@ -179,7 +179,7 @@ impl Writer {
     }
 
     /// Calls a held cycle up without a hole, before what relies on it being in force.
-    pub(super) fn call_up_now(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn call_up_now(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if !self.dialect.cycles.hole_on_definition || self.held.as_ref().is_none_or(|h| h.in_text) {
             return Ok(());
         }
@@ -380,7 +380,7 @@ impl Writer {
     }
 
     /// A pattern of holes with the cycle in force.
-    pub(super) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         match self.held.take() {
             Some(held) if self.dialect.cycles.hole_on_definition => {
                 self.held = Some(held);

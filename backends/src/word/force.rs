@@ -4,7 +4,7 @@ use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Units};
 
 /// Modes of the written text. `None` is not known: at the start, after a call, where ways meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct InForce {
+pub(crate) struct InForce {
     pub motion: Option<Motion>,
     pub distance: Option<Distance>,
     pub units: Option<Units>,
@@ -22,7 +22,7 @@ pub(super) struct InForce {
 
 impl InForce {
     /// What holds if the block between `before` and now may have been skipped.
-    pub(super) fn join(&mut self, before: &InForce) {
+    pub(crate) fn join(&mut self, before: &InForce) {
         fn both<T: PartialEq>(a: &mut Option<T>, b: &Option<T>) {
             if a != b {
                 *a = None;

@@ -44,7 +44,7 @@ impl Writer {
         }
     }
 
-    fn comment_line(&self, text: &str, out: &mut Vec<u8>) {
+    pub(crate) fn comment_line(&self, text: &str, out: &mut Vec<u8>) {
         let (mut line, mut after) = (Vec::new(), Vec::new());
         self.comments.clone().write(text, &mut line, &mut after, self.eol);
         out.append(&mut line);

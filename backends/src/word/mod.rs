@@ -6,18 +6,18 @@
 //!
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
-mod block;
-mod codes;
+pub(crate) mod block;
+pub(crate) mod codes;
 mod comment;
 mod cycles;
 mod force;
 mod frame;
-mod modes;
-mod motion;
-mod number;
+pub(crate) mod modes;
+pub(crate) mod motion;
+pub(crate) mod number;
 mod plain;
 mod start;
-mod statement;
+pub(crate) mod statement;
 
 use ncc_dialects::{Dialect, Settings};
 use ncc_ir::canon::{AXES, Axis, Modes, Units};
@@ -39,13 +39,13 @@ use start::Preamble;
 const HIGHEST_NUMBER: u32 = 99_999;
 
 /// Where a piece of the program goes.
-struct Sink<'a> {
-    out: &'a mut Vec<u8>,
-    diags: &'a mut Vec<Diagnostic>,
+pub(crate) struct Sink<'a> {
+    pub(crate) out: &'a mut Vec<u8>,
+    pub(crate) diags: &'a mut Vec<Diagnostic>,
 }
 
 impl Sink<'_> {
-    fn report(&mut self, fault: Fault, span: Span) {
+    pub(crate) fn report(&mut self, fault: Fault, span: Span) {
         self.diags.push(Diagnostic::new(fault, span));
     }
 }
@@ -66,23 +66,23 @@ struct Options {
 /// Writes a program in a word-address dialect.
 #[derive(Clone, Debug)]
 pub struct Writer {
-    dialect: &'static Dialect,
+    pub(crate) dialect: &'static Dialect,
     options: Options,
     numbering: Numbering,
-    eol: &'static [u8],
-    codes: Codes,
+    pub(crate) eol: &'static [u8],
+    pub(crate) codes: Codes,
     comments: Comments,
-    block: Block,
-    force: InForce,
-    tracker: Tracker,
+    pub(crate) block: Block,
+    pub(crate) force: InForce,
+    pub(crate) tracker: Tracker,
     /// What the written position lags behind the program's, by rounding; nanos per axis.
     residue: [Nanos; AXES],
     /// Whether any residue is not zero.
-    residual: bool,
+    pub(crate) residual: bool,
     held: Option<Held>,
-    preamble: Option<Preamble>,
+    pub(crate) preamble: Option<Preamble>,
     /// Facts taken for granted that were known at the last piece.
-    assumed: Modes,
+    pub(crate) assumed: Modes,
     /// Whether facts of the program's start may have been changed unseen (a call, a skipped block).
     lost: bool,
     stated: Modes,
@@ -90,7 +90,7 @@ pub struct Writer {
     numbers_left: u32,
     first_left: Option<Span>,
     /// Whether the source block at hand had to be split.
-    split: bool,
+    pub(crate) split: bool,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,
     /// Units that the text states anywhere.
@@ -198,33 +198,61 @@ impl Writer {
     /// Writes the statements of one block of the source.
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
+        self.open_block(first);
+        for stmt in stmts {
+            let before = self.open(stmt, sink);
+            let written = match before {
+                Ok(_) => self.statement(stmt, sink),
+                Err(ref fault) => Err(fault.clone()),
+            };
+            self.close(stmt, before.ok(), written, sink);
+        }
+        self.close_block(stmts, sink);
+    }
+
+    /// Begins a block of the source.
+    pub(crate) fn open_block(&mut self, first: &Stmt) {
         self.settle();
         self.split = false;
         self.block.number = first.number;
         self.number_seen(first);
-        for stmt in stmts {
-            self.one(stmt, sink);
-        }
+    }
+
+    /// Ends a block of the source.
+    pub(crate) fn close_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         self.flush(false, sink);
-        if self.split {
+        if let (true, Some(first)) = (self.split, stmts.first()) {
             let span = stmts.iter().fold(first.span, |span, s| span.to(s.span));
             sink.report(Fault::BlockSplit, span);
         }
     }
 
-    fn one(&mut self, stmt: &Stmt, sink: &mut Sink) {
+    /// Begins a statement, and gives what was in force before.
+    ///
+    /// # Errors
+    /// Its block cannot be marked to be skipped.
+    pub(crate) fn open(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<InForce, Fault> {
         if stmt.skip != self.block.skip && !self.block.is_empty() {
             self.flush(false, sink);
         }
         self.block.skip = stmt.skip;
-        let before = self.force;
         let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
-        let written = match stmt.skip {
-            Some(_) if !silent && self.skip_mark(stmt.skip).is_none() => {
-                Err(Fault::CannotSay { what: "a block that can be skipped on a switch of its own".into() })
-            }
-            _ => self.statement(stmt, sink),
-        };
+        if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
+            let what = "a block that can be skipped on a switch of its own".into();
+            return Err(Fault::CannotSay { what });
+        }
+        Ok(self.force)
+    }
+
+    /// Ends a statement: tells its fault, writes its comment, and follows it.
+    pub(crate) fn close(
+        &mut self,
+        stmt: &Stmt,
+        before: Option<InForce>,
+        written: Result<(), Fault>,
+        sink: &mut Sink,
+    ) {
+        let before = before.unwrap_or(self.force);
         if let Err(fault) = written {
             sink.report(fault, stmt.span);
         }
@@ -252,7 +280,7 @@ impl Writer {
         }
     }
 
-    fn comment(&mut self, text: &str, span: Span, sink: &mut Sink) {
+    pub(crate) fn comment(&mut self, text: &str, span: Span, sink: &mut Sink) {
         let block = &mut self.block;
         if self.comments.write(text, &mut block.comment, &mut block.after, self.eol) {
             sink.report(Fault::CommentReformatted, span);
@@ -260,7 +288,7 @@ impl Writer {
     }
 
     /// Makes room for a statement: in the block at hand, or else in a new one.
-    fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn admit(&mut self, need: &Need, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.possible(need) {
             return Err(Fault::CannotSay { what: "these codes in one block".into() });
         }
@@ -279,7 +307,7 @@ impl Writer {
     }
 
     /// Ends the block; `even_empty` writes the line of an empty one.
-    fn flush(&mut self, even_empty: bool, sink: &mut Sink) {
+    pub(crate) fn flush(&mut self, even_empty: bool, sink: &mut Sink) {
         let empty = self.block.is_empty();
         if empty && self.block.comment.is_empty() && !even_empty {
             if !self.block.after.is_empty() {
@@ -319,7 +347,7 @@ impl Writer {
         to.append(&mut self.block.after);
     }
 
-    fn count_number(&mut self, first: u32, step: u32) -> u32 {
+    pub(crate) fn count_number(&mut self, first: u32, step: u32) -> u32 {
         let number = self.next_number;
         let next = number.saturating_add(step);
         self.next_number = if next > HIGHEST_NUMBER { first } else { next };
@@ -327,19 +355,21 @@ impl Writer {
     }
 
     /// The mark of a skip level, and its digit if it needs one; `None` if there is no such mark.
-    fn skip_mark(&self, level: Option<u8>) -> Option<(&'static str, Option<u8>)> {
+    pub(crate) fn skip_mark(&self, level: Option<u8>) -> Option<(&'static str, Option<u8>)> {
         let rules = &self.dialect.block;
         let level = level?;
         match (rules.skip.as_str(), level) {
             ("", _) => None,
             (mark, 1) => Some((mark, None)),
             (mark, 2..=9) if level <= rules.skip_levels => Some((mark, Some(level))),
+            // Where the plain mark is the digit 0, the digit 1 is a level of its own.
+            (mark, 10) if level <= rules.skip_levels => Some((mark, Some(1))),
             _ => None,
         }
     }
 
     /// Notes a block number of the source that is not written.
-    fn number_seen(&mut self, stmt: &Stmt) {
+    pub(crate) fn number_seen(&mut self, stmt: &Stmt) {
         if stmt.number.is_some() && self.numbering == Numbering::Off {
             self.numbers_left = self.numbers_left.saturating_add(1);
             self.first_left.get_or_insert(stmt.span);
@@ -347,7 +377,7 @@ impl Writer {
     }
 
     /// Forgets everything that is in force: after a call, at a procedure's start.
-    fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         self.force = InForce::default();
         self.held = None;
         self.residue = [0; AXES];

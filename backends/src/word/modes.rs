@@ -12,13 +12,13 @@ use super::codes::Code;
 use super::{Sink, Writer};
 
 /// A fault for what there is no word for.
-pub(super) fn cannot(what: impl Into<Box<str>>) -> Fault {
+pub(crate) fn cannot(what: impl Into<Box<str>>) -> Fault {
     Fault::CannotSay { what: what.into() }
 }
 
 /// A setting: a statement that moves nothing and stays in force.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Setting {
+pub(crate) enum Setting {
     Units(Units),
     Distance(Distance),
     Plane(Plane),
@@ -33,7 +33,7 @@ pub(super) enum Setting {
 
 impl Setting {
     /// The setting that a statement is; cycle ends and cancelled length offsets count too.
-    pub(super) fn of(op: &Op) -> Option<Setting> {
+    pub(crate) fn of(op: &Op) -> Option<Setting> {
         Some(match op {
             Op::UseLengthUnits(u) => Setting::Units(*u),
             Op::SetDistanceMode(d) => Setting::Distance(*d),
@@ -93,7 +93,7 @@ fn said(code: Option<Code>, what: &str) -> Result<Option<Code>, Fault> {
 
 /// Codes that have to be put in before a statement can mean what it means.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Inserted {
+pub(crate) struct Inserted {
     distance: Option<Code>,
     plane: Option<Code>,
 }
@@ -101,7 +101,7 @@ pub(super) struct Inserted {
 impl Writer {
     /// The code of a setting; `None` in `Ok` where the target needs no word for it, because it has
     /// that one state alone.
-    pub(super) fn setting(&self, setting: Setting) -> Result<Option<Code>, Fault> {
+    pub(crate) fn setting(&self, setting: Setting) -> Result<Option<Code>, Fault> {
         let codes = &self.codes;
         match setting {
             Setting::Units(u) => said(codes.units[u as usize], "this unit of length"),
@@ -146,7 +146,7 @@ impl Writer {
     }
 
     /// Writes a setting in its place.
-    pub(super) fn write_setting(&mut self, setting: Setting, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn write_setting(&mut self, setting: Setting, sink: &mut Sink) -> Result<(), Fault> {
         if let Some(code) = self.setting(setting)? {
             self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
             self.block.code(Part::Mode, &code);
@@ -156,7 +156,7 @@ impl Writer {
     }
 
     /// Notes a setting that the text states, or need not state.
-    pub(super) fn now_in_force(&mut self, setting: Setting) {
+    pub(crate) fn now_in_force(&mut self, setting: Setting) {
         match setting {
             Setting::Units(u) => {
                 self.force.units = Some(u);
@@ -183,7 +183,7 @@ impl Writer {
 
     /// Takes over facts that the source took for granted, where this control has them at its own
     /// power-on as well and nothing in the text can have changed them.
-    pub(super) fn take_for_granted(&mut self, assumed: &Modes) {
+    pub(crate) fn take_for_granted(&mut self, assumed: &Modes) {
         if self.lost {
             return;
         }
@@ -207,15 +207,18 @@ impl Writer {
     /// # Errors
     /// Absolute and incremental words together, or words in the source's own mode where the text
     /// has another.
-    pub(super) fn need_distance<'a>(
+    pub(crate) fn need_distance<'a>(
         &mut self,
         coords: impl Iterator<Item = &'a Coord>,
         inserted: &mut Inserted,
     ) -> Result<(), Fault> {
         let mut wanted = None;
         let mut inherits = false;
+        // Words that say their own distance need nothing put in, once a mode is in force.
+        let qualifiers = self.dialect.block.qualifiers;
         for coord in coords {
             match coord.distance {
+                Fact::Known(_) if qualifiers && (self.force.distance.is_some() || wanted.is_some()) => {}
                 Fact::Known(d) if wanted.is_some_and(|w| w != d) => {
                     return Err(cannot("absolute and incremental words in one block"));
                 }
@@ -234,8 +237,22 @@ impl Writer {
         Ok(())
     }
 
+    /// What a word of another distance mode than the one in force is marked by, on a control whose
+    /// words can be marked.
+    pub(crate) fn qualifier(&self, distance: Fact<Distance>) -> Option<&'static str> {
+        match distance {
+            Fact::Known(d) if self.dialect.block.qualifiers && self.force.distance != Some(d) => {
+                Some(match d {
+                    Distance::Absolute => "AC",
+                    Distance::Incremental => "IC",
+                })
+            }
+            Fact::Known(_) | Fact::Entry => None,
+        }
+    }
+
     /// The plane that a statement needs, put in if it is not in force.
-    pub(super) fn need_plane(&mut self, plane: Fact<Plane>, inserted: &mut Inserted) -> Result<(), Fault> {
+    pub(crate) fn need_plane(&mut self, plane: Fact<Plane>, inserted: &mut Inserted) -> Result<(), Fault> {
         match plane {
             Fact::Known(p) if self.force.plane != Some(p) => {
                 inserted.plane = self.setting(Setting::Plane(p))?;
@@ -249,7 +266,7 @@ impl Writer {
     }
 
     /// Makes room for a statement together with the codes put in for it.
-    pub(super) fn admit_with(
+    pub(crate) fn admit_with(
         &mut self,
         need: Need,
         inserted: Inserted,
@@ -270,7 +287,7 @@ impl Writer {
     }
 
     /// Checks that a literal's unit is the one in force in the text.
-    pub(super) fn check_unit(&mut self, n: Num, span: Span) -> Result<(), Fault> {
+    pub(crate) fn check_unit(&mut self, n: Num, span: Span) -> Result<(), Fault> {
         let units = match n.unit {
             Unit::Mm => Units::Mm,
             Unit::Inch => Units::Inch,

@@ -22,7 +22,7 @@ type CentreWords = [Option<(u8, Shaped)>; 3];
 
 impl Writer {
     /// A straight move, rapid or at feed.
-    pub(super) fn straight(
+    pub(crate) fn straight(
         &mut self,
         to: &Move,
         rapid: bool,
@@ -48,7 +48,7 @@ impl Writer {
     }
 
     /// Axis words that do whatever is in force.
-    pub(super) fn position(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn position(&mut self, to: &Move, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if !self.dialect.caps.inherits_motion {
             return Err(cannot("a position that does what the caller has in force"));
         }
@@ -61,7 +61,7 @@ impl Writer {
     }
 
     /// What the axis words of a point take of a block.
-    pub(super) fn point_need(&self, mut need: Need, to: &Point) -> Result<Need, Fault> {
+    pub(crate) fn point_need(&self, mut need: Need, to: &Point) -> Result<Need, Fault> {
         for axis in Axis::ALL {
             if to.get(axis).is_some() {
                 let letter = self.codes.axes[axis as usize];
@@ -73,7 +73,7 @@ impl Writer {
     }
 
     /// Writes the axis words of a point.
-    pub(super) fn point(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn point(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         for axis in Axis::ALL {
             if let Some(coord) = to.get(axis) {
                 self.axis_word(axis, coord, span, sink)?;
@@ -82,7 +82,7 @@ impl Writer {
         Ok(())
     }
 
-    pub(super) fn axis_word(
+    pub(crate) fn axis_word(
         &mut self,
         axis: Axis,
         coord: &Coord,
@@ -95,7 +95,13 @@ impl Writer {
         };
         self.check_unit(n, span)?;
         let shaped = self.coordinate(axis, &letter, n, coord.distance, span, sink)?;
-        self.block.word(Part::Axes, letter.letter, shaped);
+        match self.qualifier(coord.distance) {
+            None => self.block.word(Part::Axes, letter.letter, shaped),
+            Some(qualifier) => {
+                let text = number::qualified(letter.letter as char, qualifier, shaped);
+                self.block.text(Part::Axes, &text);
+            }
+        }
         Ok(())
     }
 
@@ -145,14 +151,14 @@ impl Writer {
     }
 
     /// Where the written text puts an axis.
-    pub(super) fn stands(&self, axis: Axis) -> Result<Nanos, Fault> {
+    pub(crate) fn stands(&self, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
         let at = self.tracker.position[axis as usize].ok_or_else(|| unknown.clone())?;
         at.checked_sub(self.residue[axis as usize]).ok_or(unknown)
     }
 
     /// An arc or helix.
-    pub(super) fn arc(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn arc(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let motion = Motion::Arc(arc.turn);
         let code = self.codes.arcs[arc.turn as usize].ok_or_else(|| cannot("an arc"))?;
         if arc.turns > 0 {
@@ -218,7 +224,7 @@ impl Writer {
     }
 
     /// A centre in the other form than the source's.
-    fn computed_centre(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<CentreWords, Fault> {
+    pub(crate) fn computed_centre(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<CentreWords, Fault> {
         let plane = arc.plane.known().or(self.force.plane);
         let plane = plane.ok_or_else(|| cannot("an arc in a plane that is not known"))?;
         let (first, second, _) = plane.axes();
@@ -274,13 +280,13 @@ impl Writer {
         Ok(written)
     }
 
-    fn centre_letter(&self, axis: Axis) -> Result<Letter, Fault> {
+    pub(crate) fn centre_letter(&self, axis: Axis) -> Result<Letter, Fault> {
         let letter = self.codes.centre.get(axis as usize).copied().flatten();
         letter.ok_or_else(|| cannot("an arc's centre"))
     }
 
     /// A length in nanos.
-    fn length(&mut self, value: &ncc_ir::expr::Expr, span: Span) -> Result<Nanos, Fault> {
+    pub(crate) fn length(&mut self, value: &ncc_ir::expr::Expr, span: Span) -> Result<Nanos, Fault> {
         let n = value.literal().ok_or_else(|| cannot("a computed value"))?;
         self.check_unit(n, span)?;
         let inch = self.force.units == Some(Units::Inch);
@@ -288,7 +294,7 @@ impl Writer {
     }
 
     /// Where the written words of an arc put an axis.
-    fn arrives(&self, arc: &Arc, axis: Axis) -> Result<Nanos, Fault> {
+    pub(crate) fn arrives(&self, arc: &Arc, axis: Axis) -> Result<Nanos, Fault> {
         let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
         let Some(coord) = arc.to.get(axis) else { return self.stands(axis) };
         let target = self.tracker.resolve(coord, self.tracker.position[axis as usize]);
@@ -300,7 +306,7 @@ impl Writer {
 
     /// An arc with an end of its own, whose rounded end is its start, would become a full circle or
     /// nothing at all.
-    fn check_vanished(&self, arc: &Arc, start_residue: [Nanos; AXES]) -> Result<(), Fault> {
+    pub(crate) fn check_vanished(&self, arc: &Arc, start_residue: [Nanos; AXES]) -> Result<(), Fault> {
         if start_residue == self.residue {
             return Ok(());
         }

@@ -11,14 +11,14 @@ use ncc_ir::num::{Num, ONE, POW10, Unit};
 const DIGITS: usize = 8;
 
 /// Most bytes of a written number: sign, eight digits or a zero and nine places, the point.
-pub(super) const LONGEST: usize = 12;
+pub(crate) const LONGEST: usize = 12;
 
 /// Bytes that [`write`] may touch from where it starts; it writes in fours.
-pub(super) const ROOM: usize = 20;
+pub(crate) const ROOM: usize = 20;
 
 /// How numbers of one quantity are written.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Format {
+pub(crate) struct Format {
     /// Digits after the point, in mm (or degrees, seconds, …) and in inches.
     pub decimals: [u8; 2],
     pub point: PointRule,
@@ -29,7 +29,7 @@ pub(super) struct Format {
 }
 
 impl Format {
-    pub(super) fn new(rules: NumberRules, counts: bool) -> Format {
+    pub(crate) fn new(rules: NumberRules, counts: bool) -> Format {
         Format {
             decimals: [rules.decimals.min(9), rules.decimals_inch.unwrap_or(rules.decimals).min(9)],
             point: rules.point,
@@ -40,7 +40,7 @@ impl Format {
 
     /// Digits after the point for a literal's unit.
     #[inline]
-    pub(super) fn decimals_for(&self, unit: Unit) -> u8 {
+    pub(crate) fn decimals_for(&self, unit: Unit) -> u8 {
         match unit {
             Unit::Inch => self.decimals[1],
             Unit::Entry => self.decimals[0].max(self.decimals[1]),
@@ -51,7 +51,7 @@ impl Format {
 
 /// A number ready to be written: `mantissa × 10^-scale`, less than 10^8 without its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Shaped {
+pub(crate) struct Shaped {
     pub mantissa: i32,
     pub scale: u8,
     pub point: bool,
@@ -61,14 +61,14 @@ pub(super) struct Shaped {
 
 impl Shaped {
     /// The value as written, in the unit of `n`.
-    pub(super) fn num(self, unit: Unit) -> Num {
+    pub(crate) fn num(self, unit: Unit) -> Num {
         Num { mantissa: i64::from(self.mantissa), scale: self.scale, point: self.point, unit }
     }
 }
 
 /// Why a number cannot be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unwritable {
+pub(crate) enum Unwritable {
     /// Too large, or negative where there is no sign.
     Range,
     /// A count that is not whole.
@@ -89,7 +89,7 @@ fn point(rule: PointRule, mantissa: i64, scale: u8, written: bool) -> bool {
 
 /// A number whose digits can all stay; `None` sends it to [`shape`].
 #[inline(always)]
-pub(super) fn plain(n: Num, f: &Format) -> Option<Shaped> {
+pub(crate) fn plain(n: Num, f: &Format) -> Option<Shaped> {
     let decimals = f.decimals_for(n.unit);
     if n.scale > decimals {
         return None;
@@ -110,7 +110,7 @@ pub(super) fn plain(n: Num, f: &Format) -> Option<Shaped> {
 ///
 /// # Errors
 /// It is out of range, a count that is not whole, or too fine and of unknown unit.
-pub(super) fn shape(n: Num, f: &Format) -> Result<Shaped, Unwritable> {
+pub(crate) fn shape(n: Num, f: &Format) -> Result<Shaped, Unwritable> {
     if let Some(shaped) = plain(n, f) {
         return Ok(shaped);
     }
@@ -138,7 +138,7 @@ pub(super) fn shape(n: Num, f: &Format) -> Result<Shaped, Unwritable> {
 }
 
 /// The number of the unit nearest to `nanos` of base units.
-pub(super) fn from_nanos(nanos: i64, f: &Format, unit: Unit) -> Num {
+pub(crate) fn from_nanos(nanos: i64, f: &Format, unit: Unit) -> Num {
     let decimals = f.decimals_for(unit);
     if unit != Unit::Inch {
         return Num::from_nanos(nanos, decimals, unit);
@@ -152,7 +152,7 @@ pub(super) fn from_nanos(nanos: i64, f: &Format, unit: Unit) -> Num {
 }
 
 /// Seconds as whole milliseconds; the second value says whether digits were lost.
-pub(super) fn milliseconds(n: Num) -> Option<(Num, bool)> {
+pub(crate) fn milliseconds(n: Num) -> Option<(Num, bool)> {
     let ms = |mantissa| Num::int(mantissa, Unit::One);
     if n.scale <= 3 {
         return Some((ms(n.mantissa.checked_mul(POW10[usize::from(3 - n.scale)])?), false));
@@ -197,7 +197,7 @@ fn leading<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
 
 /// Writes a whole number below 10^9 without sign.
 #[inline(always)]
-pub(super) fn whole<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
+pub(crate) fn whole<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> usize {
     if value < 1000 {
         leading(to, at, value)
     } else if value < 1_000_000 {
@@ -213,7 +213,7 @@ pub(super) fn whole<const N: usize>(to: &mut [u8; N], at: usize, value: u32) -> 
 /// Writes a number from `at` on and returns where it ends. At most [`LONGEST`] bytes, and it
 /// touches at most [`ROOM`].
 #[inline(always)]
-pub(super) fn write<const N: usize>(to: &mut [u8; N], mut at: usize, n: Shaped) -> usize {
+pub(crate) fn write<const N: usize>(to: &mut [u8; N], mut at: usize, n: Shaped) -> usize {
     let value = n.mantissa.unsigned_abs();
     // A zero has no sign, so that `-0.` cannot come about.
     to[at] = b'-';
@@ -243,14 +243,21 @@ pub(super) fn write<const N: usize>(to: &mut [u8; N], mut at: usize, n: Shaped) 
 static THOUSANDTHS: [u64; 4] = [1000, 100, 10, 1];
 
 /// A number as text, for diagnostics and for words off the hot path.
-pub(super) fn append(to: &mut Vec<u8>, n: Shaped) {
+pub(crate) fn append(to: &mut Vec<u8>, n: Shaped) {
     let mut room = [0; ROOM];
     let end = write(&mut room, 0, n);
     to.extend_from_slice(&room[..end]);
 }
 
+/// A word that says by itself from where it is measured: `X=IC(5)`.
+pub(crate) fn qualified(address: impl std::fmt::Display, qualifier: &str, n: Shaped) -> String {
+    let mut digits = Vec::new();
+    append(&mut digits, n);
+    format!("{address}={qualifier}({})", String::from_utf8_lossy(&digits))
+}
+
 /// A literal as it was written, for diagnostics.
-pub(super) fn spell(letter: u8, n: Num) -> Box<str> {
+pub(crate) fn spell(letter: u8, n: Num) -> Box<str> {
     let sign = if n.mantissa < 0 { "-" } else { "" };
     let digits = n.mantissa.unsigned_abs().to_string();
     let scale = usize::from(n.scale);

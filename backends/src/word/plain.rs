@@ -13,7 +13,7 @@ use super::number::{self, LONGEST, ROOM};
 use crate::Numbering;
 
 /// Room for lines that have not been passed on.
-pub(super) const PAGE: usize = 4096;
+pub(crate) const PAGE: usize = 4096;
 
 /// Room for a line: number, motion code, six axes, feed, line end, and what the last word touches.
 const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
@@ -21,7 +21,7 @@ const LINE: usize = 10 + 9 + 7 * (LONGEST + 2) + 2 + ROOM + 17;
 impl Writer {
     /// Writes a plain block, or returns `false` without having written or changed anything.
     #[inline]
-    pub(super) fn plain_block(&mut self, stmts: &[Stmt], out: &mut Vec<u8>) -> bool {
+    pub(crate) fn plain_block(&mut self, stmts: &[Stmt], out: &mut Vec<u8>) -> bool {
         let (stmt, feed) = match stmts {
             [stmt] => (stmt, None),
             [Stmt { op: Op::SetFeedRate(feed), skip: None, comment: None, .. }, stmt] => (stmt, Some(feed)),
@@ -155,13 +155,13 @@ impl Writer {
     }
 
     /// Passes plain lines on, before anything else is written.
-    pub(super) fn pass_on(&mut self, out: &mut Vec<u8>) {
+    pub(crate) fn pass_on(&mut self, out: &mut Vec<u8>) {
         out.extend_from_slice(&self.page[..self.filled]);
         self.filled = 0;
     }
 
     /// Brings the tracker up to the last plain moves, which leave only their words behind.
-    pub(super) fn settle(&mut self) {
+    pub(crate) fn settle(&mut self) {
         let distance = self.force.distance;
         let named = std::mem::take(&mut self.named);
         for (axis, n) in self.last_words.iter().enumerate() {

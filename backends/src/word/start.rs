@@ -18,7 +18,7 @@ const MOST_HELD: usize = 1 << 16;
 
 /// The program up to its first event.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Preamble {
+pub(crate) struct Preamble {
     /// Facts that the source has stated.
     said: Modes,
     /// Codes that the source has stated and the safe start has no place for.
@@ -33,7 +33,7 @@ pub(super) struct Preamble {
 
 impl Writer {
     /// Takes a statement before the first event; `Ok(false)` if it must be written.
-    pub(super) fn absorb(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<bool, Fault> {
+    pub(crate) fn absorb(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<bool, Fault> {
         let Some(held) = self.preamble.as_ref().map(|p| p.held.len()) else { return Ok(false) };
         if matches!(stmt.op, Op::Comment(_) | Op::NoEffect(_) | Op::Blank) {
             if held > MOST_HELD
@@ -72,7 +72,7 @@ impl Writer {
     }
 
     /// Writes the safe start and what waits behind it, before the first event.
-    pub(super) fn start(&mut self, sink: &mut Sink) {
+    pub(crate) fn start(&mut self, sink: &mut Sink) {
         // What stands in the block at hand belongs to comments that come before.
         let (number, skip) = (self.block.number, self.block.skip);
         self.block.skip = None;
@@ -152,7 +152,7 @@ impl Writer {
     }
 
     /// Writes what waits for a first event that did not come.
-    pub(super) fn no_event(&mut self, sink: &mut Sink) {
+    pub(crate) fn no_event(&mut self, sink: &mut Sink) {
         if self.preamble.as_ref().is_some_and(|p| p.any) {
             self.start(sink);
         } else if let Some(p) = self.preamble.take() {

@@ -17,7 +17,7 @@ impl Writer {
     ///
     /// # Errors
     /// The dialect cannot say it.
-    pub(super) fn statement(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn statement(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if self.preamble.is_some() && self.absorb(stmt, sink)? {
             return Ok(());
         }
@@ -99,7 +99,7 @@ impl Writer {
     ///
     /// # Errors
     /// It is computed, in another unit than the one in force, or out of range.
-    pub(super) fn value(
+    pub(crate) fn value(
         &mut self,
         letter: &Letter,
         value: &Expr,
@@ -194,7 +194,7 @@ impl Writer {
     }
 
     /// The value of a dwell word, in its own unit.
-    pub(super) fn dwell_value(
+    pub(crate) fn dwell_value(
         &mut self,
         dwell: &Dwell,
         seconds: &Expr,
@@ -259,14 +259,14 @@ impl Writer {
     }
 
     /// The number of a subprogram, as its name says it.
-    pub(super) fn program_number(&self, name: &str) -> Result<u32, Fault> {
+    pub(crate) fn program_number(&self, name: &str) -> Result<u32, Fault> {
         let number = name.parse::<u32>().ok().filter(|n| (1..=9999).contains(n));
         number.ok_or_else(|| cannot(format!("a subprogram called {name}")))
     }
 }
 
 /// The fault of a number that cannot be written.
-pub(super) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::num::Num) -> Fault {
+pub(crate) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::num::Num) -> Fault {
     let word = number::spell(letter, n);
     match why {
         Unwritable::Range => Fault::TargetRange { word },
@@ -276,7 +276,7 @@ pub(super) fn unwritable(why: Unwritable, letter: u8, n: ncc_ir::num::Num) -> Fa
 }
 
 /// Reports a number that lost digits.
-pub(super) fn rounded(letter: u8, n: ncc_ir::num::Num, to: Shaped, span: Span, sink: &mut Sink) {
+pub(crate) fn rounded(letter: u8, n: ncc_ir::num::Num, to: Shaped, span: Span, sink: &mut Sink) {
     let mut written = vec![letter];
     number::append(&mut written, to);
     let written = String::from_utf8_lossy(&written).into_owned().into();
