@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use ncc_dialects::{Dialect, Family, PatternRow, PowerOn, PowerOnFact};
+use ncc_dialects::{Dialect, PatternRow, PowerOn, PowerOnFact};
 use ncc_ir::canon::ReturnLevel;
 
 /// One line for each dialect.
@@ -28,16 +28,20 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     if let Some(extension) = d.extensions.first() {
         writeln!(out, "usual extension: .{extension}")?;
     }
-    let rows = d.code.len() + d.address.len() + d.cycle.len();
+    let rows = d.code.len() + d.address.len() + d.cycle.len() + d.name.len() + d.call.len();
     let unsure = d.code.iter().filter(|r| !r.sure).count()
         + d.address.iter().filter(|r| !r.sure).count()
-        + d.cycle.iter().filter(|r| !r.sure).count();
+        + d.cycle.iter().filter(|r| !r.sure).count()
+        + d.name.iter().filter(|r| !r.sure).count()
+        + d.call.iter().filter(|r| !r.sure).count();
     if rows > 0 {
         writeln!(out, "{rows} rows, {unsure} of them unconfirmed (marked ?)")?;
     }
     options(out, d)?;
     capabilities(out, d)?;
     codes(out, d)?;
+    names(out, d)?;
+    calls(out, d)?;
     addresses(out, d)?;
     power_on(out, &d.power_on)?;
     if !d.sources.is_empty() {
@@ -85,11 +89,12 @@ fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {
         row("form", "a list of events; cycles, patterns, calls and repeats are written out")?;
     }
     if !caps.cycles.is_empty() {
-        let kinds: Vec<&str> = d.cycle.iter().map(|c| c.kind.as_str()).collect();
+        let kinds: Vec<&str> = caps.cycles.iter().map(|c| c.kind.as_str()).collect();
         row("cycles", &kinds.join(", "))?;
         row(
             "cycles return to",
             match d.cycles.return_level.map(ReturnLevel::from) {
+                None if caps.return_planes == Some(true) => "a stated plane",
                 None => "the initial level or the retract plane",
                 Some(ReturnLevel::Initial) => "the initial level",
                 Some(ReturnLevel::Retract) => "the retract plane",
@@ -104,11 +109,15 @@ fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {
             PatternRow::Grid { .. } => "grid",
         })
         .collect();
+    let named = d.call.iter().filter(|c| c.kind.cycles().is_empty()).map(|c| c.name.as_str());
+    let patterns: Vec<&str> = patterns.into_iter().chain(named).collect();
     if !patterns.is_empty() {
         row("patterns of holes", &patterns.join(", "))?;
     }
     row("subprograms", yes(caps.calls))?;
-    row("repetition of blocks", yes(caps.repeats))?;
+    row("repetition of blocks", yes(caps.repeats || caps.repeat_blocks))?;
+    row("frames", yes(caps.frames))?;
+    row("machine coordinates", yes(caps.machine_coordinates))?;
     let offsets = match caps.work_offsets {
         0 => "one, without a word for it".to_owned(),
         u16::MAX => "any number".to_owned(),
@@ -128,7 +137,7 @@ fn capabilities(out: &mut String, d: &Dialect) -> fmt::Result {
 }
 
 fn codes(out: &mut String, d: &Dialect) -> fmt::Result {
-    if d.family != Family::Word {
+    if d.code.is_empty() {
         return Ok(());
     }
     let mark = |sure: bool| if sure { ' ' } else { '?' };
@@ -144,6 +153,40 @@ fn codes(out: &mut String, d: &Dialect) -> fmt::Result {
     for row in &d.code {
         let Some(name) = &row.refuse else { continue };
         writeln!(out, "{} {:<6}  {name:<38}  {}", mark(row.sure), row.code, row.source)?;
+    }
+    Ok(())
+}
+
+fn names(out: &mut String, d: &Dialect) -> fmt::Result {
+    if d.name.is_empty() {
+        return Ok(());
+    }
+    let mark = |sure: bool| if sure { ' ' } else { '?' };
+    heading(out, "Words of several letters (word, meaning, source)")?;
+    for row in d.name.iter().filter(|r| r.refuse.is_none()) {
+        let address = || row.role.map(|role| spaced(&format!("{role:?}")));
+        let meaning = row.means.map(|m| m.to_string()).or_else(address).unwrap_or_default();
+        writeln!(out, "{} {:<8}  {meaning:<36}  {}", mark(row.sure), row.name, row.source)?;
+    }
+    heading(out, "Words of several letters that are known and refused")?;
+    for row in &d.name {
+        let Some(name) = &row.refuse else { continue };
+        writeln!(out, "{} {:<8}  {name:<36}  {}", mark(row.sure), row.name, row.source)?;
+    }
+    Ok(())
+}
+
+fn calls(out: &mut String, d: &Dialect) -> fmt::Result {
+    if d.call.is_empty() {
+        return Ok(());
+    }
+    heading(out, "Cycles and patterns that are called (name, meaning, arguments, source)")?;
+    for row in &d.call {
+        let mark = if row.sure { ' ' } else { '?' };
+        let what = spaced(&format!("{:?}", row.kind));
+        let arguments: Vec<&str> = row.parameters.iter().map(|p| p.name.as_str()).collect();
+        writeln!(out, "{mark} {}({}): {what}", row.name, arguments.join(","))?;
+        writeln!(out, "      source: {}", row.source)?;
     }
     Ok(())
 }

@@ -114,8 +114,9 @@ impl Folder {
 /// change of the tool, the end.
 fn separates(op: &Op) -> bool {
     match op {
-        Op::StraightFeed(m) => [Axis::X, Axis::Y].into_iter().any(|axis| m.to.get(axis).is_some())
-            && m.to.get(Axis::Z).is_none(),
+        Op::StraightFeed(m) => {
+            [Axis::X, Axis::Y].into_iter().any(|axis| m.to.get(axis).is_some()) && m.to.get(Axis::Z).is_none()
+        }
         Op::ArcFeed(_) | Op::ArcForm(_) | Op::ChangeTool | Op::EndCycle | Op::ProgramEnd => true,
         _ => false,
     }

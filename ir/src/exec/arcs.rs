@@ -141,12 +141,7 @@ impl Exec {
     }
 
     /// Where words put the axes, as seen from `before`.
-    fn point(
-        &self,
-        to: &Point,
-        before: &[Nanos; AXES],
-        span: Span,
-    ) -> Result<[Nanos; AXES], Diagnostic> {
+    fn point(&self, to: &Point, before: &[Nanos; AXES], span: Span) -> Result<[Nanos; AXES], Diagnostic> {
         let mut next = *before;
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {

@@ -54,9 +54,8 @@ impl Chain {
     /// Appends a step as the innermost one.
     fn append(&mut self, step: [[f64; 3]; 3]) {
         let turn = self.turn.unwrap_or(STRAIGHT);
-        let product = std::array::from_fn(|i| {
-            std::array::from_fn(|j| (0..3).map(|k| turn[i][k] * step[k][j]).sum())
-        });
+        let product =
+            std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| turn[i][k] * step[k][j]).sum()));
         self.turn = (product != STRAIGHT).then_some(product);
     }
 

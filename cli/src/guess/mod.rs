@@ -5,6 +5,8 @@
 //! better than all others, else nothing is chosen: a program read in the wrong dialect would cut
 //! another part.
 
+mod names;
+
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -101,7 +103,7 @@ fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
         match dialect.family {
             Family::Word => word_line(dialect, number, line, &mut evidence),
             Family::Canon => canon_line(number, line, &mut evidence),
-            Family::Sinumerik => {}
+            Family::Sinumerik => names::line(dialect, number, line, &mut evidence),
             Family::Ir => {
                 match line.starts_with(b"ncc-ir") {
                     true => {
@@ -149,7 +151,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evide
         if !letter.is_ascii_uppercase() {
             if !b" \t/+-.0123456789%:".contains(&letter) && dialect.block.end.as_bytes() != [letter] {
                 let c = char::from(letter);
-                evidence.con(number, format!("`{}` is no sign of it", super::render::source::visible(c)));
+                evidence.con(number, format!("`{}` is no sign of it", crate::render::source::visible(c)));
             }
             continue;
         }
@@ -280,6 +282,9 @@ mod tests {
         assert_eq!(id(";A\nG71\nT1M6\nO1S500M3\nGZ0\nM2\n"), Some("mach9"));
         assert_eq!(id("STRAIGHT_FEED(1.0, 2.0, 3.0)\nPROGRAM_END()\n"), Some("canon"));
         assert_eq!(id("ncc-ir 1\n"), Some("ir"));
+        let flange = ";FLANGE\nG710 G17 G90\nT1 D1\nMCALL CYCLE81(3,3,0,-6)\nX=R1+5\nM30\n";
+        assert_eq!(id(flange), Some("siemens"));
+        assert_eq!(id("%_N_PART_MPF\nG0 X1\nM30\n"), Some("siemens"));
     }
 
     #[test]
@@ -291,8 +296,6 @@ mod tests {
             "hello world\n",
             "\0\0\0\0",
             "X1 Y2\n",
-            // Sinumerik, which no dictionary here explains.
-            ";FLANGE\nG710 G17 G90\nT1 D1\nMCALL CYCLE81(3,3,0,-6)\nX=R1+5\nM30\n",
         ] {
             assert_eq!(id(text), None, "{text:?}");
         }
