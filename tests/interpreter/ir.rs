@@ -1,9 +1,15 @@
 //! Programs in the text form of the neutral program, as its own description has it: the functions
-//! with their arguments, procedures, cycles and patterns. No expressions, no loops.
+//! with their arguments, procedures, cycles, patterns and frames. No expressions, no loops.
+
+mod cycles;
+mod moves;
+mod text;
 
 use std::collections::HashMap;
 
-use super::{Halt, Hole, Machine, Setup, Spindle, What};
+use super::siemens::frame::Frame;
+use super::{Halt, Machine, Place, Setup, Spindle, What};
+use text::{Line, Token, label, tokens};
 
 /// Runs a program.
 ///
@@ -16,6 +22,10 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         return_initial: setup.power_on.return_initial,
         m: Machine::new(setup),
         cycle: None,
+        frame: Frame::NONE,
+        edge: None,
+        machine_once: false,
+        tangent: None,
         procedures: HashMap::new(),
         depth: 0,
     };
@@ -24,16 +34,14 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     let mut nested = 0;
     for (index, line) in text.lines().enumerate() {
         control.m.line = index + 1;
-        let tokens = control.tokens(line)?;
+        let tokens = tokens(line).or_else(|why| control.m.halt(why))?;
         let Some(first) = tokens.first() else { continue };
         match (first, &mut open) {
             (Token::Name(n), _) if n == "ncc-ir" || n == "program" => {}
             (Token::Name(n), _) if n == "assumed" => control.assume(&tokens)?,
             (Token::Name(n), None) if n == "procedure" => {
-                let name = match tokens.get(1) {
-                    Some(Token::Number(value, _)) => value.to_string(),
-                    Some(Token::Text(text)) => text.clone(),
-                    _ => return control.m.halt("a procedure without a name"),
+                let Some(name) = text::name(tokens.get(1)) else {
+                    return control.m.halt("a procedure without a name");
                 };
                 open = Some((name, Vec::new()));
             }
@@ -56,93 +64,31 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     Ok(control.m)
 }
 
-/// A line: its number and its words.
-type Line = (usize, Vec<Token>);
-
-#[derive(Clone, Debug, PartialEq)]
-enum Token {
-    Name(String),
-    Number(f64, String),
-    Text(String),
-    Sign(char),
-}
-
 enum Next {
     On,
     Back,
     End,
 }
 
-struct Cycle {
-    hole: Hole,
-    retract: f64,
-    depth: f64,
-    initial: f64,
-    back_initial: Option<bool>,
-    raise_first: bool,
-}
-
 struct Control {
     m: Machine,
     motion: u32,
     return_initial: bool,
-    cycle: Option<Cycle>,
+    cycle: Option<cycles::Cycle>,
+    /// The chain of frames.
+    frame: Frame,
+    /// An edge whose length is in force, of the tool that was in the spindle then; else it is the
+    /// length table's.
+    edge: Option<(Option<u32>, u32)>,
+    /// The move that follows in the block is in machine coordinates.
+    machine_once: bool,
+    /// Direction in which the last move at feed ended, in program coordinates.
+    tangent: Option<[f64; 3]>,
     procedures: HashMap<String, Vec<Line>>,
     depth: u32,
 }
 
 impl Control {
-    fn tokens(&self, line: &str) -> Result<Vec<Token>, Halt> {
-        let mut tokens = Vec::new();
-        let mut chars = line.chars().peekable();
-        while let Some(&c) = chars.peek() {
-            if c.is_whitespace() {
-                chars.next();
-            } else if c == '#' {
-                break;
-            } else if c == '"' {
-                chars.next();
-                let mut text = String::new();
-                loop {
-                    match chars.next() {
-                        Some('"') => break,
-                        Some('\\') => text.extend(chars.next()),
-                        Some(c) => text.push(c),
-                        None => return self.m.halt("a text that does not end"),
-                    }
-                }
-                tokens.push(Token::Text(text));
-            } else if c.is_ascii_digit() || c == '.' || c == '-' {
-                let mut number = String::new();
-                while let Some(&c) = chars
-                    .peek()
-                    .filter(|c| c.is_ascii_digit() || **c == '.' || (number.is_empty() && **c == '-'))
-                {
-                    number.push(c);
-                    chars.next();
-                }
-                let mut unit = String::new();
-                while let Some(&c) = chars.peek().filter(|c| c.is_ascii_lowercase()) {
-                    unit.push(c);
-                    chars.next();
-                }
-                let Ok(value) = number.parse() else { return self.m.halt(format!("no number: {number}")) };
-                tokens.push(Token::Number(value, unit));
-            } else if c.is_alphabetic() {
-                let mut name = String::new();
-                while let Some(&c) = chars.peek().filter(|c| c.is_alphanumeric() || "_-".contains(**c)) {
-                    name.push(c);
-                    chars.next();
-                }
-                tokens.push(Token::Name(name));
-            } else {
-                tokens.push(Token::Sign(c));
-                chars.next();
-            }
-        }
-        Ok(tokens)
-    }
-
     fn assume(&mut self, tokens: &[Token]) -> Result<(), Halt> {
         for pair in tokens.windows(2) {
             let Token::Name(fact) = &pair[0] else { continue };
@@ -171,10 +117,12 @@ impl Control {
     }
 
     fn body(&mut self, lines: &[Line]) -> Result<Next, Halt> {
+        let all = lines;
         let mut skip = 0;
         let mut lines = lines;
         while let [(line, tokens), after @ ..] = lines {
             lines = after;
+            let at = all.len() - lines.len() - 1;
             self.m.line = *line;
             let mut rest = &tokens[..];
             if let [Token::Name(n), Token::Number(times, _), Token::Sign('{')] = rest
@@ -242,7 +190,11 @@ impl Control {
                 }
                 skip = level;
                 if level == 0 || !self.m.setup.skip[level] {
-                    match self.call(name, arguments)? {
+                    let next = match name.as_str() {
+                        "REPEAT_BLOCKS" => self.again(all, at, arguments)?,
+                        name => self.call(name, arguments)?,
+                    };
+                    match next {
                         Next::On => {}
                         other => return Ok(other),
                     }
@@ -250,6 +202,28 @@ impl Control {
                 if !rest.is_empty() && rest[0] != Token::Sign('&') {
                     return self.m.halt("words after a function");
                 }
+            }
+        }
+        Ok(Next::On)
+    }
+
+    /// `REPEAT_BLOCKS(from, times n)` and `REPEAT_BLOCKS(from to last, times n)`: from the last such
+    /// label before this line.
+    fn again(&mut self, lines: &[Line], at: usize, a: &[Token]) -> Result<Next, Halt> {
+        let place = |wanted: &str| lines[..at].iter().rposition(|l| label(l).as_deref() == Some(wanted));
+        let from = text::name(a.first()).and_then(|n| place(&n));
+        let to = match a.get(1) {
+            Some(Token::Name(n)) if n == "to" => text::name(a.get(2)).and_then(|n| place(&n)).map(|l| l + 1),
+            _ => Some(at),
+        };
+        let (Some(from), Some(to)) = (from, to) else { return self.m.halt("a repetition without its label") };
+        if from >= to {
+            return self.m.halt("a repetition of nothing");
+        }
+        for _ in 0..self.after(a, "times").unwrap_or(1.0) as u32 {
+            match self.body(&lines[from..to])? {
+                Next::On => {}
+                other => return Ok(other),
             }
         }
         Ok(Next::On)
@@ -284,41 +258,75 @@ impl Control {
         }
     }
 
-    /// Axis words, each with its own measure: `X 1.mm`, `Y inc 2.mm`, `Z entry 3.mm`.
-    fn target(&mut self, tokens: &[Token]) -> Result<(super::Place, [bool; 6]), Halt> {
-        let absolute_mode = self.m.absolute;
-        let mut to = self.m.at;
-        let mut named = [false; 6];
-        let mut rest = tokens;
-        while !rest.is_empty() {
-            if let [Token::Sign(','), after @ ..] = rest {
-                rest = after;
-            }
-            let [Token::Name(letter), after @ ..] = rest else { return self.m.halt("no axis") };
-            let Some(axis) = ["X", "Y", "Z", "A", "B", "C"].iter().position(|a| a == letter) else {
-                return self.m.halt(format!("no axis: {letter}"));
-            };
-            let (absolute, after) = match after {
-                [Token::Name(n), after @ ..] if n == "inc" => (false, after),
-                [Token::Name(n), after @ ..] if n == "entry" => (absolute_mode, after),
-                _ => (true, after),
-            };
-            let [Token::Number(v, u), after @ ..] = after else { return self.m.halt("no number") };
-            let mut words = [None; 6];
-            words[axis] = Some(self.base(*v, u));
-            self.m.absolute = absolute;
-            let moved = self.m.target(words);
-            self.m.absolute = absolute_mode;
-            to[axis] = moved?[axis];
-            named[axis] = true;
-            rest = after;
+    /// What lies between program and machine beside the frames.
+    fn shift(&self) -> Place {
+        let setup = &self.m.setup;
+        let mut shift = if self.machine_once { [0.0; 6] } else { (setup.work_offset)(self.m.offset) };
+        shift[2] += match self.edge {
+            Some((tool, edge)) => (setup.edge_length)(tool, edge),
+            None => (setup.length)(self.m.entry),
+        };
+        shift
+    }
+
+    fn chain(&self) -> Frame {
+        if self.machine_once { Frame::NONE } else { self.frame }
+    }
+
+    /// Machine to program coordinates.
+    fn program(&self, place: Place) -> Place {
+        let shift = self.shift();
+        let mut at: Place = std::array::from_fn(|axis| place[axis] - shift[axis]);
+        let xyz = self.chain().undo([at[0], at[1], at[2]]);
+        at[..3].copy_from_slice(&xyz);
+        at
+    }
+
+    /// Program to machine coordinates.
+    fn machine(&self, place: Place) -> Place {
+        let shift = self.shift();
+        let xyz = self.chain().apply([place[0], place[1], place[2]]);
+        std::array::from_fn(|axis| shift[axis] + if axis < 3 { xyz[axis] } else { place[axis] })
+    }
+
+    /// Where the machine stands, in program coordinates.
+    fn here(&self) -> Place {
+        self.program(self.m.at)
+    }
+
+    /// A length offset: it moves nothing.
+    fn take_length(&mut self, edge: Option<(Option<u32>, u32)>, entry: u32) {
+        let before = self.shift()[2];
+        self.edge = edge;
+        self.m.entry = entry;
+        if self.shift()[2] != before {
+            self.unsettle_length();
         }
-        Ok((to, named))
+    }
+
+    fn unsettle_length(&mut self) {
+        self.m.settled[2] = false;
+        if self.frame.turns() {
+            self.m.settled[..3].fill(false);
+        }
     }
 
     fn call(&mut self, name: &str, a: &[Token]) -> Result<Next, Halt> {
         match name {
-            "COMMENT" | "NO_EFFECT" | "BLANK" | "CLEAR_FRAME" | "STOP_CUTTER_RADIUS_COMPENSATION" => {}
+            "COMMENT" | "NO_EFFECT" | "BLANK" | "LABEL" | "STOP_CUTTER_RADIUS_COMPENSATION" => {}
+            "CLEAR_FRAME" => {
+                if self.word(a)? == "chain" && self.frame != Frame::NONE {
+                    self.frame = Frame::NONE;
+                    self.m.settled[..3].fill(false);
+                }
+            }
+            "SET_FRAME" => self.set_frame(Frame::NONE, a)?,
+            "ADD_FRAME" => self.set_frame(self.frame, a)?,
+            "USE_MACHINE_COORDINATES" => self.machine_once = true,
+            "USE_TOOL_EDGE" => {
+                let edge = self.first(a)? as u32;
+                self.take_length(Some((self.m.tool, edge)), 0);
+            }
             "SET_FEED_MODE" if self.word(a)? == "per-minute" => {}
             "USE_LENGTH_UNITS" => self.m.inch = self.word(a)? == "inch",
             "SET_DISTANCE_MODE" => self.m.absolute = self.word(a)? == "absolute",
@@ -334,7 +342,7 @@ impl Control {
             "CHANGE_TOOL" => self.m.change_tool()?,
             "USE_TOOL_LENGTH_OFFSET" => {
                 let entry = self.first(a)? as u32;
-                self.m.use_length(entry);
+                self.take_length(None, entry);
             }
             "START_SPINDLE_CLOCKWISE" => self.m.turn(Spindle::Clockwise),
             "START_SPINDLE_COUNTERCLOCKWISE" => self.m.turn(Spindle::Counterclockwise),
@@ -354,9 +362,14 @@ impl Control {
             "POSITION" if self.cycle.is_some() => self.hole_word(a)?,
             "POSITION" => self.go(a)?,
             "ARC_FEED" => self.arc(a)?,
+            "ARC_BY_ANGLE" | "ARC_ABOUT_BY_ANGLE" | "ARC_ABOUT" | "ARC_THROUGH" | "ARC_TANGENT" => {
+                self.arc_form(name, a)?;
+            }
             "START_CYCLE" => self.start(a)?,
             "HOLE" => self.hole_word(a)?,
-            "CIRCLE_PATTERN" => self.circle(a)?,
+            "CIRCLE_PATTERN" => self.circle_pattern(a)?,
+            "LINE_PATTERN" => self.line(a)?,
+            "POSITION_LIST" => self.list(a)?,
             "RECTANGULAR_LAYOUT" => self.grid(a)?,
             "END_CYCLE" => self.cycle = None,
             "MESSAGE" => self.m.record(What::Message),
@@ -374,11 +387,7 @@ impl Control {
     }
 
     fn procedure(&mut self, a: &[Token]) -> Result<Next, Halt> {
-        let name = match a.first() {
-            Some(Token::Number(v, _)) => v.to_string(),
-            Some(Token::Text(t)) => t.clone(),
-            _ => return self.m.halt("a call without a name"),
-        };
+        let Some(name) = text::name(a.first()) else { return self.m.halt("a call without a name") };
         let Some(body) = self.procedures.get(&name).cloned() else {
             return self.m.halt(format!("no procedure {name}"));
         };
@@ -395,231 +404,4 @@ impl Control {
         }
         Ok(Next::On)
     }
-
-    fn go(&mut self, a: &[Token]) -> Result<(), Halt> {
-        let (to, named) = self.target(a)?;
-        if !named.contains(&true) {
-            return Ok(());
-        }
-        match self.motion {
-            0 => self.m.traverse(to),
-            1 => self.m.straight(to)?,
-            _ => return self.m.halt("a position while an arc is in force"),
-        }
-        Ok(())
-    }
-
-    fn arc(&mut self, a: &[Token]) -> Result<(), Halt> {
-        let mut parts = split(a).into_iter();
-        let (Some([Token::Name(plane)]), Some([Token::Name(turn)])) = (parts.next(), parts.next()) else {
-            return self.m.halt("an arc without plane or turn");
-        };
-        let clockwise = turn == "clockwise";
-        let plane_before = self.m.plane;
-        let plane = self.plane(plane)?;
-        self.cycle = None;
-        self.motion = if clockwise { 2 } else { 3 };
-        let (mut words, mut centre, mut radius, mut turns): (Vec<Token>, Option<&[Token]>, _, _) =
-            (Vec::new(), None, None, 0.0);
-        for part in parts {
-            match part {
-                [Token::Name(n), Token::Sign('('), inner @ .., Token::Sign(')')] if n == "centre" => {
-                    centre = Some(inner);
-                }
-                [Token::Name(n), Token::Number(v, u)] if n == "radius" => radius = Some(self.base(*v, u)),
-                [Token::Name(n), Token::Number(v, _)] if n == "turns" => turns = *v,
-                part => {
-                    if !words.is_empty() {
-                        words.push(Token::Sign(','));
-                    }
-                    words.extend_from_slice(part);
-                }
-            }
-        }
-        let (to, _) = self.target(&words)?;
-        self.m.plane = plane;
-        let (first, second, _) = self.m.axes();
-        let middle = match (centre, radius) {
-            (Some(inner), None) => {
-                let from_start = matches!(inner.first(), Some(Token::Name(n)) if n == "start");
-                let letters = ["I", "J", "K"];
-                let place = |c: &Control, axis: usize| {
-                    let word = c.after(inner, letters[axis]);
-                    match from_start {
-                        true => c.m.at[axis] + word.unwrap_or(0.0),
-                        false => word.map_or(c.m.at[axis], |w| w + c.m.shift(axis)),
-                    }
-                };
-                (place(self, first), place(self, second))
-            }
-            (None, Some(r)) => self.m.centre_by_radius(to, r, clockwise)?,
-            _ => return self.m.halt("an arc without a centre"),
-        };
-        self.m.arc_of_turns(to, middle, clockwise, turns as u32)?;
-        self.m.plane = plane_before;
-        Ok(())
-    }
-
-    fn start(&mut self, a: &[Token]) -> Result<(), Halt> {
-        let parts = split(a);
-        let [kind, [Token::Name(plane)], ..] = &parts[..] else { return self.m.halt("no cycle") };
-        if self.plane(plane)? != 17 {
-            return self.m.halt("a cycle out of XY");
-        }
-        let Some(Token::Name(name)) = kind.first() else { return self.m.halt("no cycle") };
-        let dwell = self.after(kind, "dwell");
-        let hole = match (name.as_str(), dwell, self.after(kind, "peck")) {
-            ("drill", ..) => Hole::Drill,
-            ("drill-dwell", Some(d), _) => Hole::DrillDwell(d),
-            ("drill-peck", None, Some(q)) => {
-                if let Some(clearance) = self.after(kind, "clearance") {
-                    self.m.setup.peck_clearance = clearance;
-                }
-                Hole::Peck(q)
-            }
-            ("bore", d, _) => Hole::Bore(d.unwrap_or(0.0)),
-            _ => return self.m.halt("a cycle of another kind"),
-        };
-        let initial = match &self.cycle {
-            Some(cycle) => cycle.initial,
-            None if self.m.settled[2] => self.m.at[2],
-            None => return self.m.halt("the initial level is not known"),
-        };
-        let (mut retract, mut depth, mut back_initial, mut raise_first) = (None, None, None, false);
-        for part in &parts[2..] {
-            let level = |from: f64, rest: &[Token]| match rest {
-                [Token::Number(v, u)] => Some(self.base(*v, u) + self.m.shift(2)),
-                [Token::Name(n), Token::Number(v, u)] if n == "inc" => Some(from + self.base(*v, u)),
-                [Token::Name(n), Token::Number(v, u)] if n == "entry" => Some(match self.m.absolute {
-                    true => self.base(*v, u) + self.m.shift(2),
-                    false => from + self.base(*v, u),
-                }),
-                _ => None,
-            };
-            match part {
-                [Token::Name(n), rest @ ..] if n == "retract" => retract = level(initial, rest),
-                [Token::Name(n), rest @ ..] if n == "depth" => depth = level(retract.unwrap_or(0.0), rest),
-                [Token::Name(n), Token::Name(v)] if n == "return" => {
-                    back_initial = (v != "entry").then(|| v == "initial");
-                }
-                [Token::Name(n)] => raise_first = n == "raise-first",
-                [Token::Name(n), Token::Number(v, u)] if n == "feed" => {
-                    self.m.feed = Some(self.base(*v, u));
-                }
-                _ => return self.m.halt("another word in a cycle"),
-            }
-        }
-        let (Some(retract), Some(depth)) = (retract, depth) else {
-            return self.m.halt("a cycle without its levels");
-        };
-        self.cycle = Some(Cycle { hole, retract, depth, initial, back_initial, raise_first });
-        Ok(())
-    }
-
-    fn hole_word(&mut self, a: &[Token]) -> Result<(), Halt> {
-        let (to, _) = self.target(a)?;
-        self.hole_at(to)
-    }
-
-    fn hole_at(&mut self, mut to: super::Place) -> Result<(), Halt> {
-        let Some(cycle) = &self.cycle else { return self.m.halt("a hole without a cycle") };
-        let (hole, r, z) = (cycle.hole, cycle.retract, cycle.depth);
-        let back = if cycle.back_initial.unwrap_or(self.return_initial) { cycle.initial } else { r };
-        if cycle.raise_first && self.m.at[2] < r {
-            let mut up = self.m.at;
-            up[2] = r;
-            self.m.traverse(up);
-        }
-        to[2] = self.m.at[2];
-        self.m.traverse(to);
-        self.m.hole(hole, r, z, back)
-    }
-
-    fn circle(&mut self, a: &[Token]) -> Result<(), Halt> {
-        let pair = |c: &Control, part: &[Token]| match part {
-            [
-                _,
-                Token::Sign('('),
-                Token::Number(x, xu),
-                Token::Sign(','),
-                Token::Number(y, yu),
-                Token::Sign(')'),
-            ] => Some((c.base(*x, xu) + c.m.shift(0), c.base(*y, yu) + c.m.shift(1))),
-            _ => None,
-        };
-        let parts = split(a);
-        let [centre, first, step, count] = &parts[..] else { return self.m.halt("no circle") };
-        let here = (self.m.at[0], self.m.at[1]);
-        let centre = pair(self, centre).unwrap_or(here);
-        let (Some(first), Some(step), Some(count)) =
-            (pair(self, first), self.after(step, "step"), self.after(count, "count"))
-        else {
-            return self.m.halt("no circle");
-        };
-        for k in 0..count as u32 {
-            let (sin, cos) = (f64::from(k) * step).to_radians().sin_cos();
-            let (dx, dy) = (first.0 - centre.0, first.1 - centre.1);
-            let mut to = self.m.at;
-            to[0] = centre.0 + dx * cos - dy * sin;
-            to[1] = centre.1 + dx * sin + dy * cos;
-            self.hole_at(to)?;
-        }
-        Ok(())
-    }
-
-    fn grid(&mut self, a: &[Token]) -> Result<(), Halt> {
-        let row = |c: &Control, part: &[Token]| match part {
-            [
-                _,
-                Token::Sign('('),
-                Token::Name(axis),
-                Token::Sign(','),
-                Token::Number(p, u),
-                Token::Sign(','),
-                Token::Number(n, _),
-                Token::Sign(')'),
-            ] => Some((usize::from(axis == "Y"), c.base(*p, u), *n as u32)),
-            _ => None,
-        };
-        let parts = split(a);
-        let (Some(columns), Some(rows)) =
-            (parts.first().and_then(|p| row(self, p)), parts.get(1).and_then(|p| row(self, p)))
-        else {
-            return self.m.halt("no grid");
-        };
-        let serpentine = parts.len() == 3;
-        let from = self.m.at;
-        for j in 0..rows.2 {
-            for i in 0..columns.2 {
-                let i = if serpentine && j % 2 == 1 { columns.2 - 1 - i } else { i };
-                let mut to = self.m.at;
-                (to[0], to[1]) = (from[0], from[1]);
-                to[columns.0] += f64::from(i) * columns.1;
-                to[rows.0] += f64::from(j) * rows.1;
-                self.hole_at(to)?;
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Arguments, parted at the commas that stand in no inner parentheses.
-fn split(tokens: &[Token]) -> Vec<&[Token]> {
-    let mut parts = Vec::new();
-    let (mut depth, mut from) = (0, 0);
-    for (at, token) in tokens.iter().enumerate() {
-        match token {
-            Token::Sign('(') => depth += 1,
-            Token::Sign(')') => depth -= 1,
-            Token::Sign(',') if depth == 0 => {
-                parts.push(&tokens[from..at]);
-                from = at + 1;
-            }
-            _ => {}
-        }
-    }
-    if from < tokens.len() {
-        parts.push(&tokens[from..]);
-    }
-    parts
 }

@@ -5,9 +5,9 @@
 //! G70. Not here: variables and expressions, cutter compensation, feeds other than G94, polar
 //! coordinates, rounded corners, frames about other axes than the plane's, cycles out of G17.
 
-mod arcs;
+pub(super) mod arcs;
 mod cycles;
-mod frame;
+pub(super) mod frame;
 mod moves;
 mod text;
 

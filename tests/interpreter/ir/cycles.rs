@@ -1,0 +1,333 @@
+//! Cycles and patterns of the neutral program, in program coordinates.
+
+use super::super::{Halt, Place, What};
+use super::Control;
+use super::text::{Token, split};
+
+/// A cycle in force; levels in program coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct Cycle {
+    hole: Hole,
+    retract: f64,
+    depth: f64,
+    /// In machine coordinates; not known after a change of offsets.
+    initial: Option<f64>,
+    back_initial: Option<bool>,
+    back_plane: Option<f64>,
+    raise_first: bool,
+    feed: Option<f64>,
+}
+
+/// How a hole is made.
+#[derive(Clone, Copy)]
+enum Hole {
+    Drill { dwell: Option<f64> },
+    Strokes { first: f64, peck: f64, pause: Option<f64>, dwell: Option<f64>, out: Out },
+    Bore { dwell: Option<f64>, feed_out: Option<f64> },
+}
+
+/// What is done between strokes.
+#[derive(Clone, Copy)]
+enum Out {
+    Clear { clearance: f64, settle: Option<f64> },
+    Break { lift: f64, at_feed: bool },
+}
+
+impl Control {
+    pub(super) fn start(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let parts = split(a);
+        let [kind, [Token::Name(plane)], ..] = &parts[..] else { return self.m.halt("no cycle") };
+        if self.plane(plane)? != 17 {
+            return self.m.halt("a cycle out of XY");
+        }
+        let Some(Token::Name(name)) = kind.first() else { return self.m.halt("no cycle") };
+        let number = |word: &str| self.after(kind, word);
+        let hole = match (name.as_str(), number("dwell"), number("peck")) {
+            ("drill", ..) => Hole::Drill { dwell: None },
+            ("drill-dwell", dwell, _) => Hole::Drill { dwell },
+            ("drill-peck" | "drill-break", dwell, Some(peck)) => Hole::Strokes {
+                first: number("first").unwrap_or(peck),
+                peck,
+                pause: number("pause"),
+                dwell,
+                out: if name == "drill-peck" {
+                    let clearance = number("clearance").unwrap_or(self.m.setup.peck_clearance);
+                    Out::Clear { clearance, settle: number("settle") }
+                } else {
+                    let at_feed = kind.iter().any(|t| matches!(t, Token::Name(n) if n == "at-feed"));
+                    Out::Break { lift: number("lift").unwrap_or(self.m.setup.break_lift), at_feed }
+                },
+            },
+            ("bore", dwell, _) => Hole::Bore { dwell, feed_out: number("feed-out") },
+            _ => return self.m.halt("a cycle of another kind"),
+        };
+        let initial = match &self.cycle {
+            Some(cycle) => cycle.initial,
+            None => self.m.settled[2].then_some(self.m.at[2]),
+        };
+        let from = initial.map(|z| {
+            let mut at = self.m.at;
+            at[2] = z;
+            self.program(at)[2]
+        });
+        let (mut retract, mut depth, mut back_initial, mut back_plane) = (None, None, None, None);
+        let (mut raise_first, mut feed) = (false, None);
+        for part in &parts[2..] {
+            let level = |from: Option<f64>, rest: &[Token]| match rest {
+                [Token::Number(v, u)] => Some(self.base(*v, u)),
+                [Token::Name(n), Token::Number(v, u)] if n == "entry" && self.m.absolute => {
+                    Some(self.base(*v, u))
+                }
+                [Token::Name(_), Token::Number(v, u)] => from.map(|from| from + self.base(*v, u)),
+                _ => None,
+            };
+            match part {
+                [Token::Name(n), rest @ ..] if n == "retract" => retract = level(from, rest),
+                [Token::Name(n), rest @ ..] if n == "depth" => depth = level(retract, rest),
+                [Token::Name(n), rest @ ..] if n == "return-plane" => back_plane = level(None, rest),
+                [Token::Name(n), Token::Name(v)] if n == "return" => {
+                    back_initial = (v != "entry").then(|| v == "initial");
+                }
+                [Token::Name(n)] => raise_first = n == "raise-first",
+                [Token::Name(n), Token::Number(v, u)] if n == "feed" => feed = Some(self.base(*v, u)),
+                _ => return self.m.halt("another word in a cycle"),
+            }
+        }
+        if feed.is_some() {
+            self.m.feed = feed;
+        }
+        let (Some(retract), Some(depth)) = (retract, depth) else {
+            return self.m.halt("a cycle without its levels");
+        };
+        if depth > retract {
+            return self.m.halt("the bottom lies above the retract plane");
+        }
+        self.cycle =
+            Some(Cycle { hole, retract, depth, initial, back_initial, back_plane, raise_first, feed });
+        Ok(())
+    }
+
+    pub(super) fn hole_word(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let (to, _) = self.target(a)?;
+        self.hole_at((to[0], to[1]))
+    }
+
+    fn at_level(&self, z: f64) -> Place {
+        let mut at = self.here();
+        at[2] = z;
+        self.machine(at)
+    }
+
+    fn rapid(&mut self, z: f64) {
+        let to = self.at_level(z);
+        self.m.traverse(to);
+    }
+
+    fn feed(&mut self, z: f64) -> Result<(), Halt> {
+        let to = self.at_level(z);
+        self.m.straight(to)
+    }
+
+    fn stay(&mut self, seconds: Option<f64>) {
+        if let Some(seconds) = seconds {
+            self.m.record(What::Dwell(seconds));
+        }
+    }
+
+    fn hole_at(&mut self, (x, y): (f64, f64)) -> Result<(), Halt> {
+        let Some(cycle) = self.cycle else { return self.m.halt("a hole without a cycle") };
+        let (r, z) = (cycle.retract, cycle.depth);
+        if cycle.raise_first && self.here()[2] < r {
+            self.rapid(r);
+        }
+        let mut to = self.here();
+        (to[0], to[1]) = (x, y);
+        let to = self.machine(to);
+        self.m.traverse(to);
+        self.rapid(r);
+        if cycle.feed.is_some() {
+            self.m.feed = cycle.feed;
+        }
+        match cycle.hole {
+            Hole::Drill { dwell } => {
+                self.feed(z)?;
+                self.stay(dwell);
+            }
+            Hole::Strokes { first, peck, pause, dwell, out } => {
+                if peck <= 0.0 || first <= 0.0 || (r - z) / peck > 10_000.0 {
+                    return self.m.halt("a peck that leads nowhere");
+                }
+                let mut bottom = r - first;
+                while bottom > z + 1e-9 {
+                    self.feed(bottom)?;
+                    self.stay(pause);
+                    match out {
+                        Out::Clear { clearance, settle } => {
+                            self.rapid(r);
+                            self.stay(settle);
+                            self.rapid(bottom + clearance);
+                        }
+                        Out::Break { lift, at_feed: true } => self.feed(bottom + lift)?,
+                        Out::Break { lift, at_feed: false } => self.rapid(bottom + lift),
+                    }
+                    bottom -= peck;
+                }
+                self.feed(z)?;
+                self.stay(dwell);
+            }
+            Hole::Bore { dwell, feed_out } => {
+                self.feed(z)?;
+                self.stay(dwell);
+                if feed_out.is_some() {
+                    self.m.feed = feed_out;
+                }
+                self.feed(r)?;
+                if feed_out.is_some() {
+                    // Which of the two is then in force is not said.
+                    self.m.feed = None;
+                }
+            }
+        }
+        match (cycle.back_plane, cycle.back_initial.unwrap_or(self.return_initial)) {
+            (Some(plane), _) => self.rapid(plane),
+            (None, false) => self.rapid(r),
+            (None, true) => {
+                let Some(initial) = cycle.initial else {
+                    return self.m.halt("the initial level is not known");
+                };
+                let mut to = self.m.at;
+                to[2] = initial;
+                self.m.traverse(to);
+            }
+        }
+        self.m.settled[2] = true;
+        self.tangent = None;
+        Ok(())
+    }
+
+    /// A hole of a pattern, whose places are absolute.
+    fn hole_of_pattern(&mut self, place: (f64, f64)) -> Result<(), Halt> {
+        self.hole_at(place)?;
+        self.m.settled[..2].fill(true);
+        Ok(())
+    }
+
+    /// A place in the plane: `(1.mm, inc 2.mm)`.
+    fn pair(&self, tokens: &[Token]) -> Option<(f64, f64)> {
+        let [Token::Sign('('), inner @ .., Token::Sign(')')] = tokens else { return None };
+        let here = self.here();
+        let parts = split(inner);
+        let [x, y] = &parts[..] else { return None };
+        let value = |axis: usize, part: &[Token]| match part {
+            [Token::Number(v, u)] => Some(self.base(*v, u)),
+            [Token::Name(n), Token::Number(v, u)] if n == "entry" && self.m.absolute => {
+                Some(self.base(*v, u))
+            }
+            [Token::Name(_), Token::Number(v, u)] => Some(here[axis] + self.base(*v, u)),
+            _ => None,
+        };
+        Some((value(0, x)?, value(1, y)?))
+    }
+
+    /// What stands after a word, in one of the parts.
+    fn part<'t>(&self, parts: &[&'t [Token]], word: &str) -> Option<&'t [Token]> {
+        parts.iter().find_map(|part| match part {
+            [Token::Name(n), rest @ ..] if n == word => Some(rest),
+            _ => None,
+        })
+    }
+
+    fn place_of(&self, parts: &[&[Token]], word: &str) -> Result<(f64, f64), Halt> {
+        let here = self.here();
+        match self.part(parts, word) {
+            None => Ok((here[0], here[1])),
+            Some([Token::Name(n)]) if n == "here" => Ok((here[0], here[1])),
+            Some(tokens) => self.pair(tokens).map_or_else(|| self.m.halt(format!("no place: {word}")), Ok),
+        }
+    }
+
+    fn number_of(&self, parts: &[&[Token]], word: &str) -> Result<f64, Halt> {
+        match self.part(parts, word) {
+            Some([Token::Number(v, u)]) => Ok(self.base(*v, u)),
+            _ => self.m.halt(format!("no number: {word}")),
+        }
+    }
+
+    pub(super) fn circle_pattern(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let parts = split(a);
+        let centre = self.place_of(&parts, "centre")?;
+        let first = match self.part(&parts, "first") {
+            Some(tokens) if self.after(tokens, "radius").is_some() => {
+                let radius = self.after(tokens, "radius").unwrap_or(0.0);
+                let (sin, cos) = self.after(tokens, "angle").unwrap_or(0.0).to_radians().sin_cos();
+                (centre.0 + radius * cos, centre.1 + radius * sin)
+            }
+            _ => self.place_of(&parts, "first")?,
+        };
+        let (step, count) = (self.number_of(&parts, "step")?, self.number_of(&parts, "count")?);
+        for k in 0..count as u32 {
+            let (sin, cos) = (f64::from(k) * step).to_radians().sin_cos();
+            let (dx, dy) = (first.0 - centre.0, first.1 - centre.1);
+            self.hole_of_pattern((centre.0 + dx * cos - dy * sin, centre.1 + dx * sin + dy * cos))?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn line(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let parts = split(a);
+        let start = self.place_of(&parts, "start")?;
+        let number = |word: &str| self.number_of(&parts, word);
+        let (angle, offset, pitch, count) =
+            (number("angle")?, number("offset")?, number("pitch")?, number("count")?);
+        let (sin, cos) = angle.to_radians().sin_cos();
+        for k in 0..count as u32 {
+            let way = offset + f64::from(k) * pitch;
+            self.hole_of_pattern((start.0 + way * cos, start.1 + way * sin))?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn list(&mut self, a: &[Token]) -> Result<(), Halt> {
+        for part in split(a) {
+            let [Token::Sign('('), inner @ .., Token::Sign(')')] = part else {
+                return self.m.halt("no position of a list");
+            };
+            self.hole_word(inner)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn grid(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let parts = split(a);
+        let start = self.place_of(&parts, "start")?;
+        let row = |word: &str| -> Result<(f64, f64, u32), Halt> {
+            let inner = match self.part(&parts, word) {
+                Some([Token::Sign('('), inner @ .., Token::Sign(')')]) => split(inner),
+                _ => Vec::new(),
+            };
+            let [along, [Token::Number(pitch, u)], [Token::Number(count, _)]] = &inner[..] else {
+                return self.m.halt("no row of a grid");
+            };
+            let pitch = self.base(*pitch, u);
+            let (sin, cos) = match along {
+                [Token::Name(axis)] => [(0.0, 1.0), (1.0, 0.0)][usize::from(axis == "Y")],
+                [_, Token::Number(angle, _)] => angle.to_radians().sin_cos(),
+                _ => return self.m.halt("no direction of a row"),
+            };
+            Ok((pitch * cos, pitch * sin, *count as u32))
+        };
+        let (columns, rows) = (row("columns")?, row("rows")?);
+        let serpentine = parts.iter().any(|p| matches!(p, [Token::Name(n)] if n == "serpentine"));
+        for j in 0..rows.2 {
+            for i in 0..columns.2 {
+                let i = if serpentine && j % 2 == 1 { columns.2 - 1 - i } else { i };
+                let (i, j) = (f64::from(i), f64::from(j));
+                self.hole_of_pattern((
+                    start.0 + i * columns.0 + j * rows.0,
+                    start.1 + i * columns.1 + j * rows.1,
+                ))?;
+            }
+        }
+        Ok(())
+    }
+}
