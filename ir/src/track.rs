@@ -296,7 +296,15 @@ impl Tracker {
                 self.framed = true;
             }
             Op::UseMachineCoordinates => self.raw = true,
-            Op::UseToolEdge { .. } => self.modes.length_offset = None,
+            Op::UseToolEdge { edge, .. } => {
+                let edge = edge.literal().and_then(|n| n.whole());
+                self.modes.length_offset = match (edge, self.tool) {
+                    (Some(0), _) => Some(0),
+                    // Edge 1 of a tool is the table's entry with its number.
+                    (Some(1), Some(tool)) if tool > 0 => u32::try_from(tool).ok(),
+                    (Some(_) | None, _) => None,
+                };
+            }
             Op::UseToolLengthOffset(entry) => {
                 let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;

@@ -225,14 +225,26 @@ impl State {
             one.skip = stmt.skip;
             inner.step(&one);
         }
+        let bores_out = walk.at.cycle.as_ref().is_some_and(|c| bores_out(&c.cycle.kind));
         walk.step(&stmt);
         if self.feed.is_none() {
             self.pay(&mut stmt, made);
         } else if self.owed.as_ref().is_some_and(|o| stmt.skip.is_none() || o.skip == stmt.skip) {
             self.owed = None;
+        } else if bores_out {
+            self.pay(&mut stmt, made);
+        }
+        if bores_out && let Some(feed) = &self.feed {
+            // The way out has left another feed in force than the cycle does.
+            self.owed = Some(Owed { feed: feed.clone(), skip: stmt.skip, span: stmt.span });
         }
         made.replace(stmt, moves);
     }
+}
+
+/// Whether a hole is left at another feed.
+fn bores_out(kind: &CycleKind) -> bool {
+    matches!(kind, CycleKind::Bore { feed_out: Some(_), .. })
 }
 
 fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
@@ -282,9 +294,7 @@ pub(super) fn sayable(
             let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
             (dwell.is_some(), says_pecks(&cap, lift, strokes) && way)
         }
-        CycleKind::Bore { dwell, feed_out } => {
-            (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
-        }
+        CycleKind::Bore { dwell, feed_out } => (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out)),
     };
     if !details || caps.return_planes.is_some_and(|p| p != cycle.return_plane.is_some()) {
         return false;
@@ -432,6 +442,11 @@ fn hole(
 
     // 2. The hole.
     let stated = feed.is_some();
+    if !stated && bores_out(&cycle.kind) {
+        // Nothing says to which feed to go back.
+        let what = "boring with another feed on the way out, under a feed that the cycle does not state";
+        return Err(Fault::CannotSay { what: what.into() });
+    }
     if let Some(feed) = feed {
         moves.push((false, Op::SetFeedRate(feed.clone())));
     }

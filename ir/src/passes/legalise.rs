@@ -7,7 +7,7 @@
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats,
-    expand_turns, flatten_facts, offset_with_z, origin_shift, skip_levels, work_offset,
+    expand_turns, flatten_facts, offset_with_z, origin_shift, skip_levels, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
@@ -28,6 +28,10 @@ const SKIP: u16 = 128;
 const EVERY: u16 = 256;
 const CALL: u16 = 512;
 const SHIFT: u16 = 1024;
+const EDGE: u16 = 2048;
+const FRAME: u16 = 4096;
+const MACHINE: u16 = 8192;
+const TABLE: u16 = 16384;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -43,6 +47,7 @@ pub struct Legaliser {
     work: work_offset::State,
     shift: origin_shift::State,
     skip: skip_levels::State,
+    edge: tool_edge::State,
 }
 
 impl Legaliser {
@@ -52,15 +57,21 @@ impl Legaliser {
     pub fn new(caps: &Caps, decimals: u8, peck_clearance: Option<Num>) -> Legaliser {
         let lacks = lacks(caps);
         Legaliser {
-            target: Target { caps: caps.clone(), decimals: decimals.min(8), peck_clearance, break_lift: None },
+            target: Target {
+                caps: caps.clone(),
+                decimals: decimals.min(8),
+                peck_clearance,
+                break_lift: None,
+            },
             lacks,
-            follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL) != 0,
+            follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME) != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
             work: work_offset::State::default(),
             shift: origin_shift::State::default(),
             skip: skip_levels::State::default(),
+            edge: tool_edge::State::default(),
         }
     }
 
@@ -111,6 +122,9 @@ impl Legaliser {
         if self.cycles.is_busy() {
             needs |= CYCLE;
         }
+        if self.edge.is_busy() {
+            needs |= self.lacks & (EDGE | TABLE);
+        }
         needs
     }
 
@@ -140,7 +154,10 @@ impl Legaliser {
             self.walk.pass(stmts);
         }
         // Every pass walks from the same start: what it walks over does what the piece does.
-        if needs & (ARC | MESSAGE | CALL | CONTROL) != 0 {
+        if needs & (EDGE | TABLE) != 0 {
+            tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
+        }
+        if needs & (ARC | MESSAGE | CALL | CONTROL | MACHINE) != 0 {
             self.check(stmts, &mut start.clone(), diags);
         }
         if needs & PATTERN != 0 {
@@ -182,6 +199,7 @@ impl Legaliser {
         for procedure in procedures {
             self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
+            self.edge.start_over();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
         }
@@ -224,6 +242,9 @@ impl Legaliser {
                 Op::Goto(_) | Op::Label(_) if !caps.repeats => cannot("a jump"),
                 Op::Call(_) if !caps.calls => cannot("a call"),
                 Op::Return if !caps.calls => cannot("a return"),
+                Op::UseMachineCoordinates if !caps.machine_coordinates => {
+                    cannot("a move in machine coordinates");
+                }
                 _ => {}
             }
             walk.step(stmt);
@@ -253,11 +274,13 @@ fn lacks(caps: &Caps) -> u16 {
     let levels = [ReturnLevel::Initial, ReturnLevel::Retract];
     let kinds = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
     let says_all = |kind: &str| {
-        let cap = caps.cycles.iter().any(|c| c.kind == kind && c.dwell && c.clearance && c.strokes && c.feed_out && c.lift_at_feed.is_none());
+        let cap = caps.cycles.iter().any(|c| {
+            c.kind == kind && c.dwell && c.clearance && c.strokes && c.feed_out && c.lift_at_feed.is_none()
+        });
         cap && levels.iter().all(|level| caps.cycle(kind, Some(*level), true))
     };
-    let cycles =
-        kinds.into_iter().all(says_all) && caps.approach.is_none()
+    let cycles = kinds.into_iter().all(says_all)
+        && caps.approach.is_none()
         && caps.incremental_cycles
         && caps.return_planes.is_none()
         && !caps.flat;
@@ -288,6 +311,9 @@ fn lacks(caps: &Caps) -> u16 {
     needs(SKIP, caps.skip_levels >= 10);
     needs(EVERY, !caps.flat);
     needs(CALL, caps.calls);
+    needs(EDGE, caps.tool_edges != Some(false));
+    needs(TABLE, caps.tool_edges != Some(true));
+    needs(MACHINE, caps.machine_coordinates);
     lacks
 }
 
@@ -300,7 +326,10 @@ fn interest(stmt: &Stmt) -> u16 {
         Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
         Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
         Op::Pattern(_) => PATTERN | CYCLE,
-        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => LENGTH,
+        Op::UseToolLengthOffset(_) => LENGTH | TABLE,
+        Op::UseToolEdge { .. } => LENGTH | EDGE,
+        Op::ChangeTool => TABLE,
+        Op::UseMachineCoordinates => MACHINE,
         Op::SetOriginOffsets(_) => WORK,
         Op::ClearFrame(_) => SHIFT,
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
@@ -315,11 +344,9 @@ fn interest(stmt: &Stmt) -> u16 {
         | Op::SetFeedMode(_)
         | Op::SetReturnLevel(_)
         | Op::SetFrame(_)
-        | Op::UseMachineCoordinates
         | Op::StopCutterRadiusCompensation
         | Op::SetSpindleSpeed(_)
         | Op::SelectTool(_)
-        | Op::ChangeTool
         | Op::StartSpindleClockwise
         | Op::StartSpindleCounterclockwise
         | Op::StopSpindleTurning

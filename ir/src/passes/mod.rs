@@ -20,6 +20,7 @@ mod legalise;
 pub mod offset_with_z;
 pub mod origin_shift;
 pub mod skip_levels;
+pub mod tool_edge;
 mod walk;
 pub mod work_offset;
 mod write;
@@ -94,6 +95,11 @@ pub const PASSES: &[Pass] = &[
         name: "skip-levels",
         about: "makes block-skip levels that the target cannot tell apart one",
         run: skip_levels::run,
+    },
+    Pass {
+        name: "tool-edge",
+        about: "names tool lengths by edges of the tool or by entries of a table",
+        run: tool_edge::run,
     },
     // Before the cycles, so that a kept cycle gets its positions.
     Pass {

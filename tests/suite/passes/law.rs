@@ -251,7 +251,12 @@ fn the_machine_does_the_same() {
         .run(&(program(), start), |(program, start)| {
             for (id, caps) in &targets {
                 let mut told = Told {
-                    target: super::Target { caps: caps.clone(), decimals: 3, peck_clearance: Some(mm(10)), break_lift: Some(mm(7)) },
+                    target: super::Target {
+                        caps: caps.clone(),
+                        decimals: 3,
+                        peck_clearance: Some(mm(10)),
+                        break_lift: Some(mm(7)),
+                    },
                     start: [None; 6],
                 };
                 told.start[..3].copy_from_slice(&start);

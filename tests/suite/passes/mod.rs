@@ -3,7 +3,8 @@
 //! `passes/<pass>/<case>.ir` holds the program, `---`, what the pass makes of it, and if it reports
 //! anything another `---` and the reports. Lines `#! …` before the program say what the pass is told:
 //! `target ID` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
-//! (where the axes stand), `clearance 1.0` (the peck cycle's parameter, mm). In the folder
+//! (where the axes stand), `clearance 1.0` (the peck cycle's parameter, mm), `can tool-edges=yes`
+//! (a capability that is other than the target's; `no`, `either`). In the folder
 //! `legaliser` the passes are picked by the target.
 //!
 //! Besides the text, every case that is not refused is executed before and after, in two worlds:
@@ -58,10 +59,34 @@ fn told(text: &str) -> Result<Told, String> {
                     told.start[axis as usize] = Some(decimal(&word[1..])?);
                 }
             }
+            "can" => value.split(' ').try_for_each(|one| can(&mut told.target.caps, one))?,
             _ => return Err(format!("unknown directive {what}")),
         }
     }
     Ok(told)
+}
+
+/// Changes a capability: `tool-edges=yes`.
+fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
+    let (name, value) = what.split_once('=').ok_or("a capability has a value")?;
+    let either = || match value {
+        "yes" => Ok(Some(true)),
+        "no" => Ok(Some(false)),
+        "either" => Ok(None),
+        _ => Err(format!("{value} is no answer")),
+    };
+    let says = || Ok::<bool, String>(either()? == Some(true));
+    match name {
+        "tool-edges" => caps.tool_edges = either()?,
+        "return-planes" => caps.return_planes = either()?,
+        "frames" => caps.frames = says()?,
+        "machine-coordinates" => caps.machine_coordinates = says()?,
+        "arc-forms" => caps.arc_forms = says()?,
+        "repeats" => caps.repeats = says()?,
+        "repeat-blocks" => caps.repeat_blocks = says()?,
+        _ => return Err(format!("no capability {name}")),
+    }
+    Ok(())
 }
 
 fn decimal(text: &str) -> Result<Nanos, String> {
