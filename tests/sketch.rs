@@ -1,4 +1,4 @@
-//! Random part programs, drawn as what the machine does and spelled in either word-address dialect.
+//! Random part programs, drawn as what the machine does and spelled in any of three dialects.
 //!
 //! Coordinates are whole micrometres, so that no spelling rounds; arcs are quarter turns, so that
 //! their ends are exact.
@@ -91,41 +91,72 @@ pub fn number(micrometres: i32) -> String {
     text.trim_end_matches('0').to_owned()
 }
 
-/// Spells a program: Mach-9 or Fanuc.
-pub fn spell(pieces: &[Piece], fanuc: bool) -> String {
-    let mut out = match fanuc {
-        true => String::from(
-            "%\nO0007\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 Z20. H1\n",
-        ),
-        false => String::from("G99\nG90\nG71\nG17\nT1M6\nO1S500M3\nG0X0.Y0.\nZ20.\n"),
+/// Dialects in which sketches are spelled.
+pub const SPELLED: [&str; 3] = ["mach9", "fanuc", "siemens"];
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Control {
+    Mach9,
+    Fanuc,
+    Sinumerik,
+}
+
+impl Control {
+    /// One of three spellings.
+    fn say<T>(self, mach9: T, fanuc: T, sinumerik: T) -> T {
+        match self {
+            Control::Mach9 => mach9,
+            Control::Fanuc => fanuc,
+            Control::Sinumerik => sinumerik,
+        }
+    }
+}
+
+/// Spells a program in one of [`SPELLED`].
+///
+/// # Panics
+/// It is another dialect.
+pub fn spell(pieces: &[Piece], dialect: &str) -> String {
+    let control = match dialect {
+        "mach9" => Control::Mach9,
+        "fanuc" => Control::Fanuc,
+        "siemens" => Control::Sinumerik,
+        other => panic!("sketches are not spelled in {other}"),
     };
+    let mut out = String::from(control.say(
+        "G99\nG90\nG71\nG17\nT1M6\nO1S500M3\nG0X0.Y0.\nZ20.\n",
+        "%\nO0007\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 Z20. H1\n",
+        "G710 G17 G90 G40 G94\nG54\nT1 M6\nD1\nS500 M3\nG0 X0 Y0\nZ20\n",
+    ));
     let mut at = [0, 0, 20_000];
     for piece in pieces {
-        one(piece, fanuc, false, &mut at, &mut out);
+        one(piece, control, false, &mut at, &mut out);
     }
-    out.push_str(if fanuc { "G00 Z50. M05\nM30\n%\n" } else { "G0Z50.\nM5\nM2\n" });
+    out.push_str(control.say("G0Z50.\nM5\nM2\n", "G00 Z50. M05\nM30\n%\n", "G0 Z50\nM5\nM30\n"));
     out
 }
 
-fn words(point: &[Option<i32>; 3], incremental: bool, at: &mut [i32; 3], fanuc: bool) -> String {
+fn words(point: &[Option<i32>; 3], incremental: bool, at: &mut [i32; 3], control: Control) -> String {
     let mut text = String::new();
     for (axis, letter) in ["X", "Y", "Z"].iter().enumerate() {
         if let Some(value) = point[axis] {
             at[axis] = if incremental { at[axis] + value } else { value };
-            let blank = if fanuc { " " } else { "" };
+            let blank = control.say("", " ", " ");
             let _ = write!(text, "{blank}{letter}{}", number(value));
         }
     }
     text
 }
 
-fn one(piece: &Piece, fanuc: bool, incremental: bool, at: &mut [i32; 3], out: &mut String) {
-    let code = |f: &str, m: &str| if fanuc { f.to_owned() } else { m.to_owned() };
+fn one(piece: &Piece, control: Control, incremental: bool, at: &mut [i32; 3], out: &mut String) {
     let _ = match piece {
-        Piece::Rapid(p) => writeln!(out, "{}{}", code("G00", "G0"), words(p, incremental, at, fanuc)),
+        Piece::Rapid(p) => {
+            writeln!(out, "{}{}", control.say("G0", "G00", "G0"), words(p, incremental, at, control))
+        }
         Piece::Feed(p, f) => {
-            let feed = if fanuc { format!(" F{f}.") } else { format!("F{f}") };
-            writeln!(out, "{}{}{feed}", code("G01", "G1"), words(p, incremental, at, fanuc))
+            let (code, words) = (control.say("G1", "G01", "G1"), words(p, incremental, at, control));
+            let (blank, point) = control.say(("", ""), (" ", "."), (" ", ""));
+            writeln!(out, "{code}{words}{blank}F{f}{point}")
         }
         Piece::Arc { clockwise, quarters, towards, radius } => {
             let (sin, cos) = [(0, 1), (1, 0), (0, -1), (-1, 0)][usize::from(*towards % 4)];
@@ -137,76 +168,90 @@ fn one(piece: &Piece, fanuc: bool, incremental: bool, at: &mut [i32; 3], out: &m
             }
             (at[0], at[1]) = (centre.0 + x, centre.1 + y);
             let g = if *clockwise { 2 } else { 3 };
-            let end = (number(at[0]), number(at[1]));
-            match fanuc {
-                true => writeln!(out, "G0{g} X{} Y{} I{} J{} F300.", end.0, end.1, number(i), number(j)),
-                false => {
-                    writeln!(out, "G{g}X{}Y{}I{}J{}F300", end.0, end.1, number(centre.0), number(centre.1))
+            let (x, y) = (number(at[0]), number(at[1]));
+            match control {
+                Control::Fanuc => {
+                    writeln!(out, "G0{g} X{x} Y{y} I{} J{} F300.", number(i), number(j))
+                }
+                Control::Sinumerik => {
+                    writeln!(out, "G{g} X{x} Y{y} I{} J{} F300", number(i), number(j))
+                }
+                Control::Mach9 => {
+                    writeln!(out, "G{g}X{x}Y{y}I{}J{}F300", number(centre.0), number(centre.1))
                 }
             }
         }
         Piece::Holes { kind, retract, depth, feed, at: places } => {
-            let (g, r, z) = ([81, 82, 85][usize::from(*kind % 3)], number(*retract), number(retract - depth));
-            let _ = writeln!(out, "{}", code("G00 Z20.", "G0Z20."));
-            if fanuc {
-                let dwell = if *kind == 1 { " P250" } else { "" };
-                for (index, (x, y)) in places.iter().enumerate() {
-                    let _ = match index {
-                        0 => writeln!(
-                            out,
-                            "G99 G{g} X{} Y{} Z{z} R{r}{dwell} F{feed}.",
-                            number(*x),
-                            number(*y)
-                        ),
-                        _ => writeln!(out, "X{} Y{}", number(*x), number(*y)),
-                    };
-                }
-            } else {
-                let dwell = if *kind == 1 { "D.25" } else { "" };
-                let _ = writeln!(out, "G{g}Z{z}R{r}{dwell}F{feed}");
-                for (x, y) in places {
-                    let _ = writeln!(out, "X{}Y{}", number(*x), number(*y));
-                }
-            }
+            holes(control, *kind % 3, [*retract, retract - depth], *feed, places, out);
             let last = places.last().copied().unwrap_or((at[0], at[1]));
             *at = [last.0, last.1, *retract];
-            writeln!(out, "G80")
+            writeln!(out, "{}", control.say("G80", "G80", "MCALL"))
         }
-        Piece::Dwell(ms) => match fanuc {
-            true => writeln!(out, "G04 P{ms}"),
-            false => writeln!(out, "G4D{}", number(i32::from(*ms))),
+        Piece::Dwell(ms) => match control {
+            Control::Fanuc => writeln!(out, "G04 P{ms}"),
+            Control::Mach9 => writeln!(out, "G4D{}", number(i32::from(*ms))),
+            Control::Sinumerik => writeln!(out, "G4 F{}", number(i32::from(*ms))),
         },
-        Piece::Coolant(n) => writeln!(out, "{}{}", code("M0", "M"), 7 + n % 3),
+        Piece::Coolant(n) => writeln!(out, "{}{}", control.say("M", "M0", "M"), 7 + n % 3),
         Piece::Tool(t) => {
-            let _ = writeln!(out, "{}", code("M05", "M5"));
-            let _ = writeln!(out, "{}", if fanuc { format!("T{t} M06") } else { format!("T{t}M6") });
             at[2] = 30_000;
-            match fanuc {
-                true => writeln!(out, "G00 G43 Z30. H{t}"),
-                false => writeln!(out, "G0Z30.O{t}"),
+            match control {
+                Control::Fanuc => writeln!(out, "M05\nT{t} M06\nG00 G43 Z30. H{t}"),
+                Control::Mach9 => writeln!(out, "M5\nT{t}M6\nG0Z30.O{t}"),
+                Control::Sinumerik => writeln!(out, "M5\nT{t} M6\nG0 Z30"),
             }
         }
         Piece::Spindle(s, d) => {
             let d = 3 + d % 3;
-            writeln!(out, "S{s}{}{d}", code(" M0", "M"))
+            writeln!(out, "S{s}{}{d}", control.say("M", " M0", " M"))
         }
-        Piece::Stop(optional) => writeln!(out, "{}{}", code("M0", "M"), u8::from(*optional)),
-        Piece::Remark(text) => match fanuc {
-            true => writeln!(out, "({text})"),
-            false => writeln!(out, ";{text}"),
+        Piece::Stop(optional) => {
+            writeln!(out, "{}{}", control.say("M", "M0", "M"), u8::from(*optional))
+        }
+        Piece::Remark(text) => match control {
+            Control::Fanuc => writeln!(out, "({text})"),
+            Control::Mach9 | Control::Sinumerik => writeln!(out, ";{text}"),
         },
         Piece::Incremental(piece) => {
             let _ = writeln!(out, "G91");
-            one(piece, fanuc, true, at, out);
+            one(piece, control, true, at, out);
             writeln!(out, "G90")
         }
         Piece::Skipped(p) => {
             // Where the axes stand depends on the switch, so all three are named again.
-            let _ = writeln!(out, "{}", code("G00 Z40.", "G0Z40."));
             let mut there = *at;
-            let _ = writeln!(out, "/{}{}", code("G00", "G0"), words(p, false, &mut there, fanuc));
+            let words = words(p, false, &mut there, control);
+            let (up, code, on) = control.say(
+                ("G0Z40.", "G0", "G0X1.Y2.Z40."),
+                ("G00 Z40.", "G00", "G00 X1. Y2. Z40."),
+                ("G0 Z40", "G0", "G0 X1 Y2 Z40"),
+            );
             *at = [1_000, 2_000, 40_000];
-            writeln!(out, "{}", code("G00 X1. Y2. Z40.", "G0X1.Y2.Z40."))
+            writeln!(out, "{up}\n/{code}{words}\n{on}")
         }
     };
+}
+
+/// The call of a cycle and its positions. Kind 0 drill, 1 with dwell, 2 bore.
+fn holes(control: Control, kind: u8, levels: [i32; 2], feed: u16, places: &[(i32, i32)], out: &mut String) {
+    let kind = usize::from(kind);
+    let [r, z] = levels.map(number);
+    let g = [81, 82, 85][kind];
+    let call = match control {
+        Control::Mach9 => format!("G0Z20.\nG{g}Z{z}R{r}{}F{feed}\n", ["", "D.25", ""][kind]),
+        Control::Fanuc => format!("G00 Z20.\nG99 G{g} "),
+        Control::Sinumerik => {
+            let more = ["".to_owned(), ",,0.25".to_owned(), format!(",,,{feed},{feed}")];
+            format!("G0 Z20\nF{feed}\nMCALL CYCLE{g}({r},{r},0,{z}{})\n", more[kind])
+        }
+    };
+    out.push_str(&call);
+    for (index, (x, y)) in places.iter().enumerate() {
+        let blank = control.say("", " ", " ");
+        let _ = write!(out, "X{}{blank}Y{}", number(*x), number(*y));
+        if control == Control::Fanuc && index == 0 {
+            let _ = write!(out, " Z{z} R{r}{} F{feed}.", ["", " P250", ""][kind]);
+        }
+        out.push('\n');
+    }
 }

@@ -13,10 +13,15 @@ use crate::words::{Change, Is, Mutant};
 /// A class of equivalent mutants, or why there is none.
 pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'static str, String> {
     let old = &text[mutant.at.clone()];
+    let sinumerik = dialect == "siemens";
+    // A comment on a Sinumerik begins with a semicolon; the operator reads the rest.
+    if sinumerik && mutant.change != Change::Swapped && mutant.is == Is::Text && old[0] == b'"' {
+        return Err("a message's text is no comment".into());
+    }
     if mutant.change != Change::Swapped {
         match mutant.is {
             Is::Text => return Ok("a comment, text or title"),
-            Is::Letter(b'N') => return Ok("a block number"),
+            Is::Letter(b'N' | b':') => return Ok("a block number"),
             Is::Name if old[0] == b'N' && old[1..].iter().all(u8::is_ascii_digit) => {
                 return Ok("a block number");
             }
@@ -42,6 +47,12 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
         (Change::Deleted, Is::Letter(b'I' | b'J' | b'K')) => "a centre word of zero",
         (_, Is::Letter(b'F')) => "a feed that is in force, or that nothing is cut with",
         (_, Is::Letter(b'S')) => "a speed that is in force, or that nothing turns with",
+        (_, Is::Letter(b'D')) if sinumerik => "a length that no Z takes up",
+        (_, Is::Name) if old.starts_with(b"%_N_") => "the program's name",
+        (_, Is::Label) => "a label that nothing repeats from",
+        (Change::Deleted, Is::Named) => "a word of an arc that says it already",
+        (_, Is::Named) => "a turn of no angle",
+        (Change::Deleted, Is::Sign) if old == b"," => "a comma before nothing",
         (_, Is::Letter(b'T')) => "a tool called ahead, and called again",
         (_, Is::Letter(b'H' | b'O')) => "a length that no Z takes up",
         (_, Is::Letter(b'R' | b'Q' | b'P' | b'L' | b'D')) => {
@@ -64,6 +75,15 @@ fn behind_the_end(dialect: &str, text: &[u8], place: usize) -> bool {
     let before = String::from_utf8_lossy(&text[..place]).into_owned();
     match dialect {
         "mach9" => before.lines().any(|l| matches!(l.trim(), "M2" | "M30")),
+        // What follows there are subprograms, each with its own end.
+        "siemens" => {
+            let unit = before.rfind("%_N_").map_or(&before[..], |at| &before[at..]);
+            let end = |w: &str| matches!(w, "M2" | "M02" | "M30" | "M17" | "RET");
+            let bare = |l: &str| l.split(';').next().unwrap_or_default().to_owned();
+            let whole = &unit[..unit.rfind('\n').map_or(0, |n| n + 1)];
+            whole.lines().any(|l| !l.starts_with('/') && bare(l).split_whitespace().any(end))
+                && !String::from_utf8_lossy(&text[place..]).starts_with("%_N_")
+        }
         // What follows there are subprograms, up to the percent sign.
         "fanuc" => {
             let rest = String::from_utf8_lossy(&text[place..]).into_owned();

@@ -8,6 +8,7 @@
 #![allow(clippy::print_stdout)]
 
 mod classes;
+mod names;
 mod words;
 
 use std::collections::BTreeMap;
@@ -118,7 +119,8 @@ fn form(dialect: &str) -> Form {
             let open = dialect.comment.open.chars().next().expect("comments");
             Form::Letters(open, dialect.comment.close.chars().next())
         }
-        Family::Canon | Family::Ir | Family::Sinumerik => Form::Functions,
+        Family::Canon | Family::Ir => Form::Functions,
+        Family::Sinumerik => Form::Names,
     }
 }
 

@@ -12,6 +12,9 @@ pub(crate) enum Form {
     Letters(char, Option<char>),
     /// Functions with arguments; texts in quotation marks, notes after `#`.
     Functions,
+    /// Letters and numbers, names with `=` and a value, calls with arguments, labels; comments to the
+    /// end of the line, texts in quotation marks.
+    Names,
 }
 
 /// A word of a text.
@@ -26,8 +29,12 @@ pub(crate) struct Word {
 /// What a word is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Is {
-    /// A letter with a number.
+    /// A letter with a number; between them there may be `=`, and `AC(…)` or `IC(…)` about it.
     Letter(u8),
+    /// A name with a value: `CR=5`, `I1=AC(3)`.
+    Named,
+    /// A label, with its colon.
+    Label,
     /// A number of a function's arguments.
     Number,
     /// A name.
@@ -74,6 +81,7 @@ pub(crate) fn words(text: &[u8], form: Form) -> Vec<Word> {
         match form {
             Form::Letters(open, close) => letters(line, line_start, open, close, &mut words),
             Form::Functions => functions(line, line_start, &mut words),
+            Form::Names => super::names::words(line, line_start, &mut words),
         }
         line_start += line.len();
     }
@@ -155,11 +163,11 @@ const SIBLINGS: &[&[&str]] = &[
     &["G0", "G1", "G2", "G3"],
     &["G17", "G18", "G19"],
     &["G20", "G21"],
-    &["G70", "G71"],
+    &["G70", "G71", "G700", "G710"],
     &["G90", "G91"],
     &["G98", "G99"],
     &["G43", "G49"],
-    &["G54", "G55", "G56", "G57", "G58", "G59"],
+    &["G54", "G55", "G56", "G57", "G58", "G59", "G500", "G505", "G506"],
     &["G80", "G81", "G82", "G83", "G85", "G89"],
     &["G24", "G25"],
     &["G4", "G40", "G94", "G66"],
@@ -187,6 +195,21 @@ const SIBLINGS: &[&[&str]] = &[
     &["drill", "bore"],
     &["start", "zero"],
     &["inc", "entry"],
+    &["CYCLE81", "CYCLE82", "CYCLE83", "CYCLE85"],
+    &["HOLES1", "HOLES2", "CYCLE801", "CYCLE802"],
+    &["TRANS", "ATRANS", "SCALE", "ROT", "MIRROR"],
+    &["ROT", "AROT", "TRANS"],
+    &["SCALE", "ASCALE", "MIRROR"],
+    &["MIRROR", "AMIRROR", "TRANS"],
+    &["ATRANS", "AROT", "ASCALE", "AMIRROR"],
+    &["CIP", "CT", "G2", "G3"],
+    &["SUPA", "G53", "G153"],
+    &["M17", "RET", "M30"],
+    &["CR", "AR", "TURN"],
+    &["I1", "J1", "K1"],
+    &["SET_FRAME", "ADD_FRAME"],
+    &["translate", "scale"],
+    &["USE_TOOL_EDGE", "USE_TOOL_LENGTH_OFFSET"],
 ];
 
 /// All mutants of a text.
@@ -209,8 +232,8 @@ pub(crate) fn mutants(text: &[u8], form: Form) -> Vec<Mutant> {
             new[place] = b'0' + (digit - b'0' + 1) % 10;
             make(Change::Digit, &new);
         }
-        let number = usize::from(matches!(word.is, Is::Letter(_)));
-        if matches!(word.is, Is::Letter(_) | Is::Number) {
+        let number = value_at(old, word.is);
+        if matches!(word.is, Is::Letter(_) | Is::Named | Is::Number) {
             let mut new = old.to_vec();
             match old.get(number) {
                 Some(b'-') => drop(new.remove(number)),
@@ -218,15 +241,36 @@ pub(crate) fn mutants(text: &[u8], form: Form) -> Vec<Mutant> {
             }
             make(Change::Sign, &new);
         }
-        let name = plain_code(&String::from_utf8_lossy(old));
+        let (name, value) = match old.iter().position(|b| *b == b'=') {
+            Some(equals) => (&old[..equals], &old[equals..]),
+            None => (old, &b""[..]),
+        };
+        let name = plain_code(&String::from_utf8_lossy(name));
         for group in SIBLINGS.iter().filter(|g| g.contains(&name.as_str())) {
             for sibling in group.iter().filter(|s| **s != name) {
-                make(Change::Sibling((*sibling).to_owned()), sibling.as_bytes());
+                make(Change::Sibling((*sibling).to_owned()), &[sibling.as_bytes(), value].concat());
+            }
+        }
+        // From zero, or from where the axis stands.
+        for (mark, other) in [("=AC(", "=IC("), ("=IC(", "=AC(")] {
+            if value.starts_with(mark.as_bytes()) {
+                let new = [&old[..old.len() - value.len()], other.as_bytes(), &value[4..]].concat();
+                make(Change::Sibling(other[1..3].to_owned()), &new);
             }
         }
     }
     all.extend(swapped(text));
     all
+}
+
+/// Where the number of a word begins.
+fn value_at(word: &[u8], is: Is) -> usize {
+    let at = match word.iter().position(|b| *b == b'=') {
+        Some(equals) => equals + 1,
+        None => usize::from(matches!(is, Is::Letter(_))),
+    };
+    let marked = [&b"AC("[..], b"IC("].iter().any(|mark| word[at..].starts_with(mark));
+    if marked { at + 3 } else { at }
 }
 
 /// `G01` is `G1`.
