@@ -11,7 +11,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Procedure, Program};
 
 use crate::job::{Job, Outcome, Verified};
-use crate::translate::{peck_clearance, translate_keeping};
+use crate::translate::translate_keeping;
 use crate::verify_run::{Stop, Verifier};
 
 /// A source, ready to judge texts against.
@@ -46,10 +46,8 @@ impl<'j> Judge<'j> {
     /// What differs, or why the text cannot be read or executed.
     pub fn judge(&self, text: &[u8]) -> Result<Verified, Diagnostic> {
         let mut verifier = Verifier::new(self.job);
-        if self.outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. }))
-            && let Some(clearance) = peck_clearance(self.job).and_then(|value| value.nanos(false))
-        {
-            verifier.set_peck_clearance(clearance);
+        if self.outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. })) {
+            verifier.take_parameters(self.job);
         }
         match verifier.whole(&self.source, text, 0, &self.inherited) {
             Ok(()) => Ok(verifier.covered()),

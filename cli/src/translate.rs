@@ -22,6 +22,12 @@ use crate::job::{Failure, Job, Outcome, Output};
 use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
 
+/// Option of a dialect: clearance of its peck cycle.
+pub(crate) const PECK_CLEARANCE: &str = "peck_clearance";
+
+/// Option of a dialect: lift of its chip-breaking cycle.
+pub(crate) const BREAK_LIFT: &str = "break_lift";
+
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
 
@@ -78,7 +84,8 @@ struct Line<'j> {
 
 impl<'j> Line<'j> {
     fn new(job: &'j Job) -> Line<'j> {
-        let mut legaliser = Legaliser::new(&job.to.dialect.caps, legal_decimals(job), peck_clearance(job));
+        let mut legaliser = Legaliser::new(&job.to.dialect.caps, legal_decimals(job), parameter(job, PECK_CLEARANCE));
+        legaliser.set_break_lift(parameter(job, BREAK_LIFT));
         legaliser.stand_at(&job.start);
         let start = Tracker { position: job.start, ..Tracker::default() };
         let folder = job.folds().then(|| Folder::new(target(job), start));
@@ -226,9 +233,8 @@ impl<'j> Line<'j> {
     /// Lets the verification's worlds have the machine parameters that the passes took for granted.
     fn take_parameters(&mut self, found: &[Diagnostic]) {
         let taken = found.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. }));
-        let clearance = peck_clearance(self.job).and_then(|value| value.nanos(false));
-        if let (true, Some(clearance), Some(verifier)) = (taken, clearance, &mut self.verifier) {
-            verifier.set_peck_clearance(clearance);
+        if let (true, Some(verifier)) = (taken, &mut self.verifier) {
+            verifier.take_parameters(self.job);
         }
     }
 
@@ -416,7 +422,12 @@ fn without(assumed: &Modes, stated: &Modes) -> Modes {
 /// The target as the passes see it.
 fn target(job: &Job) -> Target {
     let caps = job.to.dialect.caps.clone();
-    Target { caps, decimals: legal_decimals(job), peck_clearance: peck_clearance(job), break_lift: None }
+    Target {
+        caps,
+        decimals: legal_decimals(job),
+        peck_clearance: parameter(job, PECK_CLEARANCE),
+        break_lift: parameter(job, BREAK_LIFT),
+    }
 }
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.
@@ -424,9 +435,9 @@ fn legal_decimals(job: &Job) -> u8 {
     job.to.dialect.numbers(ncc_dialects::Quantity::Length).decimals
 }
 
-/// The source control's clearance of the peck cycle, needed where the cycle is written out.
-pub(crate) fn peck_clearance(job: &Job) -> Option<Num> {
-    let text = job.from.get("peck_clearance");
+/// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
+pub(crate) fn parameter(job: &Job, option: &str) -> Option<Num> {
+    let text = job.from.get(option);
     let (whole, part) = text.split_once('.').unwrap_or((text, ""));
     let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
     (part.len() < 10)

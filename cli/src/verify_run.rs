@@ -14,6 +14,7 @@ use ncc_ir::world::World;
 
 use crate::difference;
 use crate::job::{Job, Verified};
+use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 
 /// Generated worlds in which every program is executed.
 pub(crate) const WORLDS: u32 = 2;
@@ -139,11 +140,17 @@ impl Verifier {
         self.read_back(&Modes::default())
     }
 
-    /// The clearance of peck drilling that was taken for granted of both controls, in nanos.
-    pub(crate) fn set_peck_clearance(&mut self, clearance: Nanos) {
-        for run in &mut self.runs {
-            run.source.set_peck_clearance(clearance);
-            run.target.set_peck_clearance(clearance);
+    /// The source control's parameters of cycles are taken for granted of both controls.
+    pub(crate) fn take_parameters(&mut self, job: &Job) {
+        let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
+        let (clearance, lift) = (value(PECK_CLEARANCE), value(BREAK_LIFT));
+        for exec in self.runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]) {
+            if let Some(clearance) = clearance {
+                exec.set_peck_clearance(clearance);
+            }
+            if let Some(lift) = lift {
+                exec.set_break_lift(lift);
+            }
         }
     }
 

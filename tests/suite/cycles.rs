@@ -140,6 +140,7 @@ fn the_compiler_makes_the_cited_moves() {
             world.start = c.start.map(|mm| (mm * 1e9).round() as i64);
             world.peck_clearance = ncc_ir::num::ONE;
             world.break_lift = ncc_ir::num::ONE;
+            world.break_lift = ncc_ir::num::ONE;
             let events = translate::execute(&program, &world, 0)?;
             let made = bare(plain::of_events(&events, c.start));
             plain::compare(&joined(&c.moves), &joined(&made), c.within)

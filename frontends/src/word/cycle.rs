@@ -328,6 +328,14 @@ fn kind_of(row: &CycleRow, dwell: Option<Num>, peck: Option<Num>) -> Result<Cycl
             settle: None,
             dwell: bottom,
         },
+        "drill-break" => CycleKind::DrillBreak {
+            peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
+            first: None,
+            lift: Clearance::Parameter,
+            lift_at_feed: false,
+            pause: None,
+            dwell: bottom,
+        },
         "bore" => CycleKind::Bore { dwell: bottom, feed_out: None },
         // The loader lets no other kind pass.
         _ => CycleKind::Drill,

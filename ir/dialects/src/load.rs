@@ -115,7 +115,7 @@ fn tenths(code: &str) -> Option<(u8, usize)> {
 }
 
 /// Kinds of cycles, as `ncc_ir::cycle::CycleKind::name` has them.
-const CYCLE_KINDS: &[&str] = &["drill", "drill-dwell", "drill-peck", "bore"];
+const CYCLE_KINDS: &[&str] = &["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
 
 fn index(dialect: &Dialect) -> Result<CodeIndex, DialectError> {
     let wrong = |row: &str, wrong| DialectError::Row { row: row.to_owned(), wrong };

@@ -344,7 +344,7 @@ pub struct CycleRules {
 pub struct CycleRow {
     /// Its code.
     pub code: String,
-    /// Its kind: `drill`, `drill-dwell`, `drill-peck`, `bore`.
+    /// Its kind: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`.
     pub kind: String,
     /// Letter of the bottom.
     pub depth: char,

@@ -274,6 +274,11 @@ impl Exec {
         self.world.peck_clearance = clearance;
     }
 
+    /// Sets the control's own lift of the chip-breaking cycle, in nanos of a millimetre.
+    pub fn set_break_lift(&mut self, lift: Nanos) {
+        self.world.break_lift = lift;
+    }
+
     /// Sets the block-skip switches: bit n is level n.
     pub fn set_skip(&mut self, skip: u16) {
         self.skip = skip;

@@ -75,6 +75,11 @@ impl Legaliser {
         }
     }
 
+    /// The value of the source control's lift of chip breaking, for cycles that must be written out.
+    pub fn set_break_lift(&mut self, lift: Option<Num>) {
+        self.target.break_lift = lift;
+    }
+
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, position: &[Option<Nanos>; AXES]) {
         self.walk.at.position = *position;
