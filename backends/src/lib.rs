@@ -8,6 +8,7 @@
 
 pub mod canon;
 pub mod ir;
+pub mod siemens;
 pub mod word;
 
 mod writer;

@@ -6,7 +6,7 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Procedure, Stmt};
 
-use crate::{Head, Layout, canon, ir, word};
+use crate::{Head, Layout, canon, ir, siemens, word};
 
 /// A writer of any dialect.
 pub enum Writer {
@@ -16,6 +16,8 @@ pub enum Writer {
     Canon(Box<canon::Writer>),
     /// The text form of the IR.
     Ir(Box<ir::Writer>),
+    /// The Sinumerik's language.
+    Siemens(Box<siemens::Writer>),
 }
 
 impl Writer {
@@ -24,7 +26,8 @@ impl Writer {
         match settings.dialect.family {
             Family::Word => Writer::Word(Box::new(word::Writer::new(settings, layout))),
             Family::Canon => Writer::Canon(Box::new(canon::Writer::new(settings, layout))),
-            Family::Ir | Family::Sinumerik => Writer::Ir(Box::new(ir::Writer::new(settings, layout))),
+            Family::Ir => Writer::Ir(Box::new(ir::Writer::new(settings, layout))),
+            Family::Sinumerik => Writer::Siemens(Box::new(siemens::Writer::new(settings, layout))),
         }
     }
 
@@ -32,6 +35,7 @@ impl Writer {
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         match self {
             Writer::Word(writer) => writer.stand_at(start),
+            Writer::Siemens(writer) => writer.stand_at(start),
             Writer::Canon(writer) => writer.stand_at(start),
             // The text form names no position that the program does not.
             Writer::Ir(_) => {}
@@ -43,6 +47,7 @@ impl Writer {
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         match self {
             Writer::Word(writer) => writer.write(stmts, assumed, out, diags),
+            Writer::Siemens(writer) => writer.write(stmts, assumed, out, diags),
             Writer::Canon(writer) => writer.write(stmts, assumed, out, diags),
             Writer::Ir(writer) => writer.write(stmts, assumed, out, diags),
         }
@@ -52,6 +57,7 @@ impl Writer {
     pub fn procedure(&mut self, procedure: &Procedure, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         match self {
             Writer::Word(writer) => writer.procedure(procedure, out, diags),
+            Writer::Siemens(writer) => writer.procedure(procedure, out, diags),
             Writer::Canon(writer) => writer.procedure(procedure, out, diags),
             Writer::Ir(writer) => writer.procedure(procedure, out, diags),
         }
@@ -61,6 +67,7 @@ impl Writer {
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         match self {
             Writer::Word(writer) => writer.finish(out, diags),
+            Writer::Siemens(writer) => writer.finish(out, diags),
             Writer::Canon(writer) => writer.finish(out, diags),
             Writer::Ir(writer) => writer.finish(out, diags),
         }
@@ -70,6 +77,7 @@ impl Writer {
     pub fn head(&self, head: &Head, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         match self {
             Writer::Word(writer) => writer.head(head, out, diags),
+            Writer::Siemens(writer) => writer.head(head, out, diags),
             Writer::Canon(writer) => writer.head(head, out, diags),
             Writer::Ir(writer) => writer.head(head, out, diags),
         }
@@ -79,6 +87,7 @@ impl Writer {
     pub fn stated(&self) -> Modes {
         match self {
             Writer::Word(writer) => writer.stated(),
+            Writer::Siemens(writer) => writer.stated(),
             Writer::Canon(writer) => writer.stated(),
             Writer::Ir(writer) => writer.stated(),
         }

@@ -76,7 +76,7 @@ pub struct Writer {
     pub(crate) force: InForce,
     pub(crate) tracker: Tracker,
     /// What the written position lags behind the program's, by rounding; nanos per axis.
-    residue: [Nanos; AXES],
+    pub(crate) residue: [Nanos; AXES],
     /// Whether any residue is not zero.
     pub(crate) residual: bool,
     held: Option<Held>,
@@ -101,7 +101,7 @@ pub struct Writer {
     page: [u8; plain::PAGE],
     filled: usize,
     /// Codes whose meaning is not confirmed, as far as reported.
-    told_unsure: Vec<codes::Code>,
+    pub(crate) told_unsure: Vec<codes::Code>,
     /// Whether it was reported that entry 0 of the length table is taken for none.
     told_no_length: bool,
     /// Words of plain moves that the tracker has not been told of yet, and which axes they name.

@@ -141,7 +141,7 @@ impl Writer {
         Ok(())
     }
 
-    fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
         let value = self.value(&letter, feed, span, sink)?;
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;

@@ -226,6 +226,9 @@ pub struct Parameter {
     /// Values that change nothing; 0 and an empty argument count always.
     #[serde(default)]
     pub neutral: Vec<i64>,
+    /// What is written for it where nothing is to be said and an argument follows; else it is empty.
+    #[serde(default)]
+    pub write: Option<i64>,
     /// What another value does.
     #[serde(default)]
     pub refuse: Option<String>,

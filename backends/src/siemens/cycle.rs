@@ -1,0 +1,375 @@
+//! Canned cycles: called by name, for the blocks that follow or once where the tool stands.
+//!
+//! The reference plane is the retract plane itself, without a safety distance: the control's checks
+//! then see it as the surface, and the moves are the same whatever the surface is. Only a first
+//! peck of its own needs the two apart.
+
+use ncc_dialects::{CallKind, CallRow, NameMeaning, ParameterRole as Role, Quantity};
+use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Units};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::program::{Coord, Op, Point, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::InForce;
+
+use super::{Modal, Sink, Writer, call_text};
+use crate::word::block::{Need, Part, Rank};
+use crate::word::codes::Letter;
+use crate::word::modes::{Inserted, cannot};
+use crate::word::number;
+
+/// How many of a block's statements are one call: a cycle called up, its hole where the tool stands,
+/// and its end.
+pub(super) fn called_once(rest: &[Stmt]) -> usize {
+    let joined = |s: &Stmt| s.joined && s.skip == rest[0].skip && rest[0].comment.is_none();
+    match rest {
+        [call, hole, end, ..] if joined(hole) && joined(end) && hole.comment.is_none() => {
+            let here = matches!(&hole.op, Op::Hole(to) if to.to.is_empty());
+            let once = matches!(call.op, Op::StartCycle(_)) && here && end.op == Op::EndCycle;
+            if once { 3 } else { 1 }
+        }
+        _ => 1,
+    }
+}
+
+/// The arguments of a call, by their places.
+pub(super) struct Arguments {
+    pub(super) row: &'static CallRow,
+    values: Vec<Option<String>>,
+}
+
+impl Arguments {
+    pub(super) fn new(row: &'static CallRow) -> Arguments {
+        Arguments { row, values: vec![None; row.parameters.len()] }
+    }
+
+    /// Puts an argument in its place.
+    ///
+    /// # Errors
+    /// The call has no such parameter.
+    pub(super) fn put(&mut self, role: Role, value: String) -> Result<(), Fault> {
+        let place = self.row.place(role);
+        let place = place.ok_or_else(|| cannot(format!("this of {}", self.row.name)))?;
+        self.values[place] = Some(value);
+        Ok(())
+    }
+
+    /// Puts arguments in the places of a role that several parameters have.
+    pub(super) fn put_all(&mut self, role: Role, values: impl IntoIterator<Item = String>) {
+        let places = self.row.parameters.iter().enumerate().filter(|(_, p)| p.role == Some(role));
+        for ((place, _), value) in places.zip(values) {
+            self.values[place] = Some(value);
+        }
+    }
+
+    pub(super) fn text(self) -> String {
+        call_text(self.row, self.values)
+    }
+}
+
+impl Writer {
+    pub(super) fn call_modal(&self) -> Result<&'static str, Fault> {
+        let row = self.dialect.name_for(NameMeaning::CallModal);
+        Ok(&row.ok_or_else(|| cannot("a cycle for the blocks that follow"))?.name)
+    }
+
+    /// The letter and the form of a parameter's numbers.
+    pub(super) fn parameter(&self, row: &CallRow, role: Role) -> Letter {
+        let parameter = row.parameters.iter().find(|p| p.role == Some(role));
+        let quantity = parameter.and_then(|p| p.quantity).unwrap_or(Quantity::Length);
+        self.letter(parameter.map_or("X", |p| &p.name), quantity)
+    }
+
+    /// Writes an argument.
+    pub(super) fn argument(
+        &mut self,
+        to: &mut Arguments,
+        role: Role,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let letter = self.parameter(to.row, role);
+        let text = self.value(&letter, value, span, sink)?;
+        to.put(role, text)
+    }
+
+    /// Calls a cycle up: for the blocks that follow, or `once` where the tool stands.
+    pub(super) fn start_cycle(
+        &mut self,
+        cycle: &Cycle,
+        once: bool,
+        stmt: &Stmt,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let span = stmt.span;
+        if once {
+            self.end_modal(sink)?;
+        }
+        self.settle_edge(span, sink)?;
+        let text = self.cycle_text(cycle, stmt, sink)?;
+        let bores = matches!(cycle.kind, CycleKind::Bore { .. });
+        match (&cycle.feed, bores) {
+            (Some(feed), false) => {
+                if !self.standing.feed_said || self.standing.feed != feed.literal() {
+                    self.words.feed_rate(feed, span, sink)?;
+                }
+                (self.standing.feed, self.standing.feed_said) = (feed.literal(), true);
+            }
+            (None, false) => self.restate_feed(span, sink)?,
+            (_, true) => {
+                let out = matches!(&cycle.kind, CycleKind::Bore { feed_out: Some(_), .. });
+                let feed = cycle.feed.as_ref().and_then(Expr::literal).or(self.standing.feed);
+                self.standing.feed = feed.filter(|_| !out);
+                self.standing.feed_said = false;
+            }
+        }
+        let row = self.cycle_row(&cycle.kind)?;
+        self.tell_unsure(row, &format!("START_CYCLE {}", cycle.kind.name()), span, sink);
+        match once {
+            true => self.alone(&text, sink),
+            false => {
+                let modal = self.call_modal()?;
+                self.alone(&format!("{modal} {text}"), sink)?;
+                self.standing.modal = Modal::On;
+                Ok(())
+            }
+        }
+    }
+
+    fn cycle_row(&self, kind: &CycleKind) -> Result<&'static CallRow, Fault> {
+        let call = match kind {
+            CycleKind::Drill => CallKind::Drill,
+            CycleKind::DrillDwell { .. } => CallKind::DrillDwell,
+            CycleKind::DrillPeck { .. } | CycleKind::DrillBreak { .. } => CallKind::DrillPeck,
+            CycleKind::Bore { .. } => CallKind::Bore,
+        };
+        self.dialect.call_for(call).ok_or_else(|| cannot(format!("the cycle {}", kind.name())))
+    }
+
+    /// The call of a cycle.
+    fn cycle_text(&mut self, cycle: &Cycle, stmt: &Stmt, sink: &mut Sink) -> Result<String, Fault> {
+        let span = stmt.span;
+        let row = self.cycle_row(&cycle.kind)?;
+        let mut inserted = Inserted::default();
+        self.words.need_plane(cycle.plane, &mut inserted)?;
+        self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
+        let mut ahead = self.words.tracker.clone();
+        ahead.apply(&stmt.op);
+        let planes = ahead.cycle.ok_or_else(|| cannot("a cycle that is not known"))?;
+        let mut to = Arguments::new(row);
+        self.planes(&planes, &mut to, span, sink)?;
+        match &cycle.kind {
+            CycleKind::Drill => {}
+            CycleKind::DrillDwell { dwell } => self.argument(&mut to, Role::Dwell, dwell, span, sink)?,
+            CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell } => {
+                self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;
+                self.pauses(pause.as_ref(), dwell.as_ref(), &mut to, span, sink)?;
+                if let Some(settle) = settle {
+                    self.argument(&mut to, Role::Settle, settle, span, sink)?;
+                }
+                to.put(Role::Way, "1".into())?;
+                self.distance(Role::Clearance, clearance, &mut to, span, sink)?;
+            }
+            CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell } => {
+                if !lift_at_feed {
+                    return Err(cannot("a chip-breaking cycle that lifts in rapid"));
+                }
+                self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;
+                self.pauses(pause.as_ref(), dwell.as_ref(), &mut to, span, sink)?;
+                to.put(Role::Way, "0".into())?;
+                self.distance(Role::Lift, lift, &mut to, span, sink)?;
+            }
+            CycleKind::Bore { dwell, feed_out } => {
+                if let Some(dwell) = dwell {
+                    self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
+                }
+                let in_force = || self.standing.feed.map(Expr::Num);
+                let feed = cycle.feed.clone().or_else(in_force);
+                let feed = feed.ok_or_else(|| cannot("a boring cycle whose feed is not known"))?;
+                self.argument(&mut to, Role::FeedIn, &feed, span, sink)?;
+                self.argument(&mut to, Role::FeedOut, feed_out.as_ref().unwrap_or(&feed), span, sink)?;
+            }
+        }
+        Ok(to.text())
+    }
+
+    /// Plane of return, retract plane and bottom.
+    fn planes(
+        &mut self,
+        planes: &InForce,
+        to: &mut Arguments,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let cycle = &planes.cycle;
+        let axis = cycle.plane.known().or(self.words.force.plane).unwrap_or(Plane::Xy).axes().2;
+        let retract = self.level(&cycle.retract, planes.retract, axis, to.row, span, sink)?;
+        let (back, level) = match (&cycle.return_plane, cycle.return_level) {
+            (Some(word), _) => {
+                let text = self.level(word, planes.return_plane, axis, to.row, span, sink)?;
+                (text, planes.return_plane)
+            }
+            (None, Fact::Known(ReturnLevel::Retract)) => (retract.clone(), planes.retract),
+            (None, Fact::Known(ReturnLevel::Initial)) => {
+                let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
+                let initial = planes.initial.ok_or(unknown)?;
+                (self.length(initial, &self.parameter(to.row, Role::ReturnPlane))?, Some(initial))
+            }
+            (None, Fact::Entry) => return Err(cannot("a cycle whose return level is the caller's")),
+        };
+        if level.zip(planes.retract).is_some_and(|(level, retract)| level < retract) {
+            return Err(cannot("a cycle that returns to below its retract plane"));
+        }
+        let depth = self.level(&cycle.depth, planes.depth, axis, to.row, span, sink)?;
+        to.put(Role::ReturnPlane, back)?;
+        to.put(Role::ReferencePlane, retract)?;
+        to.put(Role::SafetyDistance, "0".into())?;
+        to.put(Role::Depth, depth)
+    }
+
+    /// A level along the drilling axis, in the digits of the program where it is absolute there.
+    fn level(
+        &mut self,
+        word: &Coord,
+        resolved: Option<Nanos>,
+        axis: Axis,
+        row: &CallRow,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<String, Fault> {
+        let letter = self.parameter(row, Role::Depth);
+        let distance = word.distance.known().or(self.words.force.distance);
+        match (distance, resolved) {
+            (Some(Distance::Absolute), _) => self.value(&letter, &word.value, span, sink),
+            (_, Some(nanos)) => self.length(nanos, &letter),
+            (_, None) => Err(Fault::PositionUnknown { axis: axis.letter() as char }),
+        }
+    }
+
+    /// Depth of the pecks. The first one is measured from the reference plane as all the others are,
+    /// so that a longer one needs that plane below the retract plane.
+    fn strokes(
+        &mut self,
+        planes: &InForce,
+        peck: &Expr,
+        first: Option<&Expr>,
+        to: &mut Arguments,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        if let Some(first) = first {
+            let inch = self.words.force.units == Some(Units::Inch);
+            let nanos = |e: &Expr| e.literal().and_then(|n| n.nanos(inch));
+            let more = nanos(first).zip(nanos(peck)).and_then(|(f, p)| f.checked_sub(p));
+            let (Some(more), Some(retract)) = (more, planes.retract) else {
+                return Err(cannot("a first peck that is not known"));
+            };
+            if more < 0 {
+                return Err(cannot("a first peck that is shorter than the others"));
+            }
+            let letter = self.parameter(to.row, Role::SafetyDistance);
+            to.put(Role::SafetyDistance, self.length(more, &letter)?)?;
+            to.put(Role::ReferencePlane, self.length(retract - more, &letter)?)?;
+        }
+        self.argument(to, Role::RelativeFirstDepth, peck, span, sink)
+    }
+
+    /// Dwells at the bottom of pecks and of the hole.
+    fn pauses(
+        &mut self,
+        pause: Option<&Expr>,
+        dwell: Option<&Expr>,
+        to: &mut Arguments,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        if let Some(pause) = pause {
+            self.argument(to, Role::Dwell, pause, span, sink)?;
+        }
+        match (pause, dwell) {
+            (None, None) => Ok(()),
+            (Some(pause), Some(dwell)) if pause == dwell => Ok(()),
+            (_, Some(dwell)) => self.argument(to, Role::LastDwell, dwell, span, sink),
+            (Some(_), None) => Err(cannot("a dwell after every peck but the last")),
+        }
+    }
+
+    /// A clearance or a lift, which cannot be zero: that stands for the control's own.
+    fn distance(
+        &mut self,
+        role: Role,
+        value: &Clearance,
+        to: &mut Arguments,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        match value {
+            Clearance::Stated(value) if value.literal().is_some_and(|n| n.mantissa > 0) => {
+                self.argument(to, role, value, span, sink)
+            }
+            Clearance::Stated(_) => Err(cannot("a peck without clearance")),
+            Clearance::Parameter => Err(cannot("the clearance of a peck as a parameter of the machine")),
+        }
+    }
+
+    /// A hole at a position, with the cycle in force.
+    pub(super) fn hole(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if self.standing.modal == Modal::Off {
+            return Err(cannot("a hole of a cycle that is not known"));
+        }
+        let plane = self.hole_plane();
+        if plane.is_some_and(|p| to.get(p.axes().2).is_some()) {
+            return Err(cannot("a hole position along the drilling axis"));
+        }
+        let here;
+        let to = match to.is_empty() {
+            true => {
+                here = self.here(plane.ok_or_else(|| cannot("a hole in a plane that is not known"))?)?;
+                &here
+            }
+            false => to,
+        };
+        let traverse = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
+        let says = self.words.force.motion != Some(Motion::Traverse);
+        let mut inserted = Inserted::default();
+        self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
+        let need = self.words.point_need(Need::new(Rank::Motion).code(says.then_some(traverse)), to)?;
+        self.words.admit_with(need, inserted, sink)?;
+        if says {
+            self.words.block.code(Part::Motion, &traverse);
+        }
+        self.words.force.motion = Some(Motion::Traverse);
+        self.words.point(to, span, sink)
+    }
+
+    /// The plane of the cycle in force.
+    pub(super) fn hole_plane(&self) -> Option<Plane> {
+        let cycle = self.words.tracker.cycle.as_ref();
+        cycle.and_then(|c| c.cycle.plane.known()).or(self.words.force.plane)
+    }
+
+    /// Words for the position where the tool stands: a cycle is made only after a block with some.
+    fn here(&self, plane: Plane) -> Result<Point, Fault> {
+        let (first, second, _) = plane.axes();
+        let unit = match self.words.force.units {
+            Some(Units::Mm) => Unit::Mm,
+            Some(Units::Inch) => Unit::Inch,
+            None => Unit::Entry,
+        };
+        let mut to = Point::default();
+        for axis in [first, second] {
+            let letter = self.words.codes.axes[axis as usize].ok_or_else(|| cannot("this axis"))?;
+            let (value, distance) = match (self.words.stands(axis), unit) {
+                (Ok(nanos), Unit::Mm | Unit::Inch) => {
+                    (number::from_nanos(nanos, &letter.format, unit), Distance::Absolute)
+                }
+                _ => (Num::int(0, unit), Distance::Incremental),
+            };
+            to.set(axis, Coord { value: Expr::Num(value), distance: Fact::Known(distance) });
+        }
+        Ok(to)
+    }
+}

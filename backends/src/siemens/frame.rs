@@ -1,0 +1,88 @@
+//! The chain of frames, and moves in machine coordinates.
+
+use ncc_dialects::{FrameWord, Meaning, NameMeaning, NameRole, Quantity};
+use ncc_ir::canon::Axis;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Frame, FrameStep};
+use ncc_ir::source::Span;
+
+use super::{Sink, Writer};
+use crate::word::block::{Need, Rank};
+use crate::word::modes::{Inserted, cannot};
+
+/// Axes that can be scaled and mirrored.
+const LINEAR: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+
+impl Writer {
+    fn frame_word(&self, added: bool, word: FrameWord) -> Result<&'static str, Fault> {
+        let meaning = if added { NameMeaning::AddFrame(word) } else { NameMeaning::SetFrame(word) };
+        let row = self.dialect.name_for(meaning).ok_or_else(|| cannot("a frame"))?;
+        Ok(&row.name)
+    }
+
+    /// Empties the chain.
+    pub(super) fn clear_frames(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        let word = self.frame_word(false, FrameWord::Translate)?;
+        self.alone(word, sink)
+    }
+
+    /// A step of the chain.
+    pub(super) fn frame(&mut self, frame: &Frame, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let (word, values) = match &frame.step {
+            FrameStep::Translate(words) => {
+                let mut values = Vec::new();
+                for (axis, value) in Axis::ALL.into_iter().zip(words.iter()) {
+                    if let Some(value) = value {
+                        let name = (axis.letter() as char).to_string();
+                        let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
+                        let letter = self.letter(&name, quantity);
+                        values.push(format!("{name}{}", self.value(&letter, value, span, sink)?));
+                    }
+                }
+                (FrameWord::Translate, values)
+            }
+            FrameStep::Rotate { plane, angle } => {
+                let row = self.dialect.name_with(NameRole::PlaneAngle);
+                let row = row.ok_or_else(|| cannot("a rotation"))?;
+                let mut inserted = Inserted::default();
+                self.words.need_plane(*plane, &mut inserted)?;
+                self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
+                let letter = self.letter(&row.name, row.quantity.unwrap_or(Quantity::Angle));
+                let angle = self.value(&letter, angle, span, sink)?;
+                (FrameWord::Rotate, vec![format!("{}={angle}", row.name)])
+            }
+            FrameStep::Scale(words) => {
+                let mut values = Vec::new();
+                for (axis, value) in LINEAR.into_iter().zip(words.iter()) {
+                    if let Some(value) = value {
+                        let name = (axis.letter() as char).to_string();
+                        let letter = self.letter(&name, Quantity::Factor);
+                        values.push(format!("{name}{}", self.value(&letter, value, span, sink)?));
+                    }
+                }
+                (FrameWord::Scale, values)
+            }
+            FrameStep::Mirror(axes) => {
+                let mirrored = LINEAR.into_iter().zip(axes).filter(|(_, mirrored)| **mirrored);
+                let values = mirrored.map(|(axis, _)| format!("{}0", axis.letter() as char)).collect();
+                (FrameWord::Mirror, values)
+            }
+        };
+        match (values.is_empty(), frame.added) {
+            // Alone, every one of these words clears the chain.
+            (true, true) => Ok(()),
+            (true, false) => self.clear_frames(sink),
+            (false, added) => {
+                let word = self.frame_word(added, word)?;
+                self.alone(&format!("{word} {}", values.join(" ")), sink)
+            }
+        }
+    }
+
+    /// The word of a move in machine coordinates.
+    pub(super) fn machine_word(&self) -> Result<&'static str, Fault> {
+        let meaning = NameMeaning::Code(Meaning::UseMachineCoordinates);
+        let row = self.dialect.name_for(meaning).ok_or_else(|| cannot("machine coordinates"))?;
+        Ok(&row.name)
+    }
+}

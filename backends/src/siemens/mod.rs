@@ -1,0 +1,287 @@
+//! The back-end of the Sinumerik's own language.
+//!
+//! Blocks of letters and numbers are written as in every other dialect (`crate::word`); this room
+//! has what is said in another form: cycles and patterns called with arguments, frames, arcs by
+//! name, edges of tools, messages, labels and units. Codes, names and the order of arguments come
+//! from the dictionary. What it has no word for is a fault at the statement, never silent.
+//!
+//! Not here: expanding what the control cannot say (passes), and judging the result (verification).
+
+mod cycle;
+mod frame;
+mod motion;
+mod names;
+mod pattern;
+mod statement;
+mod tool;
+mod unit;
+
+use std::collections::BTreeSet;
+
+use ncc_dialects::{CallRow, Dialect, Quantity, Settings};
+use ncc_ir::canon::{AXES, Modes, Units};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::program::{Op, Stmt};
+use ncc_ir::source::Span;
+
+use crate::Layout;
+use crate::word;
+use crate::word::Sink;
+use crate::word::block::{Need, Part, Rank};
+use crate::word::codes::Letter;
+use crate::word::modes::cannot;
+use crate::word::number::{self, Format, Shaped};
+use names::Names;
+
+/// Whether the text has a cycle in force for the blocks that follow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Modal {
+    Off,
+    On,
+    /// On one way, or as the caller has it.
+    Doubtful,
+}
+
+/// What is in force in the text besides codes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Standing {
+    modal: Modal,
+    /// The feed that the program has in force, if it is known.
+    feed: Option<Num>,
+    /// Whether the text has the same in force; a boring cycle leaves none that is known.
+    feed_said: bool,
+    /// Whether a tool change has made an edge active that the program did not ask for.
+    edge_waits: bool,
+}
+
+impl Standing {
+    const START: Standing = Standing { modal: Modal::Off, feed: None, feed_said: true, edge_waits: false };
+
+    /// What holds if the block between `before` and now may have been skipped.
+    fn join(&mut self, before: Standing) {
+        if self.modal != before.modal {
+            self.modal = Modal::Doubtful;
+        }
+        if self.feed != before.feed {
+            self.feed = None;
+        }
+        self.feed_said &= before.feed_said;
+        self.edge_waits |= before.edge_waits;
+    }
+}
+
+/// Writes a program in the Sinumerik's language.
+#[derive(Clone, Debug)]
+pub struct Writer {
+    words: word::Writer,
+    dialect: &'static Dialect,
+    /// Whether a tool change makes edge 1 active.
+    edge_with_tool: bool,
+    standing: Standing,
+    /// Whether the next straight move is in machine coordinates.
+    raw: bool,
+    names: Names,
+    /// Subprograms that are called while a cycle is in force.
+    under_cycle: BTreeSet<Box<str>>,
+    /// Labels made for repetitions.
+    repeats: u32,
+    /// Whether a subprogram has been written, so that every unit needs its header.
+    units: bool,
+    /// Calls whose rows nobody confirms, as far as told.
+    told: BTreeSet<&'static str>,
+}
+
+impl Writer {
+    /// A writer at the start of a program.
+    pub fn new(settings: Settings, layout: Layout) -> Writer {
+        Writer {
+            dialect: settings.dialect,
+            edge_with_tool: settings.get("edge_after_change") == "1",
+            words: word::Writer::new(settings, layout),
+            standing: Standing::START,
+            raw: false,
+            names: Names::default(),
+            under_cycle: BTreeSet::new(),
+            repeats: 0,
+            units: false,
+            told: BTreeSet::new(),
+        }
+    }
+
+    /// Where the axes stand before the first statement, in program coordinates, as far as the user
+    /// has said it.
+    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
+        self.words.stand_at(start);
+    }
+
+    /// Facts that the written text states by itself, in its safe start line.
+    pub fn stated(&self) -> Modes {
+        self.words.stated()
+    }
+
+    /// Writes statements of the main procedure, in pieces of whole blocks. `assumed` holds the facts
+    /// that the source relies on without having said them; it may grow from piece to piece.
+    pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        self.words.take_for_granted(assumed);
+        self.body(stmts, &mut Sink { out, diags });
+    }
+
+    fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        let mut at = 0;
+        while at < stmts.len() {
+            let mut end = at + 1;
+            while end < stmts.len() && stmts[end].joined {
+                end += 1;
+            }
+            let block = &stmts[at..end];
+            if !self.plain_block(block, sink) {
+                self.words.pass_on(sink.out);
+                self.source_block(block, sink);
+            }
+            at = end;
+        }
+        self.words.pass_on(sink.out);
+    }
+
+    /// Writes a block that is nothing but a straight move, or leaves it untouched.
+    #[inline]
+    fn plain_block(&mut self, block: &[Stmt], sink: &mut Sink) -> bool {
+        let standing = &self.standing;
+        if standing.modal != Modal::Off || !standing.feed_said || standing.edge_waits || self.raw {
+            return false;
+        }
+        let plain = self.words.plain_block(block, sink.out);
+        if let (true, Op::SetFeedRate(Expr::Num(feed))) = (plain, &block[0].op) {
+            self.standing.feed = Some(*feed);
+        }
+        plain
+    }
+
+    fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        let Some(first) = stmts.first() else { return };
+        self.words.open_block(first);
+        let mut at = 0;
+        while at < stmts.len() {
+            at += self.one(&stmts[at..], sink);
+        }
+        self.words.close_block(stmts, sink);
+    }
+
+    /// Writes the first of the statements that are left of a block, and those that are said with it;
+    /// gives their number.
+    fn one(&mut self, rest: &[Stmt], sink: &mut Sink) -> usize {
+        let stmt = &rest[0];
+        let opened = self.words.open(stmt, sink);
+        let before = self.standing;
+        let said = cycle::called_once(rest);
+        let written = match &opened {
+            Err(fault) => Err(fault.clone()),
+            Ok(_) => self.statement(stmt, said > 1, sink),
+        };
+        self.words.close(stmt, opened.ok(), written, sink);
+        for further in &rest[1..said] {
+            self.words.close(further, None, Ok(()), sink);
+        }
+        if stmt.skip.is_some() {
+            self.standing.join(before);
+        }
+        said
+    }
+
+    /// A block of its own in which nothing else can stand.
+    fn alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        let words = &mut self.words;
+        if !words.block.is_empty() {
+            words.flush(false, sink);
+            words.split = true;
+        }
+        words.admit(&Need::new(Rank::Call), sink)?;
+        words.block.text(Part::Mode, text);
+        Ok(())
+    }
+
+    /// Ends the cycle that the text may have in force, before what must not make a hole.
+    fn end_modal(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        if self.standing.modal == Modal::Off {
+            return Ok(());
+        }
+        let word = self.call_modal()?;
+        self.alone(word, sink)?;
+        self.standing.modal = Modal::Off;
+        Ok(())
+    }
+
+    /// States the feed that is in force in the program, if the text has lost it.
+    fn restate_feed(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.standing.feed_said {
+            if let Some(feed) = self.standing.feed {
+                self.words.feed_rate(&Expr::Num(feed), span, sink)?;
+            }
+            self.standing.feed_said = true;
+        }
+        Ok(())
+    }
+
+    /// How numbers of a quantity are written, and the letter by which diagnostics name them.
+    fn letter(&self, name: &str, quantity: Quantity) -> Letter {
+        let letter = name.bytes().find(u8::is_ascii_alphabetic).unwrap_or(b'X').to_ascii_uppercase();
+        let counts = quantity == Quantity::Integer;
+        Letter { letter, format: Format::new(self.dialect.numbers(quantity), counts) }
+    }
+
+    /// A value as it is written behind a name.
+    fn value(&mut self, letter: &Letter, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        Ok(digits(self.words.value(letter, value, span, sink)?))
+    }
+
+    /// A length that the translation knows, in the unit in force.
+    fn length(&self, nanos: Nanos, letter: &Letter) -> Result<String, Fault> {
+        let unit = match self.words.force.units {
+            Some(Units::Mm) => Unit::Mm,
+            Some(Units::Inch) => Unit::Inch,
+            None => return Err(cannot("a length in a unit that is not known")),
+        };
+        self.near(nanos, letter, unit)
+    }
+
+    /// The written number nearest to a value.
+    fn near(&self, nanos: Nanos, letter: &Letter, unit: Unit) -> Result<String, Fault> {
+        let n = number::from_nanos(nanos, &letter.format, unit);
+        let shaped = number::shape(n, &letter.format);
+        Ok(digits(shaped.map_err(|why| word::statement::unwritable(why, letter.letter, n))?))
+    }
+
+    /// Tells once that a call rests on a row that nobody confirms.
+    fn tell_unsure(&mut self, row: &'static CallRow, meaning: &str, span: Span, sink: &mut Sink) {
+        if !row.sure && self.told.insert(&row.name) {
+            let code = row.name.as_str().into();
+            sink.report(Fault::AssumedRow { code, meaning: meaning.into() }, span);
+        }
+    }
+}
+
+/// A number as text.
+fn digits(n: Shaped) -> String {
+    let mut text = Vec::new();
+    number::append(&mut text, n);
+    String::from_utf8_lossy(&text).into_owned()
+}
+
+/// A call with its arguments; those that are left out at the end are not written.
+fn call_text(row: &CallRow, mut arguments: Vec<Option<String>>) -> String {
+    while arguments.last().is_some_and(Option::is_none) {
+        arguments.pop();
+    }
+    let arguments: Vec<String> = arguments
+        .into_iter()
+        .zip(&row.parameters)
+        .map(|(argument, parameter)| match (argument, parameter.write) {
+            (Some(text), _) => text,
+            (None, Some(value)) => value.to_string(),
+            (None, None) => String::new(),
+        })
+        .collect();
+    format!("{}({})", row.name, arguments.join(","))
+}

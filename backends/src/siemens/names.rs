@@ -1,0 +1,108 @@
+//! Names of subprograms and labels in the control's letters.
+//!
+//! A name that the control can have stays; any other one is changed, always to the same.
+
+use std::collections::BTreeMap;
+
+/// Longest name of a program.
+const LONGEST: usize = 24;
+
+/// Names of one text.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names {
+    made: BTreeMap<Box<str>, String>,
+}
+
+impl Names {
+    /// The name for a subprogram.
+    pub(super) fn program(&mut self, name: &str) -> String {
+        self.unique(format!("program {name}"), program(name))
+    }
+
+    /// The name for a label.
+    pub(super) fn label(&mut self, name: &str) -> String {
+        self.unique(format!("label {name}"), identifier(name, "L_"))
+    }
+
+    /// Whether a label of that name has been written.
+    pub(super) fn has_label(&self, name: &str) -> bool {
+        self.made.contains_key(format!("label {name}").as_str())
+    }
+
+    fn unique(&mut self, key: String, wanted: String) -> String {
+        if let Some(made) = self.made.get(key.as_str()) {
+            return made.clone();
+        }
+        let kind = key.split(' ').next().unwrap_or_default();
+        let taken = |name: &String| {
+            self.made.iter().any(|(k, made)| k.split(' ').next() == Some(kind) && made == name)
+        };
+        let mut name = wanted.clone();
+        let mut more = 2;
+        while taken(&name) {
+            name = format!("{}_{more}", cut(&wanted, LONGEST - 4));
+            more += 1;
+        }
+        self.made.insert(key.into(), name.clone());
+        name
+    }
+}
+
+/// The name of a program: `L12` by number, else one that begins with two letters.
+pub(super) fn program(name: &str) -> String {
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    match name.strip_prefix(['L', 'l']) {
+        _ if digits(name) => {
+            let number = name.trim_start_matches('0');
+            format!("L{}", cut(if number.is_empty() { "0" } else { number }, 7))
+        }
+        Some(number) if digits(number) => format!("L{number}"),
+        Some(_) | None => identifier(name, "P_"),
+    }
+}
+
+/// Capitals, digits and underlines that begin with two letters or underlines.
+fn identifier(name: &str, prefix: &str) -> String {
+    let mut made: String = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || c == '_' { c.to_ascii_uppercase() } else { '_' })
+        .collect();
+    let begins = made.len() >= 2 && made.bytes().take(2).all(|b| b.is_ascii_uppercase() || b == b'_');
+    if !begins {
+        made.insert_str(0, prefix);
+    }
+    cut(&made, LONGEST).to_owned()
+}
+
+fn cut(text: &str, longest: usize) -> &str {
+    text.get(..longest).unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Names;
+
+    #[test]
+    fn names_stay_where_the_control_can_have_them() {
+        let mut names = Names::default();
+        for name in ["L12", "L012", "SLOT_STEP", "__X"] {
+            assert_eq!(names.program(name), name);
+        }
+        assert_eq!(names.program("1001"), "L1001");
+        assert_eq!(names.program("pocket"), "POCKET");
+        assert_eq!(names.program("B 7"), "P_B_7");
+        assert_eq!(names.label("120"), "L_120");
+    }
+
+    #[test]
+    fn two_names_never_become_one() {
+        let mut names = Names::default();
+        assert_eq!(names.program("L12"), "L12");
+        assert_eq!(names.program("12"), "L12_2");
+        assert_eq!(names.program("0012"), "L12_3");
+        assert_eq!(names.program("12"), "L12_2");
+        // A label may have the name of a program.
+        assert_eq!(names.label("POCKET"), "POCKET");
+        assert_eq!(names.program("POCKET"), "POCKET");
+    }
+}

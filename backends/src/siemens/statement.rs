@@ -1,0 +1,115 @@
+//! One statement: which words say it.
+
+use ncc_dialects::{Meaning, NameMeaning};
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{FrameSlot, Op, Stmt};
+
+use super::{Sink, Writer};
+use crate::word::block::{Need, Part, Rank};
+use crate::word::modes::cannot;
+use ncc_ir::expr::Expr;
+
+/// Longest text of a message.
+const LONGEST_MESSAGE: usize = 200;
+
+impl Writer {
+    /// Puts a statement into the block at hand, or into a new one if it does not fit. `once` says
+    /// that a cycle is called up for one hole where the tool stands, and ended.
+    ///
+    /// # Errors
+    /// The control cannot say it.
+    pub(super) fn statement(&mut self, stmt: &Stmt, once: bool, sink: &mut Sink) -> Result<(), Fault> {
+        if self.words.preamble.is_some() && self.words.absorb(stmt, sink)? {
+            return Ok(());
+        }
+        let span = stmt.span;
+        match &stmt.op {
+            Op::Comment(_)
+            | Op::Blank
+            | Op::UseLengthUnits(_)
+            | Op::SetDistanceMode(_)
+            | Op::SelectPlane(_)
+            | Op::SetFeedMode(_)
+            | Op::SetOriginOffsets(_)
+            | Op::StopCutterRadiusCompensation
+            | Op::SetSpindleSpeed(_)
+            | Op::SelectTool(_)
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::ProgramEnd
+            | Op::Return => self.words.statement(stmt, sink),
+            // Every call of a cycle says its plane of return.
+            Op::SetReturnLevel(_) => Ok(()),
+            Op::NoEffect(name) => self.no_effect(name, stmt, sink),
+            Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
+            Op::ClearFrame(_) => self.words.statement(stmt, sink),
+            Op::SetFrame(frame) => self.frame(frame, span, sink),
+            Op::UseMachineCoordinates => {
+                self.raw = true;
+                Ok(())
+            }
+            Op::SetFeedRate(feed) => {
+                self.words.statement(stmt, sink)?;
+                self.standing.feed = feed.literal();
+                self.standing.feed_said = true;
+                Ok(())
+            }
+            Op::ChangeTool => self.change_tool(stmt, sink),
+            Op::UseToolLengthOffset(entry) => self.length_offset(entry, span, sink),
+            Op::UseToolEdge { edge, said } => self.edge(edge, *said, span, sink),
+            Op::Dwell(seconds) => self.dwell(seconds, span, sink),
+            Op::StraightTraverse(to) => self.straight(&to.to, false, stmt, sink),
+            Op::StraightFeed(to) => self.straight(&to.to, true, stmt, sink),
+            Op::ArcFeed(arc) => self.arc(arc, span, sink),
+            Op::ArcForm(arc) => self.arc_form(arc, span, sink),
+            Op::Position(_) => self.words.statement(stmt, sink),
+            Op::StartCycle(cycle) => self.start_cycle(cycle, once, stmt, sink),
+            Op::Hole(to) => self.hole(&to.to, span, sink),
+            Op::Pattern(pattern) => self.pattern(pattern, stmt, sink),
+            Op::EndCycle => self.end_modal(sink),
+            Op::Message(text) => self.message(text, sink),
+            Op::Call(call) => self.call(call, span, sink),
+            Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
+            Op::Label(name) => self.label(name, sink),
+            Op::Control(control) => self.control(control, stmt, sink),
+            Op::Assign(..) => Err(cannot("an assignment to a variable")),
+            Op::Goto(_) => Err(cannot("a jump")),
+        }
+    }
+
+    fn no_effect(&mut self, name: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let means = self.dialect.name_row(name).and_then(|row| row.means);
+        if means != Some(NameMeaning::Code(Meaning::NoEffect)) {
+            return self.words.statement(stmt, sink);
+        }
+        self.words.admit(&Need::new(Rank::Setting), sink)?;
+        self.words.block.text(Part::Mode, name);
+        Ok(())
+    }
+
+    /// A dwell, which stands alone because its F is no feed.
+    fn dwell(&mut self, seconds: &Expr, span: ncc_ir::source::Span, sink: &mut Sink) -> Result<(), Fault> {
+        let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        let value = self.words.dwell_value(&dwell, seconds, span, sink)?;
+        let code = String::from_utf8_lossy(code.text()).into_owned();
+        self.alone(&format!("{code} {}{}", dwell.word.letter as char, super::digits(value)), sink)
+    }
+
+    fn message(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot("a message"))?;
+        if text.contains('"') || text.chars().any(char::is_control) {
+            return Err(cannot("a message with a quotation mark"));
+        }
+        if text.chars().count() > LONGEST_MESSAGE {
+            return Err(cannot("a message of more than 200 characters"));
+        }
+        let text = if text.is_empty() { String::new() } else { format!("\"{text}\"") };
+        self.alone(&format!("{}({text})", row.name), sink)
+    }
+}

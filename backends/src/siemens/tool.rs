@@ -1,0 +1,101 @@
+//! Tools and their edges.
+//!
+//! A tool change makes edge 1 active by itself. Where the program has another length in force, that
+//! is said before the drilling axis moves; where it says an edge in time, nothing is to be added.
+
+use ncc_dialects::Role;
+use ncc_ir::canon::Axis;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Point, Stmt};
+use ncc_ir::source::Span;
+
+use super::{Sink, Writer};
+use crate::word::block::{Need, Part, Rank};
+use crate::word::modes::cannot;
+
+impl Writer {
+    pub(super) fn change_tool(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        self.words.statement(stmt, sink)?;
+        self.standing.edge_waits = self.edge_with_tool;
+        Ok(())
+    }
+
+    /// An edge of the tool in the spindle.
+    pub(super) fn edge(
+        &mut self,
+        edge: &Expr,
+        said: bool,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let first = edge.literal().and_then(|n| n.whole()) == Some(1);
+        let comes_with_tool = first && !said && self.standing.edge_waits;
+        self.standing.edge_waits = false;
+        if comes_with_tool {
+            return Ok(());
+        }
+        self.edge_word(edge, span, sink)
+    }
+
+    fn edge_word(&mut self, edge: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.address.iter().find(|row| row.role == Role::ToolEdge);
+        let row = row.ok_or_else(|| cannot("an edge of a tool"))?;
+        let letter = self.letter(&row.letter.to_string(), row.quantity);
+        let edge = self.words.value(&letter, edge, span, sink)?;
+        if !(0..=9).contains(&edge.mantissa) {
+            return Err(Fault::TargetRange { word: format!("{}{}", row.letter, edge.mantissa).into() });
+        }
+        self.words.admit(&Need::new(Rank::Offset).letter(letter.letter), sink)?;
+        self.words.block.word(Part::Tail, letter.letter, edge);
+        Ok(())
+    }
+
+    /// An entry of a length table: none, or the one of the tool in the spindle.
+    pub(super) fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let entry = entry.literal().and_then(|n| n.whole());
+        match (entry, self.words.tracker.tool) {
+            (Some(0), _) => {
+                self.standing.edge_waits = false;
+                self.edge_word(&Expr::int(0), span, sink)
+            }
+            (Some(entry), Some(tool)) if entry == tool => {
+                self.tell_edge(tool, span, sink);
+                self.standing.edge_waits = false;
+                self.edge_word(&Expr::int(1), span, sink)
+            }
+            _ => Err(cannot("an entry of the length table that is not the tool's own")),
+        }
+    }
+
+    fn tell_edge(&mut self, tool: i64, span: Span, sink: &mut Sink) {
+        if let Ok(tool) = u32::try_from(tool) {
+            sink.report(Fault::AssumedEdge { tool }, span);
+        }
+    }
+
+    /// Says the length that the program has in force, if a tool change has made another active and
+    /// the drilling axis is about to move.
+    pub(super) fn settle_edge(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if !std::mem::replace(&mut self.standing.edge_waits, false) {
+            return Ok(());
+        }
+        let in_force = self.words.tracker.modes.length_offset.or(self.words.assumed.length_offset);
+        match (in_force, self.words.tracker.tool) {
+            (Some(0), _) => self.edge_word(&Expr::int(0), span, sink),
+            (Some(entry), Some(tool)) if i64::from(entry) == tool => {
+                self.tell_edge(tool, span, sink);
+                Ok(())
+            }
+            _ => Err(cannot("a tool change that keeps the length of another tool")),
+        }
+    }
+
+    /// The same before a move to a point.
+    pub(super) fn settle_edge_for(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        match to.get(Axis::Z) {
+            Some(_) => self.settle_edge(span, sink),
+            None => Ok(()),
+        }
+    }
+}

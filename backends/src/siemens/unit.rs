@@ -1,0 +1,193 @@
+//! Units of a text: main program and subprograms, calls, labels and repetitions.
+
+use ncc_dialects::NameMeaning;
+use ncc_ir::canon::Motion;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::program::{Call, Control, Op, Procedure, RepeatBlocks, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
+
+use super::{Modal, Sink, Standing, Writer, names};
+use crate::Head;
+use crate::word::block::{Need, Part, Rank};
+use crate::word::modes::cannot;
+
+/// Most repetitions of a call.
+const MOST_TIMES: u32 = 9999;
+
+/// Name of a main program whose source has none.
+const MAIN: &str = "MAIN";
+
+impl Writer {
+    /// The text that goes before all the rest: the header of the unit, if there are several, and the
+    /// comment for the operator.
+    pub fn head(&self, head: &Head, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        let number = head.name.number.map(|n| n.to_string());
+        let title = head.name.title.as_deref();
+        let mut kept = match (&number, title) {
+            (Some(number), Some(title)) => Some(format!("{number} {title}")),
+            (Some(number), None) => Some(number.clone()),
+            (None, title) => title.map(str::to_owned),
+        };
+        if self.units {
+            let name = names::program(title.or(number.as_deref()).unwrap_or(MAIN));
+            kept = kept.filter(|kept| *kept != name);
+            self.header(&name, "MPF", out);
+        }
+        if let Some(kept) = kept {
+            self.words.comment_line(&kept, out);
+            diags.push(Diagnostic::new(Fault::NameAsComment, Span::default()));
+        }
+        for line in &head.lines {
+            self.words.comment_line(line, out);
+        }
+    }
+
+    fn header(&self, name: &str, kind: &str, out: &mut Vec<u8>) {
+        out.extend_from_slice(format!("%_N_{name}_{kind}").as_bytes());
+        out.extend_from_slice(self.words.eol);
+    }
+
+    /// Writes a subprogram, after all of the main procedure.
+    pub fn procedure(&mut self, p: &Procedure, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        let mut sink = Sink { out, diags };
+        self.words.no_event(&mut sink);
+        self.units = true;
+        let span = p.body.first().map_or(Span::default(), |s| s.span);
+        if !p.parameters.is_empty() {
+            return sink.report(cannot("a subprogram with parameters"), span);
+        }
+        let name = self.names.program(&p.name);
+        self.header(&name, "SPF", sink.out);
+        if let Some(title) = &p.title {
+            self.words.comment_line(title, sink.out);
+        }
+        self.words.forget();
+        self.words.tracker = Tracker::default();
+        self.standing = Standing::START;
+        if self.under_cycle.contains(&p.name) {
+            self.standing.modal = Modal::Doubtful;
+        }
+        self.body(&p.body, &mut sink);
+        let silent = |s: &&Stmt| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
+        let last = p.body.iter().rev().find(silent);
+        if !last.is_some_and(|s| matches!(s.op, Op::Return | Op::ProgramEnd) && s.skip.is_none()) {
+            let end = Stmt::new(p.body.last().map_or(span, |s| s.span), Op::Return);
+            self.body(&[end], &mut sink);
+        }
+    }
+
+    /// Writes the end of the text. A program that does not say its own end is left so.
+    pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        self.words.finish(out, diags);
+    }
+
+    pub(super) fn call(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if !call.arguments.is_empty() {
+            return Err(cannot("a call with arguments"));
+        }
+        let times = match call.times {
+            0 => return Err(cannot("a call that is made no times")),
+            1 => String::new(),
+            2..=MOST_TIMES => format!(" P{}", call.times),
+            _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
+        };
+        self.settle_edge(span, sink)?;
+        if self.standing.modal != Modal::Off {
+            // Its positions are reached as the cycle's are.
+            self.under_cycle.insert(call.name.clone());
+            self.position_in_rapid(sink)?;
+        } else {
+            self.restate_feed(span, sink)?;
+        }
+        let name = self.names.program(&call.name);
+        self.alone(&format!("{name}{times}"), sink)?;
+        self.forget();
+        Ok(())
+    }
+
+    /// Lets words without a code be rapid moves.
+    fn position_in_rapid(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        if self.words.force.motion == Some(Motion::Traverse) {
+            return Ok(());
+        }
+        let code = self.words.codes.traverse.ok_or_else(|| cannot("a rapid move"))?;
+        self.words.admit(&Need::new(Rank::Motion).code(Some(code)), sink)?;
+        self.words.block.code(Part::Motion, &code);
+        self.words.force.motion = Some(Motion::Traverse);
+        Ok(())
+    }
+
+    /// What is in force is not known: after a call, at a label.
+    fn forget(&mut self) {
+        self.words.forget();
+        (self.standing.feed, self.standing.feed_said) = (None, true);
+    }
+
+    pub(super) fn label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
+        let name = self.names.label(name);
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
+        }
+        self.words.block.text(Part::Label, &format!("{name}:"));
+        self.forget();
+        Ok(())
+    }
+
+    pub(super) fn repeat_blocks(
+        &mut self,
+        repeat: &RepeatBlocks,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        if repeat.times == 0 {
+            return Ok(());
+        }
+        self.restate_feed(span, sink)?;
+        let from = self.names.label(&repeat.from);
+        let to = repeat.to.as_ref().map(|to| format!(" {}", self.names.label(to)));
+        self.repeat(&from, &to.unwrap_or_default(), repeat.times, sink)
+    }
+
+    fn repeat(&mut self, from: &str, to: &str, times: u32, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.name_for(NameMeaning::RepeatBlocks);
+        let row = row.ok_or_else(|| cannot("a repetition of blocks"))?;
+        let count = match times {
+            1 => String::new(),
+            2..=MOST_TIMES => format!(" P={times}"),
+            _ => return Err(Fault::TargetRange { word: times.to_string().into() }),
+        };
+        self.alone(&format!("{} {from}{to}{count}", row.name), sink)?;
+        self.forget();
+        Ok(())
+    }
+
+    /// Structured control: a body done a number of times becomes blocks that are repeated.
+    pub(super) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let (times, body) = match control {
+            Control::Repeat { times, body } => (times, body),
+            Control::Loop { .. } => return Err(cannot("an endless loop")),
+            Control::While { .. } => return Err(cannot("a loop on a condition")),
+            Control::For { .. } => return Err(cannot("a counted loop")),
+            Control::If { .. } => return Err(cannot("a condition")),
+        };
+        let times = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let times = times.filter(|n| *n > 0 && stmt.skip.is_none());
+        let times = times.ok_or_else(|| cannot("a repetition that is not made a known number of times"))?;
+        let name = loop {
+            self.repeats += 1;
+            let name = format!("AGAIN_{}", self.repeats);
+            if !self.names.has_label(&name) {
+                break name;
+            }
+        };
+        self.label(&name, sink)?;
+        self.words.flush(false, sink);
+        self.body(body, sink);
+        match times {
+            1 => Ok(()),
+            times => self.repeat(&name, "", times - 1, sink),
+        }
+    }
+}
