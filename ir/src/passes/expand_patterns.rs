@@ -46,7 +46,7 @@ fn put(stmt: Stmt, holes: Vec<Point>, made: &mut Rebuild, diags: &mut Vec<Diagno
 }
 
 /// Whether the target has words for a pattern as it stands here.
-fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
+pub(super) fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
     let caps = &target.caps;
     if caps.flat {
         return false;

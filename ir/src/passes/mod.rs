@@ -16,6 +16,7 @@ pub mod expand_patterns;
 pub mod expand_repeats;
 pub mod expand_turns;
 pub mod flatten_facts;
+pub mod fold_patterns;
 mod legalise;
 pub mod offset_with_z;
 pub mod origin_shift;
