@@ -97,9 +97,7 @@ impl Writer {
                 words.push(self.named(NameRole::OpeningAngle, angle, None, span, sink)?);
                 (Some(*turn), None, words)
             }
-            Shape::Mixed { turn, centre } => {
-                (Some(*turn), None, self.mixed_centre(arc, centre, span, sink)?)
-            }
+            Shape::Mixed { turn, centre } => (Some(*turn), None, self.mixed_centre(arc, centre, span, sink)?),
             Shape::Through(point) => {
                 let roles = [NameRole::ThroughX, NameRole::ThroughY, NameRole::ThroughZ];
                 self.words.need_distance(point.axes.iter().flatten(), &mut inserted)?;

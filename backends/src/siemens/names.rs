@@ -24,6 +24,13 @@ impl Names {
         self.unique(format!("label {name}"), identifier(name, "L_"))
     }
 
+    /// The name for the main program, which no subprogram may have.
+    pub(super) fn main(&self, name: &str) -> String {
+        let name = identifier(name, "P_");
+        let taken = self.made.iter().any(|(key, made)| key.starts_with("program ") && *made == name);
+        if taken { format!("{}_MAIN", cut(&name, LONGEST - 5)) } else { name }
+    }
+
     /// Whether a label of that name has been written.
     pub(super) fn has_label(&self, name: &str) -> bool {
         self.made.contains_key(format!("label {name}").as_str())
@@ -49,7 +56,7 @@ impl Names {
 }
 
 /// The name of a program: `L12` by number, else one that begins with two letters.
-pub(super) fn program(name: &str) -> String {
+fn program(name: &str) -> String {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     match name.strip_prefix(['L', 'l']) {
         _ if digits(name) => {
@@ -90,7 +97,8 @@ mod tests {
         }
         assert_eq!(names.program("1001"), "L1001");
         assert_eq!(names.program("pocket"), "POCKET");
-        assert_eq!(names.program("B 7"), "P_B_7");
+        assert_eq!(names.program("B 7"), "B_7");
+        assert_eq!(names.program("7-B"), "P_7_B");
         assert_eq!(names.label("120"), "L_120");
     }
 

@@ -244,14 +244,17 @@ impl Writer {
         }
         let holes = self.words.tracker.positions(pattern);
         let (first, second, _) = plane.axes();
-        let sides = [(first, Role::PointFirst, Role::FirstFlags), (second, Role::PointSecond, Role::SecondFlags)];
+        let sides =
+            [(first, Role::PointFirst, Role::FirstFlags), (second, Role::PointSecond, Role::SecondFlags)];
         for (side, (axis, role, flags)) in sides.into_iter().enumerate() {
             let letter = self.parameter(to.row, role);
             let mut texts: Vec<String> = Vec::new();
             for (k, point) in points.iter().enumerate() {
                 let place = holes.as_ref().map(|holes| holes[k][side]);
                 let text = match (point.get(axis), texts.last()) {
-                    (Some(word), _) if self.is_absolute(word) => self.value(&letter, &word.value, span, sink)?,
+                    (Some(word), _) if self.is_absolute(word) => {
+                        self.value(&letter, &word.value, span, sink)?
+                    }
                     (None, Some(last)) => last.clone(),
                     (Some(_), _) | (None, None) => self.known(place, axis, to.row, role)?,
                 };

@@ -22,13 +22,7 @@ impl Writer {
     }
 
     /// An edge of the tool in the spindle.
-    pub(super) fn edge(
-        &mut self,
-        edge: &Expr,
-        said: bool,
-        span: Span,
-        sink: &mut Sink,
-    ) -> Result<(), Fault> {
+    pub(super) fn edge(&mut self, edge: &Expr, said: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let first = edge.literal().and_then(|n| n.whole()) == Some(1);
         let comes_with_tool = first && !said && self.standing.edge_waits;
         self.standing.edge_waits = false;

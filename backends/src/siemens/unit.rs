@@ -7,7 +7,7 @@ use ncc_ir::program::{Call, Control, Op, Procedure, RepeatBlocks, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use super::{Modal, Sink, Standing, Writer, names};
+use super::{Modal, Sink, Standing, Writer};
 use crate::Head;
 use crate::word::block::{Need, Part, Rank};
 use crate::word::modes::cannot;
@@ -30,7 +30,7 @@ impl Writer {
             (None, title) => title.map(str::to_owned),
         };
         if self.units {
-            let name = names::program(title.or(number.as_deref()).unwrap_or(MAIN));
+            let name = self.names.main(title.or(number.as_deref()).unwrap_or(MAIN));
             kept = kept.filter(|kept| *kept != name);
             self.header(&name, "MPF", out);
         }

@@ -238,7 +238,9 @@ impl Block {
     pub(crate) fn write(&mut self, to: &mut Vec<u8>, mut blank: bool) {
         let order = match self.calls_up {
             true => [Part::Label, Part::Mode, Part::Offset, Part::Motion, Part::Axes, Part::Feed, Part::Tail],
-            false => [Part::Label, Part::Mode, Part::Motion, Part::Offset, Part::Axes, Part::Feed, Part::Tail],
+            false => {
+                [Part::Label, Part::Mode, Part::Motion, Part::Offset, Part::Axes, Part::Feed, Part::Tail]
+            }
         };
         for part in order {
             let from = &mut self.parts[part as usize];

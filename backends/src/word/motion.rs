@@ -224,7 +224,12 @@ impl Writer {
     }
 
     /// A centre in the other form than the source's.
-    pub(crate) fn computed_centre(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<CentreWords, Fault> {
+    pub(crate) fn computed_centre(
+        &mut self,
+        arc: &Arc,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<CentreWords, Fault> {
         let plane = arc.plane.known().or(self.force.plane);
         let plane = plane.ok_or_else(|| cannot("an arc in a plane that is not known"))?;
         let (first, second, _) = plane.axes();

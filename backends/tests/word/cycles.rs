@@ -164,10 +164,7 @@ fn a_cycle_without_holes_leaves_its_feed() {
 fn the_kinds_have_their_words() {
     let kinds = [
         (CycleKind::DrillDwell { dwell: seconds("0.5") }, "G99 G82 X1. Z-6. R3. P500"),
-        (
-            peck(Clearance::Parameter, None),
-            "G99 G83 X1. Z-6. R3. Q2.",
-        ),
+        (peck(Clearance::Parameter, None), "G99 G83 X1. Z-6. R3. Q2."),
         (CycleKind::Bore { dwell: None, feed_out: None }, "G99 G85 X1. Z-6. R3."),
         (CycleKind::Bore { dwell: Some(seconds("1")), feed_out: None }, "G99 G89 X1. Z-6. R3. P1000"),
     ];
@@ -177,9 +174,8 @@ fn the_kinds_have_their_words() {
     }
     let dwell = start(cycle(CycleKind::DrillDwell { dwell: seconds("0.5") }, "-6.", None));
     assert_eq!(clean("mach9", &lines(vec![dwell, hole("X1.")])), "G82Z-6.R3.D0.5\nX1.\n");
-    let pecked = |clearance, dwell| {
-        lines(vec![start(cycle(peck(clearance, dwell), "-6.", None)), hole("X1.")])
-    };
+    let pecked =
+        |clearance, dwell| lines(vec![start(cycle(peck(clearance, dwell), "-6.", None)), hole("X1.")]);
     refused("fanuc", &pecked(Clearance::Stated(mm("1.")), None));
     refused("fanuc", &pecked(Clearance::Parameter, Some(seconds("1."))));
     refused("mach9", &pecked(Clearance::Parameter, None));
@@ -189,8 +185,12 @@ fn the_kinds_have_their_words() {
 
 #[test]
 fn patterns_stay_patterns() {
-    let grid =
-        Pattern::Grid { start: None, columns: row(Axis::X, "30.", 2), rows: row(Axis::Y, "130.", 2), serpentine: true };
+    let grid = Pattern::Grid {
+        start: None,
+        columns: row(Axis::X, "30.", 2),
+        rows: row(Axis::Y, "130.", 2),
+        serpentine: true,
+    };
     let stmts = lines(vec![
         rapid("X0 Y0"),
         drill("-6.", Some("191")),
@@ -203,8 +203,12 @@ fn patterns_stay_patterns() {
     let mut other = Settings::new(builtin("mach9").expect("built in"));
     other.choose("g24_direction", "cw").expect("an option");
     other.choose("g25_xy", "extent").expect("an option");
-    let three =
-        Pattern::Grid { start: None, columns: row(Axis::X, "30.", 3), rows: row(Axis::Y, "5.5", 1), serpentine: false };
+    let three = Pattern::Grid {
+        start: None,
+        columns: row(Axis::X, "30.", 3),
+        rows: row(Axis::Y, "5.5", 1),
+        serpentine: false,
+    };
     let stmts = lines(vec![
         rapid("X0 Y0"),
         drill("-6.", None),
