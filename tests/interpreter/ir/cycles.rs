@@ -178,14 +178,10 @@ impl Control {
             Hole::Bore { dwell, feed_out } => {
                 self.feed(z)?;
                 self.stay(dwell);
-                if feed_out.is_some() {
-                    self.m.feed = feed_out;
-                }
+                let feed_in = self.m.feed;
+                self.m.feed = feed_out.or(feed_in);
                 self.feed(r)?;
-                if feed_out.is_some() {
-                    // Which of the two is then in force is not said.
-                    self.m.feed = None;
-                }
+                self.m.feed = feed_in;
             }
         }
         match (cycle.back_plane, cycle.back_initial.unwrap_or(self.return_initial)) {
