@@ -48,6 +48,8 @@ pub enum Reader {
     Word(Box<word::Reader>),
     /// The canonical functions.
     Canon(Box<canon::Reader>),
+    /// The Sinumerik's language.
+    Siemens(Box<siemens::Reader>),
     /// The text form of the neutral program.
     Ir(Box<ir::Reader>),
 }
@@ -60,8 +62,8 @@ impl Reader {
         match settings.dialect.family {
             Family::Word => Reader::Word(Box::new(word::Reader::new(settings, assume))),
             Family::Canon => Reader::Canon(Box::new(canon::Reader::new(settings, assume))),
-            // A family is not offered before its reader is there.
-            Family::Ir | Family::Sinumerik => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
+            Family::Sinumerik => Reader::Siemens(Box::new(siemens::Reader::new(settings, assume))),
+            Family::Ir => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
         }
     }
 
@@ -71,6 +73,7 @@ impl Reader {
         match self {
             Reader::Word(reader) => reader.read(text, base, out),
             Reader::Canon(reader) => reader.read(text, base, out),
+            Reader::Siemens(reader) => reader.read(text, base, out),
             Reader::Ir(reader) => reader.read(text, base, out),
         }
     }
@@ -79,6 +82,7 @@ impl Reader {
     pub fn too_long(&mut self, span: Span, out: &mut Batch) {
         match self {
             Reader::Word(reader) => reader.too_long(span, out),
+            Reader::Siemens(reader) => reader.too_long(span, out),
             Reader::Canon(_) | Reader::Ir(_) => out.report(Fault::BlockTooLong { limit: LONGEST_LINE }, span),
         }
     }
@@ -88,6 +92,7 @@ impl Reader {
         match self {
             Reader::Word(reader) => reader.finish(out),
             Reader::Canon(reader) => reader.finish(out),
+            Reader::Siemens(reader) => reader.finish(out),
             Reader::Ir(reader) => reader.finish(out),
         }
     }

@@ -1,4 +1,4 @@
-//! The Sinumerik's language: from the text of a line to its syntax tree.
+//! The Sinumerik's language: from text to statements.
 //!
 //! A block is one line. `token` makes tokens of its bytes, the grammar (`block.lalrpop`, with its
 //! actions in `build`) a tree of them (`tree`); `unit` tells lines that frame programs. The whole
@@ -6,17 +6,32 @@
 //! form. Reading never fails: a faulty block gives its fault, and the next line is read as if
 //! nothing had happened.
 //!
-//! Not here yet: what the blocks mean.
+//! `reader` takes a text line by line and gives each block to `lower`, which with its neighbours
+//! makes statements of it: by the dictionary, and by what the program has said so far (`facts`).
+//!
+//! Not here: what execution makes of a program, and everything about files.
 
-#![allow(dead_code)] // Until blocks are lowered.
-
+mod again;
 mod build;
+mod calls;
+mod cycles;
+mod facts;
+mod frames;
+mod functions;
+mod letters;
+mod lower;
+mod motion;
+mod patterns;
+mod reader;
+mod sort;
 #[cfg(test)]
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;
 mod token;
 mod tree;
 mod unit;
+
+pub use reader::Reader;
 
 use lalrpop_util::ParseError;
 use ncc_ir::diag::{Diagnostic, Fault};

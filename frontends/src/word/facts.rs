@@ -19,7 +19,7 @@ use crate::Batch;
 
 /// What is known of a modal fact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) enum Know<T> {
+pub(crate) enum Know<T> {
     /// The program has not said it.
     #[default]
     Unsaid,
@@ -33,21 +33,21 @@ pub(super) enum Know<T> {
 
 impl<T: Copy> Know<T> {
     /// The fact, without taking anything for granted.
-    pub(super) fn fact(self) -> Fact<T> {
+    pub(crate) fn fact(self) -> Fact<T> {
         match self {
             Know::Said(value) | Know::Taken(value) => Fact::Known(value),
             Know::Unsaid | Know::Lost => Fact::Entry,
         }
     }
 
-    pub(super) fn value(self) -> Option<T> {
+    pub(crate) fn value(self) -> Option<T> {
         self.fact().known()
     }
 }
 
 impl<T: PartialEq> Know<T> {
     /// What is known after a block that may have been skipped; `before` is what was before it.
-    fn join(&mut self, before: Know<T>) {
+    pub(crate) fn join(&mut self, before: Know<T>) {
         // What was taken for granted in the block holds without it as well.
         let taken = matches!((&before, &self), (Know::Unsaid, Know::Taken(_)));
         if *self != before && !taken {
@@ -151,7 +151,7 @@ impl State {
 
 /// Takes a fact for granted. Gives what is to be reported: the value, if not every such control
 /// has it so.
-fn take<T: Copy, U: Copy + From<T>>(
+pub(crate) fn take<T: Copy, U: Copy + From<T>>(
     know: &mut Know<U>,
     assumed: &mut Option<U>,
     power_on: &Option<PowerOnFact<T>>,
@@ -308,7 +308,7 @@ fn motion_name(motion: Motion) -> &'static str {
     }
 }
 
-fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&str>) {
+pub(crate) fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&str>) {
     if let Some(value) = value {
         out.report(Fault::AssumedMode { fact, value: value.into() }, at);
     }

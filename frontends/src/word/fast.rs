@@ -19,12 +19,14 @@ use crate::Batch;
 
 /// What a plain move needs.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Fast {
-    unit: Unit,
-    distance: Fact<Distance>,
-    feed: bool,
+pub(crate) struct Fast {
+    pub(crate) unit: Unit,
+    pub(crate) distance: Fact<Distance>,
+    pub(crate) feed: bool,
     /// Letter of the block number.
-    number: u8,
+    pub(crate) number: u8,
+    /// Whether a number means the same with and without a point.
+    pub(crate) bare: bool,
 }
 
 impl Lower {
@@ -58,73 +60,80 @@ impl Lower {
             distance: state.distance.fact(),
             feed,
             number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
+            bare: false,
         })
     }
 
     /// Lowers a plain move; `false` if it is not one, and then nothing was done.
     #[inline]
     pub(super) fn fast_move(&mut self, words: &[Word], out: &mut Batch) -> bool {
-        let Some(fast) = self.fast else {
-            return false;
-        };
-        let Some((first, last)) = words.first().zip(words.last()) else {
-            return false;
-        };
-        let span = Span::new(first.span.start, last.span.end);
-        let mut number = None;
-        let mut axes = words;
-        if first.letter == fast.number {
-            let Value::Number(digits) = first.value else {
-                return false;
-            };
-            if digits.point || digits.mantissa < 0 {
-                return false;
-            }
-            let Ok(n) = u32::try_from(digits.mantissa) else {
-                return false;
-            };
-            number = Some(n);
-            axes = &words[1..];
+        match self.fast {
+            Some(fast) => plain_move(fast, words, self.target(out)),
+            None => false,
         }
-        if axes.is_empty() || axes.len() > 3 {
-            return false;
-        }
-        let mut seen = 0u8;
-        for word in axes {
-            let place = word.letter.wrapping_sub(b'X');
-            let Value::Number(digits) = word.value else {
-                return false;
-            };
-            let plain = digits.point && digits.scale <= 8 || digits.mantissa == 0 && digits.scale == 0;
-            let large = digits.mantissa.unsigned_abs() >= 10_000_000;
-            if place > 2 || !plain || large || seen >> place & 1 == 1 {
-                return false;
-            }
-            seen |= 1 << place;
-        }
-        // A statement is large: it goes to its place empty, and is filled there.
-        let stmts = self.target(out);
-        let empty = Move::default();
-        let op = if fast.feed { Op::StraightFeed(empty) } else { Op::StraightTraverse(empty) };
-        stmts.push(Stmt { span, number, skip: None, joined: false, comment: None, op });
-        let Some(Op::StraightFeed(Move { to, .. }) | Op::StraightTraverse(Move { to, .. })) =
-            stmts.last_mut().map(|stmt| &mut stmt.op)
-        else {
-            return false;
-        };
-        for word in axes {
-            if let Value::Number(digits) = word.value {
-                to.axes[usize::from(word.letter - b'X')] = Some(Coord {
-                    value: Expr::Num(Num {
-                        mantissa: digits.mantissa,
-                        scale: digits.scale,
-                        point: digits.point,
-                        unit: fast.unit,
-                    }),
-                    distance: fast.distance,
-                });
-            }
-        }
-        true
     }
+}
+
+/// Lowers a plain move into `stmts`; `false` if it is not one, and then nothing was done.
+#[inline]
+pub(crate) fn plain_move(fast: Fast, words: &[Word], stmts: &mut Vec<Stmt>) -> bool {
+    let Some((first, last)) = words.first().zip(words.last()) else {
+        return false;
+    };
+    let span = Span::new(first.span.start, last.span.end);
+    let mut number = None;
+    let mut axes = words;
+    if first.letter == fast.number {
+        let Value::Number(digits) = first.value else {
+            return false;
+        };
+        if digits.point || digits.mantissa < 0 {
+            return false;
+        }
+        let Ok(n) = u32::try_from(digits.mantissa) else {
+            return false;
+        };
+        number = Some(n);
+        axes = &words[1..];
+    }
+    if axes.is_empty() || axes.len() > 3 {
+        return false;
+    }
+    let mut seen = 0u8;
+    for word in axes {
+        let place = word.letter.wrapping_sub(b'X');
+        let Value::Number(digits) = word.value else {
+            return false;
+        };
+        let plain =
+            digits.point && digits.scale <= 8 || (fast.bare || digits.mantissa == 0) && digits.scale == 0;
+        let large = digits.mantissa.unsigned_abs() >= 10_000_000;
+        if place > 2 || !plain || large || seen >> place & 1 == 1 {
+            return false;
+        }
+        seen |= 1 << place;
+    }
+    // A statement is large: it goes to its place empty, and is filled there.
+    let empty = Move::default();
+    let op = if fast.feed { Op::StraightFeed(empty) } else { Op::StraightTraverse(empty) };
+    stmts.push(Stmt { span, number, skip: None, joined: false, comment: None, op });
+    let Some(Op::StraightFeed(Move { to, .. }) | Op::StraightTraverse(Move { to, .. })) =
+        stmts.last_mut().map(|stmt| &mut stmt.op)
+    else {
+        return false;
+    };
+    for word in axes {
+        if let Value::Number(digits) = word.value {
+            to.axes[usize::from(word.letter - b'X')] = Some(Coord {
+                value: Expr::Num(Num {
+                    mantissa: digits.mantissa,
+                    scale: digits.scale,
+                    point: digits.point,
+                    unit: fast.unit,
+                }),
+                distance: fast.distance,
+            });
+        }
+    }
+    true
 }

@@ -324,7 +324,7 @@ fn join_comments(comments: &[Span], src: Source) -> Option<Text> {
 }
 
 /// Text as UTF-8, else Latin-1; blanks at the end are no part of it.
-pub(super) fn decode(bytes: &[u8]) -> Text {
+pub(crate) fn decode(bytes: &[u8]) -> Text {
     match std::str::from_utf8(bytes) {
         Ok(text) => text.trim_end().into(),
         Err(_) => bytes.iter().map(|&b| char::from(b)).collect::<String>().trim_end().into(),

@@ -13,16 +13,16 @@
 pub(crate) mod block;
 mod call;
 mod cycle;
-mod facts;
-mod fast;
+pub(crate) mod facts;
+pub(crate) mod fast;
 mod frame;
 mod functions;
-mod lower;
+pub(crate) mod lower;
 mod motion;
-mod number;
+pub(crate) mod number;
 mod pattern;
 pub(crate) mod plain;
-mod sort;
+pub(crate) mod sort;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]
 mod tests;
@@ -41,19 +41,19 @@ use token::Signs;
 /// A piece of the source with the place of its first byte.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Source<'s> {
-    text: &'s [u8],
-    base: u32,
+    pub(crate) text: &'s [u8],
+    pub(crate) base: u32,
 }
 
 impl Source<'_> {
     /// The bytes of a span.
-    fn bytes(&self, span: Span) -> &[u8] {
+    pub(crate) fn bytes(&self, span: Span) -> &[u8] {
         let at = |place: u32| place.saturating_sub(self.base) as usize;
         self.text.get(at(span.start)..at(span.end)).unwrap_or_default()
     }
 
     /// The text of a span.
-    fn text(&self, span: Span) -> Box<str> {
+    pub(crate) fn text(&self, span: Span) -> Box<str> {
         String::from_utf8_lossy(self.bytes(span)).into()
     }
 }

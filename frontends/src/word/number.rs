@@ -146,7 +146,7 @@ impl Lower {
 }
 
 /// The unit of a length.
-pub(super) fn unit_of(units: Fact<Units>) -> Unit {
+pub(crate) fn unit_of(units: Fact<Units>) -> Unit {
     match units {
         Fact::Known(Units::Mm) => Unit::Mm,
         Fact::Known(Units::Inch) => Unit::Inch,
@@ -155,7 +155,7 @@ pub(super) fn unit_of(units: Fact<Units>) -> Unit {
 }
 
 /// A literal for people.
-fn spell(num: Num) -> String {
+pub(crate) fn spell(num: Num) -> String {
     let sign = if num.mantissa < 0 { "-" } else { "" };
     let digits = format!("{:0width$}", num.mantissa.unsigned_abs(), width = usize::from(num.scale) + 1);
     let (whole, part) = digits.split_at(digits.len() - usize::from(num.scale));

@@ -202,12 +202,12 @@ impl Lower {
     }
 }
 
-pub(super) const RANK_WORDS: u8 = 10;
-pub(super) const RANK_MOTION: u8 = 20;
-pub(super) const RANK_AFTER: u8 = 30;
+pub(crate) const RANK_WORDS: u8 = 10;
+pub(crate) const RANK_MOTION: u8 = 20;
+pub(crate) const RANK_AFTER: u8 = 30;
 
 /// When a code's function happens within its block.
-pub(super) fn rank(meaning: Meaning) -> u8 {
+pub(crate) fn rank(meaning: Meaning) -> u8 {
     match meaning {
         Meaning::NoEffect => 0,
         Meaning::UseLengthUnits(_) => 1,

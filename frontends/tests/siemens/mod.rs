@@ -5,6 +5,7 @@
 mod expressions;
 mod faults;
 mod laws;
+mod lowering;
 mod pitfalls;
 mod show;
 mod statements;

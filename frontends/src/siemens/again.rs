@@ -1,0 +1,211 @@
+//! Blocks that run more than once: what repeated blocks and subprograms find in force.
+//!
+//! Statements say what is known of the modes where they stand. A block that is repeated, or a
+//! subprogram that is called from several places, must find there what was found the first time,
+//! or it is refused by name. Subprograms leave the cycle of `MCALL` as they found it.
+//!
+//! Not here: the statements themselves.
+
+use std::collections::HashMap;
+
+use ncc_ir::program::Text;
+
+use super::facts::{InForce, State};
+use crate::word::facts::Know;
+
+// Facts that a statement keeps as known.
+pub(super) const UNITS: u8 = 1;
+pub(super) const SCALED: u8 = 2;
+pub(super) const DISTANCE: u8 = 4;
+pub(super) const PLANE: u8 = 8;
+pub(super) const MOTION: u8 = 16;
+pub(super) const CYCLE: u8 = 32;
+
+/// A label.
+#[derive(Clone, Debug)]
+pub(super) struct Label {
+    name: Text,
+    /// What was in force before its block.
+    before: State,
+    /// What was in force after its block.
+    after: Option<State>,
+    /// Facts that its block or a later one has said.
+    said: u8,
+    /// Facts that its block or a later one relied on before any had said them.
+    used: u8,
+}
+
+/// Whether a cycle is in force where a subprogram is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Under {
+    Nothing,
+    Cycle {
+        /// Whether it may have a feed of its own.
+        own_feed: bool,
+    },
+    /// Now a cycle, now none.
+    Either {
+        own_feed: bool,
+    },
+}
+
+impl Under {
+    fn own_feed(self) -> bool {
+        match self {
+            Under::Nothing => false,
+            Under::Cycle { own_feed } | Under::Either { own_feed } => own_feed,
+        }
+    }
+
+    /// Whether what was read as if it were called so can be called otherwise.
+    fn allows(self, other: Under) -> bool {
+        let fed = self.own_feed() || !other.own_feed();
+        match self {
+            Under::Nothing => other == Under::Nothing,
+            Under::Cycle { .. } => matches!(other, Under::Cycle { .. }) && fed,
+            Under::Either { .. } => fed,
+        }
+    }
+}
+
+/// A subprogram, as far as its callers and itself are known.
+#[derive(Clone, Copy, Debug)]
+struct Sub {
+    under: Under,
+    /// Whether its text has been met.
+    met: bool,
+}
+
+/// What is known of labels and subprograms.
+#[derive(Debug, Default)]
+pub(super) struct Again {
+    /// Labels of the program that is being read.
+    labels: Vec<Label>,
+    subs: HashMap<Text, Sub>,
+}
+
+/// Facts that differ.
+fn differing(a: &State, b: &State) -> u8 {
+    let bit = |differs: bool, bit: u8| if differs { bit } else { 0 };
+    bit(changed(a.units, b.units), UNITS)
+        | bit(changed(a.scaled, b.scaled), SCALED)
+        | bit(changed(a.distance, b.distance), DISTANCE)
+        | bit(changed(a.plane, b.plane), PLANE)
+        | bit(changed(a.motion, b.motion), MOTION)
+        | bit(a.cycle != b.cycle, CYCLE)
+}
+
+/// Whether a fact is another one. What was taken for granted since held before as well.
+fn changed<T: Copy + PartialEq>(before: Know<T>, now: Know<T>) -> bool {
+    let taken = matches!((before, now), (Know::Unsaid, Know::Taken(_)));
+    before.value() != now.value() && !taken
+}
+
+/// Why blocks cannot be repeated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum NotAgain {
+    /// No such label before.
+    Unknown,
+    /// They would find something else in force.
+    Differs,
+}
+
+impl Again {
+    /// Whether nothing can be repeated.
+    pub(super) fn is_empty(&self) -> bool {
+        self.labels.is_empty()
+    }
+
+    /// A block with a label begins.
+    pub(super) fn label(&mut self, name: Text, before: &State) {
+        let label = Label { name, before: before.clone(), after: None, said: 0, used: 0 };
+        self.labels.push(label);
+    }
+
+    /// Whether a label of this name has been met.
+    pub(super) fn has_label(&self, name: &str) -> bool {
+        self.labels.iter().any(|l| &*l.name == name)
+    }
+
+    /// The last label's block is over.
+    pub(super) fn label_over(&mut self, after: &State) {
+        if let Some(label) = self.labels.last_mut() {
+            label.after = Some(after.clone());
+        }
+    }
+
+    /// A fact is relied on. What an older label knows of it is known of every one before.
+    pub(super) fn use_fact(&mut self, fact: u8) {
+        for label in self.labels.iter_mut().rev() {
+            if (label.used | label.said) & fact != 0 {
+                return;
+            }
+            label.used |= fact;
+        }
+    }
+
+    /// A fact is said.
+    pub(super) fn say(&mut self, fact: u8) {
+        for label in self.labels.iter_mut().rev() {
+            if label.said & fact != 0 {
+                return;
+            }
+            label.said |= fact;
+        }
+    }
+
+    /// Blocks from a label to here, or to another label's block, are to run again: finds whether
+    /// they mean the same then, and what is known afterwards.
+    pub(super) fn repeat(&self, from: &str, to: Option<&str>, now: &mut State) -> Result<(), NotAgain> {
+        let place = |name: &str| self.labels.iter().rposition(|l| &*l.name == name);
+        let first = place(from).ok_or(NotAgain::Unknown)?;
+        let label = &self.labels[first];
+        if differing(&label.before, now) & label.used != 0 {
+            return Err(NotAgain::Differs);
+        }
+        if let Some(to) = to {
+            let last = place(to).filter(|last| *last >= first).ok_or(NotAgain::Unknown)?;
+            let after = self.labels[last].after.as_ref().ok_or(NotAgain::Unknown)?;
+            let before = now.clone();
+            *now = after.clone();
+            now.join(&before);
+        }
+        Ok(())
+    }
+
+    /// A subprogram is called; `false` if it cannot be, because it was read as if it were called
+    /// under another cycle.
+    pub(super) fn call(&mut self, name: &str, under: Under) -> bool {
+        match self.subs.get_mut(name) {
+            None => {
+                self.subs.insert(name.into(), Sub { under, met: false });
+                true
+            }
+            Some(sub) if sub.met => sub.under.allows(under),
+            Some(sub) => {
+                let own_feed = sub.under.own_feed() || under.own_feed();
+                sub.under = match (sub.under, under) {
+                    (Under::Nothing, Under::Nothing) => Under::Nothing,
+                    (Under::Cycle { .. }, Under::Cycle { .. }) => Under::Cycle { own_feed },
+                    _ => Under::Either { own_feed },
+                };
+                true
+            }
+        }
+    }
+
+    /// The text of a subprogram begins; gives what it finds in force, or nothing if it has been met
+    /// before.
+    pub(super) fn enter(&mut self, name: &str) -> Option<InForce> {
+        self.labels.clear();
+        let sub = self.subs.entry(name.into()).or_insert(Sub { under: Under::Nothing, met: false });
+        if std::mem::replace(&mut sub.met, true) {
+            return None;
+        }
+        Some(match sub.under {
+            Under::Nothing => InForce::None,
+            Under::Cycle { own_feed } => InForce::Inherited { own_feed },
+            Under::Either { own_feed } => InForce::Lost { own_feed },
+        })
+    }
+}

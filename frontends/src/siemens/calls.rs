@@ -1,0 +1,351 @@
+//! Lowering of calls by name and by number, of `MCALL`, `REPEAT`, `PROC` and messages.
+//!
+//! The procedure of a subprogram `L12` is named `12`, so that it is the one that other controls call
+//! by that number; `L012` is another subprogram and keeps its whole name, as all others do, in
+//! capitals.
+//!
+//! Refused by name: calls with arguments, of subprograms after each move, by path, and subprograms
+//! that leave a cycle in force.
+
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::program::{Call, Move, Op, RepeatBlocks, Text};
+use ncc_ir::source::Span;
+
+use super::again::{NotAgain, Under};
+use super::cycles::is_cycle;
+use super::facts::{InForce, Motion, State};
+use super::lower::{Head, Lower};
+use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::block::{Digits, Value as Number, Word};
+use crate::word::facts::{Know, report};
+use crate::word::lower::decode;
+
+/// Most calls, or repetitions, by one word.
+const MOST_TIMES: i64 = 9999;
+
+/// Attributes of a subprogram that change only what is shown or how it is stopped.
+const ATTRIBUTES: [&str; 7] = ["SBLOF", "SBLON", "DISPLOF", "DISPLON", "ACTBLOCNO", "PREPRO", "ICYCOF"];
+
+/// The name of a subprogram's procedure, from its name in the text.
+pub(super) fn procedure_name(name: &str) -> Text {
+    let name = name.to_ascii_uppercase();
+    let number = name.strip_prefix('L').filter(|number| {
+        !number.is_empty() && !number.starts_with('0') && number.bytes().all(|b| b.is_ascii_digit())
+    });
+    match number {
+        Some(number) => number.into(),
+        None => name.into(),
+    }
+}
+
+impl Lower {
+    /// `L12`, `L012 P3`
+    pub(super) fn call_number(
+        &mut self,
+        word: Span,
+        before: &[Item],
+        after: &[Item],
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let text: String = src.text(word).chars().filter(|c| !matches!(c, ' ' | '\t' | '&')).collect();
+        if !text[1..].bytes().all(|b| b.is_ascii_digit()) {
+            return self.fault(Fault::OutOfRange { word: text.into() }, word, out);
+        }
+        self.call(&procedure_name(&text), word, before, after, src, out);
+    }
+
+    /// A name that the dictionary has as a cycle or pattern, or does not have: a subprogram's.
+    pub(super) fn call_name(
+        &mut self,
+        called: &Called,
+        before: &[Item],
+        after: &[Item],
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let name = src.text(called.name).to_ascii_uppercase();
+        let dialect = self.settings.dialect;
+        let row = dialect.call_row(&name);
+        let message = dialect.name_row(&name).is_some();
+        if row.is_none() && !message {
+            if called.arguments.as_ref().is_some_and(|a| !a.is_empty()) {
+                return self.not_supported(&name, "call with arguments", called.span, out);
+            }
+            return self.call(&procedure_name(&name), called.span, before, after, src, out);
+        }
+        if !before.is_empty() || !after.is_empty() {
+            return self.not_supported(&name, "call beside other words", head.span, out);
+        }
+        match row {
+            None => self.message(called, src, out),
+            Some(row) if is_cycle(row.kind) => self.cycle(row, called, false, src, out),
+            Some(row) => self.pattern(row, called, src, out),
+        }
+    }
+
+    /// `CALL "NAME"`
+    pub(super) fn call_by_text(&mut self, name: Span, head: &Head, src: Source, out: &mut Batch) {
+        let text = src.text(name);
+        let name = text.trim_matches('"');
+        let plain = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
+        if !plain || name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
+            return self.not_supported("CALL", "call by path", head.span, out);
+        }
+        self.call(&procedure_name(name), head.span, &[], &[], src, out);
+    }
+
+    /// `MCALL`, alone or with a cycle.
+    pub(super) fn call_modal(&mut self, called: Option<&Called>, head: &Head, src: Source, out: &mut Batch) {
+        let Some(called) = called else {
+            return self.end_cycle(head.span, out);
+        };
+        let name = src.text(called.name).to_ascii_uppercase();
+        let dialect = self.settings.dialect;
+        match (dialect.call_row(&name), dialect.name_row(&name)) {
+            (Some(row), _) if is_cycle(row.kind) => self.cycle(row, called, true, src, out),
+            (None, Some(row)) => {
+                let refuse = row.refuse.as_deref().unwrap_or("modal call");
+                self.not_supported(&name, refuse, called.span, out);
+                self.state.cycle = InForce::Lost { own_feed: false };
+            }
+            (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
+            (None, None) => {
+                self.not_supported(&name, "subprogram called after each move", called.span, out);
+                self.state.cycle = InForce::Lost { own_feed: false };
+            }
+        }
+    }
+
+    fn call(&mut self, name: &str, at: Span, before: &[Item], after: &[Item], src: Source, out: &mut Batch) {
+        let times = match (before, after) {
+            ([], []) => Some(1),
+            ([], [item]) => times(item),
+            _ => None,
+        };
+        let Some((times, at)) = times.map(|t| (t, after.first().map_or(at, |item| at.to(item_span(item)))))
+        else {
+            // Two unknown words are no call of one with the other.
+            if let Some(Item::Name(other)) = before.first().or(after.first()) {
+                self.now.refused = true;
+                return self.fault(Fault::UnknownCode { code: src.text(other.span) }, other.span, out);
+            }
+            return self.not_supported(&src.text(at), "call beside other words", at, out);
+        };
+        if !(1..=MOST_TIMES).contains(&times) {
+            return self.fault(Fault::OutOfRange { word: src.text(at) }, at, out);
+        }
+        let own_feed = self.state.cycle.own_feed();
+        let under = match &self.state.cycle {
+            InForce::None => Under::Nothing,
+            InForce::Active(_) | InForce::Inherited { .. } => Under::Cycle { own_feed },
+            InForce::Lost { .. } => Under::Either { own_feed },
+        };
+        let drills = matches!(under, Under::Cycle { .. });
+        self.again.use_fact(super::again::CYCLE);
+        if drills {
+            self.again.use_fact(super::again::MOTION);
+            match self.state.motion.value() {
+                Some(Motion::Traverse) => {}
+                None if matches!(self.state.cycle, InForce::Inherited { .. }) => {}
+                None => self.take_rapid(at, out),
+                Some(_) => {
+                    let name = "call under a cycle with another motion than G0 in force";
+                    return self.not_supported(&src.text(at), name, at, out);
+                }
+            }
+        } else {
+            self.hand_motion_on(at, out);
+        }
+        if !self.again.call(name, under) {
+            let name = "call under another cycle than where the subprogram was called before";
+            return self.not_supported(&src.text(at), name, at, out);
+        }
+        out.whole = true;
+        let times = times as u32;
+        self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new() })), out);
+        // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
+        let cycle = std::mem::take(&mut self.state.cycle);
+        let motion = self.state.motion;
+        self.state = State::lost(cycle);
+        if drills {
+            self.state.motion = motion;
+        }
+        if own_feed {
+            self.state.feed = Know::Unsaid;
+        }
+        self.stand.forget();
+        self.moved = None;
+        self.cycled = false;
+    }
+
+    /// A subprogram's position finds the motion of the last move: one that was only said is made a
+    /// statement.
+    fn hand_motion_on(&mut self, at: Span, out: &mut Batch) {
+        let motion = self.state.motion.value();
+        if motion == self.moved {
+            return;
+        }
+        self.again.use_fact(super::again::MOTION);
+        let nowhere = Move { said: true, ..Move::default() };
+        match motion {
+            Some(Motion::Traverse) => self.push(at, Op::StraightTraverse(nowhere), out),
+            Some(Motion::Feed) => self.push(at, Op::StraightFeed(nowhere), out),
+            Some(Motion::Arc(_) | Motion::Through | Motion::Tangent) | None => {}
+        }
+    }
+
+    /// The subprogram that is read goes back to its caller.
+    pub(super) fn leave(&mut self, at: Span, out: &mut Batch) {
+        if self.state.cycle != self.entry {
+            let name = "cycle that its subprogram leaves in force or ends";
+            return self.not_supported("MCALL", name, at, out);
+        }
+        if self.state.feed == Know::Unsaid && !self.entry.own_feed() {
+            self.fault(Fault::NoFeed, at, out);
+        }
+    }
+
+    /// `REPEAT FIRST LAST P=3`
+    pub(super) fn repeat(
+        &mut self,
+        first: Span,
+        last: Option<Span>,
+        count: Option<&Expr>,
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let upper = |span: Span| -> Text { src.text(span).to_ascii_uppercase().into() };
+        let times = match count {
+            None => Some(1),
+            Some(Expr::Number(digits, _)) => whole(*digits),
+            Some(other) => {
+                let span = other.span();
+                return self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
+            }
+        };
+        let Some(times) = times.filter(|t| (1..=MOST_TIMES).contains(t)) else {
+            return self.fault(Fault::OutOfRange { word: src.text(head.span) }, head.span, out);
+        };
+        let (from, to) = (upper(first), last.map(upper));
+        for (name, span) in [Some((&from, first)), to.as_ref().zip(last)].into_iter().flatten() {
+            if !self.again.has_label(name) {
+                return self.fault(Fault::LabelUnknown { name: name.clone() }, span, out);
+            }
+        }
+        match self.again.repeat(&from, to.as_deref(), &mut self.state) {
+            Ok(()) => {}
+            Err(NotAgain::Unknown) => {
+                return self.fault(Fault::LabelUnknown { name: to.unwrap_or(from) }, head.span, out);
+            }
+            Err(NotAgain::Differs) => {
+                let name = "repetition of blocks that find other modes in force than the first time";
+                return self.not_supported("REPEAT", name, head.span, out);
+            }
+        }
+        out.whole = true;
+        let times = times as u32;
+        self.push(head.span, Op::RepeatBlocks(Box::new(RepeatBlocks { from, to, times })), out);
+        self.stand.forget();
+        self.moved = None;
+    }
+
+    /// `PROC NAME` at the head of a subprogram.
+    pub(super) fn procedure(
+        &mut self,
+        parameters: &[Parameter],
+        attributes: &[Span],
+        head: &Head,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        self.now.heading = true;
+        if !parameters.is_empty() {
+            let what = src.text(head.span);
+            return self.fault(Fault::MacroLanguage { what }, head.span, out);
+        }
+        for &attribute in attributes {
+            let name = src.text(attribute).to_ascii_uppercase();
+            if !ATTRIBUTES.contains(&name.as_str()) {
+                self.not_supported(&name, "attribute of a subprogram", attribute, out);
+            }
+        }
+        self.sub_alone |= self.sub.is_none();
+    }
+
+    /// `MSG("text")`, and `MSG()` which clears it.
+    fn message(&mut self, called: &Called, src: Source, out: &mut Batch) {
+        let text: Text = match called.arguments.as_deref() {
+            None | Some([] | [None]) => "".into(),
+            Some([Some(Expr::Text(span))]) => {
+                let bytes = src.bytes(*span);
+                let inner = bytes.get(1..bytes.len().saturating_sub(1)).unwrap_or_default();
+                decode(inner).replace("\"\"", "\"").into()
+            }
+            Some([Some(Expr::Text(_)), ..]) => {
+                return self.not_supported("MSG", "message in continuous-path mode", called.span, out);
+            }
+            Some(_) => {
+                let what = src.text(called.span);
+                return self.fault(Fault::MacroLanguage { what }, called.span, out);
+            }
+        };
+        self.push(called.span, Op::Message(text), out);
+    }
+
+    /// The text of a subprogram begins.
+    pub(super) fn enter(&mut self, name: &Text, at: Span, out: &mut Batch) {
+        let entry = self.again.enter(name);
+        if entry.is_none() {
+            out.report(Fault::ProgramTwice { name: name.clone() }, at);
+        }
+        self.entry = entry.unwrap_or_default();
+        self.state = State::lost(self.entry.clone());
+        self.stand.forget();
+        self.moved = None;
+        self.cycled = false;
+        self.recall = false;
+        self.ended = false;
+        self.refresh();
+    }
+
+    /// Under a cycle, positions are taken for rapid where the motion in force is not known.
+    pub(super) fn take_rapid(&mut self, at: Span, out: &mut Batch) {
+        if self.state.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
+            return;
+        }
+        if self.first_time("rapid under a cycle") {
+            report(out, at, ModeName::Motion, Some("rapid"));
+        }
+        self.state.motion = Know::Taken(Motion::Traverse);
+    }
+}
+
+/// The count of a call: `P3`, `P=3`.
+fn times(item: &Item) -> Option<i64> {
+    match item {
+        Item::Word(Word { letter: b'P', value: Number::Number(digits), .. }) => whole(*digits),
+        Item::Set {
+            place: Place { address: Address::Letter(b'P'), extension: None, index, .. },
+            value: Value::Expr(Expr::Number(digits, _)),
+            ..
+        } if index.is_empty() => whole(*digits),
+        Item::Word(_) | Item::Set { .. } | Item::Name(_) => None,
+    }
+}
+
+fn whole(digits: Digits) -> Option<i64> {
+    (digits.scale == 0).then_some(digits.mantissa)
+}
+
+fn item_span(item: &Item) -> Span {
+    match item {
+        Item::Word(word) => word.span,
+        Item::Set { span, .. } => *span,
+        Item::Name(called) => called.span,
+    }
+}

@@ -1,0 +1,399 @@
+//! Lowering of drilling cycles that are called with arguments, once or after each move (`MCALL`).
+//!
+//! What an argument is comes from the dictionary's row. An argument that is empty or 0 is as good as
+//! none, as the cycles themselves find it; a depth of 0 counts if it is written.
+//!
+//! Not here: the moves of a cycle.
+
+use ncc_dialects::{CallKind, CallRow, ParameterRole, Quantity};
+use ncc_ir::canon::{Fact, Units};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, ONE, POW10, Unit};
+use ncc_ir::program::{Move, Op};
+use ncc_ir::source::Span;
+
+use super::again::CYCLE;
+use super::facts::InForce;
+use super::lower::Lower;
+use super::sort::Given;
+use super::tree::{Called, Expr as Argument};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::facts::Know;
+use crate::word::number::spell;
+
+/// Arguments of a call by the places of its parameters.
+pub(super) struct Arguments {
+    pub(super) row: &'static CallRow,
+    pub(super) given: Vec<Option<Given>>,
+    pub(super) span: Span,
+}
+
+impl Arguments {
+    /// The argument with a role, and what it counts.
+    fn get(&self, role: ParameterRole) -> Option<(Given, Quantity)> {
+        let place = self.row.place(role)?;
+        Some(((*self.given.get(place)?)?, self.row.parameters[place].quantity?))
+    }
+
+    /// Name of the parameter with a role.
+    fn name(&self, role: ParameterRole) -> &'static str {
+        self.row.place(role).map_or("", |place| &self.row.parameters[place].name)
+    }
+
+    /// Place of the argument with a role, or of the call.
+    fn at(&self, role: ParameterRole) -> Span {
+        self.get(role).map_or(self.span, |(given, _)| given.span)
+    }
+}
+
+impl Lower {
+    /// Arguments of a call, as far as they are constants and do what is translated.
+    pub(super) fn arguments(
+        &mut self,
+        row: &'static CallRow,
+        called: &Called,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Arguments> {
+        let places = called.arguments.as_deref().unwrap_or_default();
+        if let Some(extra) = places.get(row.parameters.len()..).and_then(|rest| rest.iter().flatten().next())
+        {
+            let word = src.text(extra.span());
+            return self.refuse(Fault::WordUnused { word }, extra.span(), out);
+        }
+        if !row.sure && self.first_time(&row.name) {
+            let meaning = if is_cycle(row.kind) { "START_CYCLE" } else { "PATTERN" };
+            let (code, meaning) = (row.name.as_str().into(), meaning.into());
+            out.report(Fault::AssumedRow { code, meaning }, called.name);
+        }
+        let mut given = Vec::with_capacity(places.len());
+        for (place, parameter) in places.iter().zip(&row.parameters) {
+            given.push(match place {
+                None => None,
+                Some(Argument::Number(digits, span)) => {
+                    let value =
+                        Num { mantissa: digits.mantissa, scale: digits.scale, point: true, unit: Unit::One };
+                    let neutral = || value.whole().is_some_and(|w| parameter.neutral.contains(&w));
+                    if let Some(refuse) = &parameter.refuse
+                        && !value.is_zero()
+                        && !neutral()
+                    {
+                        let name = format!("{}: {refuse}", parameter.name);
+                        self.not_supported(&row.name, &name, *span, out);
+                    }
+                    Some(Given { digits: *digits, distance: None, span: *span })
+                }
+                Some(other) => {
+                    let span = other.span();
+                    self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
+                    None
+                }
+            });
+        }
+        (!self.now.failed).then_some(Arguments { row, given, span: called.span })
+    }
+
+    /// The number with a role; nothing for an empty argument, or one that is refused.
+    pub(super) fn argument(
+        &mut self,
+        arguments: &Arguments,
+        role: ParameterRole,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let (given, quantity) = arguments.get(role)?;
+        self.number(given, quantity, src, out)
+    }
+
+    /// The number with a role, that must be there.
+    pub(super) fn needed(
+        &mut self,
+        arguments: &Arguments,
+        role: ParameterRole,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        if arguments.get(role).is_none() {
+            let (code, word) = (arguments.row.name.as_str().into(), arguments.name(role).into());
+            return self.refuse(Fault::WordMissing { code, word }, arguments.span, out);
+        }
+        self.argument(arguments, role, src, out)
+    }
+
+    pub(super) fn out_of_range<T>(
+        &mut self,
+        arguments: &Arguments,
+        role: ParameterRole,
+        out: &mut Batch,
+    ) -> Option<T> {
+        let word = arguments.name(role).into();
+        self.refuse(Fault::OutOfRange { word }, arguments.at(role), out)
+    }
+
+    /// A cycle that is called: once here, or after each of the following moves.
+    pub(super) fn cycle(
+        &mut self,
+        row: &'static CallRow,
+        called: &Called,
+        modal: bool,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let block = called.span;
+        let cycle = self.arguments(row, called, src, out).and_then(|a| self.cycle_of(&a, src, out));
+        if modal {
+            self.again.say(CYCLE);
+        }
+        let Some(cycle) = cycle.filter(|_| !self.now.failed) else {
+            if modal {
+                self.state.cycle = InForce::Lost { own_feed: false };
+            }
+            return;
+        };
+        self.moved = None;
+        self.cycled = true;
+        self.recall = false;
+        let cycle = Box::new(cycle);
+        if modal {
+            self.push(block, Op::StartCycle(cycle.clone()), out);
+            self.state.cycle = InForce::Active(cycle);
+            return;
+        }
+        self.again.use_fact(CYCLE);
+        if self.state.cycle != InForce::None {
+            let name = "cycle called while another is modal";
+            return self.not_supported(&row.name, name, block, out);
+        }
+        if cycle.feed.is_none() {
+            self.rely_on_feed(block, out);
+        }
+        self.rely_on_frames(true, block, out);
+        self.push(block, Op::StartCycle(cycle.clone()), out);
+        self.push(block, Op::Hole(Move::default()), out);
+        self.push(block, Op::EndCycle, out);
+        self.hole_made(&cycle);
+    }
+
+    /// `MCALL` alone.
+    pub(super) fn end_cycle(&mut self, at: Span, out: &mut Batch) {
+        self.again.say(CYCLE);
+        if self.state.cycle != InForce::None {
+            self.moved = None;
+        }
+        self.state.cycle = InForce::None;
+        self.push(at, Op::EndCycle, out);
+    }
+
+    /// Calls the cycle in force up again if a feed was said since, which is not its own.
+    pub(super) fn call_up_again(&mut self, cycle: &Cycle, at: Span, out: &mut Batch) {
+        if std::mem::take(&mut self.recall) {
+            self.push(at, Op::StartCycle(Box::new(cycle.clone())), out);
+        }
+    }
+
+    /// Which feed is in force after a cycle that has its own is not known.
+    pub(super) fn hole_made(&mut self, cycle: &Cycle) {
+        if cycle.feed.is_some() {
+            self.state.feed = Know::Unsaid;
+        }
+    }
+
+    /// The cycle of a call; `None` if it is refused (reported).
+    fn cycle_of(&mut self, a: &Arguments, src: Source, out: &mut Batch) -> Option<Cycle> {
+        use ParameterRole as Role;
+        let plane = self.plane(a.span, out);
+        let return_plane = self.needed(a, Role::ReturnPlane, src, out)?;
+        let zero = Num::int(0, return_plane.unit);
+        let reference = self.argument(a, Role::ReferencePlane, src, out).unwrap_or(zero);
+        let safety = self.argument(a, Role::SafetyDistance, src, out).unwrap_or(zero);
+        if safety.mantissa < 0 {
+            return self.out_of_range(a, Role::SafetyDistance, out);
+        }
+        let level = self.sum(a, reference, safety, out)?;
+        let depth = self.depth(a, [Role::Depth, Role::RelativeDepth], reference, src, out)?;
+        if below(return_plane, reference)
+            || !below(reference, return_plane) && self.is_given(a, Role::RelativeDepth)
+        {
+            return self.out_of_range(a, Role::ReturnPlane, out);
+        }
+        if below(reference, depth) {
+            return self.refuse(Fault::CycleUpsideDown, a.span, out);
+        }
+        let dwell = self.time(a, Role::Dwell, src, out);
+        let mut feed = None;
+        let kind = match a.row.kind {
+            CallKind::Drill => CycleKind::Drill,
+            CallKind::DrillDwell => dwell.map_or(CycleKind::Drill, |dwell| CycleKind::DrillDwell { dwell }),
+            CallKind::DrillPeck => self.pecks(a, [reference, safety, depth], dwell, src, out)?,
+            CallKind::Bore => {
+                let into = self.needed(a, Role::FeedIn, src, out)?;
+                let back = self.needed(a, Role::FeedOut, src, out)?;
+                for (num, role) in [(into, Role::FeedIn), (back, Role::FeedOut)] {
+                    if num.is_zero() {
+                        return self.out_of_range(a, role, out);
+                    }
+                }
+                self.rely_on_feed_mode(a.span, out);
+                feed = Some(Expr::Num(into));
+                let other = into.trimmed().mantissa != back.trimmed().mantissa
+                    || into.trimmed().scale != back.trimmed().scale;
+                CycleKind::Bore { dwell, feed_out: other.then_some(Expr::Num(back)) }
+            }
+            CallKind::Line | CallKind::Circle | CallKind::Grid | CallKind::List => return None,
+        };
+        Some(Cycle {
+            kind,
+            plane,
+            retract: absolute(level),
+            depth: absolute(depth),
+            return_level: Fact::Entry,
+            return_plane: Some(absolute(return_plane)),
+            approach: self.settings.dialect.cycles.approach.into(),
+            feed,
+        })
+    }
+
+    /// Whether an argument is there and not 0.
+    fn is_given(&self, a: &Arguments, role: ParameterRole) -> bool {
+        a.get(role).is_some_and(|(given, _)| given.digits.mantissa != 0)
+    }
+
+    /// A depth: absolute, or below the reference plane. Both must agree.
+    fn depth(
+        &mut self,
+        a: &Arguments,
+        [to, by]: [ParameterRole; 2],
+        reference: Num,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let to_given = a.get(to).is_some();
+        if !self.is_given(a, by) {
+            return self.needed(a, to, src, out);
+        }
+        let down = self.argument(a, by, src, out)?;
+        if down.mantissa < 0 {
+            return self.out_of_range(a, by, out);
+        }
+        let depth = self.sum(a, reference, Num { mantissa: -down.mantissa, ..down }, out)?;
+        if to_given {
+            let written = self.argument(a, to, src, out)?;
+            if !written.is_zero() && (below(written, depth) || below(depth, written)) {
+                let name = format!("{} and {} that differ", a.name(to), a.name(by));
+                self.not_supported(&a.row.name, &name, a.at(by), out);
+                return None;
+            }
+        }
+        Some(depth)
+    }
+
+    /// A dwell, if it is there and not 0.
+    fn time(&mut self, a: &Arguments, role: ParameterRole, src: Source, out: &mut Batch) -> Option<Expr> {
+        self.argument(a, role, src, out).filter(|num| !num.is_zero()).map(Expr::Num)
+    }
+
+    /// Deep-hole drilling: strokes measured from the reference plane, all alike but the last.
+    fn pecks(
+        &mut self,
+        a: &Arguments,
+        [reference, safety, depth]: [Num; 3],
+        pause: Option<Expr>,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<CycleKind> {
+        use ParameterRole as Role;
+        let first = self.depth(a, [Role::FirstDepth, Role::RelativeFirstDepth], reference, src, out)?;
+        let stroke = self.sum(a, reference, Num { mantissa: -first.mantissa, ..first }, out)?;
+        if stroke.mantissa <= 0 || below(first, depth) {
+            let role =
+                if a.get(Role::FirstDepth).is_some() { Role::FirstDepth } else { Role::RelativeFirstDepth };
+            return self.out_of_range(a, role, out);
+        }
+        let whole = self.sum(a, stroke, safety, out)?;
+        let first_peck = (!safety.is_zero()).then_some(Expr::Num(whole));
+        let settle = self.time(a, Role::Settle, src, out);
+        let dwell = self.time(a, Role::LastDwell, src, out).or_else(|| pause.clone());
+        let peck = Expr::Num(stroke);
+        let way = self.argument(a, Role::Way, src, out).and_then(Num::whole).unwrap_or(0);
+        Some(match way {
+            0 => {
+                let lift = self.argument(a, Role::Lift, src, out).filter(|num| !num.is_zero());
+                if lift.is_some_and(|num| num.mantissa < 0) {
+                    return self.out_of_range(a, Role::Lift, out);
+                }
+                let lift = Clearance::Stated(Expr::Num(lift.unwrap_or(Num::int(1, Unit::Mm))));
+                CycleKind::DrillBreak { peck, first: first_peck, lift, lift_at_feed: true, pause, dwell }
+            }
+            1 => {
+                let clearance = match self.argument(a, Role::Clearance, src, out).filter(|num| !num.is_zero())
+                {
+                    Some(num) if num.mantissa < 0 => return self.out_of_range(a, Role::Clearance, out),
+                    Some(num) => num,
+                    None => self.automatic_clearance(a, reference, depth, below(depth, first), out)?,
+                };
+                let clearance = Clearance::Stated(Expr::Num(clearance));
+                CycleKind::DrillPeck { peck, first: first_peck, clearance, pause, settle, dwell }
+            }
+            _ => return self.out_of_range(a, Role::Way, out),
+        })
+    }
+
+    /// The control's own clearance above the last depth: 0.6 mm for holes up to 30 mm, a fiftieth of
+    /// the depth for deeper ones, at most 7 mm.
+    fn automatic_clearance(
+        &mut self,
+        a: &Arguments,
+        reference: Num,
+        depth: Num,
+        matters: bool,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let inch = self.known_units(a.span, out)? == Units::Inch;
+        let hole = self.sum(a, reference, Num { mantissa: -depth.mantissa, ..depth }, out)?.nanos(inch)?;
+        let clearance = if hole <= 30 * ONE { 6 * ONE / 10 } else { (hole / 50).min(7 * ONE) };
+        let num = Num::from_nanos(clearance, 9, Unit::Mm);
+        if matters && self.first_time("clearance") {
+            let parameter = format!("{}, automatic", a.name(ParameterRole::Clearance)).into();
+            out.report(Fault::AssumedParameter { parameter, value: spell(num).into() }, a.span);
+        }
+        Some(num)
+    }
+
+    /// The exact sum of two numbers of one unit.
+    pub(super) fn sum(&mut self, a: &Arguments, x: Num, y: Num, out: &mut Batch) -> Option<Num> {
+        match sum(x, y) {
+            Some(sum) => Some(sum),
+            None => self.refuse(Fault::OutOfRange { word: a.row.name.as_str().into() }, a.span, out),
+        }
+    }
+}
+
+/// Whether a kind of call is a cycle; else it is a pattern.
+pub(super) fn is_cycle(kind: CallKind) -> bool {
+    !kind.cycles().is_empty()
+}
+
+/// The exact sum of two numbers of one unit; with no more digits than needed.
+pub(super) fn sum(x: Num, y: Num) -> Option<Num> {
+    if y.is_zero() {
+        return Some(x);
+    }
+    if x.is_zero() {
+        return Some(y);
+    }
+    let scale = x.scale.max(y.scale);
+    let wide = |n: Num| n.mantissa.checked_mul(*POW10.get(usize::from(scale - n.scale))?);
+    let mantissa = wide(x)?.checked_add(wide(y)?)?;
+    let sum = Num { mantissa, scale, point: x.point || y.point, unit: x.unit };
+    // A sum of two numbers in range may not be.
+    sum.nanos(true)?;
+    Some(sum)
+}
+
+/// Whether one number is less than another of the same unit.
+fn below(x: Num, y: Num) -> bool {
+    x.nanos(false) < y.nanos(false)
+}

@@ -1,0 +1,363 @@
+//! What a program has said so far, as far as the meaning of a block depends on it, and what was
+//! taken for granted.
+//!
+//! As in the word-address reader: a fact that was never said is taken from the dictionary's state at
+//! power-on if the source is a user's, and stays open if it is not; after a call, and after a block
+//! that a switch may skip, it is lost.
+//!
+//! Not here: what repeated blocks and subprograms find in force (`again`).
+
+use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, Turn, Units};
+use ncc_ir::cycle::Cycle;
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::source::Span;
+
+use super::lower::Lower;
+use crate::Batch;
+use crate::word::facts::{Know, report, take};
+use crate::word::number::unit_of;
+
+/// What axis words do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Motion {
+    Traverse,
+    Feed,
+    Arc(Turn),
+    /// `CIP`
+    Through,
+    /// `CT`
+    Tangent,
+}
+
+impl From<ncc_ir::canon::Motion> for Motion {
+    /// A state at power-on: only lines.
+    fn from(motion: ncc_ir::canon::Motion) -> Motion {
+        match motion {
+            ncc_ir::canon::Motion::Feed => Motion::Feed,
+            ncc_ir::canon::Motion::Arc(turn) => Motion::Arc(turn),
+            ncc_ir::canon::Motion::Traverse | ncc_ir::canon::Motion::Cycle => Motion::Traverse,
+        }
+    }
+}
+
+/// The cycle that `MCALL` has put in force.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) enum InForce {
+    #[default]
+    None,
+    Active(Box<Cycle>),
+    /// The caller's; one is in force.
+    Inherited {
+        /// Whether it has a feed of its own, or may have.
+        own_feed: bool,
+    },
+    /// Whether one is in force is only known when the program runs.
+    Lost {
+        /// Whether it may have a feed of its own.
+        own_feed: bool,
+    },
+}
+
+impl InForce {
+    /// Whether a cycle may be in force that has a feed of its own.
+    pub(super) fn own_feed(&self) -> bool {
+        match self {
+            InForce::None => false,
+            InForce::Active(cycle) => cycle.feed.is_some(),
+            InForce::Inherited { own_feed } | InForce::Lost { own_feed } => *own_feed,
+        }
+    }
+}
+
+/// All that a block's meaning depends on.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct State {
+    pub(super) units: Know<Units>,
+    /// Whether F counts in these units as well; else in the basic system of the machine.
+    pub(super) scaled: Know<bool>,
+    pub(super) distance: Know<Distance>,
+    pub(super) plane: Know<Plane>,
+    pub(super) feed_mode: Know<FeedMode>,
+    pub(super) motion: Know<Motion>,
+    pub(super) work_offset: Know<u16>,
+    /// Whether an edge was named.
+    pub(super) length: Know<()>,
+    /// Where a tool was changed without naming an edge, which no move has relied on yet.
+    pub(super) implied_edge: Option<Span>,
+    pub(super) no_shift: Know<bool>,
+    /// Whether a feed was said.
+    pub(super) feed: Know<()>,
+    /// Whether a tool was selected.
+    pub(super) tool: Know<()>,
+    pub(super) cycle: InForce,
+}
+
+impl State {
+    /// Nothing is known, and nothing is to be taken for granted: a subprogram, after a call. The
+    /// cycle is not lost with it, see `again`.
+    pub(super) fn lost(cycle: InForce) -> State {
+        State {
+            units: Know::Lost,
+            scaled: Know::Lost,
+            distance: Know::Lost,
+            plane: Know::Lost,
+            feed_mode: Know::Lost,
+            motion: Know::Lost,
+            work_offset: Know::Lost,
+            length: Know::Lost,
+            implied_edge: None,
+            no_shift: Know::Lost,
+            feed: Know::Lost,
+            tool: Know::Lost,
+            cycle,
+        }
+    }
+
+    /// What is known after a block that may have been skipped.
+    pub(super) fn join(&mut self, before: &State) {
+        self.units.join(before.units);
+        self.scaled.join(before.scaled);
+        self.distance.join(before.distance);
+        self.plane.join(before.plane);
+        self.feed_mode.join(before.feed_mode);
+        self.motion.join(before.motion);
+        self.work_offset.join(before.work_offset);
+        self.length.join(before.length);
+        self.implied_edge = self.implied_edge.or(before.implied_edge);
+        self.no_shift.join(before.no_shift);
+        self.feed.join(before.feed);
+        self.tool.join(before.tool);
+        if self.cycle != before.cycle {
+            self.cycle = InForce::Lost { own_feed: self.cycle.own_feed() || before.cycle.own_feed() };
+        }
+    }
+}
+
+/// The one value that a whole text says of a fact, for where the fact is lost.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Only<T> {
+    value: Option<T>,
+    mixed: bool,
+    /// The first place that relied on there being one value.
+    relied: Option<Span>,
+}
+
+impl<T> Default for Only<T> {
+    fn default() -> Only<T> {
+        Only { value: None, mixed: false, relied: None }
+    }
+}
+
+impl<T: Copy + PartialEq> Only<T> {
+    /// The text says it; gives a place that relied on another value.
+    pub(super) fn see(&mut self, value: T) -> Option<Span> {
+        if *self.value.get_or_insert(value) == value {
+            return None;
+        }
+        self.mixed = true;
+        self.relied.take()
+    }
+
+    /// The value, if there is only one; `otherwise` if the text has said none.
+    pub(super) fn rely(&mut self, otherwise: Option<T>, at: Span) -> Option<T> {
+        if self.mixed {
+            return None;
+        }
+        let value = self.value.or(otherwise)?;
+        // A later one that differs is found by it.
+        self.value = Some(value);
+        self.relied.get_or_insert(at);
+        Some(value)
+    }
+}
+
+/// Facts as they are asked for. Each is reported once, where the program first relies on it.
+impl Lower {
+    pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
+        self.again.use_fact(super::again::DISTANCE);
+        if self.assume && self.state.distance == Know::Unsaid {
+            let (know, row) = (&mut self.state.distance, &self.settings.dialect.power_on.distance);
+            let value = take(know, &mut out.assumed.distance, row).map(|d| match d {
+                Distance::Absolute => "absolute",
+                Distance::Incremental => "incremental",
+            });
+            report(out, at, ModeName::Distance, value);
+        }
+        self.state.distance.fact()
+    }
+
+    pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
+        self.again.use_fact(super::again::UNITS);
+        if self.assume && self.state.units == Know::Unsaid {
+            let (know, row) = (&mut self.state.units, &self.settings.dialect.power_on.units);
+            let value = take(know, &mut out.assumed.units, row).map(|u| match u {
+                Units::Mm => "mm",
+                Units::Inch => "inch",
+            });
+            report(out, at, ModeName::Units, value);
+        }
+        self.state.units.fact()
+    }
+
+    pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
+        self.again.use_fact(super::again::PLANE);
+        if self.assume && self.state.plane == Know::Unsaid {
+            let (know, row) = (&mut self.state.plane, &self.settings.dialect.power_on.plane);
+            let value = take(know, &mut out.assumed.plane, row).map(|p| match p {
+                Plane::Xy => "XY",
+                Plane::Zx => "ZX",
+                Plane::Yz => "YZ",
+            });
+            report(out, at, ModeName::Plane, value);
+        }
+        self.state.plane.fact()
+    }
+
+    /// The plane where it must be known: in a subprogram, the only one of the text.
+    pub(super) fn known_plane(&mut self, at: Span, out: &mut Batch) -> Option<Plane> {
+        match self.plane(at, out) {
+            Fact::Known(plane) => Some(plane),
+            Fact::Entry => match self.only_plane.rely(None, at) {
+                Some(plane) => Some(plane),
+                None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Plane }, at, out),
+            },
+        }
+    }
+
+    /// The units where they must be known: in a subprogram, the only ones of the text.
+    pub(super) fn known_units(&mut self, at: Span, out: &mut Batch) -> Option<Units> {
+        match self.units(at, out) {
+            Fact::Known(units) => Some(units),
+            Fact::Entry => match self.only_units.rely(None, at) {
+                Some(units) => Some(units),
+                None => self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
+            },
+        }
+    }
+
+    /// The unit of a feed. Under G70 and G71 it is that of the machine's basic system.
+    pub(super) fn feed_unit(&mut self, at: Span, out: &mut Batch) -> Option<Unit> {
+        self.again.use_fact(super::again::SCALED);
+        let scaled = match self.state.scaled {
+            Know::Said(scaled) | Know::Taken(scaled) => scaled,
+            Know::Unsaid => false,
+            Know::Lost => match self.only_scaled.rely(Some(false), at) {
+                Some(scaled) => scaled,
+                None => return self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
+            },
+        };
+        if scaled {
+            return Some(unit_of(self.units(at, out)));
+        }
+        let basic = self.settings.get("feed_unit") == "inch";
+        if self.state.units == Know::Said(if basic { Units::Mm } else { Units::Inch }) {
+            self.option("feed_unit", at, out);
+        }
+        Some(if basic { Unit::Inch } else { Unit::Mm })
+    }
+
+    /// A feed relies on what it counts.
+    pub(super) fn rely_on_feed_mode(&mut self, at: Span, out: &mut Batch) {
+        if self.assume && self.state.feed_mode == Know::Unsaid {
+            let (know, row) = (&mut self.state.feed_mode, &self.settings.dialect.power_on.feed_mode);
+            let value = take(know, &mut out.assumed.feed_mode, row).map(|f| match f {
+                FeedMode::PerMinute => "per minute",
+                FeedMode::PerRevolution => "per revolution",
+                FeedMode::InverseTime => "inverse time",
+            });
+            report(out, at, ModeName::FeedMode, value);
+        }
+    }
+
+    /// A move at feed relies on a feed.
+    pub(super) fn rely_on_feed(&mut self, at: Span, out: &mut Batch) {
+        if self.state.feed == Know::Unsaid {
+            self.fault(Fault::NoFeed, at, out);
+        }
+    }
+
+    /// A move relies on the frames between machine and program, and along Z on the tool's length.
+    pub(super) fn rely_on_frames(&mut self, with_z: bool, at: Span, out: &mut Batch) {
+        if !self.assume {
+            return;
+        }
+        let power_on = &self.settings.dialect.power_on;
+        if self.state.work_offset == Know::Unsaid {
+            let value =
+                take(&mut self.state.work_offset, &mut out.assumed.work_offset, &power_on.work_offset);
+            report(out, at, ModeName::WorkOffset, value.map(|n| n.to_string()).as_deref());
+        }
+        if self.state.no_shift == Know::Unsaid {
+            let know = &mut self.state.no_shift;
+            let value = take(know, &mut out.assumed.no_origin_shift, &power_on.no_origin_shift);
+            report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+        }
+        if !with_z {
+            return;
+        }
+        if let Some(change) = self.state.implied_edge.take() {
+            self.option("edge_after_change", change, out);
+        }
+        if self.state.length == Know::Unsaid
+            && let Some(row) = &power_on.length_offset
+        {
+            self.state.length = Know::Taken(());
+            out.assumed.length_offset = Some(row.value);
+            if !row.always {
+                report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
+            }
+        }
+    }
+
+    /// What bare axis words do: `None` if that is only known when the program runs.
+    ///
+    /// # Errors
+    /// The program has not said it, and nothing may be taken for granted (reported).
+    pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
+        self.again.use_fact(super::again::MOTION);
+        match self.state.motion {
+            Know::Lost => Ok(None),
+            Know::Said(motion) | Know::Taken(motion) => Ok(Some(motion)),
+            Know::Unsaid if !self.assume => Ok(None),
+            Know::Unsaid => {
+                let row = &self.settings.dialect.power_on.motion;
+                let Some(row) = row else {
+                    self.fault(Fault::NoMotionMode, at, out);
+                    return Err(());
+                };
+                let value: ncc_ir::canon::Motion = row.value.into();
+                out.assumed.motion = Some(value);
+                let motion = Motion::from(value);
+                self.state.motion = Know::Taken(motion);
+                if !row.always {
+                    let name = if motion == Motion::Traverse { "rapid" } else { "line at feed" };
+                    report(out, at, ModeName::Motion, Some(name));
+                }
+                Ok(Some(motion))
+            }
+        }
+    }
+
+    /// The value of an option that decides here; reported once if nobody chose it.
+    pub(super) fn option(&mut self, name: &'static str, at: Span, out: &mut Batch) -> &str {
+        if self.assume && !self.settings.is_chosen(name) && self.reported.insert(name.into()) {
+            let value = self.settings.get(name).into();
+            out.report(Fault::AssumedOption { option: name.into(), value }, at);
+        }
+        self.settings.get(name)
+    }
+}
+
+/// Where the tool is known to stand in program coordinates, by the words that put it there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Stand {
+    pub(super) axes: [Option<Num>; 3],
+}
+
+impl Stand {
+    /// After a move that is not followed.
+    pub(super) fn forget(&mut self) {
+        self.axes = [None; 3];
+    }
+}

@@ -1,0 +1,112 @@
+//! Lowering of programmed frames: `TRANS`, `ROT`, `SCALE`, `MIRROR` and the forms that append.
+//!
+//! Refused by name: rotations about an axis of the plane in force, and an appending word without
+//! axes.
+
+use ncc_dialects::{FrameWord, NameMeaning, NameRole, Quantity};
+use ncc_ir::canon::{AXES, Axis, Fact};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Frame, FrameSlot, FrameStep, Op};
+
+use super::lower::Lower;
+use super::sort::{Code, Given, Words};
+use crate::Batch;
+use crate::word::Source;
+
+impl Lower {
+    /// A frame, which stands alone in its block.
+    pub(super) fn frame(&mut self, code: Code, words: &mut Words, src: Source, out: &mut Batch) {
+        let (added, word) = match code.meaning {
+            NameMeaning::SetFrame(word) => (false, word),
+            NameMeaning::AddFrame(word) => (true, word),
+            _ => return,
+        };
+        if words.codes.len() > 1 {
+            return self.not_supported(code.name, "frame beside other functions", code.span, out);
+        }
+        self.stand.forget();
+        if words.no_address() {
+            if added {
+                return self.not_supported(code.name, "appended frame without axes", code.span, out);
+            }
+            return self.push(code.span, Op::ClearFrame(FrameSlot::Chain), out);
+        }
+        let step = match word {
+            FrameWord::Translate => self.translation(words, src, out),
+            FrameWord::Rotate => self.rotation(code, words, src, out),
+            FrameWord::Scale => self.factors(words, src, out),
+            FrameWord::Mirror => {
+                let axes = [b'X', b'Y', b'Z'].map(|letter| words.take(letter).is_some());
+                axes.contains(&true).then_some(FrameStep::Mirror(axes))
+            }
+        };
+        if let Some(step) = step
+            && !self.now.failed
+        {
+            self.push(code.span, Op::SetFrame(Box::new(Frame { added, step })), out);
+        }
+    }
+
+    fn translation(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> Option<FrameStep> {
+        let mut by = [const { None }; AXES];
+        for axis in Axis::ALL {
+            if let Some(given) = self.unmarked(words.take(axis.letter()), src, out) {
+                let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
+                by[axis as usize] = self.number(given, quantity, src, out).map(Expr::Num);
+            }
+        }
+        by.iter().any(Option::is_some).then(|| FrameStep::Translate(Box::new(by)))
+    }
+
+    fn rotation(&mut self, code: Code, words: &mut Words, src: Source, out: &mut Batch) -> Option<FrameStep> {
+        if let Some(given) = words.take_named(NameRole::PlaneAngle) {
+            let plane = self.plane(code.span, out);
+            let angle = Expr::Num(self.number(given, Quantity::Angle, src, out)?);
+            return Some(FrameStep::Rotate { plane, angle });
+        }
+        let plane = self.known_plane(code.span, out)?;
+        let normal = plane.axes().2;
+        let mut angle = None;
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            let Some(given) = self.unmarked(words.take(axis.letter()), src, out) else {
+                continue;
+            };
+            let num = self.number(given, Quantity::Angle, src, out)?;
+            if axis == normal {
+                angle = Some(num);
+            } else if !num.is_zero() {
+                let name = "rotation about an axis of the plane";
+                self.not_supported(code.name, name, given.span, out);
+            }
+        }
+        let zero = ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Degree);
+        Some(FrameStep::Rotate { plane: Fact::Known(plane), angle: Expr::Num(angle.unwrap_or(zero)) })
+    }
+
+    fn factors(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> Option<FrameStep> {
+        let mut by = [const { None }; 3];
+        for (by, letter) in by.iter_mut().zip(*b"XYZ") {
+            let Some(given) = self.unmarked(words.take(letter), src, out) else {
+                continue;
+            };
+            let num = self.number(given, Quantity::Factor, src, out)?;
+            if num.is_zero() {
+                return self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+            }
+            *by = Some(Expr::Num(num));
+        }
+        by.iter().any(Option::is_some).then(|| FrameStep::Scale(Box::new(by)))
+    }
+
+    /// A word of a frame, which is neither absolute nor incremental.
+    fn unmarked(&mut self, given: Option<Given>, src: Source, out: &mut Batch) -> Option<Given> {
+        let given = given?;
+        if given.distance.is_some() {
+            let name = "AC or IC in a frame";
+            self.not_supported(&src.text(given.span), name, given.span, out);
+            return None;
+        }
+        Some(given)
+    }
+}

@@ -1,0 +1,302 @@
+//! Lowering of a block of words: modes, feed, speed and tool, edges, spindle and coolant, dwell,
+//! stops and ends, in the order in which they happen.
+//!
+//! Moves and frames have files of their own.
+
+use ncc_dialects::{Meaning, NameMeaning, Quantity, Role};
+use ncc_ir::canon::{Fact, Units};
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::Unit;
+use ncc_ir::program::Op;
+
+use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
+use super::facts::{InForce, Motion};
+use super::lower::{Head, Lower};
+use super::sort::{Code, Words};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::facts::Know;
+use crate::word::number::unit_of;
+use crate::word::sort::{RANK_AFTER, RANK_WORDS, rank};
+
+/// The motion of a code or word.
+pub(super) fn motion_of(meaning: NameMeaning) -> Option<Motion> {
+    match meaning {
+        NameMeaning::Code(Meaning::StraightTraverse) => Some(Motion::Traverse),
+        NameMeaning::Code(Meaning::StraightFeed) => Some(Motion::Feed),
+        NameMeaning::Code(Meaning::ArcFeed(turn)) => Some(Motion::Arc(turn)),
+        NameMeaning::ArcThrough => Some(Motion::Through),
+        NameMeaning::ArcTangent => Some(Motion::Tangent),
+        _ => None,
+    }
+}
+
+impl Lower {
+    /// A block of words and codes.
+    pub(super) fn words(&mut self, words: &mut Words, head: &Head, src: Source, out: &mut Batch) {
+        if self.now.refused {
+            // The modes that it says still count.
+            for at in 0..words.codes.len() {
+                self.set_mode(words.codes[at], out);
+            }
+            return;
+        }
+        let frame = words.find(|m| matches!(m, NameMeaning::SetFrame(_) | NameMeaning::AddFrame(_)));
+        let dwell = words.find(|m| m == NameMeaning::Code(Meaning::Dwell));
+        if let Some(code) = frame {
+            self.frame(code, words, src, out);
+        } else if let Some(code) = dwell {
+            self.dwell(code, words, src, out);
+        } else {
+            self.functions(words, head, src, out);
+        }
+        if !self.now.failed {
+            self.check_unused(words, src, out);
+        }
+    }
+
+    fn functions(&mut self, words: &mut Words, head: &Head, src: Source, out: &mut Batch) {
+        let codes = std::mem::take(&mut words.codes);
+        let coded = codes.iter().filter_map(|c| match c.meaning {
+            NameMeaning::Code(meaning) => Some((c, meaning)),
+            _ => None,
+        });
+        for (code, meaning) in coded.clone() {
+            if rank(meaning) < RANK_WORDS {
+                self.setting(code, meaning, out);
+            }
+        }
+        self.feed_and_speed(words, src, out);
+        let change = coded.clone().find(|(_, m)| *m == Meaning::ChangeTool);
+        self.tool(change.map(|(code, _)| code), words, src, out);
+        for (code, meaning) in coded.clone() {
+            let op = match meaning {
+                Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
+                Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
+                Meaning::FloodOn => Op::FloodOn,
+                Meaning::MistOn => Op::MistOn,
+                _ => continue,
+            };
+            self.push(code.span, op, out);
+        }
+        let machine = coded.clone().find(|(_, m)| *m == Meaning::UseMachineCoordinates).map(|(c, _)| *c);
+        let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
+        self.motion_words(motion, machine, head.span, words, src, out);
+        for (code, meaning) in coded {
+            if rank(meaning) >= RANK_AFTER {
+                self.ending(code, meaning, out);
+            }
+        }
+        words.codes = codes;
+    }
+
+    /// Sets a mode; also for a block that is refused.
+    pub(super) fn set_mode(&mut self, code: Code, out: &mut Batch) {
+        if let Some(motion) = motion_of(code.meaning) {
+            self.state.motion = Know::Said(motion);
+            self.again.say(MOTION);
+        }
+        let NameMeaning::Code(meaning) = code.meaning else {
+            return;
+        };
+        match meaning {
+            Meaning::UseLengthUnits(units) => self.set_units(code, units, out),
+            Meaning::SelectPlane(plane) => {
+                self.state.plane = Know::Said(plane);
+                self.again.say(PLANE);
+                if let Some(at) = self.only_plane.see(plane) {
+                    out.report(Fault::EntryFactNeeded { fact: ModeName::Plane }, at);
+                }
+            }
+            Meaning::SetDistanceMode(distance) => {
+                self.state.distance = Know::Said(distance);
+                self.again.say(DISTANCE);
+            }
+            Meaning::SetFeedMode(mode) => self.state.feed_mode = Know::Said(mode),
+            Meaning::SetOriginOffsets(offset) => {
+                self.state.work_offset = Know::Said(offset);
+                self.stand.forget();
+            }
+            _ => {}
+        }
+    }
+
+    fn set_units(&mut self, code: Code, units: Units, out: &mut Batch) {
+        // G700 and G710 are of the feed as well.
+        let scaled = matches!(code.name, "G700" | "G710");
+        let counts = |scaled: Know<bool>, units: Know<Units>| match (scaled, units) {
+            (Know::Said(true), Know::Said(units)) => Some(unit_of(Fact::Known(units))),
+            (Know::Lost, _) => None,
+            _ => Some(Unit::One),
+        };
+        let before = counts(self.state.scaled, self.state.units);
+        let basic = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
+        self.state.units = Know::Said(units);
+        self.state.scaled = Know::Said(scaled);
+        self.again.say(UNITS);
+        self.again.say(SCALED);
+        let after = counts(self.state.scaled, self.state.units);
+        let real = |unit: Option<Unit>| unit.map(|u| if u == Unit::One { basic } else { u });
+        if before.is_some() && real(before) != real(after) && self.state.feed == Know::Said(()) {
+            // What a feed counts that was said before is not known.
+            self.state.feed = Know::Unsaid;
+        }
+        let relied = [self.only_units.see(units), self.only_scaled.see(scaled)];
+        for at in relied.into_iter().flatten() {
+            out.report(Fault::EntryFactNeeded { fact: ModeName::Units }, at);
+        }
+    }
+
+    fn setting(&mut self, code: &Code, meaning: Meaning, out: &mut Batch) {
+        if let (Meaning::SelectPlane(plane), InForce::Active(cycle)) = (meaning, &self.state.cycle)
+            && cycle.plane.known() != Some(plane)
+        {
+            let name = "change of the plane while a cycle is in force";
+            self.not_supported(code.name, name, code.span, out);
+        }
+        self.set_mode(*code, out);
+        let op = match meaning {
+            Meaning::NoEffect => {
+                if self.first_time(code.name) {
+                    out.report(Fault::AssumedNoEffect { code: code.name.into() }, code.span);
+                }
+                Op::NoEffect(code.name.into())
+            }
+            Meaning::UseLengthUnits(units) => Op::UseLengthUnits(units),
+            Meaning::SelectPlane(plane) => Op::SelectPlane(plane),
+            Meaning::SetDistanceMode(distance) => Op::SetDistanceMode(distance),
+            Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
+            Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
+            Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
+            Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
+            Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
+            _ => return,
+        };
+        self.push(code.span, op, out);
+    }
+
+    fn role_letter(&self, role: Role) -> u8 {
+        self.settings.dialect.letter_for(role).map_or(0, |c| c as u8)
+    }
+
+    fn feed_and_speed(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        if let Some(given) = words.take(self.role_letter(Role::Feed)) {
+            self.rely_on_feed_mode(given.span, out);
+            if let Some(num) = self.number(given, Quantity::Feed, src, out) {
+                if !num.is_zero() {
+                    self.state.feed = Know::Said(());
+                }
+                match &self.state.cycle {
+                    InForce::Active(cycle) => self.recall |= cycle.feed.is_some(),
+                    InForce::Inherited { own_feed: true } | InForce::Lost { own_feed: true } => {
+                        let name = "feed under the cycle of a caller that may have its own";
+                        self.not_supported(&src.text(given.span), name, given.span, out);
+                    }
+                    InForce::None | InForce::Inherited { .. } | InForce::Lost { .. } => {}
+                }
+                self.push(given.span, Op::SetFeedRate(Expr::Num(num)), out);
+            }
+        }
+        if let Some(given) = words.take(self.role_letter(Role::Speed))
+            && let Some(num) = self.number(given, Quantity::Speed, src, out)
+        {
+            self.push(given.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
+        }
+    }
+
+    /// Tool word, tool change and edge.
+    fn tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
+        if let Some(given) = words.take(self.role_letter(Role::Tool)) {
+            self.state.tool = Know::Said(());
+            if let Some(tool) = self.whole(given, src, out) {
+                self.push(given.span, Op::SelectTool(Expr::int(tool.into())), out);
+            }
+        }
+        if let Some(change) = change {
+            if self.state.tool == Know::Unsaid {
+                self.fault(Fault::NoToolSelected, change.span, out);
+            }
+            self.push(change.span, Op::ChangeTool, out);
+        }
+        let edge = words.take(self.role_letter(Role::ToolEdge));
+        let (edge, said, span) = match (edge, change) {
+            (Some(given), _) => {
+                let Some(edge) = self.whole(given, src, out) else {
+                    return;
+                };
+                if edge > 9 {
+                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                }
+                self.state.implied_edge = None;
+                (edge, true, given.span)
+            }
+            (None, Some(change)) => {
+                self.state.implied_edge = Some(change.span);
+                let none = self.settings.get("edge_after_change") == "none";
+                (u32::from(!none), false, change.span)
+            }
+            (None, None) => return,
+        };
+        self.state.length = Know::Said(());
+        self.push(span, Op::UseToolEdge { edge: Expr::int(edge.into()), said }, out);
+    }
+
+    /// A dwell, which stands alone.
+    fn dwell(&mut self, code: Code, words: &mut Words, src: Source, out: &mut Batch) {
+        if words.codes.len() > 1 {
+            return self.not_supported(code.name, "dwell beside other functions", code.span, out);
+        }
+        if words.get(self.role_letter(Role::Speed)).is_some() {
+            return self.not_supported(code.name, "dwell in turns of the spindle", code.span, out);
+        }
+        let rows = &self.settings.dialect.code;
+        let parameters = rows.iter().find(|row| row.code == code.name).map_or(&[][..], |row| &row.dwell);
+        let found = parameters.iter().find_map(|d| Some((words.take(d.letter as u8)?, d.quantity)));
+        let Some((given, quantity)) = found else {
+            let word = parameters.first().map_or(' ', |d| d.letter).to_string().into();
+            return self.fault(Fault::WordMissing { code: code.name.into(), word }, code.span, out);
+        };
+        if let Some(num) = self.number(given, quantity, src, out) {
+            self.push(code.span.to(given.span), Op::Dwell(Expr::Num(num)), out);
+        }
+    }
+
+    /// A function after the motion.
+    fn ending(&mut self, code: &Code, meaning: Meaning, out: &mut Batch) {
+        let op = match meaning {
+            Meaning::StopSpindleTurning => Op::StopSpindleTurning,
+            Meaning::CoolantOff => Op::CoolantOff,
+            Meaning::ProgramStop => Op::ProgramStop,
+            Meaning::OptionalProgramStop => Op::OptionalProgramStop,
+            // The end of a subprogram by any name leads back, and that of the main program ends it.
+            Meaning::ProgramEnd | Meaning::Return => {
+                self.ended |= !self.skipped();
+                if self.sub.is_some() {
+                    self.leave(code.span, out);
+                    Op::Return
+                } else if code.name == "RET" && !self.sub_alone {
+                    let name = "return in the main program";
+                    return self.not_supported(code.name, name, code.span, out);
+                } else {
+                    Op::ProgramEnd
+                }
+            }
+            _ => return,
+        };
+        self.push(code.span, op, out);
+    }
+
+    /// Words that nothing in the block has used.
+    fn check_unused(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        while let Some((letter, given)) = words.first_left() {
+            let row = letter.and_then(|l| self.settings.dialect.address_row(l));
+            // Some words have a function of their own, which is known and not translated.
+            match row.and_then(|row| row.refuse.as_deref()) {
+                Some(name) => self.not_supported(&src.text(given.span), name, given.span, out),
+                None => self.fault(Fault::WordUnused { word: src.text(given.span) }, given.span, out),
+            }
+            words.drop_left(letter);
+        }
+    }
+}

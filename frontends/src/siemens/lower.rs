@@ -1,0 +1,478 @@
+//! Lowering of a block: from its words or its tree to statements.
+//!
+//! What a code or name means comes from the dictionary alone. A block with a fault gives
+//! diagnostics and no statements; what it says of modes still counts, so that one slip is not
+//! reported again at every block after it.
+//!
+//! Refused by name, wherever it stands: variables, expressions that must be computed, control of the
+//! program's flow, definitions, synchronised actions, calls by path and with arguments.
+//!
+//! Not here: which word is what (`sort`), and what the functions, moves, frames, cycles, patterns
+//! and calls of a block mean; they have files of their own beside this one.
+
+use std::collections::HashSet;
+
+use ncc_dialects::{Quantity, Role, Settings};
+use ncc_ir::canon::{Axis, Distance, Fact, Plane, Units};
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Op, Procedure, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::again::Again;
+use super::facts::{InForce, Motion, Only, Stand, State};
+use super::sort::Words;
+use super::tree::{Block, BlockNumber, Called, Expr, Item, Statement};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::block::{Value, Word};
+use crate::word::facts::Know;
+use crate::word::fast::{Fast, plain_move};
+use crate::word::lower::decode;
+use crate::word::number::unit_of;
+
+/// Lowers the blocks of one text, one after the other.
+#[derive(Debug)]
+pub(super) struct Lower {
+    pub(super) settings: Settings,
+    /// Whether what the program never says is taken for granted and reported.
+    pub(super) assume: bool,
+    pub(super) state: State,
+    pub(super) only_units: Only<Units>,
+    pub(super) only_scaled: Only<bool>,
+    pub(super) only_plane: Only<Plane>,
+    pub(super) again: Again,
+    /// Where the tool stands, as far as words have said it.
+    pub(super) stand: Stand,
+    /// What the statements have put in force last, as a subprogram's position would find it.
+    pub(super) moved: Option<Motion>,
+    /// Whether a cycle was called up where the motion in force is not known: it is not known after
+    /// it either.
+    pub(super) cycled: bool,
+    /// Whether the cycle in force must be called up again, because a feed was said since.
+    pub(super) recall: bool,
+    /// Rows, options and patterns that have been reported.
+    pub(super) reported: HashSet<Box<str>>,
+    /// The subprogram that is being read; `None` in the main program.
+    pub(super) sub: Option<Procedure>,
+    /// What `MCALL` had put in force where the subprogram was called.
+    pub(super) entry: InForce,
+    /// Whether the main program is a subprogram's text alone.
+    pub(super) sub_alone: bool,
+    /// Whether the program that is being read has ended.
+    pub(super) ended: bool,
+    /// What plain moves need; `None` if a block must be looked at.
+    pub(super) fast: Option<Fast>,
+    pub(super) now: Now,
+    words: Words,
+    stretch: Option<Stretch>,
+}
+
+/// Blocks one after another that one switch skips: within them, what they say counts.
+#[derive(Debug)]
+struct Stretch {
+    level: u8,
+    /// What was in force before the first of them.
+    before: State,
+    moved: Option<Motion>,
+    /// What is in force if they are not skipped.
+    inside: State,
+    moved_inside: Option<Motion>,
+}
+
+/// State of the block that is being lowered.
+#[derive(Debug, Default)]
+pub(super) struct Now {
+    number: Option<u32>,
+    skip: Option<u8>,
+    pub(super) pushed: bool,
+    /// Whether something was refused.
+    pub(super) failed: bool,
+    /// Whether a word was refused, so that it is not known what the others belong to.
+    pub(super) refused: bool,
+    pub(super) m_codes: u8,
+    /// A block that is a heading, and no statement.
+    pub(super) heading: bool,
+    /// Length of the target before the block.
+    mark: usize,
+}
+
+/// What a block has besides its words.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Head {
+    skip: Option<(u8, Span)>,
+    number: Option<u32>,
+    label: Option<Span>,
+    comment: Option<Span>,
+    pub(super) span: Span,
+}
+
+impl Head {
+    fn of(block: &Block) -> Head {
+        let number = block.number.map(|BlockNumber { value, .. }| value);
+        let Block { skip, label, comment, span, .. } = *block;
+        Head { skip, number, label, comment, span }
+    }
+}
+
+impl Lower {
+    pub(super) fn new(settings: Settings, assume: bool) -> Lower {
+        Lower {
+            settings,
+            assume,
+            state: State::default(),
+            only_units: Only::default(),
+            only_scaled: Only::default(),
+            only_plane: Only::default(),
+            again: Again::default(),
+            stand: Stand::default(),
+            moved: None,
+            cycled: false,
+            recall: false,
+            reported: HashSet::new(),
+            sub: None,
+            entry: InForce::None,
+            sub_alone: false,
+            ended: false,
+            fast: None,
+            now: Now::default(),
+            words: Words::default(),
+            stretch: None,
+        }
+    }
+
+    /// Lowers a plain move; `false` if it is not one, and then nothing was done.
+    #[inline]
+    pub(super) fn fast_move(&mut self, words: &[Word], out: &mut Batch) -> bool {
+        let Some(fast) = self.fast else {
+            return false;
+        };
+        if !plain_move(fast, words, self.target(out)) {
+            return false;
+        }
+        let absolute = fast.distance == Fact::Known(Distance::Absolute);
+        for word in words {
+            let Some(axis) = self.stand.axes.get_mut(usize::from(word.letter.wrapping_sub(b'X'))) else {
+                continue;
+            };
+            *axis = match word.value {
+                Value::Number(digits) if absolute => Some(ncc_ir::num::Num {
+                    mantissa: digits.mantissa,
+                    scale: digits.scale,
+                    point: digits.point,
+                    unit: fast.unit,
+                }),
+                Value::Number(_) | Value::None => None,
+            };
+        }
+        true
+    }
+
+    /// Finds out whether plain moves can go the short way from here.
+    pub(super) fn refresh(&mut self) {
+        self.fast = self.settled();
+    }
+
+    fn settled(&self) -> Option<Fast> {
+        let dialect = self.settings.dialect;
+        let linear = |axis: Axis| {
+            let row = dialect.address_row(axis.letter());
+            row.is_some_and(|r| r.role == Role::Axis && r.quantity == Quantity::Length && r.sure)
+        };
+        let state = &self.state;
+        let feed = match state.motion {
+            Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
+            Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,
+            _ => return None,
+        };
+        let open = self.assume
+            && (state.distance == Know::Unsaid
+                || state.units == Know::Unsaid
+                || state.work_offset == Know::Unsaid
+                || state.no_shift == Know::Unsaid
+                || state.implied_edge.is_some()
+                || state.length == Know::Unsaid);
+        let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
+        // The statements of a move say what is in force only after one has been looked at.
+        let moved = self.moved == Some(if feed { Motion::Feed } else { Motion::Traverse });
+        let no_feed = feed && state.feed == Know::Unsaid;
+        if !axes
+            || open
+            || no_feed
+            || !moved
+            || state.cycle != InForce::None
+            || self.ended
+            || !self.again.is_empty()
+        {
+            return None;
+        }
+        Some(Fast {
+            unit: unit_of(state.units.fact()),
+            distance: state.distance.fact(),
+            feed,
+            number: b'N',
+            bare: true,
+        })
+    }
+
+    /// Lowers a block that the recogniser has read; its number, if any, is its first word.
+    pub(super) fn plain(&mut self, plain: &[Word], span: Span, src: Source, out: &mut Batch) {
+        self.stretch = None;
+        let mut plain = plain;
+        let mut head = Head { span, ..Head::default() };
+        if let Some((Word { letter: b'N', value: Value::Number(digits), .. }, rest)) = plain.split_first() {
+            head.number = u32::try_from(digits.mantissa).ok();
+            plain = rest;
+        }
+        self.begin(&head, src, out);
+        let mut words = std::mem::take(&mut self.words);
+        words.clear();
+        self.sort_plain(plain, &mut words, src, out);
+        self.words(&mut words, &head, src, out);
+        self.words = words;
+        self.close(&head, src, out);
+        self.refresh();
+    }
+
+    /// Lowers a block that the grammar has read.
+    pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        let head = Head::of(block);
+        let before = self.enter_stretch(&head);
+        self.begin(&head, src, out);
+        self.statement(&block.statement, &head, src, out);
+        self.close(&head, src, out);
+        if let (Some((before, moved)), Some((level, _))) = (before, head.skip) {
+            let (inside, moved_inside) = (self.state.clone(), self.moved);
+            self.state.join(&before);
+            self.stand.forget();
+            if self.moved != moved {
+                self.moved = None;
+            }
+            self.stretch = Some(Stretch { level, before, moved, inside, moved_inside });
+        }
+        if head.label.is_some() {
+            self.again.label_over(&self.state);
+        }
+        self.refresh();
+    }
+
+    /// What was in force before a block that may be skipped, or before the first of several that are
+    /// skipped together.
+    fn enter_stretch(&mut self, head: &Head) -> Option<(State, Option<Motion>)> {
+        let stretch = self.stretch.take();
+        let (level, _) = head.skip?;
+        match stretch {
+            Some(stretch) if stretch.level == level => {
+                self.state = stretch.inside;
+                self.moved = stretch.moved_inside;
+                Some((stretch.before, stretch.moved))
+            }
+            _ => Some((self.state.clone(), self.moved)),
+        }
+    }
+
+    fn begin(&mut self, head: &Head, src: Source, out: &mut Batch) {
+        let level = head.skip.map(|(level, _)| match level {
+            // The plain slash is level 0; the first level of both makes.
+            0 => 1,
+            1 => 10,
+            level => level,
+        });
+        self.now = Now { number: head.number, skip: level, mark: self.target(out).len(), ..Now::default() };
+        if let (Some(level), Some((written, at))) = (level, head.skip)
+            && level > self.settings.dialect.block.skip_levels
+        {
+            let code = format!("/{written}").into();
+            self.fault(Fault::NotSupported { code, name: "block-skip level".into() }, at, out);
+        }
+        if let Some(label) = head.label {
+            let name: Text = src.text(label).to_ascii_uppercase().into();
+            if let Some(row) = self.settings.dialect.name_row(&name) {
+                let refuse = row.refuse.as_deref().unwrap_or("word of the language as a label");
+                self.not_supported(&name, refuse, label, out);
+            }
+            self.again.label(name.clone(), &self.state);
+            out.whole = true;
+            self.push(label, Op::Label(name), out);
+        }
+    }
+
+    fn statement(&mut self, statement: &Statement, head: &Head, src: Source, out: &mut Batch) {
+        let macros = |what: Span| Fault::MacroLanguage { what: src.text(what) };
+        match statement {
+            Statement::Words { items, jumps } => {
+                if let Some(jump) = jumps.first() {
+                    self.fault(macros(jump.span), jump.span, out);
+                    self.now.refused = true;
+                }
+                if self.alone(items, head, src, out) {
+                    return;
+                }
+                let mut words = std::mem::take(&mut self.words);
+                words.clear();
+                self.sort_items(items, &mut words, src, out);
+                self.words(&mut words, head, src, out);
+                self.words = words;
+            }
+            Statement::RepeatSection { first, last, count } => {
+                self.repeat(*first, *last, count.as_ref(), head, src, out);
+            }
+            Statement::CallModal(called) => self.call_modal(called.as_ref(), head, src, out),
+            Statement::Call { file: Some(Expr::Text(name)), section: None } => {
+                self.call_by_text(*name, head, src, out);
+            }
+            Statement::Procedure { parameters, attributes, .. } => {
+                self.procedure(parameters, attributes, head, src, out);
+            }
+            Statement::Extern { .. } => self.now.heading = true,
+            Statement::RepeatBlock { .. } => self.refuse_word("REPEATB", head.span, out),
+            Statement::Call { .. } | Statement::CallByPath { .. } => {
+                self.refuse_word("PCALL", head.span, out);
+            }
+            Statement::CallExternal(_) => self.refuse_word("EXTCALL", head.span, out),
+            Statement::CallIso(_) => self.refuse_word("ISOCALL", head.span, out),
+            Statement::Synchronous(_) => {
+                let code = src.text(head.span);
+                self.not_supported(&code, "synchronised action", head.span, out);
+            }
+            Statement::If(_)
+            | Statement::Else
+            | Statement::EndIf
+            | Statement::Loop
+            | Statement::EndLoop
+            | Statement::For { .. }
+            | Statement::EndFor
+            | Statement::While(_)
+            | Statement::EndWhile
+            | Statement::Repeat
+            | Statement::Until(_)
+            | Statement::Case { .. }
+            | Statement::Define { .. }
+            | Statement::Declare(_)
+            | Statement::Redefine(_) => self.fault(macros(head.span), head.span, out),
+        }
+    }
+
+    /// Items that stand alone in their block: calls by name or number, cycles, patterns, messages.
+    /// `false` if the block has none.
+    fn alone(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) -> bool {
+        let is_call = |item: &Item| match item {
+            Item::Word(word) => word.letter == b'L',
+            Item::Set { .. } => false,
+            Item::Name(called) => self.is_call(called, src),
+        };
+        let Some(at) = items.iter().position(is_call) else {
+            return false;
+        };
+        let (before, rest) = items.split_at(at);
+        let Some((item, after)) = rest.split_first() else {
+            return false;
+        };
+        // A slip of the pen is told as one, and not as a call.
+        if let Some(letter) = super::letters::letter_for_zero(src, head.span) {
+            self.fault(Fault::LetterOForZero, letter, out);
+            return true;
+        }
+        match item {
+            Item::Word(word) => self.call_number(word.span, before, after, src, out),
+            Item::Name(called) => self.call_name(called, before, after, head, src, out),
+            Item::Set { .. } => return false,
+        }
+        true
+    }
+
+    /// Whether a name calls something: whatever the dictionary has no other use for.
+    fn is_call(&self, called: &Called, src: Source) -> bool {
+        let name = src.text(called.name).to_ascii_uppercase();
+        match self.settings.dialect.name_row(&name) {
+            Some(row) => row.means == Some(ncc_dialects::NameMeaning::Message),
+            None => true,
+        }
+    }
+
+    /// A word of the language that the dictionary refuses.
+    fn refuse_word(&mut self, word: &str, at: Span, out: &mut Batch) {
+        let row = self.settings.dialect.name_row(word);
+        let name = row.and_then(|row| row.refuse.as_deref()).unwrap_or("call");
+        self.not_supported(word, name, at, out);
+    }
+
+    /// Where statements go.
+    #[inline]
+    pub(super) fn target<'o>(&'o mut self, out: &'o mut Batch) -> &'o mut Vec<Stmt> {
+        match &mut self.sub {
+            Some(procedure) => &mut procedure.body,
+            None => &mut out.stmts,
+        }
+    }
+
+    /// Adds a statement to the block.
+    pub(super) fn push(&mut self, span: Span, op: Op, out: &mut Batch) {
+        let number = if self.now.pushed { None } else { self.now.number };
+        let joined = std::mem::replace(&mut self.now.pushed, true);
+        let skip = self.now.skip;
+        self.target(out).push(Stmt { span, number, skip, joined, comment: None, op });
+    }
+
+    /// Whether a switch may skip the block.
+    pub(super) fn skipped(&self) -> bool {
+        self.now.skip.is_some()
+    }
+
+    /// Reports something that refuses the block.
+    pub(super) fn fault(&mut self, fault: Fault, span: Span, out: &mut Batch) {
+        self.now.failed = true;
+        out.report(fault, span);
+    }
+
+    /// The same, for a value that is then missing.
+    pub(super) fn refuse<T>(&mut self, fault: Fault, span: Span, out: &mut Batch) -> Option<T> {
+        self.fault(fault, span, out);
+        None
+    }
+
+    /// Refuses by name what the dictionary or the language names.
+    pub(super) fn not_supported(&mut self, code: &str, name: &str, span: Span, out: &mut Batch) {
+        self.now.refused = true;
+        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, span, out);
+    }
+
+    /// Whether something is met for the first time by the reports.
+    pub(super) fn first_time(&mut self, name: &str) -> bool {
+        self.assume && self.reported.insert(name.into())
+    }
+
+    /// Ends the block: its comment, or what stands for an empty one.
+    fn close(&mut self, head: &Head, src: Source, out: &mut Batch) {
+        if self.now.failed {
+            let mark = self.now.mark;
+            self.target(out).truncate(mark);
+            return self.forgive();
+        }
+        let comment = head.comment.map(|c| decode(src.bytes(c)));
+        match (comment, self.now.pushed) {
+            (None, true) => {}
+            (None, false) if self.now.heading => {}
+            (None, false) => self.push(head.span, Op::Blank, out),
+            (Some(text), false) => self.push(head.span, Op::Comment(text), out),
+            (Some(text), true) => {
+                if let Some(stmt) = self.target(out).last_mut() {
+                    stmt.comment = Some(Box::new(text));
+                }
+            }
+        }
+    }
+
+    /// After a refused block, what it may have said is not asked for again.
+    pub(super) fn forgive(&mut self) {
+        for said in [&mut self.state.feed, &mut self.state.tool] {
+            if *said == Know::Unsaid {
+                *said = Know::Lost;
+            }
+        }
+        if self.state.motion == Know::Unsaid {
+            self.state.motion = Know::Lost;
+        }
+        self.stand.forget();
+        self.moved = None;
+    }
+}

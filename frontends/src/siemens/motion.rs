@@ -1,0 +1,388 @@
+//! Lowering of moves: lines, and arcs in all the forms that the control knows; what a position means
+//! while a cycle is in force.
+//!
+//! A position under `MCALL` at G0 with words of the plane is a hole. Any other move is made first,
+//! with the cycle off, and the hole where it ends.
+//!
+//! Not here: the cycles themselves.
+
+use ncc_dialects::{NameRole, Quantity, Role};
+use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn};
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::ONE;
+use ncc_ir::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Move, Op, Point, Shape};
+use ncc_ir::source::Span;
+
+use super::again::{CYCLE, MOTION};
+use super::facts::{InForce, Motion};
+use super::lower::Lower;
+use super::sort::{Code, Given, Words};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::facts::Know;
+
+const AXES: &[u8] = b"XYZABC";
+const CENTRE: &[u8] = b"IJK";
+
+/// Most turns that can be added to an arc.
+const MOST_TURNS: u32 = 999;
+
+const NAMED: [NameRole; 6] = [
+    NameRole::Radius,
+    NameRole::OpeningAngle,
+    NameRole::Turns,
+    NameRole::ThroughX,
+    NameRole::ThroughY,
+    NameRole::ThroughZ,
+];
+
+/// A word of an arc's centre.
+type CentreWord = Option<(Expr, Option<Distance>)>;
+
+impl Lower {
+    /// The block's motion code, and its axis words.
+    pub(super) fn motion_words(
+        &mut self,
+        motion: Option<(Code, Motion)>,
+        machine: Option<Code>,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        if let Some((code, motion)) = motion {
+            self.state.motion = Know::Said(motion);
+            self.again.say(MOTION);
+            let foreign = matches!(self.state.cycle, InForce::Inherited { .. } | InForce::Lost { .. });
+            if foreign && motion != Motion::Traverse {
+                let name = "motion at feed while a cycle of the caller may be in force";
+                self.not_supported(code.name, name, code.span, out);
+            }
+        }
+        let arc_now =
+            matches!(self.state.motion.value(), Some(m) if !matches!(m, Motion::Traverse | Motion::Feed));
+        let arc_words = words.has_any(CENTRE) || NAMED.iter().any(|&role| words.named(role).is_some());
+        if !(words.has_any(AXES) || arc_now && arc_words) {
+            if let Some(code) = machine {
+                // Without a move it does nothing.
+                self.push(code.span, Op::NoEffect(code.name.into()), out);
+            }
+            return;
+        }
+        self.again.use_fact(CYCLE);
+        self.again.use_fact(MOTION);
+        match std::mem::take(&mut self.state.cycle) {
+            InForce::None => {
+                let made = self.path(motion.is_some(), machine, block, words, src, out);
+                self.moved = made;
+            }
+            InForce::Active(cycle) => {
+                self.state.cycle = InForce::Active(cycle.clone());
+                self.moved = None;
+                if self.state.motion.value().is_none() {
+                    self.take_rapid(block, out);
+                }
+                if cycle.feed.is_none() {
+                    self.rely_on_feed(block, out);
+                }
+                if self.is_position(machine, block, words, out) {
+                    self.call_up_again(&cycle, block, out);
+                    let to = self.point(true, None, words, src, out);
+                    self.push(block, Op::Hole(Move { to, said: false }), out);
+                } else {
+                    self.push(block, Op::EndCycle, out);
+                    self.path(motion.is_some(), machine, block, words, src, out);
+                    self.push(block, Op::StartCycle(cycle.clone()), out);
+                    self.rely_on_frames(true, block, out);
+                    self.push(block, Op::Hole(Move::default()), out);
+                    self.recall = false;
+                }
+                self.hole_made(&cycle);
+            }
+            InForce::Inherited { own_feed } => {
+                self.state.cycle = InForce::Inherited { own_feed };
+                if self.is_position(machine, block, words, out) {
+                    self.position(words, block, src, out);
+                } else if !self.now.failed {
+                    let name = "move other than a position under the cycle of a caller";
+                    self.not_supported(&src.text(block), name, block, out);
+                }
+            }
+            InForce::Lost { own_feed } => {
+                self.state.cycle = InForce::Lost { own_feed };
+                match (self.state.motion.value(), machine) {
+                    (None, None) => self.position(words, block, src, out),
+                    _ => self.fault(Fault::EntryFactNeeded { fact: ModeName::Motion }, block, out),
+                }
+            }
+        }
+    }
+
+    /// Whether the words are a position of a hole: at G0, and of the plane alone.
+    fn is_position(&mut self, machine: Option<Code>, block: Span, words: &Words, out: &mut Batch) -> bool {
+        let rapid = self.state.motion.value().is_none_or(|m| m == Motion::Traverse);
+        if !rapid || machine.is_some() {
+            return false;
+        }
+        let Some(plane) = self.known_plane(block, out) else {
+            return false;
+        };
+        let (first, second, _) = plane.axes();
+        Axis::ALL.iter().all(|a| *a == first || *a == second || words.get(a.letter()).is_none())
+    }
+
+    /// Axis words that do whatever is in force when the program runs.
+    fn position(&mut self, words: &mut Words, block: Span, src: Source, out: &mut Batch) {
+        let to = self.point(true, None, words, src, out);
+        self.push(block, Op::Position(Move { to, said: false }), out);
+    }
+
+    /// The move itself; gives what is in force after it, if that is known.
+    fn path(
+        &mut self,
+        said: bool,
+        machine: Option<Code>,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Motion> {
+        let motion = self.motion(block, out).ok()?;
+        match motion {
+            None if machine.is_some() => {
+                self.fault(Fault::EntryFactNeeded { fact: ModeName::Motion }, block, out);
+            }
+            None if self.cycled => {
+                self.fault(Fault::EntryFactNeeded { fact: ModeName::Motion }, block, out);
+            }
+            None => self.position(words, block, src, out),
+            Some(line @ (Motion::Traverse | Motion::Feed)) => {
+                if line == Motion::Feed {
+                    self.rely_on_feed(block, out);
+                }
+                let to = self.point(false, machine, words, src, out);
+                if let Some(code) = machine {
+                    self.push(code.span, Op::UseMachineCoordinates, out);
+                }
+                let to = Move { to, said };
+                let op = match line {
+                    Motion::Feed => Op::StraightFeed(to),
+                    _ => Op::StraightTraverse(to),
+                };
+                self.push(block, op, out);
+            }
+            Some(arc) => {
+                if let Some(code) = machine {
+                    self.not_supported(code.name, "arc in machine coordinates", code.span, out);
+                }
+                self.rely_on_feed(block, out);
+                match arc {
+                    Motion::Through => self.through(said, block, words, src, out),
+                    Motion::Arc(turn) => self.arc(turn, said, block, words, src, out),
+                    Motion::Tangent | Motion::Traverse | Motion::Feed => {
+                        let plane = self.plane(block, out);
+                        let to = self.point(false, None, words, src, out);
+                        let arc = ArcForm { plane, to, shape: Shape::Tangent, turns: 0, said };
+                        self.push(block, Op::ArcForm(Box::new(arc)), out);
+                    }
+                }
+            }
+        }
+        motion
+    }
+
+    /// The axis words that are left. With `hole`, the drilling axis moves as well.
+    pub(super) fn point(
+        &mut self,
+        hole: bool,
+        machine: Option<Code>,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Point {
+        let mut to = Point::default();
+        let mut at = None;
+        for axis in Axis::ALL {
+            let Some(given) = words.take(axis.letter()) else {
+                continue;
+            };
+            at.get_or_insert(given.span);
+            let row = self.settings.dialect.address_row(axis.letter()).filter(|row| row.role == Role::Axis);
+            let Some(row) = row else {
+                continue;
+            };
+            if let Some(coord) = self.coord(given, row.quantity, src, out) {
+                if machine.is_some() && coord.distance == Fact::Known(Distance::Incremental) {
+                    let name = "incremental word in machine coordinates";
+                    self.not_supported(&src.text(given.span), name, given.span, out);
+                }
+                if let Some(stand) = self.stand.axes.get_mut(axis as usize) {
+                    let absolute = coord.distance == Fact::Known(Distance::Absolute) && machine.is_none();
+                    *stand = coord.value.literal().filter(|_| absolute);
+                }
+                to.set(axis, coord);
+            }
+        }
+        if let Some(at) = at {
+            self.rely_on_frames(hole || to.get(Axis::Z).is_some(), at, out);
+        }
+        to
+    }
+
+    /// A coordinate.
+    fn coord(&mut self, given: Given, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Coord> {
+        let distance = match given.distance {
+            Some(distance) => Fact::Known(distance),
+            None => self.distance(given.span, out),
+        };
+        let num = self.number(given, quantity, src, out)?;
+        Some(Coord { value: Expr::Num(num), distance })
+    }
+
+    /// `CIP`
+    fn through(&mut self, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
+        let plane = self.plane(block, out);
+        let to = self.point(false, None, words, src, out);
+        let mut via = Point::default();
+        let roles = [NameRole::ThroughX, NameRole::ThroughY, NameRole::ThroughZ];
+        for (axis, role) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(roles) {
+            if let Some(given) = words.take_named(role)
+                && let Some(coord) = self.coord(given, Quantity::Length, src, out)
+            {
+                via.set(axis, coord);
+            }
+        }
+        // An axis that has an end and no point on the way could be anywhere there.
+        if let Fact::Known(plane) = plane {
+            let (first, second, _) = plane.axes();
+            for axis in [first, second] {
+                if via.get(axis).is_none() && (to.get(axis).is_some() || via.is_empty()) {
+                    let word: &str = ["I1", "J1", "K1"].get(axis as usize).copied().unwrap_or_default();
+                    let fault = Fault::WordMissing { code: "CIP".into(), word: word.into() };
+                    return self.fault(fault, block, out);
+                }
+            }
+        }
+        let shape = Shape::Through(Box::new(via));
+        self.push(block, Op::ArcForm(Box::new(ArcForm { plane, to, shape, turns: 0, said })), out);
+    }
+
+    /// `G2` and `G3`
+    fn arc(&mut self, turn: Turn, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
+        let plane = self.plane(block, out);
+        let to = self.point(false, None, words, src, out);
+        let mut centre: [CentreWord; 3] = [None, None, None];
+        for (place, letter) in CENTRE.iter().enumerate() {
+            // The word along the normal is left, and blamed as one that nothing uses.
+            if matches!(plane, Fact::Known(p) if p.axes().2 as usize == place) {
+                continue;
+            }
+            if let Some(given) = words.take(*letter) {
+                let num = self.number(given, Quantity::Length, src, out);
+                centre[place] = num.map(|num| (Expr::Num(num), given.distance));
+            }
+        }
+        let about = centre.iter().any(Option::is_some);
+        let radius = words.take_named(NameRole::Radius);
+        let angle = words.take_named(NameRole::OpeningAngle);
+        let turns = match words.take_named(NameRole::Turns) {
+            None => 0,
+            Some(given) => match self.whole(given, src, out) {
+                Some(turns @ 0..=MOST_TURNS) => turns,
+                Some(_) => {
+                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                }
+                None => return,
+            },
+        };
+        if self.now.failed {
+            return;
+        }
+        let ended = has_end(plane, &to);
+        let op = match (about, radius, angle) {
+            (_, Some(given), Some(_)) | (true, Some(given), None) => {
+                return self.fault(Fault::ArcCentreAndRadius, given.span, out);
+            }
+            (true, None, Some(given)) if ended => {
+                return self.fault(Fault::ArcCentreAndRadius, given.span, out);
+            }
+            (false, None, None) => return self.fault(Fault::ArcWithoutCentre, block, out),
+            (false, None, Some(given)) if !ended => {
+                return self.fault(Fault::ArcWithoutCentre, given.span, out);
+            }
+            (false, Some(_), None) if !ended => return self.fault(Fault::ArcRadiusNoWay, block, out),
+            (false, Some(given), None) => {
+                let Some(num) = self.number(given, Quantity::Length, src, out) else {
+                    return;
+                };
+                if num.is_zero() {
+                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                }
+                let centre = Centre::Radius(Expr::Num(num));
+                Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said }))
+            }
+            (_, None, Some(given)) => {
+                let Some(num) = self.number(given, Quantity::Angle, src, out) else {
+                    return;
+                };
+                let inside = num.nanos(false).is_some_and(|a| a > 0 && a < 360 * ONE);
+                if !inside {
+                    return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
+                }
+                let angle = Expr::Num(num);
+                let shape = if about {
+                    self.stand.forget();
+                    Shape::AngleAbout { turn, angle, centre: Box::new(centre.map(coord_of)) }
+                } else {
+                    Shape::Angle { turn, angle }
+                };
+                Op::ArcForm(Box::new(ArcForm { plane, to, shape, turns, said }))
+            }
+            (true, None, None) => self.about(plane, turn, to, centre, turns, said),
+        };
+        self.push(block, op, out);
+    }
+
+    /// An arc by its centre: from the start, from zero, or one word so and the other so.
+    fn about(
+        &mut self,
+        plane: Fact<Plane>,
+        turn: Turn,
+        to: Point,
+        centre: [CentreWord; 3],
+        turns: u32,
+        said: bool,
+    ) -> Op {
+        let absolute = |word: &CentreWord| matches!(word, Some((_, Some(Distance::Absolute))));
+        let zeros = centre.iter().filter(|w| absolute(w)).count();
+        let given = centre.iter().filter(|w| w.is_some()).count();
+        let from = match zeros {
+            0 => CentreFrom::Start,
+            2 if given == 2 => CentreFrom::Zero,
+            _ => {
+                let shape = Shape::Mixed { turn, centre: Box::new(centre.map(coord_of)) };
+                return Op::ArcForm(Box::new(ArcForm { plane, to, shape, turns, said }));
+            }
+        };
+        let words = centre.map(|word| word.map(|(value, _)| value));
+        Op::ArcFeed(Box::new(Arc { plane, turn, to, centre: Centre::Point { words, from }, turns, said }))
+    }
+}
+
+/// A word of a centre: without `AC` it is measured from the start, under G90 too.
+fn coord_of(word: CentreWord) -> Option<Coord> {
+    let (value, distance) = word?;
+    Some(Coord { value, distance: Fact::Known(distance.unwrap_or(Distance::Incremental)) })
+}
+
+/// Whether an arc has an end point in its plane.
+fn has_end(plane: Fact<Plane>, to: &Point) -> bool {
+    match plane {
+        Fact::Known(plane) => {
+            let (first, second, _) = plane.axes();
+            to.get(first).is_some() || to.get(second).is_some()
+        }
+        Fact::Entry => !to.is_empty(),
+    }
+}

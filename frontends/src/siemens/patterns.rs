@@ -1,0 +1,233 @@
+//! Lowering of patterns of hole positions that are called with arguments.
+//!
+//! The positions are not made here: a pattern stays a pattern. A control may begin a line or a grid
+//! where it is nearest to the tool; that it takes the order of the arguments is an assumption that is
+//! told, unless the tool stands at the first hole.
+
+use ncc_dialects::{CallKind, CallRow, ParameterRole};
+use ncc_ir::canon::{Axis, Plane};
+use ncc_ir::cycle::{Along, First, Pattern, Row, absolute};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::geometry::polar;
+use ncc_ir::num::{Num, ONE, Unit};
+use ncc_ir::program::{Op, Point};
+
+use super::again::CYCLE;
+use super::cycles::{Arguments, sum};
+use super::facts::InForce;
+use super::lower::Lower;
+use super::sort::Given;
+use super::tree::Called;
+use crate::Batch;
+use crate::word::Source;
+
+/// Most holes of a pattern, along one direction.
+const MOST_HOLES: i64 = 9999;
+
+/// Flags of positions that are all absolute.
+const ALL_ABSOLUTE: i64 = 111_111_111;
+
+impl Lower {
+    /// A pattern that is called: the cycle in force at each of its positions.
+    pub(super) fn pattern(&mut self, row: &'static CallRow, called: &Called, src: Source, out: &mut Batch) {
+        self.again.use_fact(CYCLE);
+        if self.state.cycle == InForce::None {
+            self.fault(Fault::NoCycle, called.span, out);
+        }
+        let Some(arguments) = self.arguments(row, called, src, out) else {
+            return;
+        };
+        let Some(plane) = self.known_plane(called.span, out) else {
+            return;
+        };
+        let Some((pattern, first)) = self.pattern_of(&arguments, plane, src, out) else {
+            return;
+        };
+        if self.now.failed {
+            return;
+        }
+        if row.order_by_position && !self.stands_at(plane, first) && self.first_time(&row.name) {
+            let pattern = row.name.as_str().into();
+            out.report(Fault::AssumedHoleOrder { pattern }, called.span);
+        }
+        self.rely_on_frames(true, called.span, out);
+        if let InForce::Active(cycle) = &self.state.cycle {
+            let cycle = cycle.clone();
+            if cycle.feed.is_none() {
+                self.rely_on_feed(called.span, out);
+            }
+            self.call_up_again(&cycle, called.span, out);
+            self.hole_made(&cycle);
+            self.moved = None;
+        }
+        self.push(called.span, Op::Pattern(Box::new(pattern)), out);
+        self.stand.forget();
+    }
+
+    /// Whether the tool stands at a place of the plane, or there is only one.
+    fn stands_at(&self, plane: Plane, first: Option<[Num; 2]>) -> bool {
+        let Some(first) = first else {
+            return true;
+        };
+        let (a, b, _) = plane.axes();
+        [a, b].into_iter().zip(first).all(|(axis, at)| {
+            let stands = self.stand.axes.get(axis as usize).copied().flatten();
+            stands.is_some_and(|s| s.unit == at.unit && s.nanos(false) == at.nanos(false))
+        })
+    }
+
+    /// The pattern, and its first hole if the order of the holes is open.
+    fn pattern_of(
+        &mut self,
+        a: &Arguments,
+        plane: Plane,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<(Pattern, Option<[Num; 2]>)> {
+        use ParameterRole as Role;
+        if a.row.kind == CallKind::List {
+            return Some((Pattern::List(self.points(a, plane, src, out)?), None));
+        }
+        let x = self.needed(a, Role::First, src, out)?;
+        let y = self.needed(a, Role::Second, src, out)?;
+        let start = [absolute(x), absolute(y)];
+        let angle = self.argument(a, Role::Angle, src, out).unwrap_or(Num::int(0, Unit::Degree));
+        Some(match a.row.kind {
+            CallKind::Circle => {
+                let radius = self.needed(a, Role::Radius, src, out)?;
+                if radius.mantissa <= 0 {
+                    return self.out_of_range(a, Role::Radius, out);
+                }
+                let count = self.count(a, Role::Count, src, out)?;
+                let step = match self.argument(a, Role::Step, src, out).filter(|step| !step.is_zero()) {
+                    Some(step) => step,
+                    None => share(count),
+                };
+                let first = First::Polar { radius: Expr::Num(radius), angle: Expr::Num(angle) };
+                let pattern = Pattern::Circle { centre: Some(start), first, step: Expr::Num(step), count };
+                (pattern, None)
+            }
+            CallKind::Line => {
+                let zero = Num::int(0, x.unit);
+                let count = self.count(a, Role::Count, src, out)?;
+                let offset = self.argument(a, Role::Offset, src, out).unwrap_or(zero);
+                let pitch = self.pitch(a, Role::Pitch, count, zero, src, out)?;
+                let first = if offset.is_zero() { Some([x, y]) } else { shifted([x, y], offset, angle) };
+                let [angle, offset, pitch] = [angle, offset, pitch].map(Expr::Num);
+                let pattern = Pattern::Line { start: Some(start), angle, offset, pitch, count };
+                // Without a known first hole the tool stands elsewhere.
+                let nowhere = [Num { unit: Unit::One, ..zero }; 2];
+                (pattern, (count > 1).then_some(first.unwrap_or(nowhere)))
+            }
+            CallKind::Grid => {
+                let zero = Num::int(0, x.unit);
+                let columns = self.count(a, Role::Columns, src, out)?;
+                let rows = self.count(a, Role::Rows, src, out)?;
+                let across = self.pitch(a, Role::ColumnPitch, columns, zero, src, out)?;
+                let up = self.pitch(a, Role::RowPitch, rows, zero, src, out)?;
+                let right = self.sum(a, angle, Num::int(90, Unit::Degree), out)?;
+                let (first, second, _) = plane.axes();
+                let row = |axis: Axis, turned: Num, pitch: Num, count: u32| Row {
+                    along: if angle.is_zero() { Along::Axis(axis) } else { Along::Angle(Expr::Num(turned)) },
+                    pitch: Expr::Num(pitch),
+                    count,
+                };
+                let pattern = Pattern::Grid {
+                    start: Some(start),
+                    columns: row(first, angle, across, columns),
+                    rows: row(second, right, up, rows),
+                    serpentine: true,
+                };
+                (pattern, (columns * rows > 1).then_some([x, y]))
+            }
+            CallKind::List
+            | CallKind::Drill
+            | CallKind::DrillDwell
+            | CallKind::DrillPeck
+            | CallKind::Bore => {
+                return None;
+            }
+        })
+    }
+
+    /// A distance that counts only where there is more than one hole.
+    fn pitch(
+        &mut self,
+        a: &Arguments,
+        role: ParameterRole,
+        count: u32,
+        zero: Num,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        match count {
+            1 => Some(self.argument(a, role, src, out).unwrap_or(zero)),
+            _ => self.needed(a, role, src, out),
+        }
+    }
+
+    /// A number of holes, at least one.
+    fn count(&mut self, a: &Arguments, role: ParameterRole, src: Source, out: &mut Batch) -> Option<u32> {
+        match self.needed(a, role, src, out)?.whole() {
+            Some(count @ 1..=MOST_HOLES) => u32::try_from(count).ok(),
+            Some(_) | None => self.out_of_range(a, role, out),
+        }
+    }
+
+    /// Positions one after another; all absolute.
+    fn points(&mut self, a: &Arguments, plane: Plane, src: Source, out: &mut Batch) -> Option<Vec<Point>> {
+        use ParameterRole as Role;
+        for role in [Role::FirstFlags, Role::SecondFlags] {
+            if self.needed(a, role, src, out)?.whole() != Some(ALL_ABSOLUTE) {
+                self.not_supported(&a.row.name, "positions that are not all absolute", a.span, out);
+                return None;
+            }
+        }
+        let side = |wanted: Role| -> Vec<Option<Given>> {
+            let places = a.row.parameters.iter().enumerate().filter(|(_, p)| p.role == Some(wanted));
+            places.map(|(place, _)| a.given.get(place).copied().flatten()).collect()
+        };
+        let (firsts, seconds) = (side(Role::PointFirst), side(Role::PointSecond));
+        let (first, second, _) = plane.axes();
+        let mut points = Vec::new();
+        let mut gap = false;
+        for pair in firsts.into_iter().zip(seconds) {
+            let (x, y) = match pair {
+                (None, None) => {
+                    gap = true;
+                    continue;
+                }
+                (Some(x), Some(y)) if !gap => (x, y),
+                (x, y) => {
+                    let at = x.or(y).map_or(a.span, |given| given.span);
+                    self.not_supported(&a.row.name, "gap between the positions", at, out);
+                    return None;
+                }
+            };
+            let mut point = Point::default();
+            for (axis, given) in [(first, x), (second, y)] {
+                let num = self.number(given, ncc_dialects::Quantity::Length, src, out)?;
+                point.set(axis, absolute(num));
+            }
+            points.push(point);
+        }
+        if points.is_empty() {
+            let (code, word) = (a.row.name.as_str().into(), "_X0".into());
+            return self.refuse(Fault::WordMissing { code, word }, a.span, out);
+        }
+        Some(points)
+    }
+}
+
+/// A full circle shared out among holes.
+fn share(count: u32) -> Num {
+    Num::from_nanos(360 * ONE / i64::from(count.max(1)), 9, Unit::Degree)
+}
+
+/// A place at a distance and an angle from another, if it is exact along an axis.
+fn shifted(from: [Num; 2], by: Num, angle: Num) -> Option<[Num; 2]> {
+    let [x, y] = polar(by.nanos(false)?, angle.nanos(false)?);
+    let along = |n: i64| Num::from_nanos(n, 9, by.unit);
+    Some([sum(from[0], along(x))?, sum(from[1], along(y))?])
+}

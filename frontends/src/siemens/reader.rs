@@ -1,0 +1,326 @@
+//! The reader of a Sinumerik's text: lines, units, what is main program and what is subprogram, and
+//! the end.
+//!
+//! A line goes to the recogniser of plain blocks first, which the word-address dialects have as
+//! well, and to the grammar if it is not one. The first program of a text is the main one; a unit of
+//! type SPF that follows is a subprogram. Without headers the whole text is the main program.
+//!
+//! Refused by name: a second main program, units that are no programs, and subprograms that only a
+//! path could call.
+
+use ncc_dialects::Settings;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Procedure, Text};
+use ncc_ir::source::Span;
+
+use super::calls::procedure_name;
+use super::letters::letter_for_zero;
+use super::lower::Lower;
+use super::parse;
+use super::tree::{Block, Statement};
+use super::unit::{self, Header, Kind, Line};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::block::{Value, Word};
+use crate::word::plain;
+
+/// Longest block of a dictionary that sets no limit, in bytes.
+const LONGEST: usize = 60_000;
+
+/// Characters that no text has, before reading is given up.
+const MOST_CONTROL_SIGNS: u32 = 16;
+
+/// Reads one text, piece by piece.
+#[derive(Debug)]
+pub struct Reader {
+    pub(super) lower: Lower,
+    words: Vec<Word>,
+    /// Longest block, in bytes.
+    longest: usize,
+    /// Whether a header has been met.
+    headed: bool,
+    /// Whether the line before was a header.
+    after_header: bool,
+    /// Lines are passed over: of a unit that is no program, or is refused.
+    passing: bool,
+    /// Whether any block that says something has been met.
+    blocks: bool,
+    /// Whether anything was refused.
+    faulty: bool,
+    /// Whether text after the end was reported.
+    after_end: bool,
+    /// Not a text; nothing is read any more.
+    is_binary: bool,
+    control_signs: u32,
+    /// End of what has been read.
+    end: u32,
+}
+
+impl Reader {
+    /// A reader of one text. With `assume`, what the program relies on and never says is taken
+    /// from the dictionary and reported; without, it stays open and nothing is reported of it.
+    pub fn new(settings: Settings, assume: bool) -> Reader {
+        let longest = match settings.dialect.block.longest {
+            0 => LONGEST,
+            longest => (longest as usize).min(LONGEST),
+        };
+        Reader {
+            lower: Lower::new(settings, assume),
+            words: Vec::new(),
+            longest,
+            headed: false,
+            after_header: false,
+            passing: false,
+            blocks: false,
+            faulty: false,
+            after_end: false,
+            is_binary: false,
+            control_signs: 0,
+            end: 0,
+        }
+    }
+
+    /// Reads further whole lines; `base` is the place of their first byte in the source.
+    pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
+        if self.is_binary {
+            return;
+        }
+        if let Some(at) = memchr::memchr(0, text) {
+            let at = base + at as u32;
+            return self.not_text(Span::new(at, at + 1), out);
+        }
+        let src = Source { text, base };
+        let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
+        while at < text.len() {
+            if !self.passing
+                && !self.lower.ended
+                && let Some(end) = plain::read(text, at, base, &mut self.words)
+                && end - at <= self.longest
+            {
+                if self.lower.fast_move(&self.words, out) {
+                    at = end + 1;
+                    continue;
+                }
+                if self.plain(src, out) {
+                    at = end + 1;
+                    continue;
+                }
+            }
+            let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |len| at + len);
+            self.line(at, end, src, out);
+            if self.is_binary {
+                return;
+            }
+            at = end + 1;
+        }
+        self.end = base + text.len() as u32;
+    }
+
+    /// A line that is too long to be handed over: only its place is known.
+    pub fn too_long(&mut self, span: Span, out: &mut Batch) {
+        let limit = self.longest.min(u32::MAX as usize) as u32;
+        out.report(Fault::BlockTooLong { limit }, span);
+        self.faulty = true;
+        self.end = self.end.max(span.end);
+        self.lower.forgive();
+        self.lower.refresh();
+    }
+
+    /// The end of the text.
+    pub fn finish(&mut self, out: &mut Batch) {
+        if self.is_binary {
+            return;
+        }
+        self.end_of_program(out);
+        if !self.blocks && !self.faulty {
+            out.report(Fault::EmptyProgram, Span::new(0, 0));
+        }
+    }
+
+    /// A block that the recogniser has read; `false` if it is the grammar's after all.
+    fn plain(&mut self, src: Source, out: &mut Batch) -> bool {
+        let is_number = |word: &Word| match word.value {
+            Value::Number(d) => !d.point && d.mantissa >= 0 && u32::try_from(d.mantissa).is_ok(),
+            Value::None => false,
+        };
+        // A block number comes first, and calls have their zeros.
+        let number = self.words.iter().position(|w| w.letter == b'N');
+        let fits = match number {
+            None => true,
+            Some(0) => is_number(&self.words[0]) && self.words[1..].iter().all(|w| w.letter != b'N'),
+            Some(_) => false,
+        };
+        let (Some(first), Some(last)) = (self.words.first(), self.words.last()) else {
+            return false;
+        };
+        if !fits || self.words.iter().any(|w| w.letter == b'L') {
+            return false;
+        }
+        let span = Span::new(first.span.start, last.span.end);
+        let words = std::mem::take(&mut self.words);
+        self.blocks = true;
+        self.after_header = false;
+        self.lower.plain(&words, span, src, out);
+        self.words = words;
+        self.faulty |= self.lower.now.failed;
+        true
+    }
+
+    /// A line that is not plain.
+    fn line(&mut self, start: usize, mut end: usize, src: Source, out: &mut Batch) {
+        while end > start && src.text[end - 1] == b'\r' {
+            end -= 1;
+        }
+        let base = src.base + start as u32;
+        let span = Span::new(base, src.base + end as u32);
+        let after_header = std::mem::take(&mut self.after_header);
+        let line = &src.text[start..end];
+        match unit::line(line, base) {
+            Ok(Line::Header(header)) => return self.header(header, span, src, out),
+            Ok(Line::Path(_)) if after_header => {
+                self.after_header = true;
+                return;
+            }
+            Ok(Line::Mark) => return,
+            Ok(Line::Path(_) | Line::Block) if self.passing => return,
+            Ok(Line::Path(_) | Line::Block) => {}
+            Err((fault, at)) => return self.fault(fault, at, out),
+        }
+        if end - start > self.longest {
+            return self.too_long(span, out);
+        }
+        self.end = span.end;
+        let block = match parse(line, base) {
+            Ok(block) => block,
+            Err((fault, at)) => return self.no_block(fault, at, span, src, out),
+        };
+        let says_nothing = says_nothing(&block);
+        if self.lower.ended && !says_nothing {
+            if !std::mem::replace(&mut self.after_end, true) {
+                out.report(Fault::TextAfterEnd, block.span);
+            }
+            return;
+        }
+        // A blank line after the end is nothing.
+        if self.lower.ended && block.comment.is_none() {
+            return;
+        }
+        self.blocks |= !says_nothing;
+        self.lower.block(&block, src, out);
+        self.faulty |= self.lower.now.failed;
+    }
+
+    /// A line that is no block by its form.
+    fn no_block(&mut self, fault: Fault, at: Span, line: Span, src: Source, out: &mut Batch) {
+        if let Fault::UnexpectedCharacter { found } = &fault
+            && found.is_control()
+        {
+            self.control_signs += 1;
+            if self.control_signs > MOST_CONTROL_SIGNS {
+                return self.not_text(at, out);
+            }
+        }
+        if self.lower.ended {
+            if !std::mem::replace(&mut self.after_end, true) {
+                out.report(Fault::TextAfterEnd, line);
+            }
+            return;
+        }
+        self.blocks = true;
+        match letter_for_zero(src, line) {
+            Some(letter) => self.fault(Fault::LetterOForZero, letter, out),
+            None => self.fault(fault, at, out),
+        }
+    }
+
+    fn fault(&mut self, fault: Fault, at: Span, out: &mut Batch) {
+        out.report(fault, at);
+        self.faulty = true;
+        self.lower.forgive();
+        self.lower.refresh();
+    }
+
+    /// A unit begins.
+    fn header(&mut self, header: Header, line: Span, src: Source, out: &mut Batch) {
+        let first = !std::mem::replace(&mut self.headed, true) && !self.blocks;
+        self.after_header = true;
+        let name = src.text(header.name).to_ascii_uppercase();
+        self.passing = false;
+        match header.kind {
+            Kind::Other => {
+                // The main program may come after it.
+                self.headed = !first;
+                self.passing = true;
+                self.refuse(&src.text(line), "unit that is no program", line, out);
+            }
+            Kind::Main | Kind::Sub if first => {
+                self.lower.sub_alone = header.kind == Kind::Sub;
+                out.name.number = name.parse().ok();
+                if out.name.number.is_none() {
+                    out.name.title = Some(name.into());
+                }
+            }
+            Kind::Main => {
+                self.passing = true;
+                self.refuse(&src.text(line), "second main program in one text", line, out);
+            }
+            Kind::Sub if name.starts_with(|c: char| c.is_ascii_digit()) => {
+                self.passing = true;
+                self.refuse(&name, "subprogram that only a path can call", header.name, out);
+            }
+            Kind::Sub => {
+                self.end_of_program(out);
+                let name: Text = procedure_name(&name);
+                self.lower.enter(&name, header.name, out);
+                self.lower.sub = Some(Procedure { name, ..Procedure::default() });
+                self.lower.refresh();
+                self.after_end = false;
+                out.whole = true;
+            }
+        }
+    }
+
+    fn refuse(&mut self, code: &str, name: &str, at: Span, out: &mut Batch) {
+        self.end_of_program(out);
+        self.lower.ended = true;
+        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, at, out);
+    }
+
+    /// The program that is being read is over.
+    fn end_of_program(&mut self, out: &mut Batch) {
+        let in_sub = self.lower.sub.is_some();
+        if (in_sub || self.blocks) && !self.lower.ended {
+            let end = self.end;
+            let at = match self.lower.target(out).last() {
+                Some(stmt) => stmt.span,
+                None => Span::new(end.saturating_sub(1), end),
+            };
+            if in_sub {
+                self.lower.now.failed = false;
+                self.lower.leave(at, out);
+                self.faulty |= self.lower.now.failed;
+            }
+            if !self.faulty {
+                out.report(Fault::NoProgramEnd, at);
+            }
+        }
+        if let Some(procedure) = self.lower.sub.take() {
+            out.procedures.push(procedure);
+        }
+        self.lower.ended = true;
+    }
+
+    /// This is no text: nothing more is read.
+    fn not_text(&mut self, span: Span, out: &mut Batch) {
+        self.is_binary = true;
+        self.faulty = true;
+        out.report(Fault::NotText, span);
+    }
+}
+
+/// Whether a block has nothing but a comment.
+fn says_nothing(block: &Block) -> bool {
+    let empty =
+        matches!(&block.statement, Statement::Words { items, jumps } if items.is_empty() && jumps.is_empty());
+    empty && block.skip.is_none() && block.number.is_none() && block.label.is_none()
+}

@@ -1,0 +1,388 @@
+//! Sorting of a block's words: codes and words of several letters, looked up in the dictionary and
+//! put in the order in which their functions happen, and the addresses by their letters or names.
+//!
+//! What must not stand together, and what is no constant, is refused here. Not here: what the words
+//! do.
+
+use ncc_dialects::{NameMeaning, NameRole, Quantity, Role};
+use ncc_ir::canon::Distance;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::source::Span;
+
+use super::lower::Lower;
+use super::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::block::{Digits, Value as Number, Word};
+use crate::word::number::unit_of;
+use crate::word::sort::{RANK_MOTION, rank};
+
+/// A G or M code, or a word of several letters with a meaning.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Code {
+    /// As the dictionary spells it.
+    pub(super) name: &'static str,
+    pub(super) meaning: NameMeaning,
+    group: &'static str,
+    pub(super) span: Span,
+}
+
+/// The value of an address.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Given {
+    pub(super) digits: Digits,
+    /// What `AC` or `IC` says of it.
+    pub(super) distance: Option<Distance>,
+    pub(super) span: Span,
+}
+
+/// The words of a block, each to be used once.
+#[derive(Debug, Default)]
+pub(super) struct Words {
+    pub(super) codes: Vec<Code>,
+    letters: [Option<Given>; 26],
+    named: [Option<Given>; NAMED],
+}
+
+/// Number of roles of named addresses.
+const NAMED: usize = 7;
+
+impl Words {
+    /// Nothing, with the memory of what was.
+    pub(super) fn clear(&mut self) {
+        self.codes.clear();
+        self.letters = [None; 26];
+        self.named = [None; NAMED];
+    }
+
+    pub(super) fn get(&self, letter: u8) -> Option<Given> {
+        self.letters.get(usize::from(letter.wrapping_sub(b'A'))).copied().flatten()
+    }
+
+    pub(super) fn take(&mut self, letter: u8) -> Option<Given> {
+        self.letters.get_mut(usize::from(letter.wrapping_sub(b'A')))?.take()
+    }
+
+    pub(super) fn named(&self, role: NameRole) -> Option<Given> {
+        self.named[role as usize]
+    }
+
+    pub(super) fn take_named(&mut self, role: NameRole) -> Option<Given> {
+        self.named[role as usize].take()
+    }
+
+    /// Whether any of these letters is left.
+    pub(super) fn has_any(&self, letters: &[u8]) -> bool {
+        letters.iter().any(|&l| self.get(l).is_some())
+    }
+
+    /// Whether no address is left.
+    pub(super) fn no_address(&self) -> bool {
+        self.letters.iter().chain(&self.named).all(Option::is_none)
+    }
+
+    /// The first address that is left.
+    pub(super) fn first_left(&self) -> Option<(Option<u8>, Given)> {
+        let letters = self.letters.iter().zip(b'A'..).find_map(|(g, l)| Some((Some(l), (*g)?)));
+        letters.or_else(|| self.named.iter().find_map(|g| Some((None, (*g)?))))
+    }
+
+    /// Leaves an address alone that has been refused.
+    pub(super) fn drop_left(&mut self, letter: Option<u8>) {
+        match letter {
+            Some(letter) => drop(self.take(letter)),
+            None => {
+                if let Some(slot) = self.named.iter_mut().find(|g| g.is_some()) {
+                    *slot = None;
+                }
+            }
+        }
+    }
+
+    pub(super) fn find(&self, wanted: impl Fn(NameMeaning) -> bool) -> Option<Code> {
+        self.codes.iter().find(|c| wanted(c.meaning)).copied()
+    }
+}
+
+/// When a word's function happens within its block.
+fn order(meaning: NameMeaning) -> u8 {
+    match meaning {
+        NameMeaning::Code(meaning) => rank(meaning),
+        NameMeaning::SetFrame(_) | NameMeaning::AddFrame(_) | NameMeaning::ArcThrough => RANK_MOTION + 1,
+        NameMeaning::ArcTangent => RANK_MOTION + 1,
+        NameMeaning::CallModal | NameMeaning::Message | NameMeaning::RepeatBlocks => u8::MAX,
+    }
+}
+
+impl Lower {
+    /// Sorts the items of a block that the grammar has read.
+    pub(super) fn sort_items(&mut self, items: &[Item], words: &mut Words, src: Source, out: &mut Batch) {
+        for item in items {
+            match item {
+                Item::Word(word) => self.sort_word(word, words, src, out),
+                Item::Set { place, value, span } => self.sort_set(place, value, *span, words, src, out),
+                Item::Name(called) => self.sort_name(called, words, src, out),
+            }
+        }
+        words.codes.sort_by_key(|c| order(c.meaning));
+    }
+
+    /// Sorts the words of a plain block, without its number.
+    pub(super) fn sort_plain(&mut self, plain: &[Word], words: &mut Words, src: Source, out: &mut Batch) {
+        for word in plain {
+            self.sort_word(word, words, src, out);
+        }
+        words.codes.sort_by_key(|c| order(c.meaning));
+    }
+
+    fn sort_word(&mut self, word: &Word, words: &mut Words, src: Source, out: &mut Batch) {
+        let Number::Number(digits) = word.value else {
+            return;
+        };
+        let given = Given { digits, distance: None, span: word.span };
+        self.letter(word.letter, given, words, src, out);
+    }
+
+    fn letter(&mut self, letter: u8, given: Given, words: &mut Words, src: Source, out: &mut Batch) {
+        if matches!(letter, b'G' | b'M') {
+            return self.code(letter, given, words, src, out);
+        }
+        let place = usize::from(letter.wrapping_sub(b'A'));
+        let Some(row) = self.settings.dialect.address_row(letter) else {
+            self.now.refused = true;
+            return self.fault(Fault::UnknownCode { code: src.text(given.span) }, given.span, out);
+        };
+        let measured = matches!(row.role, Role::Axis | Role::CentreX | Role::CentreY | Role::CentreZ);
+        if given.distance.is_some() && !measured {
+            let name = "AC or IC of a word that is no coordinate".into();
+            let code = src.text(given.span);
+            return self.fault(Fault::NotSupported { code, name }, given.span, out);
+        }
+        if !row.sure && self.first_time(&row.letter.to_string()) {
+            let (code, meaning) = (row.letter.to_string().into(), format!("{:?}", row.role).into());
+            out.report(Fault::AssumedRow { code, meaning }, given.span);
+        }
+        if words.letters[place].replace(given).is_some() {
+            self.fault(Fault::WordTwice { letter: char::from(letter) }, given.span, out);
+        }
+    }
+
+    fn code(&mut self, letter: u8, given: Given, words: &mut Words, src: Source, out: &mut Batch) {
+        let dialect = self.settings.dialect;
+        let digits = given.digits;
+        let whole = u32::try_from(digits.mantissa).ok().filter(|_| digits.scale == 0);
+        let row = whole.and_then(|n| n.checked_mul(10)).and_then(|t| dialect.code_row(letter, t));
+        if letter == b'M' {
+            self.now.m_codes = self.now.m_codes.saturating_add(1);
+            let limit = dialect.block.m_codes;
+            if limit != 0 && self.now.m_codes == limit + 1 {
+                self.fault(Fault::TooManyCodes { letter: 'M', limit }, given.span, out);
+            }
+        }
+        let Some(row) = row else {
+            self.now.refused = true;
+            return self.fault(Fault::UnknownCode { code: src.text(given.span) }, given.span, out);
+        };
+        if digits.point || given.distance.is_some() {
+            self.fault(Fault::PointNotAllowed { word: src.text(given.span) }, given.span, out);
+        }
+        let Some(meaning) = row.means else {
+            let name = row.refuse.as_deref().unwrap_or_default();
+            return self.not_supported(&row.code, name, given.span, out);
+        };
+        let code = Code {
+            name: &row.code,
+            meaning: NameMeaning::Code(meaning),
+            group: &row.group,
+            span: given.span,
+        };
+        self.add_code(code, row.sure, words, src, out);
+    }
+
+    fn add_code(&mut self, code: Code, sure: bool, words: &mut Words, src: Source, out: &mut Batch) {
+        if let Some(other) = words.codes.iter().find(|c| !code.group.is_empty() && c.group == code.group) {
+            let fault = Fault::CodesExclude { first: src.text(other.span), second: src.text(code.span) };
+            self.now.failed = true;
+            out.diagnostics.push(Diagnostic { fault, span: code.span, related: vec![other.span] });
+        }
+        if !sure && self.first_time(code.name) {
+            let (name, meaning) = (code.name.into(), code.meaning.to_string().into());
+            out.report(Fault::AssumedRow { code: name, meaning }, code.span);
+        }
+        words.codes.push(code);
+    }
+
+    /// Something with `=`.
+    fn sort_set(
+        &mut self,
+        place: &Place,
+        value: &Value,
+        span: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let computed = Fault::MacroLanguage { what: src.text(span) };
+        if !place.index.is_empty() {
+            return match place.address {
+                Address::Name(name) => self.refuse_name(name, span, src, out),
+                Address::Letter(_) | Address::System(_) => self.fault(computed, span, out),
+            };
+        }
+        let name: Box<str> = match (place.address, place.extension) {
+            (Address::System(_), _) | (Address::Letter(b'R'), _) => return self.fault(computed, span, out),
+            (Address::Letter(letter), None) => {
+                return match self.constant(value, span, src, out) {
+                    Some(given) => self.letter(letter, given, words, src, out),
+                    None => self.now.refused = true,
+                };
+            }
+            (Address::Letter(letter), Some(number)) => format!("{}{number}", char::from(letter)).into(),
+            (Address::Name(name), _) => src.text(name).to_ascii_uppercase().into(),
+        };
+        let row = self.settings.dialect.name_row(&name);
+        match (row.and_then(|row| row.role), place.address) {
+            (Some(role), _) => {
+                let Some(given) = self.constant(value, span, src, out) else {
+                    self.now.refused = true;
+                    return;
+                };
+                let through = matches!(role, NameRole::ThroughX | NameRole::ThroughY | NameRole::ThroughZ);
+                if given.distance.is_some() && !through {
+                    let name = "AC or IC of a word that is no coordinate";
+                    return self.not_supported(&src.text(span), name, span, out);
+                }
+                if words.named[role as usize].replace(given).is_some() {
+                    let letter = name.chars().next().unwrap_or(' ');
+                    self.fault(Fault::WordTwice { letter }, span, out);
+                }
+            }
+            (None, Address::Name(name)) => {
+                // What the dictionary does not have is a variable.
+                match row {
+                    Some(_) => self.refuse_name(name, span, src, out),
+                    None => {
+                        self.now.refused = true;
+                        self.fault(computed, span, out);
+                    }
+                }
+            }
+            (None, _) => {
+                let kind = match place.address {
+                    Address::Letter(b'S' | b'M') => "spindle by its number",
+                    Address::Letter(b'T') => "tool of a spindle by its number",
+                    Address::Letter(b'H') => "auxiliary function",
+                    _ => "axis by its number",
+                };
+                self.not_supported(&name, kind, span, out);
+            }
+        }
+    }
+
+    /// A name of the dictionary that is refused, or has no business here.
+    fn refuse_name(&mut self, name: Span, span: Span, src: Source, out: &mut Batch) {
+        let text = src.text(name).to_ascii_uppercase();
+        let row = self.settings.dialect.name_row(&text);
+        match row.and_then(|row| row.refuse.as_deref()) {
+            Some(refuse) => self.not_supported(&text, refuse, span, out),
+            None => {
+                self.now.refused = true;
+                self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
+            }
+        }
+    }
+
+    /// A word of several letters, alone or with arguments.
+    fn sort_name(&mut self, called: &Called, words: &mut Words, src: Source, out: &mut Batch) {
+        let text = src.text(called.name).to_ascii_uppercase();
+        let Some(row) = self.settings.dialect.name_row(&text) else {
+            self.now.refused = true;
+            return self.fault(Fault::UnknownCode { code: text.into() }, called.span, out);
+        };
+        match (row.means, row.refuse.as_deref(), &called.arguments) {
+            (Some(meaning), _, None) => {
+                let code = Code { name: &row.name, meaning, group: &row.group, span: called.span };
+                self.add_code(code, row.sure, words, src, out);
+            }
+            (_, Some(refuse), _) => self.not_supported(&row.name, refuse, called.span, out),
+            (_, None, Some(_)) => self.not_supported(&row.name, "arguments", called.span, out),
+            (None, None, None) => {
+                let fault = Fault::WordMissing { code: row.name.as_str().into(), word: "=".into() };
+                self.now.refused = true;
+                self.fault(fault, called.span, out);
+            }
+        }
+    }
+
+    /// The constant behind `=`; everything else is refused.
+    fn constant(&mut self, value: &Value, span: Span, src: Source, out: &mut Batch) -> Option<Given> {
+        let (distance, expr) = match value {
+            Value::Expr(expr) => (None, expr),
+            Value::Qualified(Qualifier::Absolute, expr) => (Some(Distance::Absolute), expr),
+            Value::Qualified(Qualifier::Incremental, expr) => (Some(Distance::Incremental), expr),
+            Value::Qualified(qualifier, _) => {
+                let name = match qualifier {
+                    Qualifier::Quick => "auxiliary function that is not waited for",
+                    Qualifier::Coded => "coded position",
+                    _ => "way of a turning axis",
+                };
+                self.not_supported(&src.text(span), name, span, out);
+                return None;
+            }
+            Value::List(_) => {
+                return self.refuse(Fault::MacroLanguage { what: src.text(span) }, span, out);
+            }
+        };
+        match expr {
+            Expr::Number(digits, _) => Some(Given { digits: *digits, distance, span }),
+            Expr::Text(_) => {
+                self.not_supported(&src.text(span), "name as a value", span, out);
+                None
+            }
+            _ => self.refuse(Fault::MacroLanguage { what: src.text(span) }, span, out),
+        }
+    }
+
+    /// The literal of an address or an argument; `None` if it is refused (reported).
+    pub(super) fn number(
+        &mut self,
+        given: Given,
+        quantity: Quantity,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let Given { digits, span, .. } = given;
+        if self.settings.dialect.numbers(quantity).unsigned && digits.mantissa < 0 {
+            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+        }
+        let unit = match quantity {
+            Quantity::Length => unit_of(self.units(span, out)),
+            Quantity::Feed => self.feed_unit(span, out)?,
+            Quantity::Angle => Unit::Degree,
+            Quantity::Seconds | Quantity::Milliseconds => Unit::Second,
+            Quantity::Speed | Quantity::Factor => Unit::One,
+            Quantity::Integer => {
+                if digits.point {
+                    return self.refuse(Fault::PointNotAllowed { word: src.text(span) }, span, out);
+                }
+                Unit::One
+            }
+        };
+        let num = Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit };
+        let plainly_in_range = num.mantissa.unsigned_abs() < 10_000_000 && num.scale <= 8;
+        if !plainly_in_range && (num.nanos(false).is_none() || num.nanos(true).is_none()) {
+            return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
+        }
+        Some(num)
+    }
+
+    /// A whole number, not negative.
+    pub(super) fn whole(&mut self, given: Given, src: Source, out: &mut Batch) -> Option<u32> {
+        let num = self.number(given, Quantity::Integer, src, out)?;
+        match u32::try_from(num.mantissa) {
+            Ok(whole) => Some(whole),
+            Err(_) => self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out),
+        }
+    }
+}
