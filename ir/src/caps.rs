@@ -18,8 +18,11 @@ pub struct Caps {
     pub list_pattern: u32,
     /// A circle's first hole is at a radius and an angle (`true`) or at a position; `None` if either.
     pub circle_polar: Option<bool>,
-    /// Patterns begin at a stated position, not where the tool stands.
+    /// Patterns can begin at a stated position.
     pub pattern_start: bool,
+    /// Patterns can begin where the tool stands, and may have no holes and no pitch; where not, the
+    /// pitches of lines count positive as well.
+    pub pattern_here: bool,
     /// Rows and lines at any angle.
     pub pattern_angle: bool,
     /// The way through its grids: whether every second row runs backwards; `None` if either.

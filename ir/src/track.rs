@@ -153,11 +153,16 @@ impl Tracker {
 
     /// Hole positions of a pattern in the plane's two axes, as far as they are known.
     pub fn positions(&self, pattern: &Pattern) -> Option<Vec<[Nanos; 2]>> {
+        let places = self.places(pattern)?;
+        Some((0..places.count()).map(|k| places.get(k)).collect())
+    }
+
+    /// The places of a pattern in the plane's two axes, as far as they are known.
+    pub fn places(&self, pattern: &Pattern) -> Option<Places> {
         let plane = self.cycle.as_ref().map_or(Fact::Entry, |c| c.cycle.plane);
         let plane = self.plane(plane)?;
         let (first, second, _) = plane.axes();
-        let places = Places::of(pattern, plane, &Known { at: self, axes: [first, second] }).ok()?;
-        Some((0..places.count()).map(|k| places.get(k)).collect())
+        Places::of(pattern, plane, &Known { at: self, axes: [first, second] }).ok()
     }
 
     /// Forgets everything: after a call, at a label.

@@ -282,6 +282,7 @@ fn caps(dialect: &Dialect) -> Caps {
         list_pattern: if everything { u32::MAX } else { list.unwrap_or(0) },
         circle_polar: either(calls(CallKind::Circle).is_some()),
         pattern_start: everything || calls(CallKind::Grid).is_some(),
+        pattern_here: !states,
         pattern_angle: everything || calls(CallKind::Grid).is_some(),
         frames: everything || names(NameMeaning::SetFrame(FrameWord::Translate)),
         machine_coordinates: everything || names(NameMeaning::Code(Meaning::UseMachineCoordinates)),

@@ -114,7 +114,7 @@ impl Exec {
                 if via[normal as usize] != before[normal as usize]
                     || self.position[normal as usize] != before[normal as usize]
                 {
-                    return Ok(self.not_executed("a circle in space", span)?);
+                    return self.not_executed("a circle in space", span);
                 }
                 let via = [via[first as usize], via[second as usize]];
                 let found = geometry::arc_through(start, via, end);

@@ -151,7 +151,7 @@ impl Exec {
 
     /// A straight move in machine coordinates: frames and work offset are off, the length is not.
     #[cold]
-    pub(super) fn to_machine_coordinates(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
+    pub(super) fn place_in_machine(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
         if to.get(Axis::Z).is_some() {
             self.take_up_length();
         }

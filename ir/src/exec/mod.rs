@@ -456,7 +456,7 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let before = self.position;
         if std::mem::take(&mut self.raw) {
-            self.to_machine_coordinates(to, span)?;
+            self.place_in_machine(to, span)?;
         } else {
             self.set_axes(to, span)?;
         }

@@ -29,9 +29,12 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
                     let normal = plane.axes().2;
                     let retract = level(walk, &cycle.retract, in_force.retract, normal);
                     let depth = level(walk, &cycle.depth, in_force.depth, normal);
+                    let plane = cycle.return_plane.as_ref();
+                    let plane = plane.map(|p| level(walk, p, in_force.return_plane, normal)).transpose();
                     retract.and_then(|retract| {
                         cycle.depth = depth?;
                         cycle.retract = retract;
+                        cycle.return_plane = plane?;
                         Ok(())
                     })
                 }

@@ -73,9 +73,11 @@ fn first_leg(
     if is_above(walk, in_force) {
         return Some((None, None, other));
     }
-    // A rapid would end the cycle that is in force, and change the level to return to.
+    // A rapid would end the cycle that is in force, and change a level to return to.
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
-    if chained || returns != Some(ReturnLevel::Retract) {
+    // A stated plane is one and the same wherever the tool stood.
+    let stays = returns == Some(ReturnLevel::Retract) || in_force.return_plane.is_some();
+    if chained || !stays {
         return None;
     }
     let mut nothing = Vec::new();
@@ -157,7 +159,8 @@ fn is_last(body: &[Stmt], i: usize) -> bool {
     false
 }
 
-fn has_holes(pattern: &Pattern) -> bool {
+/// Whether a pattern makes any hole.
+pub(super) fn has_holes(pattern: &Pattern) -> bool {
     match pattern {
         Pattern::Circle { count, .. } | Pattern::Line { count, .. } => *count > 0,
         Pattern::List(points) => !points.is_empty(),

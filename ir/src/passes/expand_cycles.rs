@@ -303,7 +303,7 @@ pub(super) fn sayable(
         return caps.cycles.iter().any(|c| c.kind == kind && (c.dwell || !dwell));
     }
     let says = |level| caps.cycle(kind, Some(level), dwell);
-    let level = match cycle.return_level.known().or(walk.at.modes.return_level) {
+    match cycle.return_level.known().or(walk.at.modes.return_level) {
         Some(level) => says(level),
         None => {
             let (initial, retract) = (says(ReturnLevel::Initial), says(ReturnLevel::Retract));
@@ -312,8 +312,7 @@ pub(super) fn sayable(
             }
             initial || retract
         }
-    };
-    level
+    }
 }
 
 /// Whether the target can say how a hole is pecked.
@@ -372,7 +371,7 @@ pub(super) fn level(
 }
 
 /// The moves of one hole; `true` marks those that stand in the block of the one before.
-fn hole(
+pub(super) fn hole(
     walk: &Walk,
     in_force: &InForce,
     to: &Point,

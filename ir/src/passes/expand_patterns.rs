@@ -1,29 +1,34 @@
-//! `expand-patterns`: circles and grids of holes become their positions, one block a hole.
+//! `expand-patterns`: patterns of holes take the form in which the target says them, or become their
+//! positions, one block a hole.
 
 use super::walk::Walk;
 use super::write::{Rebuild, as_absolute, exact, is_absolute, rebuild, rounded, unit_of};
-use super::{Target, each_body};
+use super::{Target, each_body, pattern_forms};
 use crate::canon::{AXES, Axis, Plane};
-use crate::cycle::{Along, First, Pattern, Row, absolute};
+use crate::cycle::{Along, First, Pattern, absolute};
 use crate::diag::{Diagnostic, Fault};
 use crate::num::{Nanos, ONE, Unit};
 use crate::program::{Coord, Move, Op, Point, Program, Stmt};
 use crate::track::Tracker;
 
 /// Most holes of one pattern; more is a slip of the pen.
-const MOST_HOLES: u32 = 100_000;
+pub(super) const MOST_HOLES: u32 = 100_000;
 
 /// Expands the patterns that the target cannot say.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target, diags));
+    each_body(program, entry, |body, walk| {
+        over(body, &mut walk.clone(), target, diags);
+        reform(body, walk, target, diags);
+    });
 }
 
-/// The same for one body.
+/// Patterns that have no form in one body become positions. The others stay as they are, for a cycle
+/// that is written out needs them as exact as they are.
 pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     rebuild(body, |stmt, made| {
         walk.enter(stmt.skip);
         let holes = match &stmt.op {
-            Op::Pattern(pattern) if !sayable(walk, pattern, target) => {
+            Op::Pattern(pattern) if forms(walk, pattern, target).is_none() => {
                 Some(holes(walk, pattern, target.decimals_in(walk.unit())))
             }
             _ => None,
@@ -40,46 +45,54 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
     });
 }
 
+/// Patterns of one body take the target's form; afterwards no cycle is written out any more.
+pub(super) fn reform(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+    rebuild(body, |stmt, made| {
+        walk.enter(stmt.skip);
+        let forms = match &stmt.op {
+            Op::Pattern(pattern) => forms(walk, pattern, target),
+            _ => None,
+        };
+        walk.step(&stmt);
+        match forms {
+            Some(forms) => put_forms(stmt, forms, made, diags),
+            None => made.push(stmt),
+        }
+    });
+}
+
+fn put_forms(mut stmt: Stmt, mut forms: Vec<Pattern>, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
+    if forms.len() > 1 {
+        diags.push(Diagnostic::new(Fault::BlockSplit, stmt.span));
+        let with_last = |k: usize| k == 0 && stmt.joined;
+        let made_of: Vec<_> =
+            forms.into_iter().enumerate().map(|(k, p)| (with_last(k), Op::Pattern(Box::new(p)))).collect();
+        return made.replace(stmt, made_of);
+    }
+    if let Some(form) = forms.pop() {
+        stmt.op = Op::Pattern(Box::new(form));
+    }
+    made.push(stmt);
+}
+
 fn put(stmt: Stmt, holes: Vec<Point>, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
     diags.push(Diagnostic::new(Fault::PatternExpanded { holes: holes.len() as u32 }, stmt.span));
     made.replace(stmt, holes.into_iter().map(|to| (false, Op::Hole(Move { to, said: false }))));
 }
 
-/// Whether the target has words for a pattern as it stands here.
+/// Whether the target has words for a pattern as it stands here, in any form.
 pub(super) fn sayable(walk: &Walk, pattern: &Pattern, target: &Target) -> bool {
-    let caps = &target.caps;
-    if caps.flat {
-        return false;
+    forms(walk, pattern, target).is_some()
+}
+
+/// The forms in which the target says a pattern as it stands here, if it has any.
+fn forms(walk: &Walk, pattern: &Pattern, target: &Target) -> Option<Vec<Pattern>> {
+    let as_it_is = || vec![pattern.clone()];
+    if target.caps.flat {
+        return None;
     }
-    let Some(plane) = plane(walk) else { return caps.repeats };
-    let (first, second, _) = plane.axes();
-    match pattern {
-        Pattern::Circle { centre, first: at, .. } => {
-            let polar = matches!(at, First::Polar { .. });
-            if caps.circle_polar.is_some_and(|p| p != polar) {
-                return false;
-            }
-            let here = [first, second].map(|axis| walk.at.position[axis as usize]);
-            let centre = match centre {
-                None => here,
-                Some([x, y]) => [walk.at.resolve(x, here[0]), walk.at.resolve(y, here[1])],
-            };
-            let at_zero = here == [Some(0); 2] && centre == [Some(0); 2];
-            caps.circle_pattern && (at_zero || !caps.circle_centre_at_zero_only)
-        }
-        Pattern::Line { .. } => caps.line_pattern,
-        Pattern::List(points) => points.len() <= caps.list_pattern as usize,
-        Pattern::Grid { start, columns, rows, serpentine } => {
-            let along = |row: &Row, axis| row.along == Along::Axis(axis);
-            if start.is_some() && !caps.pattern_start {
-                return false;
-            }
-            let straight = columns.count <= 1 || rows.count <= 1;
-            let way = straight || caps.grid_serpentine.is_none_or(|s| s == *serpentine);
-            let axes = caps.pattern_angle || along(columns, first) && along(rows, second);
-            way && axes && columns.count.max(rows.count) <= caps.grid_pattern
-        }
-    }
+    let Some(plane) = plane(walk) else { return target.caps.repeats.then(as_it_is) };
+    pattern_forms::fit(walk, pattern, plane, target)
 }
 
 /// The plane of the cycle in force.
@@ -158,12 +171,11 @@ fn word(
                 First::At(_) => Some(0),
                 First::Polar { angle, .. } => walk.at.nanos(angle),
             };
-            let turned = from.zip(walk.at.nanos(step)).map(|(f, s)| i128::from(f) + i128::from(s) * k as i128);
+            let turned =
+                from.zip(walk.at.nanos(step)).map(|(f, s)| i128::from(f) + i128::from(s) * k as i128);
             placed(nanos, turned, decimals, unit)
         }
-        Pattern::Line { angle, .. } => {
-            placed(nanos, walk.at.nanos(angle).map(i128::from), decimals, unit)
-        }
+        Pattern::Line { angle, .. } => placed(nanos, walk.at.nanos(angle).map(i128::from), decimals, unit),
         Pattern::Grid { columns, rows, .. } => {
             let angle = [columns, rows].into_iter().find_map(|row| match &row.along {
                 Along::Axis(_) => None,

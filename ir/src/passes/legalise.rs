@@ -7,7 +7,8 @@
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats,
-    expand_turns, flatten_facts, offset_with_z, origin_shift, skip_levels, tool_edge, work_offset,
+    expand_turns, flatten_facts, offset_with_z, origin_shift, return_plane, skip_levels, tool_edge,
+    work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
@@ -165,6 +166,9 @@ impl Legaliser {
         if needs & (ARC | MESSAGE | CALL | CONTROL | MACHINE) != 0 {
             self.check(stmts, &mut start.clone(), diags);
         }
+        if needs & CYCLE != 0 {
+            return_plane::over(stmts, &mut start.clone(), &self.target, diags);
+        }
         if needs & PATTERN != 0 {
             expand_patterns::over(stmts, &mut start.clone(), &self.target, diags);
         }
@@ -174,6 +178,9 @@ impl Legaliser {
             if !self.target.caps.incremental_cycles {
                 absolute_holes::over(stmts, &mut start.clone(), diags);
             }
+        }
+        if needs & PATTERN != 0 {
+            expand_patterns::reform(stmts, &mut start.clone(), &self.target, diags);
         }
         if needs & ARC != 0 && !self.target.caps.arc_turns {
             expand_turns::over(stmts, &mut start.clone(), &self.target, diags);
@@ -222,7 +229,14 @@ impl Legaliser {
             return false;
         }
         let walk = Walk::default();
-        program.procedures.iter().flat_map(|p| &p.body).any(|stmt| match &stmt.op {
+        let planes = self.target.caps.return_planes;
+        let bodies = || program.procedures.iter().enumerate();
+        let stands = |at: usize| if at == 0 { self.walk.clone() } else { Walk::new(Tracker::unknown()) };
+        bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
+            Op::StartCycle(cycle) if planes.is_some_and(|p| p != cycle.return_plane.is_some()) => {
+                let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
+                !return_plane::mends(body, &stands(at), &self.target)
+            }
             Op::StartCycle(cycle) => {
                 let other = self.target.caps.approach.is_some_and(|a| a != cycle.approach);
                 let mut nothing = Vec::new();

@@ -20,6 +20,8 @@ pub mod fold_patterns;
 mod legalise;
 pub mod offset_with_z;
 pub mod origin_shift;
+mod pattern_forms;
+pub mod return_plane;
 pub mod skip_levels;
 pub mod tool_edge;
 mod walk;
@@ -102,10 +104,16 @@ pub const PASSES: &[Pass] = &[
         about: "names tool lengths by edges of the tool or by entries of a table",
         run: tool_edge::run,
     },
+    // Before the patterns: a first hole may come out of one.
+    Pass {
+        name: "return-plane",
+        about: "says where cycles leave the tool by planes or by levels",
+        run: return_plane::run,
+    },
     // Before the cycles, so that a kept cycle gets its positions.
     Pass {
         name: "expand-patterns",
-        about: "turns circles and grids of holes into positions",
+        about: "says patterns of holes in the target's form, or as positions",
         run: expand_patterns::run,
     },
     // Before the cycles: what it mends need not be expanded.

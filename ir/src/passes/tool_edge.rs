@@ -197,6 +197,9 @@ fn to_edges(
 ) {
     match &stmt.op {
         Op::ChangeTool => {
+            if stmt.skip.is_some() && state.waiting.as_ref().is_some_and(|w| w.skip != stmt.skip) {
+                in_force(&mut stmt, walk, state, made, diags);
+            }
             walk.step(&stmt);
             let (span, skip) = (stmt.span, stmt.skip);
             state.waiting = Some(Waiting { place: Some(made.out.len()), span, skip, refused: None });

@@ -157,7 +157,8 @@ impl Walk {
                 m.to.get(Axis::Z).is_some() || self.at.modes.motion == Some(Motion::Cycle) && normal_is_z()
             }
             Op::Hole(m) => m.to.get(Axis::Z).is_some() || normal_is_z(),
-            Op::Pattern(_) => normal_is_z(),
+            // Its places are in the plane of X and Y, above which it drills, or in one with Z.
+            Op::Pattern(pattern) => super::approach::has_holes(pattern),
             Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank
