@@ -9,7 +9,7 @@ use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Nanos, Num, Unit};
+use ncc_ir::num::{Nanos, Num, POW10, Unit};
 use ncc_ir::program::{Coord, Op, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::InForce;
@@ -20,17 +20,19 @@ use crate::word::codes::Letter;
 use crate::word::modes::{Inserted, cannot};
 use crate::word::number;
 
-/// How many of a block's statements are one call: a cycle called up, its hole where the tool stands,
-/// and its end.
-pub(super) fn called_once(rest: &[Stmt]) -> usize {
-    let joined = |s: &Stmt| s.joined && s.skip == rest[0].skip && rest[0].comment.is_none();
-    match rest {
-        [call, hole, end, ..] if joined(hole) && joined(end) && hole.comment.is_none() => {
-            let here = matches!(&hole.op, Op::Hole(to) if to.to.is_empty());
-            let once = matches!(call.op, Op::StartCycle(_)) && here && end.op == Op::EndCycle;
-            if once { 3 } else { 1 }
-        }
-        _ => 1,
+/// How many of a block's statements are one call: a cycle called up with its hole where the tool
+/// stands, and its end if that follows.
+pub(super) fn called_here(rest: &[Stmt]) -> usize {
+    let [call, hole, further @ ..] = rest else { return 1 };
+    let joined = |s: &Stmt| s.joined && s.skip == call.skip;
+    let here = matches!(&hole.op, Op::Hole(to) if to.to.is_empty());
+    if !matches!(call.op, Op::StartCycle(_)) || !here || !joined(hole) || call.comment.is_some() {
+        return 1;
+    }
+    match further.first() {
+        Some(end) if end.op == Op::EndCycle && joined(end) && hole.comment.is_none() => 3,
+        _ if call.skip.is_none() => 2,
+        Some(_) | None => 1,
     }
 }
 
@@ -96,16 +98,18 @@ impl Writer {
         to.put(role, text)
     }
 
-    /// Calls a cycle up: for the blocks that follow, or `once` where the tool stands.
+    /// Calls a cycle up: for the blocks that follow, or once where the tool stands. Then the program
+    /// may go on with it, or not: it is called up for the next blocks when one needs it.
     pub(super) fn start_cycle(
         &mut self,
         cycle: &Cycle,
-        once: bool,
+        with: usize,
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let span = stmt.span;
-        if once {
+        self.owed = None;
+        if with > 1 {
             self.end_modal(sink)?;
         }
         self.settle_edge(span, sink)?;
@@ -114,7 +118,7 @@ impl Writer {
         match (&cycle.feed, bores) {
             (Some(feed), false) => {
                 if !self.standing.feed_said || self.standing.feed != feed.literal() {
-                    self.words.feed_rate(feed, span, sink)?;
+                    self.feed(feed, span, sink)?;
                 }
                 (self.standing.feed, self.standing.feed_said) = (feed.literal(), true);
             }
@@ -127,15 +131,18 @@ impl Writer {
             }
         }
         let row = self.cycle_row(&cycle.kind)?;
-        self.tell_unsure(row, &format!("START_CYCLE {}", cycle.kind.name()), span, sink);
-        match once {
-            true => self.alone(&text, sink),
-            false => {
-                let modal = self.call_modal()?;
-                self.alone(&format!("{modal} {text}"), sink)?;
-                self.standing.modal = Modal::On;
+        self.tell_unsure(row, "START_CYCLE", span, sink);
+        match with {
+            1 => {
+                self.owed = Some(text);
+                self.pay_call(sink)
+            }
+            2 => {
+                self.alone(&text, sink)?;
+                self.owed = Some(text);
                 Ok(())
             }
+            _ => self.alone(&text, sink),
         }
     }
 
@@ -261,18 +268,20 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         if let Some(first) = first {
-            let inch = self.words.force.units == Some(Units::Inch);
-            let nanos = |e: &Expr| e.literal().and_then(|n| n.nanos(inch));
-            let more = nanos(first).zip(nanos(peck)).and_then(|(f, p)| f.checked_sub(p));
-            let (Some(more), Some(retract)) = (more, planes.retract) else {
+            let word = &planes.cycle.retract;
+            let distance = word.distance.known().or(self.words.force.distance);
+            let more = difference(first, peck);
+            let plane = more.filter(|_| distance == Some(Distance::Absolute));
+            let plane = plane.and_then(|more| difference(&word.value, &Expr::Num(more)));
+            let (Some(more), Some(plane)) = (more, plane) else {
                 return Err(cannot("a first peck that is not known"));
             };
-            if more < 0 {
+            if more.mantissa < 0 {
                 return Err(cannot("a first peck that is shorter than the others"));
             }
-            let letter = self.parameter(to.row, Role::SafetyDistance);
-            to.put(Role::SafetyDistance, self.length(more, &letter)?)?;
-            to.put(Role::ReferencePlane, self.length(retract - more, &letter)?)?;
+            for (role, value) in [(Role::SafetyDistance, more), (Role::ReferencePlane, plane)] {
+                self.argument(to, role, &Expr::Num(value), span, sink)?;
+            }
         }
         self.argument(to, Role::RelativeFirstDepth, peck, span, sink)
     }
@@ -317,6 +326,7 @@ impl Writer {
 
     /// A hole at a position, with the cycle in force.
     pub(super) fn hole(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        self.pay_call(sink)?;
         if self.standing.modal == Modal::Off {
             return Err(cannot("a hole of a cycle that is not known"));
         }
@@ -372,4 +382,16 @@ impl Writer {
         }
         Ok(to)
     }
+}
+
+/// The exact difference of two literals in one unit.
+fn difference(a: &Expr, b: &Expr) -> Option<Num> {
+    let (a, b) = (a.literal()?, b.literal()?);
+    if a.unit != b.unit && !a.is_zero() && !b.is_zero() {
+        return None;
+    }
+    let scale = a.scale.max(b.scale);
+    let up = |n: Num| n.mantissa.checked_mul(*POW10.get(usize::from(scale - n.scale))?);
+    let unit = if a.is_zero() { b.unit } else { a.unit };
+    Some(Num { mantissa: up(a)?.checked_sub(up(b)?)?, scale, point: scale > 0, unit }.trimmed())
 }

@@ -18,7 +18,7 @@ mod unit;
 
 use std::collections::BTreeSet;
 
-use ncc_dialects::{CallRow, Dialect, Quantity, Settings};
+use ncc_dialects::{CallRow, Dialect, Meaning, Quantity, Settings};
 use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -80,8 +80,14 @@ pub struct Writer {
     /// Whether a tool change makes edge 1 active.
     edge_with_tool: bool,
     standing: Standing,
+    /// A cycle that the program has in force and the text has not, because it was called once for a
+    /// hole where the tool stood.
+    owed: Option<String>,
     /// Whether the next straight move is in machine coordinates.
     raw: bool,
+    /// Whether the feed counts in the machine's basic system, and which that is.
+    basic_feed: bool,
+    basic_units: Units,
     names: Names,
     /// Subprograms that are called while a cycle is in force.
     under_cycle: BTreeSet<Box<str>>,
@@ -96,12 +102,16 @@ pub struct Writer {
 impl Writer {
     /// A writer at the start of a program.
     pub fn new(settings: Settings, layout: Layout) -> Writer {
+        let basic_inch = settings.get("feed_unit") == "inch";
         Writer {
             dialect: settings.dialect,
             edge_with_tool: settings.get("edge_after_change") == "1",
             words: word::Writer::new(settings, layout),
             standing: Standing::START,
+            owed: None,
             raw: false,
+            basic_feed: false,
+            basic_units: if basic_inch { Units::Inch } else { Units::Mm },
             names: Names::default(),
             under_cycle: BTreeSet::new(),
             repeats: 0,
@@ -149,7 +159,10 @@ impl Writer {
     #[inline]
     fn plain_block(&mut self, block: &[Stmt], sink: &mut Sink) -> bool {
         let standing = &self.standing;
-        if standing.modal != Modal::Off || !standing.feed_said || standing.edge_waits || self.raw {
+        if standing.modal != Modal::Off || !standing.feed_said || standing.edge_waits {
+            return false;
+        }
+        if self.owed.is_some() || self.raw || self.basic_feed {
             return false;
         }
         let plain = self.words.plain_block(block, sink.out);
@@ -173,12 +186,20 @@ impl Writer {
     /// gives their number.
     fn one(&mut self, rest: &[Stmt], sink: &mut Sink) -> usize {
         let stmt = &rest[0];
+        if stmt.skip.is_some() && self.owed.is_some() {
+            // What is in force must not depend on the switch.
+            self.words.flush(false, sink);
+            self.words.block.skip = None;
+            if let Err(fault) = self.pay_call(sink) {
+                sink.report(fault, stmt.span);
+            }
+        }
         let opened = self.words.open(stmt, sink);
         let before = self.standing;
-        let said = cycle::called_once(rest);
+        let said = cycle::called_here(rest);
         let written = match &opened {
             Err(fault) => Err(fault.clone()),
-            Ok(_) => self.statement(stmt, said > 1, sink),
+            Ok(_) => self.statement(stmt, said, sink),
         };
         self.words.close(stmt, opened.ok(), written, sink);
         for further in &rest[1..said] {
@@ -204,6 +225,7 @@ impl Writer {
 
     /// Ends the cycle that the text may have in force, before what must not make a hole.
     fn end_modal(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        self.owed = None;
         if self.standing.modal == Modal::Off {
             return Ok(());
         }
@@ -213,11 +235,46 @@ impl Writer {
         Ok(())
     }
 
+    /// Calls up what the program has in force, before holes are made with it.
+    fn pay_call(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        if let Some(call) = self.owed.take() {
+            let modal = self.call_modal()?;
+            self.alone(&format!("{modal} {call}"), sink)?;
+            self.standing.modal = Modal::On;
+        }
+        Ok(())
+    }
+
+    /// Writes a feed. One of the machine's basic system needs its own code of units.
+    fn feed(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let Expr::Num(n) = feed else { return self.words.feed_rate(feed, span, sink) };
+        let (units, in_force) = match (n.unit, self.words.force.units) {
+            (Unit::Mm, Some(in_force)) => (Units::Mm, in_force),
+            (Unit::Inch, Some(in_force)) => (Units::Inch, in_force),
+            _ => return self.words.feed_rate(feed, span, sink),
+        };
+        let basic = units != in_force && units == self.basic_units;
+        if basic != self.basic_feed {
+            let meaning = Some(Meaning::UseLengthUnits(in_force));
+            let row = self.dialect.code.iter().find(|r| r.means == meaning && r.feed_stays == basic);
+            let row = row.ok_or_else(|| cannot("a feed in this unit"))?;
+            self.words.admit(&Need::new(Rank::Setting), sink)?;
+            self.words.block.text(Part::Mode, &row.code);
+            self.basic_feed = basic;
+        }
+        if !basic {
+            return self.words.feed_rate(feed, span, sink);
+        }
+        // The digits are those of the other unit; the letter's rules are the same.
+        let unit = if in_force == Units::Inch { Unit::Inch } else { Unit::Mm };
+        self.words.feed_rate(&Expr::Num(Num { unit, ..*n }), span, sink)
+    }
+
     /// States the feed that is in force in the program, if the text has lost it.
     fn restate_feed(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !self.standing.feed_said {
             if let Some(feed) = self.standing.feed {
-                self.words.feed_rate(&Expr::Num(feed), span, sink)?;
+                self.feed(&Expr::Num(feed), span, sink)?;
             }
             self.standing.feed_said = true;
         }
@@ -233,6 +290,15 @@ impl Writer {
 
     /// A value as it is written behind a name.
     fn value(&mut self, letter: &Letter, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        let trimmed;
+        let value = match value {
+            // Milliseconds and sums have zeros at their end that nobody wrote.
+            Expr::Num(n) if n.unit == Unit::Second => {
+                trimmed = Expr::Num(n.trimmed());
+                &trimmed
+            }
+            _ => value,
+        };
         Ok(digits(self.words.value(letter, value, span, sink)?))
     }
 

@@ -31,6 +31,7 @@ struct Direction {
 impl Writer {
     /// A pattern of holes with the cycle in force.
     pub(super) fn pattern(&mut self, pattern: &Pattern, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        self.pay_call(sink)?;
         if self.standing.modal == Modal::Off {
             return Err(cannot("holes of a cycle that is not known"));
         }

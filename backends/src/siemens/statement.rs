@@ -13,20 +13,30 @@ use ncc_ir::expr::Expr;
 const LONGEST_MESSAGE: usize = 200;
 
 impl Writer {
-    /// Puts a statement into the block at hand, or into a new one if it does not fit. `once` says
-    /// that a cycle is called up for one hole where the tool stands, and ended.
+    /// Puts a statement into the block at hand, or into a new one if it does not fit. `with` is how
+    /// many statements of its block it says: with a cycle's call, the hole where the tool stands and
+    /// the end.
     ///
     /// # Errors
     /// The control cannot say it.
-    pub(super) fn statement(&mut self, stmt: &Stmt, once: bool, sink: &mut Sink) -> Result<(), Fault> {
-        if self.words.preamble.is_some() && self.words.absorb(stmt, sink)? {
-            return Ok(());
+    pub(super) fn statement(&mut self, stmt: &Stmt, with: usize, sink: &mut Sink) -> Result<(), Fault> {
+        if self.words.preamble.is_some() {
+            let absorbed = match &stmt.op {
+                // No edge is no length, which belongs to the start.
+                Op::UseToolEdge { edge, .. } if edge.literal().is_some_and(|n| n.is_zero()) => {
+                    let none = Stmt { op: Op::UseToolLengthOffset(Expr::int(0)), ..stmt.clone() };
+                    self.words.absorb(&none, sink)?
+                }
+                _ => self.words.absorb(stmt, sink)?,
+            };
+            if absorbed {
+                return Ok(());
+            }
         }
         let span = stmt.span;
         match &stmt.op {
             Op::Comment(_)
             | Op::Blank
-            | Op::UseLengthUnits(_)
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
@@ -46,6 +56,10 @@ impl Writer {
             | Op::Return => self.words.statement(stmt, sink),
             // Every call of a cycle says its plane of return.
             Op::SetReturnLevel(_) => Ok(()),
+            Op::UseLengthUnits(_) => {
+                self.basic_feed = false;
+                self.words.statement(stmt, sink)
+            }
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
             Op::ClearFrame(_) => self.words.statement(stmt, sink),
@@ -55,7 +69,7 @@ impl Writer {
                 Ok(())
             }
             Op::SetFeedRate(feed) => {
-                self.words.statement(stmt, sink)?;
+                self.feed(feed, span, sink)?;
                 self.standing.feed = feed.literal();
                 self.standing.feed_said = true;
                 Ok(())
@@ -68,8 +82,11 @@ impl Writer {
             Op::StraightFeed(to) => self.straight(&to.to, true, stmt, sink),
             Op::ArcFeed(arc) => self.arc(arc, span, sink),
             Op::ArcForm(arc) => self.arc_form(arc, span, sink),
-            Op::Position(_) => self.words.statement(stmt, sink),
-            Op::StartCycle(cycle) => self.start_cycle(cycle, once, stmt, sink),
+            Op::Position(_) => {
+                self.pay_call(sink)?;
+                self.words.statement(stmt, sink)
+            }
+            Op::StartCycle(cycle) => self.start_cycle(cycle, with, stmt, sink),
             Op::Hole(to) => self.hole(&to.to, span, sink),
             Op::Pattern(pattern) => self.pattern(pattern, stmt, sink),
             Op::EndCycle => self.end_modal(sink),
@@ -96,9 +113,9 @@ impl Writer {
     /// A dwell, which stands alone because its F is no feed.
     fn dwell(&mut self, seconds: &Expr, span: ncc_ir::source::Span, sink: &mut Sink) -> Result<(), Fault> {
         let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
-        let value = self.words.dwell_value(&dwell, seconds, span, sink)?;
+        let value = self.value(&dwell.word, seconds, span, sink)?;
         let code = String::from_utf8_lossy(code.text()).into_owned();
-        self.alone(&format!("{code} {}{}", dwell.word.letter as char, super::digits(value)), sink)
+        self.alone(&format!("{code} {}{value}", dwell.word.letter as char), sink)
     }
 
     fn message(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {

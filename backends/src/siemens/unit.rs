@@ -93,6 +93,7 @@ impl Writer {
             _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
         };
         self.settle_edge(span, sink)?;
+        self.pay_call(sink)?;
         if self.standing.modal != Modal::Off {
             // Its positions are reached as the cycle's are.
             self.under_cycle.insert(call.name.clone());
@@ -125,6 +126,7 @@ impl Writer {
     }
 
     pub(super) fn label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
+        self.pay_call(sink)?;
         let name = self.names.label(name);
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
@@ -145,6 +147,7 @@ impl Writer {
             return Ok(());
         }
         self.restate_feed(span, sink)?;
+        self.pay_call(sink)?;
         let from = self.names.label(&repeat.from);
         let to = repeat.to.as_ref().map(|to| format!(" {}", self.names.label(to)));
         self.repeat(&from, &to.unwrap_or_default(), repeat.times, sink)

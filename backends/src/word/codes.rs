@@ -103,6 +103,8 @@ pub(crate) struct Codes {
     pub level: [Option<Code>; 2],
     /// By number of the work offset, less one.
     pub origins: Vec<Option<Code>>,
+    /// No work offset.
+    pub no_origin: Option<Code>,
     pub no_shift: Option<Code>,
     pub no_compensation: Option<Code>,
     pub length: Option<Code>,
@@ -286,6 +288,7 @@ impl Codes {
                 .map(|f| code(Meaning::SetFeedMode(f))),
             level: [ReturnLevel::Initial, ReturnLevel::Retract].map(|l| code(Meaning::SetReturnLevel(l))),
             origins: (1..=last).map(|n| code(Meaning::SetOriginOffsets(n))).collect(),
+            no_origin: code(Meaning::SetOriginOffsets(0)),
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             length: code(Meaning::UseToolLengthOffset),

@@ -41,7 +41,9 @@ impl Comments {
         loop {
             let (piece, next) = cut(rest, self.longest);
             let to = if first { &mut *line } else { &mut *after };
-            to.extend_from_slice(self.open.as_bytes());
+            // One blank parts the sign from the text.
+            let open = if piece.starts_with(' ') { self.open.trim_end() } else { &self.open };
+            to.extend_from_slice(open.as_bytes());
             to.extend_from_slice(piece.as_bytes());
             to.extend_from_slice(self.close.as_bytes());
             if !first {

@@ -124,8 +124,11 @@ impl Writer {
                 None => Err(cannot("the return level of cycles")),
             },
             Setting::Origin(n) => {
-                let code = usize::from(n).checked_sub(1).and_then(|at| codes.origins.get(at));
-                match code.copied().flatten() {
+                let code = match usize::from(n).checked_sub(1) {
+                    Some(at) => codes.origins.get(at).copied().flatten(),
+                    None => codes.no_origin,
+                };
+                match code {
                     Some(code) => Ok(Some(code)),
                     // A control with one work offset has no word for it.
                     None if self.dialect.caps.work_offsets == 0 => Ok(None),

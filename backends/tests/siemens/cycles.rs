@@ -156,3 +156,48 @@ fn a_cycle_in_a_block_that_can_be_skipped() {
     (stmts[1].skip, stmts[2].skip) = (Some(1), Some(1));
     assert_eq!(text(&stmts).0, "G0 X0\n/MCALL CYCLE81(10,3,0,-6)\n/X1\nMCALL\nG0 X2\n");
 }
+
+#[test]
+fn a_cycle_once_is_called_for_more_only_if_more_holes_follow() {
+    let here = || vec![drill(), hole("")];
+    let stmts = blocks(vec![
+        vec![feed("X1.")],
+        here(),
+        vec![Op::EndCycle, feed("X2.")],
+        here(),
+        vec![hole("Y1.")],
+        vec![Op::EndCycle],
+        vec![rapid("X3.")],
+    ]);
+    let call = "CYCLE81(10,3,0,-6)";
+    let expected = format!("G1 X1\n{call}\nG1 X2\n{call}\nMCALL {call}\nG0 Y1\nMCALL\nG0 X3\n");
+    assert_eq!(text(&stmts).0, expected);
+    // Nor may a switch decide whether it is in force.
+    let mut stmts = blocks(vec![vec![rapid("X1.")], here(), vec![hole("Y1.")], vec![hole("Y2.")]]);
+    stmts[3].skip = Some(1);
+    assert_eq!(text(&stmts).0, format!("G0 X1\n{call}\nMCALL {call}\n/Y1\nY2\n"));
+}
+
+#[test]
+fn dwells_have_no_zeros_that_nobody_wrote() {
+    let dwell = start(cycle(CycleKind::DrillDwell { dwell: seconds("0.300") }));
+    assert_eq!(clean(&lines(vec![rapid("X0."), dwell])), "G0 X0\nMCALL CYCLE82(10,3,0,-6,,0.3)\n");
+}
+
+#[test]
+fn a_first_peck_is_reckoned_in_the_programs_own_unit() {
+    let entry = |text: &str| ncc_ir::expr::Expr::Num(num(text, ncc_ir::num::Unit::Entry));
+    let level = |text: &str| Coord { value: entry(text), distance: coord("0.").distance };
+    let kind = CycleKind::DrillPeck {
+        peck: entry("10."),
+        first: Some(entry("12.5")),
+        clearance: Clearance::Stated(entry("0.6")),
+        pause: None,
+        settle: None,
+        dwell: None,
+    };
+    let cycle =
+        Cycle { retract: level("2."), depth: level("-25."), return_plane: Some(level("5.")), ..cycle(kind) };
+    let (text, _) = told(&lines(vec![rapid("X0."), start(cycle)]));
+    assert_eq!(text, "G0 X0\nMCALL CYCLE83(5,-0.5,2.5,-25,,,10,0,,,1,1,,,,,0.6)\n");
+}

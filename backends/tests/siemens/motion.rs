@@ -193,3 +193,30 @@ fn plain_moves_and_the_general_way_write_the_same() {
     }
     assert_eq!(fast, clean(&slow).replace(" ; c", ""));
 }
+
+#[test]
+fn no_length_belongs_to_the_start() {
+    let stmts = blocks(vec![vec![Op::SelectPlane(Plane::Xy), edge("0", true)], vec![rapid("X0.")]]);
+    assert_eq!(text(&stmts).0, "G710 G17 G90 G40 G94 D0\nG54\nG0 X0\n");
+}
+
+#[test]
+fn a_metric_feed_among_inches_has_its_own_code_of_units() {
+    let inch = |words: &str| ncc_ir::program::Move { to: in_unit(point(words), Unit::Inch), said: true };
+    let feed_in = |text: &str| Op::SetFeedRate(ncc_ir::expr::Expr::Num(num(text, Unit::Inch)));
+    let stmts = blocks(vec![
+        vec![Op::UseLengthUnits(Units::Inch)],
+        vec![Op::SetFeedRate(mm("125.")), Op::StraightFeed(inch("X1."))],
+        vec![Op::StraightFeed(inch("X2."))],
+        vec![feed_in("9.5"), Op::StraightFeed(inch("X3."))],
+    ]);
+    let expected = "G700 G17 G90 G40 G94\nG54\nG70 G1 X1 F125\nG1 X2\nG700 G1 X3 F9.5\n";
+    assert_eq!(clean(&stmts), expected);
+}
+
+#[test]
+fn no_work_offset_is_g500() {
+    let stmts =
+        blocks(vec![vec![rapid("X0.")], vec![Op::SetOriginOffsets(0)], vec![Op::SetOriginOffsets(99)]]);
+    assert_eq!(clean(&stmts), "G0 X0\nG500\nG599\n");
+}

@@ -89,6 +89,8 @@ fn comments_keep_their_characters_and_stand_last() {
     let mut stmts = blocks(vec![vec![Op::FloodOn, rapid("X0.")]]);
     stmts[0].comment = Some(Box::new("Kühlung (an)".into()));
     assert_eq!(clean(&stmts), "G0 X0 M8 ; Kühlung (an)\n");
+    stmts[0].comment = Some(Box::new(" an".into()));
+    assert_eq!(clean(&stmts), "G0 X0 M8 ; an\n");
 }
 
 #[test]

@@ -413,6 +413,9 @@ pub struct CodeRow {
     /// Letters of its own words, besides those that stand for themselves.
     #[serde(default)]
     pub words: String,
+    /// Whether a code of units leaves the feed in the machine's basic system.
+    #[serde(default)]
+    pub feed_stays: bool,
     /// Letter and unit of a dwell, the first one for writing.
     #[serde(default)]
     pub dwell: Vec<DwellWord>,
