@@ -40,9 +40,9 @@ impl std::error::Error for DialectError {}
 const BUILTIN: &[&str] = &[
     include_str!("../data/mach9.toml"),
     include_str!("../data/fanuc.toml"),
+    include_str!("../data/siemens.toml"),
     include_str!("../data/canon.toml"),
     include_str!("../data/ir.toml"),
-    include_str!("../data/siemens.toml"),
 ];
 
 pub(crate) static DIALECTS: LazyLock<Vec<Dialect>> = LazyLock::new(|| {
@@ -51,8 +51,7 @@ pub(crate) static DIALECTS: LazyLock<Vec<Dialect>> = LazyLock::new(|| {
 
 /// The built-in dialects.
 pub fn builtins() -> &'static [Dialect] {
-    // The Sinumerik's is offered as soon as it is read and written; until then it is found by name.
-    &DIALECTS[..DIALECTS.len() - 1]
+    &DIALECTS
 }
 
 /// A built-in dialect by its id.
@@ -327,6 +326,6 @@ mod tests {
     #[test]
     fn built_in_dictionaries_load() {
         let ids: Vec<_> = super::builtins().iter().map(|d| d.id.as_str()).collect();
-        assert_eq!(ids, ["mach9", "fanuc", "canon", "ir"]);
+        assert_eq!(ids, ["mach9", "fanuc", "siemens", "canon", "ir"]);
     }
 }
