@@ -11,6 +11,7 @@ mod holes;
 mod run;
 
 pub use event::{Event, Kind, State};
+pub(crate) use run::again;
 pub use run::{Progress, Runner};
 
 use crate::canon::{

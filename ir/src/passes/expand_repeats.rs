@@ -1,20 +1,214 @@
-//! `expand-repeats`: a repetition with a known count is written out.
+//! `expand-repeats`: repetitions are written out, or said in the form that the target has.
+//!
+//! A repetition of a body with a known count, and one of blocks between labels, can each stand for
+//! the other. A target that has neither gets the blocks one after another; labels that only served
+//! a repetition are gone then.
 
-use super::write::rebuild;
+use std::collections::BTreeSet;
+
+use super::write::{Rebuild, rebuild};
 use super::{MOST_STATEMENTS, Target};
 use crate::diag::{Diagnostic, Fault};
-use crate::program::{Control, Op, Program, Stmt};
+use crate::exec::again;
+use crate::expr::Expr;
+use crate::program::{Control, Op, Program, RepeatBlocks, Stmt, Text};
+use crate::source::Span;
 use crate::track::Tracker;
 
-/// Writes them out.
-pub fn run(program: &mut Program, _: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
+/// Deepest nesting of repetitions of blocks.
+const DEEPEST: u32 = 64;
+
+/// Writes them out, or says them in the target's form.
+pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {
-        over(&mut procedure.body, diags);
+        over(&mut procedure.body, target, diags);
     }
 }
 
 /// The same for one body.
-pub(super) fn over(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+pub(super) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let caps = &target.caps;
+    if !caps.repeats {
+        if caps.repeat_blocks {
+            by_labels(body, &labels(body), &mut 0, diags);
+        } else {
+            bodies(body, diags);
+        }
+    }
+    let nowhere = |s: &Stmt| matches!(s.op, Op::Label(_)) && !caps.repeats;
+    if !caps.repeat_blocks && (has_blocks(body) || body.iter().any(nowhere)) {
+        blocks(body, caps.repeats, diags);
+    }
+}
+
+/// Writes repetitions of blocks out in subprograms, before these are written out themselves.
+pub(super) fn in_procedures(program: &mut Program, diags: &mut Vec<Diagnostic>) {
+    for procedure in &mut program.procedures {
+        if has_blocks(&procedure.body) {
+            blocks(&mut procedure.body, false, diags);
+        }
+    }
+}
+
+fn has_blocks(body: &[Stmt]) -> bool {
+    body.iter().any(|s| matches!(s.op, Op::RepeatBlocks(_)))
+}
+
+/// Writes repetitions of blocks out; `as_body` puts a repetition of a body in their place.
+fn blocks(body: &mut Vec<Stmt>, as_body: bool, diags: &mut Vec<Diagnostic>) {
+    let jumps: BTreeSet<Text> = body
+        .iter()
+        .filter_map(|s| match &s.op {
+            Op::Goto(label) => Some(label.clone()),
+            _ => None,
+        })
+        .collect();
+    let input = std::mem::take(body);
+    let mut made = Rebuild::new(input.len());
+    let mut full = false;
+    flatten(&input, None, &jumps, as_body, 0, &mut made, &mut full, diags);
+    *body = made.out;
+}
+
+/// Passes statements on, repetitions of blocks as what they execute.
+#[allow(clippy::too_many_arguments)]
+fn flatten(
+    body: &[Stmt],
+    under: Option<Option<u8>>,
+    jumps: &BTreeSet<Text>,
+    as_body: bool,
+    depth: u32,
+    made: &mut Rebuild,
+    full: &mut bool,
+    diags: &mut Vec<Diagnostic>,
+) {
+    for (at, stmt) in body.iter().enumerate() {
+        if *full {
+            return;
+        }
+        let mut stmt = stmt.clone();
+        let span = stmt.span;
+        if let Some(skip) = under {
+            stmt.number = None;
+            if let Err(fault) = super::expand_calls::also_skipped(&mut stmt, skip) {
+                diags.push(Diagnostic::new(fault, span));
+            }
+        }
+        match &stmt.op {
+            // In what is passed again a label would stand twice.
+            Op::Label(name) if !jumps.contains(name) => made.leave_out(stmt),
+            Op::Label(_) | Op::Goto(_) if under.is_some() => {
+                cannot("a repetition with jumps, written out", span, diags);
+                made.leave_out(stmt);
+            }
+            Op::RepeatBlocks(repeat) => {
+                let RepeatBlocks { from, to, times } = &**repeat;
+                let (times, skip) = (*times, stmt.skip);
+                let Some(blocks) = again(body, at, from, to.as_deref()) else {
+                    let name = from.clone();
+                    diags.push(Diagnostic::new(Fault::LabelUnknown { name }, span));
+                    made.push(stmt);
+                    continue;
+                };
+                if depth >= DEEPEST {
+                    cannot("repetitions nested so deep", span, diags);
+                    *full = true;
+                    return;
+                }
+                if under.is_none() {
+                    diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
+                }
+                if as_body {
+                    let mut inner = Rebuild::new(blocks.len());
+                    flatten(blocks, Some(None), jumps, true, depth + 1, &mut inner, full, diags);
+                    let times = Expr::int(i64::from(times));
+                    stmt.op = Op::Control(Box::new(Control::Repeat { times, body: inner.out }));
+                    made.push(stmt);
+                    continue;
+                }
+                made.leave_out(stmt);
+                for _ in 0..times {
+                    flatten(blocks, Some(skip), jumps, false, depth + 1, made, full, diags);
+                    if *full {
+                        return;
+                    }
+                    if made.out.len() > MOST_STATEMENTS {
+                        *full = true;
+                        return cannot("a repetition that is too long to be written out", span, diags);
+                    }
+                }
+            }
+            _ => made.push(stmt),
+        }
+    }
+}
+
+fn cannot(what: &str, span: Span, diags: &mut Vec<Diagnostic>) {
+    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+}
+
+/// Says repetitions of a body by labels: the body once, and its blocks again.
+fn by_labels(body: &mut Vec<Stmt>, known: &BTreeSet<Text>, last: &mut u32, diags: &mut Vec<Diagnostic>) {
+    rebuild(body, |mut stmt, made| {
+        let Stmt { span, skip, .. } = stmt;
+        let Some((times, mut inner)) = repeat_of(&mut stmt) else { return made.push(stmt) };
+        let Some(times) = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok()) else {
+            cannot("a computed repetition", span, diags);
+            return made.push(stmt);
+        };
+        by_labels(&mut inner, known, last, diags);
+        made.leave_out(stmt);
+        let name = loop {
+            *last += 1;
+            let name: Text = format!("AGAIN{last}").into();
+            if !known.contains(&name) {
+                break name;
+            }
+        };
+        if times == 0 {
+            return;
+        }
+        let mut put = |op: Op| {
+            let mut new = Stmt::new(span, op);
+            new.skip = skip;
+            made.push(new);
+        };
+        put(Op::Label(name.clone()));
+        for mut stmt in inner {
+            if let Err(fault) = super::expand_calls::also_skipped(&mut stmt, skip) {
+                diags.push(Diagnostic::new(fault, span));
+            }
+            made.push(stmt);
+        }
+        if times > 1 {
+            let op = Op::RepeatBlocks(Box::new(RepeatBlocks { from: name, to: None, times: times - 1 }));
+            let mut new = Stmt::new(span, op);
+            new.skip = skip;
+            made.push(new);
+        }
+    });
+}
+
+/// The labels of a body.
+fn labels(body: &[Stmt]) -> BTreeSet<Text> {
+    let label = |s: &Stmt| match &s.op {
+        Op::Label(name) => Some(name.clone()),
+        _ => None,
+    };
+    body.iter().filter_map(label).collect()
+}
+
+/// The count and body of a repetition, taken out of its statement.
+fn repeat_of(stmt: &mut Stmt) -> Option<(Expr, Vec<Stmt>)> {
+    let Op::Control(control) = &mut stmt.op else { return None };
+    match &mut **control {
+        Control::Repeat { times, body } => Some((times.clone(), std::mem::take(body))),
+        Control::Loop { .. } | Control::While { .. } | Control::For { .. } | Control::If { .. } => None,
+    }
+}
+
+/// Writes repetitions of a body out.
+fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
     rebuild(body, |stmt, made| {
         let Stmt { span, skip, .. } = stmt;
         let (times, inner) = match &stmt.op {
@@ -33,7 +227,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         };
         diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
         let mut inner = inner.clone();
-        over(&mut inner, diags);
+        bodies(&mut inner, diags);
         if inner.len().saturating_mul(times as usize) > MOST_STATEMENTS {
             let what = "a repetition that is too long to be written out".into();
             diags.push(Diagnostic::new(Fault::CannotSay { what }, span));

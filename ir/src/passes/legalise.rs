@@ -144,7 +144,7 @@ impl Legaliser {
         diags: &mut Vec<Diagnostic>,
     ) {
         if needs & CONTROL != 0 {
-            expand_repeats::over(stmts, diags);
+            expand_repeats::over(stmts, &self.target, diags);
         }
         if needs & WORK != 0 {
             work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
@@ -200,6 +200,7 @@ impl Legaliser {
         let assumed = rest.assumed;
         self.walk.assume(&assumed);
         if self.lacks & CALL != 0 || self.calls_under_expanded(rest) {
+            expand_repeats::in_procedures(rest, diags);
             // The walk is needed again for the other passes.
             expand_calls::over(rest, &mut self.walk.clone(), diags);
         }
@@ -258,7 +259,8 @@ impl Legaliser {
             match &stmt.op {
                 Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
                 Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
-                Op::Goto(_) | Op::Label(_) if !caps.repeats => cannot("a jump"),
+                Op::Goto(_) if !caps.repeats => cannot("a jump"),
+                Op::Label(_) if !caps.repeats && !caps.repeat_blocks => cannot("a jump"),
                 Op::Call(_) if !caps.calls => cannot("a call"),
                 Op::Return if !caps.calls => cannot("a return"),
                 Op::UseMachineCoordinates if !caps.machine_coordinates => {
