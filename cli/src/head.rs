@@ -57,7 +57,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedOption { option, value } => format!("{option} = {value}"),
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
         Fault::AssumedHoleOrder { pattern } => format!("order of the holes of {pattern}"),
-        Fault::AssumedEdge { tool } => format!("edge 1 of T{tool} = length entry {tool}"),
+        Fault::AssumedEdge { .. } => "edge 1 of a tool = the length entry of its number".to_owned(),
         _ => return None,
     })
 }

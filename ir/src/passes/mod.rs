@@ -10,12 +10,15 @@ pub mod approach;
 pub mod convert_arcs;
 pub mod convert_distance;
 pub mod convert_units;
+pub mod drop_redundant;
 pub mod expand_calls;
 pub mod expand_cycles;
 pub mod expand_patterns;
 pub mod expand_repeats;
 pub mod expand_turns;
+pub mod feed_with_cycle;
 pub mod flatten_facts;
+pub mod fold_cycles;
 pub mod fold_patterns;
 mod legalise;
 pub mod offset_with_z;
@@ -172,10 +175,32 @@ pub const PASSES: &[Pass] = &[
         about: "measures words of moves from where the axes stand",
         run: convert_distance::incremental,
     },
+    // The other way: long-hand text gets its structure back.
+    Pass {
+        name: "fold-cycles",
+        about: "turns holes written long-hand into canned cycles",
+        run: fold_cycles::run,
+    },
+    // After the cycles, which give the holes.
+    Pass {
+        name: "feed-with-cycle",
+        about: "lets a cycle say the feed that stands right before it",
+        run: feed_with_cycle::run,
+    },
+    Pass {
+        name: "fold-patterns",
+        about: "turns positions of holes into circles, grids, lines and lists",
+        run: fold_patterns::run,
+    },
+    Pass {
+        name: "drop-redundant",
+        about: "leaves out statements that change nothing",
+        run: drop_redundant::run,
+    },
 ];
 
 /// Names of the passes that fold: moves into cycles, positions into patterns.
-pub const FOLDS: &[&str] = &["fold-cycles", "fold-patterns"];
+pub const FOLDS: &[&str] = &["fold-cycles", "feed-with-cycle", "fold-patterns"];
 
 /// Runs a pass over each procedure; what holds before a subprogram is not known.
 fn each_body(program: &mut Program, entry: &Tracker, mut over: impl FnMut(&mut Vec<Stmt>, &mut Walk)) {
