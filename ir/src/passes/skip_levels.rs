@@ -1,7 +1,7 @@
 //! `skip-levels`: block-skip levels that the target cannot tell apart become the first.
 //!
 //! That changes what the switches do, unless the program uses the first level only. A target without
-//! block skip is told.
+//! block skip is told; one that has several switches, and not so many, is refused.
 
 use super::{Target, each_body};
 use crate::diag::{Diagnostic, Fault};
@@ -30,7 +30,9 @@ pub(super) fn over(body: &mut [Stmt], state: &mut State, target: &Target, diags:
             state.told |= bit;
             let fault = match highest {
                 0 => Fault::CannotSay { what: "a block that can be skipped".into() },
-                _ => Fault::SkipLevelLost { level },
+                1 => Fault::SkipLevelLost { level },
+                // Which of the target's switches is free is not known before the program's end.
+                _ => Fault::CannotSay { what: "a tenth block-skip switch".into() },
             };
             diags.push(Diagnostic::new(fault, stmt.span));
         }
