@@ -279,6 +279,9 @@ faults! {
     /// Positions written as a pattern.
     PatternFolded { pattern: Box<str>, holes: u32 } = 415, verdict(Verdict::Reformatted);
 
+    /// A subprogram or a label whose name the target cannot have.
+    NameChanged { from: Box<str>, to: Box<str> } = 416, verdict(Verdict::Reformatted);
+
     // NC05xx: what the target cannot say.
     /// The target has no words for it.
     CannotSay { what: Box<str> } = 501, Error;

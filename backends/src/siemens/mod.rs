@@ -230,8 +230,15 @@ impl Writer {
             return Ok(());
         }
         let word = self.call_modal()?;
+        // A feed belongs to the move that follows.
+        let feed = self.words.block.take_feed();
         self.alone(word, sink)?;
         self.standing.modal = Modal::Off;
+        if !feed.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
+            self.words.block.put_feed(feed);
+        }
         Ok(())
     }
 

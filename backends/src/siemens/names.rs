@@ -4,8 +4,18 @@
 
 use std::collections::BTreeMap;
 
+use ncc_ir::diag::Fault;
+
 /// Longest name of a program.
 const LONGEST: usize = 24;
+
+/// A name as it is written.
+pub(super) struct Name {
+    /// The name.
+    pub(super) text: String,
+    /// What is told of it: once, if it is not the program's own.
+    pub(super) changed: Option<Fault>,
+}
 
 /// Names of one text.
 #[derive(Clone, Debug, Default)]
@@ -15,13 +25,13 @@ pub(super) struct Names {
 
 impl Names {
     /// The name for a subprogram.
-    pub(super) fn program(&mut self, name: &str) -> String {
-        self.unique(format!("program {name}"), program(name))
+    pub(super) fn program(&mut self, name: &str) -> Name {
+        self.unique("program ", name, program(name))
     }
 
     /// The name for a label.
-    pub(super) fn label(&mut self, name: &str) -> String {
-        self.unique(format!("label {name}"), identifier(name, "L_"))
+    pub(super) fn label(&mut self, name: &str) -> Name {
+        self.unique("label ", name, identifier(name, "L_"))
     }
 
     /// The name for the main program, which no subprogram may have.
@@ -36,22 +46,22 @@ impl Names {
         self.made.contains_key(format!("label {name}").as_str())
     }
 
-    fn unique(&mut self, key: String, wanted: String) -> String {
+    fn unique(&mut self, kind: &str, name: &str, wanted: String) -> Name {
+        let key = format!("{kind}{name}");
         if let Some(made) = self.made.get(key.as_str()) {
-            return made.clone();
+            return Name { text: made.clone(), changed: None };
         }
-        let kind = key.split(' ').next().unwrap_or_default();
-        let taken = |name: &String| {
-            self.made.iter().any(|(k, made)| k.split(' ').next() == Some(kind) && made == name)
-        };
-        let mut name = wanted.clone();
+        let taken = |text: &String| self.made.iter().any(|(key, made)| key.starts_with(kind) && made == text);
+        let mut text = wanted.clone();
         let mut more = 2;
-        while taken(&name) {
-            name = format!("{}_{more}", cut(&wanted, LONGEST - 4));
+        while taken(&text) {
+            text = format!("{}_{more}", cut(&wanted, LONGEST - 4));
             more += 1;
         }
-        self.made.insert(key.into(), name.clone());
-        name
+        self.made.insert(key.into(), text.clone());
+        let changed = (!text.eq_ignore_ascii_case(name))
+            .then(|| Fault::NameChanged { from: name.into(), to: text.as_str().into() });
+        Name { text, changed }
     }
 }
 
@@ -93,24 +103,24 @@ mod tests {
     fn names_stay_where_the_control_can_have_them() {
         let mut names = Names::default();
         for name in ["L12", "L012", "SLOT_STEP", "__X"] {
-            assert_eq!(names.program(name), name);
+            assert_eq!(names.program(name).text, name);
         }
-        assert_eq!(names.program("1001"), "L1001");
-        assert_eq!(names.program("pocket"), "POCKET");
-        assert_eq!(names.program("B 7"), "B_7");
-        assert_eq!(names.program("7-B"), "P_7_B");
-        assert_eq!(names.label("120"), "L_120");
+        assert_eq!(names.program("1001").text, "L1001");
+        assert_eq!(names.program("pocket").text, "POCKET");
+        assert_eq!(names.program("B 7").text, "B_7");
+        assert_eq!(names.program("7-B").text, "P_7_B");
+        assert_eq!(names.label("120").text, "L_120");
     }
 
     #[test]
     fn two_names_never_become_one() {
         let mut names = Names::default();
-        assert_eq!(names.program("L12"), "L12");
-        assert_eq!(names.program("12"), "L12_2");
-        assert_eq!(names.program("0012"), "L12_3");
-        assert_eq!(names.program("12"), "L12_2");
+        assert_eq!(names.program("L12").text, "L12");
+        assert_eq!(names.program("12").text, "L12_2");
+        assert_eq!(names.program("0012").text, "L12_3");
+        assert_eq!(names.program("12").text, "L12_2");
         // A label may have the name of a program.
-        assert_eq!(names.label("POCKET"), "POCKET");
-        assert_eq!(names.program("POCKET"), "POCKET");
+        assert_eq!(names.label("POCKET").text, "POCKET");
+        assert_eq!(names.program("POCKET").text, "POCKET");
     }
 }

@@ -93,7 +93,7 @@ impl Writer {
             Op::Message(text) => self.message(text, sink),
             Op::Call(call) => self.call(call, span, sink),
             Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
-            Op::Label(name) => self.label(name, sink),
+            Op::Label(name) => self.label(name, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
             Op::Goto(_) => Err(cannot("a jump")),

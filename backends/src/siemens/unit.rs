@@ -7,6 +7,7 @@ use ncc_ir::program::{Call, Control, Op, Procedure, RepeatBlocks, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
+use super::names::Name;
 use super::{Modal, Sink, Standing, Writer};
 use crate::Head;
 use crate::word::block::{Need, Part, Rank};
@@ -57,7 +58,7 @@ impl Writer {
         if !p.parameters.is_empty() {
             return sink.report(cannot("a subprogram with parameters"), span);
         }
-        let name = self.names.program(&p.name);
+        let name = self.program_name(&p.name, span, &mut sink);
         self.header(&name, "SPF", sink.out);
         if let Some(title) = &p.title {
             self.words.comment_line(title, sink.out);
@@ -82,6 +83,16 @@ impl Writer {
         self.words.finish(out, diags);
     }
 
+    fn program_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {
+        let name = self.names.program(name);
+        tell(name, span, sink)
+    }
+
+    fn label_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {
+        let name = self.names.label(name);
+        tell(name, span, sink)
+    }
+
     pub(super) fn call(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         if !call.arguments.is_empty() {
             return Err(cannot("a call with arguments"));
@@ -101,7 +112,7 @@ impl Writer {
         } else {
             self.restate_feed(span, sink)?;
         }
-        let name = self.names.program(&call.name);
+        let name = self.program_name(&call.name, span, sink);
         self.alone(&format!("{name}{times}"), sink)?;
         self.forget();
         Ok(())
@@ -125,9 +136,9 @@ impl Writer {
         (self.standing.feed, self.standing.feed_said) = (None, true);
     }
 
-    pub(super) fn label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
+    pub(super) fn label(&mut self, name: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
-        let name = self.names.label(name);
+        let name = self.label_name(name, span, sink);
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
             self.words.split = true;
@@ -148,8 +159,8 @@ impl Writer {
         }
         self.restate_feed(span, sink)?;
         self.pay_call(sink)?;
-        let from = self.names.label(&repeat.from);
-        let to = repeat.to.as_ref().map(|to| format!(" {}", self.names.label(to)));
+        let from = self.label_name(&repeat.from, span, sink);
+        let to = repeat.to.as_ref().map(|to| format!(" {}", self.label_name(to, span, sink)));
         self.repeat(&from, &to.unwrap_or_default(), repeat.times, sink)
     }
 
@@ -185,7 +196,7 @@ impl Writer {
                 break name;
             }
         };
-        self.label(&name, sink)?;
+        self.label(&name, stmt.span, sink)?;
         self.words.flush(false, sink);
         self.body(body, sink);
         match times {
@@ -193,4 +204,12 @@ impl Writer {
             times => self.repeat(&name, "", times - 1, sink),
         }
     }
+}
+
+/// Tells that a name is not the program's own.
+fn tell(name: Name, span: Span, sink: &mut Sink) -> String {
+    if let Some(fault) = name.changed {
+        sink.report(fault, span);
+    }
+    name.text
 }

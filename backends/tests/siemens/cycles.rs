@@ -201,3 +201,17 @@ fn a_first_peck_is_reckoned_in_the_programs_own_unit() {
     let (text, _) = told(&lines(vec![rapid("X0."), start(cycle)]));
     assert_eq!(text, "G0 X0\nMCALL CYCLE83(5,-0.5,2.5,-25,,,10,0,,,1,1,,,,,0.6)\n");
 }
+
+#[test]
+fn a_feed_goes_with_its_move_and_not_before_the_end_of_a_cycle() {
+    let stmts = blocks(vec![
+        vec![rapid("X0.")],
+        vec![drill()],
+        vec![hole("X1.")],
+        vec![Op::EndCycle, Op::SetFeedRate(mm("200.")), feed("X2.")],
+        vec![drill()],
+        vec![Op::SetFeedRate(mm("90.")), feed("X3.")],
+    ]);
+    let call = "MCALL CYCLE81(10,3,0,-6)\n";
+    assert_eq!(text(&stmts).0, format!("G0 X0\n{call}X1\nMCALL\nG1 X2 F200\n{call}MCALL\nG1 X3 F90\n"));
+}

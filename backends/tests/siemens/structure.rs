@@ -52,6 +52,8 @@ fn labels_and_repetitions() {
         vec![repeat("PASS", Some("120"), 1)],
     ]);
     assert_eq!(text(&stmts).0, "G0 X0\nPASS: G90 G1 X30\nL_120:\nREPEAT PASS P=4\nREPEAT PASS L_120\n");
+    let changed = Fault::NameChanged { from: "120".into(), to: "L_120".into() };
+    assert_eq!(told(&stmts).1, [changed]);
     let body = lines(vec![feed("X1."), rapid("X0.")]);
     let control = Op::Control(Box::new(Control::Repeat { times: Expr::int(3), body }));
     assert_eq!(text(&lines(vec![control])).0, "AGAIN_1:\nG90 G1 X1\nG0 X0\nREPEAT AGAIN_1 P=2\n");

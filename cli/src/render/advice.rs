@@ -118,6 +118,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }
         | Fault::NameAsComment
+        | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),

@@ -194,6 +194,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::NumbersLeftOut { count } => {
             format!("{count} block {} left out", plural(u64::from(*count), "number"))
         }
+        Fault::NameChanged { from, to } => format!("the name {}, as {}", plain(from), plain(to)),
         Fault::NameAsComment => "the program's name, as a comment".to_owned(),
         Fault::BlockSplit => "blocks, as several".to_owned(),
         Fault::MessageDropped => "messages to the operator".to_owned(),
