@@ -13,7 +13,8 @@ const EXACT: u8 = 9;
 pub(super) fn rounded(nanos: Nanos, decimals: u8, unit: Unit) -> Num {
     match unit {
         Unit::Inch => {
-            let decimals = decimals.min(EXACT);
+            // A literal of nine digits after the point is finer than a nano, and none.
+            let decimals = decimals.min(EXACT - 1);
             let value = i128::from(nanos) * 10 * i128::from(POW10[decimals as usize]);
             let inch = 254 * 1_000_000_000_i128;
             let half = if value < 0 { -inch / 2 } else { inch / 2 };

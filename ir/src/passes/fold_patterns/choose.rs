@@ -1,9 +1,11 @@
 //! Which pattern a stretch of holes is, and how it is written.
 
+use std::ops::Range;
+
 use super::circle::{self, Circle, Wanted};
 use super::decimal::Decimal;
-use super::rows::{self, Rows, Step};
-use super::{Hole, here, may_lead_in, plane};
+use super::rows::{self, Line, Rows, Start, Step};
+use super::{Hole, Spot, here, may_lead_in, plane, stand};
 use crate::canon::{Axis, Plane};
 use crate::cycle::{Along, First, Pattern, Row, absolute};
 use crate::num::{Nanos, ONE, POW10, Unit};
@@ -20,11 +22,9 @@ pub(super) struct Stretch<'t> {
     unit: Unit,
     /// Nanos of a millimetre in the program's unit.
     of_unit: f64,
-    /// Places in the unit of the program.
-    at: Vec<[f64; 2]>,
-    /// Half a unit of the last digit, in that unit.
-    half: f64,
-    half_nanos: Nanos,
+    spots: Vec<Spot>,
+    /// Half a unit of the last digit of each hole's words, nanos.
+    half: Vec<[u64; 2]>,
     /// Most digits after the point of a parameter.
     most: u8,
     /// Whether the cycle can be called up again at another place.
@@ -43,7 +43,7 @@ pub(super) struct Found {
 
 #[derive(Clone, Copy, Debug)]
 enum Shape {
-    Line(usize, Step),
+    Line(Line),
     Grid(Rows),
     Circle(Circle),
 }
@@ -51,7 +51,7 @@ enum Shape {
 impl Shape {
     fn count(&self) -> usize {
         match self {
-            Shape::Line(count, _) => *count,
+            Shape::Line(line) => line.count,
             Shape::Grid(grid) => grid.counts[0] * grid.counts[1],
             Shape::Circle(circle) => circle.count,
         }
@@ -63,18 +63,21 @@ impl<'t> Stretch<'t> {
         let unit = walk.unit();
         let inch = unit == Unit::Inch;
         let most = target.decimals_in(unit).min(9);
-        let finest = holes.iter().map(|h| h.digits).max().unwrap_or(0);
-        let digits = finest.max(most.min(if inch { 4 } else { 3 })).min(9);
         let of_unit = if inch { 25.4 } else { 1.0 } * ONE as f64;
-        let last = POW10[9 - digits as usize];
+        let least = most.min(if inch { 4 } else { 3 });
+        let digits = |own: u8| own.max(least).min(9) as usize;
+        let nanos = |own: u8| POW10[9 - digits(own)].unsigned_abs() * if inch { 254 } else { 10 } / 20;
+        let spot = |hole: &Hole| Spot {
+            at: hole.at.map(|v| v as f64 / of_unit),
+            half: hole.digits.map(|own| 0.5 / POW10[digits(own)] as f64),
+        };
         Stretch {
-            at: holes.iter().map(|h| h.at.map(|v| v as f64 / of_unit)).collect(),
+            spots: holes.iter().map(spot).collect(),
+            half: holes.iter().map(|hole| hole.digits.map(nanos)).collect(),
             holes,
             target,
             unit,
             of_unit,
-            half: 0.5 / POW10[digits as usize] as f64,
-            half_nanos: if inch { last * 127 / 10 } else { last / 2 },
             most,
             leads_in,
         }
@@ -84,21 +87,22 @@ impl<'t> Stretch<'t> {
     /// digits.
     pub(super) fn best(&self, next: usize, walk: &Walk) -> Option<Found> {
         let all = self.shapes(next, walk).into_iter().filter_map(|shape| {
-            let holes = &self.holes[next..next + shape.count()];
-            let digits = self.digits(&shape, holes);
-            if !self.is_worth(&shape, digits, holes) {
+            let holes = next..next + shape.count();
+            let digits = self.digits(&shape, self.holes[next].at, walk);
+            if !self.is_worth(&shape, digits, &self.holes[holes.clone()]) {
                 return None;
             }
-            let pattern = self.pattern(&shape, holes, walk);
-            self.stands(&pattern, holes, walk).then(|| Found { count: holes.len(), pattern, digits })
+            let pattern = self.pattern(&shape, self.holes[next].at, walk);
+            self.stands(&pattern, holes, walk).then_some(Found { count: shape.count(), pattern, digits })
         });
         all.max_by_key(|found| (found.count, std::cmp::Reverse(found.digits)))
     }
 
-    /// The whole stretch as a list, in which there is nothing else.
-    pub(super) fn list(&self, walk: &Walk) -> Option<Found> {
+    /// Holes in which there is nothing else, as a list.
+    pub(super) fn list(&self, holes: Range<usize>, walk: &Walk) -> Option<Found> {
         let (first, second, _) = plane(walk)?.axes();
-        if self.holes.len() > self.target.caps.list_pattern as usize {
+        let holes = &self.holes[holes];
+        if holes.len() < 3 || holes.len() > self.target.caps.list_pattern as usize {
             return None;
         }
         let point = |hole: &Hole| {
@@ -108,62 +112,75 @@ impl<'t> Stretch<'t> {
             to.set(second, y);
             to
         };
-        let pattern = Pattern::List(self.holes.iter().map(point).collect());
-        Some(Found { count: self.holes.len(), pattern, digits: u32::MAX })
+        let pattern = Pattern::List(holes.iter().map(point).collect());
+        Some(Found { count: holes.len(), pattern, digits: u32::MAX })
     }
 
     fn shapes(&self, next: usize, walk: &Walk) -> Vec<Shape> {
         let caps = &self.target.caps;
-        let at = &self.at[next..];
-        let (half, most) = (self.half, self.most);
+        let spots = &self.spots[next..];
+        let here = here(walk).map(|here| here.map(|v| v as f64 / self.of_unit));
         let limit = usize::try_from(caps.grid_pattern).unwrap_or(usize::MAX);
         let mut all = Vec::new();
         if caps.line_pattern || limit > 0 {
-            all.extend(rows::line(at, half, most).map(|(count, step)| Shape::Line(count, step)));
+            all.extend(rows::lines(spots, here, self.most).into_iter().map(Shape::Line));
         }
-        all.extend(rows::grid(at, half, most, limit).into_iter().map(Shape::Grid));
+        all.extend(rows::grids(spots, here, self.most, limit).into_iter().map(Shape::Grid));
         if caps.circle_pattern {
-            let wanted = Wanted {
-                half,
-                most,
-                here: here(walk).map(|here| here.map(|v| v as f64 / self.of_unit)),
-                polar: caps.circle_polar,
-                only_here: caps.circle_centre_at_zero_only,
-            };
-            all.extend(circle::circle(at, &wanted).map(Shape::Circle));
+            let only_here = caps.circle_centre_at_zero_only;
+            let wanted = Wanted { most: self.most, here, polar: caps.circle_polar, only_here };
+            all.extend(circle::circle(spots, &wanted).map(Shape::Circle));
         }
         all
     }
 
     /// How many digits a pattern takes to write.
-    fn digits(&self, shape: &Shape, holes: &[Hole]) -> u32 {
+    fn digits(&self, shape: &Shape, begin: [Nanos; 2], walk: &Walk) -> u32 {
+        let sum = |place: &[Decimal; 2]| place[0].digits() + place[1].digits();
+        let start = |start: &Start| match start {
+            Start::First if here(walk) == Some(begin) => 0,
+            Start::First => self.written(begin),
+            Start::Here => 0,
+            Start::At(place) => sum(place),
+        };
         match shape {
-            Shape::Line(_, step) => step.digits() + 1,
-            Shape::Grid(grid) => grid.columns.digits() + grid.rows.digits() + 2,
+            Shape::Line(line) => {
+                let offset = if line.offset == Decimal::ZERO { 0 } else { line.offset.digits() };
+                start(&line.start) + offset + line.step.digits() + 1
+            }
+            Shape::Grid(grid) => start(&grid.start) + grid.columns.digits() + grid.rows.digits() + 2,
             Shape::Circle(circle) => {
                 let first = match circle.first {
-                    circle::First::AsWritten => self.written(holes[0].at),
+                    circle::First::AsWritten => self.written(begin),
                     circle::First::Polar { radius, angle } => radius.digits() + angle.digits(),
                 };
-                circle.centre.iter().map(|c| c.digits()).sum::<u32>() + first + circle.step.digits()
+                let centre = if self.stands_at(&circle.centre, walk) { 0 } else { sum(&circle.centre) };
+                centre + first + circle.step.digits()
             }
         }
     }
 
+    /// Whether the tool stands there.
+    fn stands_at(&self, place: &[Decimal; 2], walk: &Walk) -> bool {
+        let at = place.map(|c| walk.at.nanos(&c.literal(self.unit).into()));
+        here(walk).is_some_and(|here| at == here.map(Some))
+    }
+
     /// Digits of a place as it is written.
     fn written(&self, at: [Nanos; 2]) -> u32 {
-        let digits = |v: Nanos| exact(v, self.unit).mantissa.unsigned_abs().checked_ilog10().map_or(1, |n| n + 1);
+        let digits =
+            |v: Nanos| exact(v, self.unit).mantissa.unsigned_abs().checked_ilog10().map_or(1, |n| n + 1);
         at.into_iter().map(digits).sum()
     }
 
     /// Whether a pattern says more than its holes do.
     fn is_worth(&self, shape: &Shape, digits: u32, holes: &[Hole]) -> bool {
-        let (sure, from) = match shape {
-            Shape::Line(_, step) => (step.along.is_ok(), 1),
-            Shape::Grid(grid) => (grid.columns.along.is_ok() && grid.rows.along.is_ok(), 1),
-            Shape::Circle(circle) => (circle.count > 4, 0),
+        let sure = match shape {
+            Shape::Line(line) => line.step.along.is_ok(),
+            Shape::Grid(grid) => grid.columns.along.is_ok() && grid.rows.along.is_ok(),
+            Shape::Circle(circle) => circle.count > 4,
         };
-        let words: u32 = holes[from..].iter().map(|hole| self.written(hole.at)).sum();
+        let words: u32 = holes.iter().map(|hole| self.written(hole.at)).sum();
         sure || digits <= words + holes.len() as u32
     }
 
@@ -172,36 +189,40 @@ impl<'t> Stretch<'t> {
     }
 
     /// A pattern as a statement; it begins where the tool stands, if it can.
-    fn pattern(&self, shape: &Shape, holes: &[Hole], walk: &Walk) -> Pattern {
+    fn pattern(&self, shape: &Shape, begin: [Nanos; 2], walk: &Walk) -> Pattern {
         let caps = &self.target.caps;
         let (first, second, _) = plane(walk).unwrap_or(Plane::Xy).axes();
-        let here = here(walk);
-        let begin = holes[0].at;
-        let start = (caps.pattern_start && here != Some(begin)).then(|| self.place(begin));
+        let start = |start: &Start| match start {
+            Start::First => (caps.pattern_start && here(walk) != Some(begin)).then(|| self.place(begin)),
+            Start::Here => None,
+            Start::At(place) => Some(place.map(|c| absolute(c.literal(self.unit)))),
+        };
         match shape {
-            Shape::Line(count, step) if caps.line_pattern => Pattern::Line {
-                start,
-                angle: step.degrees().literal(Unit::Degree).into(),
-                offset: Decimal::ZERO.literal(self.unit).into(),
-                pitch: step.pitch.positive().literal(self.unit).into(),
-                count: whole(*count),
+            Shape::Line(line) if caps.line_pattern => Pattern::Line {
+                start: start(&line.start),
+                angle: line.step.degrees().literal(Unit::Degree).into(),
+                offset: line.offset.literal(self.unit).into(),
+                pitch: line.step.pitch.positive().literal(self.unit).into(),
+                count: whole(line.count),
             },
-            Shape::Line(count, step) => {
+            Shape::Line(line) => {
+                let step = line.step;
                 let across = Step { along: step.along.map(|side| 1 - side), pitch: Decimal::ZERO };
-                let (along, across) = (self.row(*step, *count, first, second), self.row(across, 1, first, second));
+                let (along, across) =
+                    (self.row(step, line.count, first, second), self.row(across, 1, first, second));
                 let (columns, rows) = if step.along == Ok(1) { (across, along) } else { (along, across) };
-                Pattern::Grid { start, columns, rows, serpentine: caps.grid_serpentine.unwrap_or(false) }
+                let serpentine = caps.grid_serpentine.unwrap_or(false);
+                Pattern::Grid { start: start(&line.start), columns, rows, serpentine }
             }
             Shape::Grid(grid) => Pattern::Grid {
-                start,
+                start: start(&grid.start),
                 columns: self.row(grid.columns, grid.counts[0], first, second),
                 rows: self.row(grid.rows, grid.counts[1], first, second),
                 serpentine: grid.serpentine,
             },
             Shape::Circle(circle) => {
                 let centre = circle.centre.map(|c| absolute(c.literal(self.unit)));
-                let at = centre.each_ref().map(|c| walk.at.nanos(&c.value));
-                let stands = here.is_some_and(|here| at == here.map(Some));
+                let stands = self.stands_at(&circle.centre, walk);
                 Pattern::Circle {
                     centre: (!stands).then_some(centre),
                     first: match circle.first {
@@ -228,22 +249,28 @@ impl<'t> Stretch<'t> {
     }
 
     /// Whether the target has words for a pattern, and it makes every hole where it is.
-    fn stands(&self, pattern: &Pattern, holes: &[Hole], walk: &Walk) -> bool {
+    fn stands(&self, pattern: &Pattern, holes: Range<usize>, walk: &Walk) -> bool {
         let mut there = walk.clone();
-        if begins_here(pattern) {
-            if here(walk) != Some(holes[0].at) && !(self.leads_in && may_lead_in(walk)) {
+        let first = &self.holes[holes.start];
+        if begins_here(pattern) && !self.begins(pattern, holes.start, walk) {
+            if !(self.leads_in && may_lead_in(walk)) {
                 return false;
             }
-            let Some((first, second, _)) = plane(walk).map(Plane::axes) else { return false };
-            there.at.position[first as usize] = Some(holes[0].at[0]);
-            there.at.position[second as usize] = Some(holes[0].at[1]);
+            stand(&mut there, first.at);
         }
         let Some(places) = there.at.positions(pattern) else { return false };
-        let near = |(place, hole): (&[Nanos; 2], &Hole)| {
-            (0..2).all(|i| place[i].abs_diff(hole.at[i]) <= self.half_nanos as u64)
+        let near = |k: usize, place: &[Nanos; 2]| {
+            (0..2).all(|i| place[i].abs_diff(self.holes[k].at[i]) <= self.half[k][i])
         };
-        let same = places.len() == holes.len() && places.iter().zip(holes).all(near);
+        let same = places.len() == holes.len() && holes.zip(&places).all(|(k, place)| near(k, place));
         same && sayable(&there, pattern, self.target)
+    }
+
+    /// Whether a pattern that begins where the tool stands begins with this hole.
+    pub(super) fn begins(&self, pattern: &Pattern, hole: usize, walk: &Walk) -> bool {
+        let places = walk.at.positions(pattern);
+        let Some(first) = places.as_ref().and_then(|places| places.first()) else { return false };
+        (0..2).all(|i| first[i].abs_diff(self.holes[hole].at[i]) <= self.half[hole][i])
     }
 }
 

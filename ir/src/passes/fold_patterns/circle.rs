@@ -1,5 +1,6 @@
 //! Bolt circles: holes at equal angles about a centre.
 
+use super::Spot;
 use super::decimal::{Decimal, Range};
 use crate::num::POW10;
 
@@ -28,8 +29,6 @@ pub(super) enum First {
 /// What is asked of a circle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wanted {
-    /// Half a unit of the last digit.
-    pub(super) half: f64,
     /// Most digits after the point.
     pub(super) most: u8,
     /// A centre to try first: where the tool stands.
@@ -41,10 +40,11 @@ pub(super) struct Wanted {
 }
 
 /// The circle of most holes from the first on.
-pub(super) fn circle(at: &[[f64; 2]], wanted: &Wanted) -> Option<Circle> {
-    let mut count = rough(at, wanted.half);
+pub(super) fn circle(spots: &[Spot], wanted: &Wanted) -> Option<Circle> {
+    let at: Vec<[f64; 2]> = spots.iter().map(|s| s.at).collect();
+    let mut count = rough(&at, spots.first()?.coarse());
     while count >= 3 {
-        if let Some(found) = fit(&at[..count], wanted) {
+        if let Some(found) = fit(&spots[..count], &at[..count], wanted) {
             return Some(found);
         }
         count = if count > 16 { count / 2 } else { count - 1 };
@@ -76,9 +76,8 @@ fn rough(at: &[[f64; 2]], half: f64) -> usize {
     let most = (std::f64::consts::TAU / (first.abs() - slack).max(1e-6)).floor() as usize;
     let whole = (std::f64::consts::TAU / first.abs()).round() as usize;
     let apart = |a: f64| (a + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI;
-    let fits = |k: usize| {
-        (long(chord(k)) - length).abs() <= 6.0 * half && apart(turn(k - 1) - first).abs() <= slack
-    };
+    let fits =
+        |k: usize| (long(chord(k)) - length).abs() <= 6.0 * half && apart(turn(k - 1) - first).abs() <= slack;
     let holes = 2 + (1..at.len() - 1).take_while(|k| fits(*k)).count();
     holes.min(most.max(3)).min(whole.max(3))
 }
@@ -101,17 +100,14 @@ fn middle(at: &[[f64; 2]]) -> Option<([f64; 2], f64)> {
     if determinant.abs() < 1e-12 {
         return None;
     }
-    let centre = [
-        mean[0] + (xr * yy - yr * xy) / determinant,
-        mean[1] + (yr * xx - xr * xy) / determinant,
-    ];
+    let centre = [mean[0] + (xr * yy - yr * xy) / determinant, mean[1] + (yr * xx - xr * xy) / determinant];
     let radius = at.iter().map(|p| (p[0] - centre[0]).hypot(p[1] - centre[1])).sum::<f64>() / n;
     (radius.is_finite() && radius < 1e6).then_some((centre, radius))
 }
 
-fn fit(at: &[[f64; 2]], wanted: &Wanted) -> Option<Circle> {
+fn fit(spots: &[Spot], at: &[[f64; 2]], wanted: &Wanted) -> Option<Circle> {
     let (centre, radius) = middle(at)?;
-    let half = wanted.half;
+    let half = spots[0].coarse();
     // The flatter the arc, the less is known of its centre.
     let last = at[at.len() - 1];
     let chord = (last[0] - at[0][0]).hypot(last[1] - at[0][1]);
@@ -125,7 +121,7 @@ fn fit(at: &[[f64; 2]], wanted: &Wanted) -> Option<Circle> {
     let near = |c: [f64; 2]| (0..2).all(|i| (c[i] - centre[i]).abs() <= slack);
     if let Some(here) = wanted.here.filter(|here| near(*here)) {
         let exactly = here.map(|v| Decimal::near(v, 9));
-        if let Some(found) = about(at, exactly, wanted) {
+        if let Some(found) = about(spots, exactly, wanted) {
             return Some(found);
         }
     }
@@ -142,7 +138,7 @@ fn fit(at: &[[f64; 2]], wanted: &Wanted) -> Option<Circle> {
         }
         if sides[0].saturating_mul(sides[1]) > MOST_CENTRES {
             let nearest = centre.map(|v| Decimal::near(v, wanted.most));
-            return about(at, nearest, wanted);
+            return about(spots, nearest, wanted);
         }
         let mut tried: Vec<[i64; 2]> =
             (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y])).collect();
@@ -150,7 +146,7 @@ fn fit(at: &[[f64; 2]], wanted: &Wanted) -> Option<Circle> {
         tried.sort_by(|a, b| off(a).total_cmp(&off(b)));
         for candidate in tried {
             let candidate = candidate.map(|v| Decimal::near(v as f64 / unit, scale));
-            if let Some(found) = about(at, candidate, wanted) {
+            if let Some(found) = about(spots, candidate, wanted) {
                 return Some(found);
             }
         }
@@ -170,46 +166,46 @@ fn between(a: [f64; 2], b: [f64; 2], centre: [f64; 2]) -> f64 {
 }
 
 /// The simplest circle about a centre.
-fn about(at: &[[f64; 2]], centre: [Decimal; 2], wanted: &Wanted) -> Option<Circle> {
-    let half = wanted.half;
+fn about(spots: &[Spot], centre: [Decimal; 2], wanted: &Wanted) -> Option<Circle> {
     let c = centre.map(Decimal::value);
-    let radii: Vec<f64> = at.iter().map(|p| (p[0] - c[0]).hypot(p[1] - c[1])).collect();
-    let slack = half * std::f64::consts::SQRT_2;
+    let radii: Vec<f64> = spots.iter().map(|s| (s.at[0] - c[0]).hypot(s.at[1] - c[1])).collect();
+    let slack = |spot: &Spot| spot.half[0].hypot(spot.half[1]);
     let mut radius = Range::ALL;
-    for r in &radii {
-        radius.keep(*r, slack);
+    for (r, spot) in radii.iter().zip(spots) {
+        radius.keep(*r, slack(spot));
     }
-    if radius.is_empty() || radius.low <= 4.0 * half {
+    if radius.is_empty() || radius.low <= 8.0 * spots[0].coarse() {
         return None;
     }
-    let of_angle = (slack / radius.low).min(1.0).asin().to_degrees();
+    let of_angle = |spot: &Spot| (slack(spot) / radius.low).min(1.0).asin().to_degrees();
     // Degrees from the first hole, unrolled.
     let mut turned = vec![0.0];
-    for pair in at.windows(2) {
-        turned.push(turned[turned.len() - 1] + between(pair[0], pair[1], c).to_degrees());
+    for pair in spots.windows(2) {
+        turned.push(turned[turned.len() - 1] + between(pair[0].at, pair[1].at, c).to_degrees());
     }
     let mut steps = Range::ALL;
     for (k, angle) in turned.iter().enumerate().skip(1) {
-        steps.keep(angle / k as f64, 2.0 * of_angle / k as f64);
+        steps.keep(angle / k as f64, (of_angle(&spots[0]) + of_angle(&spots[k])) / k as f64);
     }
     if steps.is_empty() {
         return None;
     }
-    let count = at.len();
+    let count = spots.len();
     let whole = 360.0 / count as f64 * turned[count - 1].signum();
     let mut tried: Vec<Decimal> = Vec::new();
     if steps.low <= whole && whole <= steps.high {
         tried.push(Decimal::near(whole, wanted.most));
     }
     tried.extend(steps.decimals(wanted.most));
-    let start = (at[0][1] - c[1]).atan2(at[0][0] - c[0]).to_degrees();
+    let first = spots[0].at;
+    let start = (first[1] - c[1]).atan2(first[0] - c[0]).to_degrees();
     tried.into_iter().find_map(|step| {
         if step.mantissa == 0 {
             return None;
         }
-        let written = (wanted.polar != Some(true) && fits(at, c, radii[0], start, step, half))
-            .then_some(First::AsWritten);
-        let polar = || polar(at, c, radius, (start, &turned), step, wanted);
+        let written =
+            (wanted.polar != Some(true) && fits(spots, c, radii[0], start, step)).then_some(First::AsWritten);
+        let polar = || polar(spots, c, radius, (start, &turned), step, wanted);
         let first = match wanted.polar {
             Some(false) => written,
             Some(true) => polar(),
@@ -221,17 +217,17 @@ fn about(at: &[[f64; 2]], centre: [Decimal; 2], wanted: &Wanted) -> Option<Circl
 
 /// The simplest radius and angle of the first hole.
 fn polar(
-    at: &[[f64; 2]],
+    spots: &[Spot],
     c: [f64; 2],
     radius: Range,
     (start, turned): (f64, &[f64]),
     step: Decimal,
     wanted: &Wanted,
 ) -> Option<First> {
-    let slack = wanted.half * std::f64::consts::SQRT_2;
     let mut angles = Range::ALL;
     for (k, angle) in turned.iter().enumerate() {
         let off = start + angle - k as f64 * step.value();
+        let slack = spots[k].half[0].hypot(spots[k].half[1]);
         angles.keep(off, (slack / radius.low).min(1.0).asin().to_degrees());
     }
     let radii: Vec<Decimal> = radius.decimals(wanted.most).collect();
@@ -239,7 +235,7 @@ fn polar(
     let mut pairs: Vec<(Decimal, Decimal)> =
         radii.iter().flat_map(|r| angles.iter().map(move |a| (*r, *a))).collect();
     pairs.sort_by_key(|(r, a)| r.scale + a.scale);
-    let found = pairs.into_iter().find(|(r, a)| fits(at, c, r.value(), a.value(), step, wanted.half));
+    let found = pairs.into_iter().find(|(r, a)| fits(spots, c, r.value(), a.value(), step));
     found.map(|(radius, angle)| {
         let round = 360 * POW10[angle.scale as usize];
         First::Polar { radius, angle: Decimal { mantissa: angle.mantissa.rem_euclid(round), ..angle } }
@@ -247,9 +243,9 @@ fn polar(
 }
 
 /// Whether every hole is where it should be.
-fn fits(at: &[[f64; 2]], c: [f64; 2], radius: f64, start: f64, step: Decimal, half: f64) -> bool {
-    at.iter().enumerate().all(|(k, p)| {
+fn fits(spots: &[Spot], c: [f64; 2], radius: f64, start: f64, step: Decimal) -> bool {
+    spots.iter().enumerate().all(|(k, spot)| {
         let (sin, cos) = (start + k as f64 * step.value()).to_radians().sin_cos();
-        (c[0] + radius * cos - p[0]).abs() <= half + 1e-9 && (c[1] + radius * sin - p[1]).abs() <= half + 1e-9
+        spot.is_at([c[0] + radius * cos, c[1] + radius * sin])
     })
 }

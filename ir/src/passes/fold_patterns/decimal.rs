@@ -63,6 +63,17 @@ impl Range {
         self.high = self.high.min(value + by);
     }
 
+    /// Keeps what lies between two values as well.
+    pub(super) fn between(&mut self, a: f64, b: f64) {
+        self.low = self.low.max(a.min(b));
+        self.high = self.high.min(a.max(b));
+    }
+
+    /// The same range elsewhere.
+    pub(super) fn shifted(self, by: f64) -> Range {
+        Range { low: self.low + by, high: self.high + by }
+    }
+
     pub(super) fn is_empty(self) -> bool {
         self.low > self.high
     }

@@ -2,15 +2,15 @@
 //!
 //! A stretch of holes that stand one after another under one cycle is looked through for the longest
 //! patterns that the target has words for. A pattern is taken only if its every hole, computed by
-//! the same rule that executes it, is within half a unit of the last digit that the program writes:
-//! the finest digit of the stretch, and no coarser than what the target writes or a thousandth of a
-//! millimetre (a tenth of a thousandth of an inch). So 15.588 is a point of the circle of radius 18.
-//! The order of the holes stays.
+//! the same rule that executes it, is within half a unit of the last digit that the program writes
+//! of each coordinate; zeros at the end are often left out, so that this is at most half of a
+//! thousandth of a millimetre (of a tenth of a thousandth of an inch), or of what the target writes
+//! if that is coarser. So 15.588 is a point of the circle of radius 18. The order of the holes stays.
 //!
 //! Parameters are the simplest decimals with which that holds. Three or four holes are nearly always
 //! on some circle or other; such a circle, and a line or grid at an angle, is taken only if it takes
 //! no more digits to write than its holes. What is in no pattern stays, or becomes a list where the
-//! target has words for one and a whole stretch of three holes or more fits in.
+//! target has words for one that takes as many holes, from three on.
 //!
 //! Where a target's patterns begin where the tool stands, a traverse to the first hole is written
 //! before the cycle: the same move that the cycle would make.
@@ -52,19 +52,24 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
     }
     let input = std::mem::take(body);
     let mut made = Rebuild::new(input.len());
+    // Where the tool stands in what has been made: off by less than half a unit after a pattern.
+    let mut now = walk.clone();
     let mut rest = &input[..];
     while let Some((stmt, others)) = rest.split_first() {
         walk.enter(stmt.skip);
         let holes = stretch(rest, walk);
+        now.enter(stmt.skip);
         if holes.len() < 3 {
             walk.step(stmt);
+            now.step(stmt);
             made.push(stmt.clone());
             rest = others;
             continue;
         }
         let (stmts, others) = rest.split_at(holes.len());
         let stretch = Stretch::new(holes, walk, target, only_holes_since(&made));
-        fold(stmts, &stretch, walk, &mut made, diags);
+        fold(stmts, &stretch, &mut now, &mut made, diags);
+        stmts.iter().for_each(|stmt| walk.step(stmt));
         rest = others;
     }
     *body = made.out;
@@ -75,8 +80,27 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
 struct Hole {
     /// Its place in the plane.
     at: [Nanos; 2],
-    /// Digits after the point of its words.
-    digits: u8,
+    /// Digits after the point of its words; 0 where it has none.
+    digits: [u8; 2],
+}
+
+/// A hole's place in the unit of the program, and half a unit of the last digit of each word.
+#[derive(Clone, Copy, Debug)]
+struct Spot {
+    at: [f64; 2],
+    half: [f64; 2],
+}
+
+impl Spot {
+    /// Whether that is the same place, as far as it is written.
+    fn is_at(&self, place: [f64; 2]) -> bool {
+        (0..2).all(|i| (place[i] - self.at[i]).abs() <= self.half[i] + 1e-9)
+    }
+
+    /// The greater half unit.
+    fn coarse(&self) -> f64 {
+        self.half[0].max(self.half[1])
+    }
 }
 
 /// The plane of the cycle in force.
@@ -112,8 +136,9 @@ fn stretch(stmts: &[Stmt], walk: &Walk) -> Vec<Hole> {
         }
         let to = inner.target(&m.to);
         let (Some(x), Some(y)) = (to[first as usize], to[second as usize]) else { break };
-        let literals = m.to.axes.iter().flatten().filter_map(|word| word.value.literal());
-        let digits = literals.map(|n| n.trimmed().scale).max().unwrap_or(0);
+        let scale = |axis| m.to.get(axis).and_then(|word| word.value.literal()).map(|n| n.trimmed().scale);
+        let last = holes.last().map_or([0, 0], |hole: &Hole| hole.digits);
+        let digits = [scale(first).unwrap_or(last[0]), scale(second).unwrap_or(last[1])];
         holes.push(Hole { at: [x, y], digits });
         inner.apply(&stmt.op);
     }
@@ -121,78 +146,108 @@ fn stretch(stmts: &[Stmt], walk: &Walk) -> Vec<Hole> {
 }
 
 /// Passes a stretch of holes on, folded.
-fn fold(stmts: &[Stmt], stretch: &Stretch, walk: &mut Walk, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
-    let plan = plan(stmts, stretch, walk);
+fn fold(
+    stmts: &[Stmt],
+    stretch: &Stretch<'_>,
+    now: &mut Walk,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
     let mut next = 0;
-    for (at, found) in plan {
+    for (at, found) in plan(stmts, stretch, now) {
         for stmt in &stmts[next..at] {
-            walk.step(stmt);
+            now.step(stmt);
             made.push(stmt.clone());
         }
         next = at + found.count;
-        put(&stmts[at..next], at, &found, stretch, walk, made, diags);
+        put(&stmts[at], &found, stretch, at, now, made, diags);
+        pass(now, &found.pattern, stretch, at);
     }
     for stmt in &stmts[next..] {
-        walk.step(stmt);
+        now.step(stmt);
         made.push(stmt.clone());
     }
 }
 
 /// Which patterns begin at which holes.
-fn plan(stmts: &[Stmt], stretch: &Stretch, walk: &Walk) -> Vec<(usize, Found)> {
+fn plan(stmts: &[Stmt], stretch: &Stretch<'_>, now: &Walk) -> Vec<(usize, Found)> {
     let mut plan = Vec::new();
-    let mut walk = walk.clone();
+    let mut now = now.clone();
     let mut at = 0;
     while at < stmts.len() {
-        let found = stretch.best(at, &walk).filter(|found| {
+        let found = stretch.best(at, &now).filter(|found| {
             // A longer one that begins among the next holes is not broken up.
-            let mut inner = walk.clone();
+            let mut inner = now.clone();
             (1..found.count.min(3)).all(|ahead| {
                 inner.step(&stmts[at + ahead - 1]);
                 let later = stretch.best(at + ahead, &inner);
                 later.is_none_or(|later| later.count <= found.count + ahead)
             })
         });
-        let count = found.as_ref().map_or(1, |found| found.count);
-        for stmt in &stmts[at..at + count] {
-            walk.step(stmt);
+        match found {
+            Some(found) => {
+                pass(&mut now, &found.pattern, stretch, at);
+                let count = found.count;
+                plan.push((at, found));
+                at += count;
+            }
+            None => {
+                now.step(&stmts[at]);
+                at += 1;
+            }
         }
-        if let Some(found) = found {
-            plan.push((at, found));
-        }
-        at += count;
     }
-    if plan.is_empty()
-        && let Some(list) = stretch.list(&walk)
-    {
-        plan.push((0, list));
+    with_lists(plan, stretch, &now)
+}
+
+/// Makes a pattern that begins with that hole.
+fn pass(now: &mut Walk, pattern: &Pattern, stretch: &Stretch<'_>, at: usize) {
+    if choose::begins_here(pattern) && !stretch.begins(pattern, at, now) {
+        stand(now, stretch.holes[at].at);
     }
+    now.at.apply(&Op::Pattern(Box::new(pattern.clone())));
+}
+
+/// Puts the tool there.
+fn stand(now: &mut Walk, at: [Nanos; 2]) {
+    if let Some((first, second, _)) = plane(now).map(Plane::axes) {
+        now.at.position[first as usize] = Some(at[0]);
+        now.at.position[second as usize] = Some(at[1]);
+    }
+}
+
+/// What is in no pattern as lists.
+fn with_lists(patterns: Vec<(usize, Found)>, stretch: &Stretch<'_>, now: &Walk) -> Vec<(usize, Found)> {
+    let mut plan = Vec::with_capacity(patterns.len());
+    let mut next = 0;
+    for (at, found) in patterns {
+        plan.extend(stretch.list(next..at, now).map(|list| (next, list)));
+        next = at + found.count;
+        plan.push((at, found));
+    }
+    plan.extend(stretch.list(next..stretch.holes.len(), now).map(|list| (next, list)));
     plan
 }
 
-/// Puts a pattern in the place of its holes, which begin with the `at`-th of the stretch.
+/// Puts a pattern in the place of its holes, of which this is the first.
 fn put(
-    stmts: &[Stmt],
-    at: usize,
+    stmt: &Stmt,
     found: &Found,
-    stretch: &Stretch,
-    walk: &mut Walk,
+    stretch: &Stretch<'_>,
+    at: usize,
+    now: &Walk,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
 ) {
-    let pattern = &found.pattern;
-    let holes = u32::try_from(stmts.len()).unwrap_or(u32::MAX);
-    let fault = Fault::PatternFolded { pattern: name(pattern).into(), holes };
-    diags.push(Diagnostic::new(fault, stmts[0].span));
+    let holes = u32::try_from(found.count).unwrap_or(u32::MAX);
+    let fault = Fault::PatternFolded { pattern: name(&found.pattern).into(), holes };
+    diags.push(Diagnostic::new(fault, stmt.span));
     let mut ops = Vec::new();
-    if choose::begins_here(pattern) && here(walk) != Some(stretch.holes[at].at) {
-        lead_in(stretch.holes[at].at, walk, made, &mut ops);
+    if choose::begins_here(&found.pattern) && !stretch.begins(&found.pattern, at, now) {
+        lead_in(stretch.holes[at].at, now, made, &mut ops);
     }
-    ops.push((false, Op::Pattern(Box::new(pattern.clone()))));
-    made.replace(stmts[0].clone(), ops);
-    for stmt in stmts {
-        walk.step(stmt);
-    }
+    ops.push((false, Op::Pattern(Box::new(found.pattern.clone()))));
+    made.replace(stmt.clone(), ops);
 }
 
 /// Whether a traverse to the first hole may stand before the cycle, which is then called up there:

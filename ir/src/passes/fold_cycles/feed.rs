@@ -1,0 +1,128 @@
+//! The feed in force, as far as the program says it.
+
+use crate::cycle::CycleKind;
+use crate::expr::Expr;
+use crate::num::Num;
+use crate::program::{Op, Stmt};
+
+/// What a statement leaves in force; `None` is not known.
+pub(in crate::passes) fn after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
+    let now = of(&stmt.op, before);
+    if stmt.skip.is_some() && now != before { None } else { now }
+}
+
+fn of(op: &Op, before: Option<Num>) -> Option<Num> {
+    match op {
+        Op::SetFeedRate(feed) => feed.literal(),
+        Op::StartCycle(cycle) => match &cycle.kind {
+            CycleKind::Bore { feed_out: Some(_), .. } => None,
+            CycleKind::Bore { .. }
+            | CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. } => cycle.feed.as_ref().map_or(before, Expr::literal),
+        },
+        Op::UseLengthUnits(_)
+        | Op::SetFeedMode(_)
+        | Op::Call(_)
+        | Op::Return
+        | Op::RepeatBlocks(_)
+        | Op::Control(_)
+        | Op::Goto(_)
+        | Op::Label(_) => None,
+        Op::Comment(_)
+        | Op::NoEffect(_)
+        | Op::Blank
+        | Op::SetDistanceMode(_)
+        | Op::SelectPlane(_)
+        | Op::SetReturnLevel(_)
+        | Op::SetOriginOffsets(_)
+        | Op::ClearFrame(_)
+        | Op::SetFrame(_)
+        | Op::UseMachineCoordinates
+        | Op::StopCutterRadiusCompensation
+        | Op::SetSpindleSpeed(_)
+        | Op::SelectTool(_)
+        | Op::ChangeTool
+        | Op::UseToolLengthOffset(_)
+        | Op::UseToolEdge { .. }
+        | Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff
+        | Op::Dwell(_)
+        | Op::StraightTraverse(_)
+        | Op::StraightFeed(_)
+        | Op::ArcFeed(_)
+        | Op::ArcForm(_)
+        | Op::Position(_)
+        | Op::Hole(_)
+        | Op::Pattern(_)
+        | Op::EndCycle
+        | Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ProgramEnd
+        | Op::Message(_)
+        | Op::Assign(..) => before,
+    }
+}
+
+/// Whether the feed in force counts before another is said.
+pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
+    for stmt in rest {
+        match &stmt.op {
+            Op::SetFeedRate(_) if stmt.skip.is_none() => return false,
+            Op::ProgramEnd if stmt.skip.is_none() => return false,
+            Op::StartCycle(cycle) if cycle.feed.is_some() && stmt.skip.is_none() => return false,
+            Op::StraightFeed(_)
+            | Op::ArcFeed(_)
+            | Op::ArcForm(_)
+            | Op::Position(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::StartCycle(_)
+            | Op::UseLengthUnits(_)
+            | Op::SetFeedMode(_)
+            | Op::Call(_)
+            | Op::Return
+            | Op::RepeatBlocks(_)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_)
+            | Op::Assign(..) => return true,
+            Op::SetFeedRate(_)
+            | Op::ProgramEnd
+            | Op::Comment(_)
+            | Op::NoEffect(_)
+            | Op::Blank
+            | Op::SetDistanceMode(_)
+            | Op::SelectPlane(_)
+            | Op::SetReturnLevel(_)
+            | Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::SetFrame(_)
+            | Op::UseMachineCoordinates
+            | Op::StopCutterRadiusCompensation
+            | Op::SetSpindleSpeed(_)
+            | Op::SelectTool(_)
+            | Op::ChangeTool
+            | Op::UseToolLengthOffset(_)
+            | Op::UseToolEdge { .. }
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::Dwell(_)
+            | Op::StraightTraverse(_)
+            | Op::EndCycle
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::Message(_) => {}
+        }
+    }
+    true
+}
