@@ -21,13 +21,11 @@ impl Writer {
     /// The control cannot say it.
     pub(super) fn statement(&mut self, stmt: &Stmt, with: usize, sink: &mut Sink) -> Result<(), Fault> {
         if self.words.preamble.is_some() {
-            let absorbed = match &stmt.op {
-                // No edge is no length, which belongs to the start.
-                Op::UseToolEdge { edge, .. } if edge.literal().is_some_and(|n| n.is_zero()) => {
-                    let none = Stmt { op: Op::UseToolLengthOffset(Expr::int(0)), ..stmt.clone() };
-                    self.words.absorb(&none, sink)?
-                }
-                _ => self.words.absorb(stmt, sink)?,
+            // No edge is no length, which belongs to the start.
+            let none = Op::UseToolLengthOffset(Expr::int(0));
+            let absorbed = match no_edge(&stmt.op) {
+                true => self.words.absorb(&Stmt { op: none, ..stmt.clone() }, sink)?,
+                false => self.words.absorb(stmt, sink)?,
             };
             if absorbed {
                 return Ok(());
@@ -129,4 +127,9 @@ impl Writer {
         let text = if text.is_empty() { String::new() } else { format!("\"{text}\"") };
         self.alone(&format!("{}({text})", row.name), sink)
     }
+}
+
+/// Whether a statement says that no edge of a tool counts.
+fn no_edge(op: &Op) -> bool {
+    matches!(op, Op::UseToolEdge { edge, .. } if edge.literal().is_some_and(|n| n.is_zero()))
 }
