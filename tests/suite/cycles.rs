@@ -157,11 +157,16 @@ fn written_out_they_make_the_cited_moves() {
     for c in cited_to_the_compiler() {
         let mut job = translate::job(c.dialect, "canon", "cited");
         let mut program = c.text.clone();
-        if c.dialect == "fanuc" {
-            // A work offset leaves open where the tool stands, so it goes to the start by a block.
-            let [x, y, z, ..] = c.start.map(|mm| mm / c.unit);
-            let head = program.find('\n').map_or(0, |end| end + 1);
-            program.insert_str(head, &format!("G90 G54 G00 X{x:.3} Y{y:.3} Z{z:.3}\n"));
+        // A work offset leaves open where the tool stands, so it goes to the start by a block.
+        let [x, y, z, ..] = c.start.map(|mm| mm / c.unit);
+        let after = |mark: &str| {
+            let at = program.find(mark).unwrap_or(0);
+            at + program[at..].find('\n').map_or(0, |end| end + 1)
+        };
+        match c.dialect {
+            "fanuc" => program.insert_str(after(""), &format!("G90 G54 G00 X{x:.3} Y{y:.3} Z{z:.3}\n")),
+            "siemens" => program.insert_str(after("G54"), &format!("G71 G90 G0 X{x:.3} Y{y:.3} Z{z:.3}\n")),
+            _ => {}
         }
         for (axis, at) in c.start.iter().enumerate().take(3) {
             job.start[axis] = Some((at * 1e9).round() as i64);

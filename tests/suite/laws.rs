@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use ncc::job::Failure;
 use ncc_dialects::builtin;
-use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::diag::{Fault, Gravity, ModeName};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::Legaliser;
 use ncc_tests::corpus::{self, DIALECTS};
@@ -238,7 +238,13 @@ fn expansion_equals_execution() {
         let mut flattened = whole.clone();
         let mut found = Vec::new();
         let clearance = Num { mantissa: 1, scale: 0, point: true, unit: Unit::Mm };
-        Legaliser::new(flat, 9, Some(clearance)).run_program(&mut flattened, &mut found);
+        let mut legaliser = Legaliser::new(flat, 9, Some(clearance));
+        legaliser.set_break_lift(Some(clearance));
+        legaliser.run_program(&mut flattened, &mut found);
+        if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
+            // It cannot be said there; what is refused is listed.
+            continue;
+        }
         expanded += usize::from(!found.is_empty());
         for seed in [0, 1, 2] {
             let mut world = plain::world(seed);

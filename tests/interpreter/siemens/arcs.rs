@@ -7,7 +7,12 @@
 pub(in crate::interpreter) type Point = (f64, f64);
 
 /// By radius: positive up to half a circle, negative beyond.
-pub(in crate::interpreter) fn by_radius(from: Point, to: Point, r: f64, clockwise: bool) -> Result<Point, &'static str> {
+pub(in crate::interpreter) fn by_radius(
+    from: Point,
+    to: Point,
+    r: f64,
+    clockwise: bool,
+) -> Result<Point, &'static str> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let chord = dx.hypot(dy);
     if chord < 1e-9 {
@@ -24,7 +29,12 @@ pub(in crate::interpreter) fn by_radius(from: Point, to: Point, r: f64, clockwis
 }
 
 /// By opening angle, degrees, and end point.
-pub(in crate::interpreter) fn by_angle(from: Point, to: Point, angle: f64, clockwise: bool) -> Result<Point, &'static str> {
+pub(in crate::interpreter) fn by_angle(
+    from: Point,
+    to: Point,
+    angle: f64,
+    clockwise: bool,
+) -> Result<Point, &'static str> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     if dx.hypot(dy) < 1e-9 {
         return Err("AR= and the end point is the start");

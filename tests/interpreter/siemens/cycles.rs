@@ -251,14 +251,14 @@ impl Control<'_> {
 
     fn positions(&self, name: &str, given: &[Argument]) -> Result<Vec<(f64, f64)>, Halt> {
         let a = Arguments { given, unit: self.unit() };
-        let (lengths, numbers, appended): (&[usize], &[usize], usize) = match name {
-            "HOLES1" => (&[0, 1, 3, 4], &[2, 5], 6),
-            "HOLES2" => (&[0, 1, 2], &[3, 4, 5], 6),
-            "CYCLE801" => (&[0, 1, 3, 4], &[2, 5, 6], 7),
+        let appended = match name {
+            "HOLES1" | "HOLES2" => 6,
+            "CYCLE801" => 7,
             _ => return self.points(&a),
         };
-        if lengths.iter().chain(numbers).any(|place| a.number(*place).is_none()) || !a.unused(appended) {
-            return self.m.halt(format!("an empty argument of {name}, or one appended"));
+        // An empty argument is zero (section 8), which is no number of holes.
+        if !a.unused(appended) {
+            return self.m.halt(format!("an appended argument of {name}"));
         }
         let number = |place: usize| a.or_zero(place);
         let length = |place: usize| a.or_zero(place) * a.unit;

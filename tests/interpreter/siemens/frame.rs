@@ -67,7 +67,12 @@ impl Frame {
 
     /// What becomes of circles in a plane: `Some(true)` if they are run the other way round, `None`
     /// if they are no circles in that plane of the machine any more.
-    pub(in crate::interpreter) fn reverses(&self, first: usize, second: usize, normal: usize) -> Option<bool> {
+    pub(in crate::interpreter) fn reverses(
+        &self,
+        first: usize,
+        second: usize,
+        normal: usize,
+    ) -> Option<bool> {
         let m = &self.m;
         let out = [first, second].iter().any(|i| m[normal][*i].abs() + m[*i][normal].abs() > 1e-12);
         let (a, b) = ((m[first][first], m[second][first]), (m[first][second], m[second][second]));
