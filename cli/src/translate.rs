@@ -86,6 +86,9 @@ impl<'j> Line<'j> {
     fn new(job: &'j Job) -> Line<'j> {
         let mut legaliser = Legaliser::new(&job.to.dialect.caps, legal_decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
+        // The text form can hold what any dialect can say.
+        let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
+        legaliser.set_measures(own);
         legaliser.stand_at(&job.start);
         let start = Tracker { position: job.start, ..Tracker::default() };
         let folder = job.folds().then(|| Folder::new(target(job), start));

@@ -53,6 +53,12 @@ pub struct Caps {
     pub tool_edges: Option<bool>,
     /// Cycles state the plane to which they return (`true`) or return to a level; `None` if either.
     pub return_planes: Option<bool>,
+    /// A word can say for itself whether it is absolute or incremental.
+    pub word_distance: bool,
+    /// A feed can be in another unit than the lengths.
+    pub feed_apart: bool,
+    /// Subprograms are called by numbers of at most so many digits; 0 if by name.
+    pub call_digits: u32,
     /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.
     pub arc_forms: bool,
     /// Repetition of blocks between labels.

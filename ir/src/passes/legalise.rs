@@ -5,11 +5,7 @@
 //! not looked into: a target that has such control can say everything.
 
 use super::walk::Walk;
-use super::{
-    Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats,
-    expand_turns, flatten_facts, offset_with_z, origin_shift, return_plane, skip_levels, tool_edge,
-    work_offset,
-};
+use super::{Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance, origin_shift, return_plane, skip_levels, state_clearance, tool_edge, work_offset};
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
@@ -33,6 +29,7 @@ const EDGE: u16 = 2048;
 const FRAME: u16 = 4096;
 const MACHINE: u16 = 8192;
 const TABLE: u16 = 16384;
+const MEASURE: u16 = 32768;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -40,6 +37,8 @@ pub struct Legaliser {
     target: Target,
     /// What the target lacks.
     lacks: u16,
+    /// Whether words of the source may have a measure of their own that the target's cannot have.
+    measures: bool,
     /// Whether any pass wants to know where the tool is.
     follow: bool,
     walk: Walk,
@@ -65,6 +64,7 @@ impl Legaliser {
                 break_lift: None,
             },
             lacks,
+            measures: false,
             follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME) != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
@@ -79,6 +79,15 @@ impl Legaliser {
     /// The value of the source control's lift of chip breaking, for cycles that must be written out.
     pub fn set_break_lift(&mut self, lift: Option<Num>) {
         self.target.break_lift = lift;
+    }
+
+    /// Whether the source can measure the words of a block each in its own way, or have a feed in
+    /// another unit than its lengths.
+    pub fn set_measures(&mut self, own: bool) {
+        let caps = &self.target.caps;
+        let has = caps.word_distance && caps.feed_apart;
+        self.measures = own && !has;
+        self.follow |= self.measures;
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
@@ -128,6 +137,12 @@ impl Legaliser {
         if self.cycles.is_busy() {
             needs |= CYCLE;
         }
+        if self.measures {
+            let units = self.walk.at.modes.units;
+            let changes = |op: &Op| matches!(op, Op::UseLengthUnits(_));
+            let apart = |op: &Op| one_distance::may_mix(op) || feed_unit::differs(op, units) || changes(op);
+            needs |= if stmts.iter().any(|stmt| apart(&stmt.op)) { MEASURE } else { 0 };
+        }
         if self.edge.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
         }
@@ -160,6 +175,12 @@ impl Legaliser {
             self.walk.pass(stmts);
         }
         // Every pass walks from the same start: what it walks over does what the piece does.
+        if needs & MEASURE != 0 && !self.target.caps.feed_apart {
+            feed_unit::over(stmts, &mut start.clone(), &self.target);
+        }
+        if needs & MEASURE != 0 && !self.target.caps.word_distance {
+            one_distance::over(stmts, &mut start.clone(), diags);
+        }
         if needs & (EDGE | TABLE) != 0 {
             tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
         }
@@ -167,6 +188,7 @@ impl Legaliser {
             self.check(stmts, &mut start.clone(), diags);
         }
         if needs & CYCLE != 0 {
+            state_clearance::over(stmts, &self.target, diags);
             return_plane::over(stmts, &mut start.clone(), &self.target, diags);
         }
         if needs & PATTERN != 0 {
@@ -204,6 +226,7 @@ impl Legaliser {
             // The walk is needed again for the other passes.
             expand_calls::over(rest, &mut self.walk.clone(), diags);
         }
+        number_names::over(rest, self.target.caps.call_digits, diags);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
             self.run(&mut main.body, &assumed, diags);

@@ -16,16 +16,20 @@ pub mod expand_cycles;
 pub mod expand_patterns;
 pub mod expand_repeats;
 pub mod expand_turns;
+pub mod feed_unit;
 pub mod feed_with_cycle;
 pub mod flatten_facts;
 pub mod fold_cycles;
 pub mod fold_patterns;
 mod legalise;
+pub mod number_names;
 pub mod offset_with_z;
+pub mod one_distance;
 pub mod origin_shift;
 mod pattern_forms;
 pub mod return_plane;
 pub mod skip_levels;
+pub mod state_clearance;
 pub mod tool_edge;
 mod walk;
 pub mod work_offset;
@@ -86,6 +90,11 @@ pub const PASSES: &[Pass] = &[
         about: "writes subprograms out where they are called",
         run: expand_calls::run,
     },
+    Pass {
+        name: "number-names",
+        about: "gives subprograms numbers where the target calls by number",
+        run: number_names::run,
+    },
     Pass { name: "expand-repeats", about: "writes counted repetitions out", run: expand_repeats::run },
     Pass {
         name: "work-offset",
@@ -101,6 +110,21 @@ pub const PASSES: &[Pass] = &[
         name: "skip-levels",
         about: "makes block-skip levels that the target cannot tell apart one",
         run: skip_levels::run,
+    },
+    Pass {
+        name: "feed-unit",
+        about: "writes feeds in the unit of length in force",
+        run: feed_unit::run,
+    },
+    Pass {
+        name: "one-distance",
+        about: "measures the words of a block in one way",
+        run: one_distance::run,
+    },
+    Pass {
+        name: "state-clearance",
+        about: "states what one control leaves to a parameter of a cycle",
+        run: state_clearance::run,
     },
     Pass {
         name: "tool-edge",

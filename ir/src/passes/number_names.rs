@@ -1,0 +1,80 @@
+//! `number-names`: procedures get numbers, where a target calls by number.
+//!
+//! A name that is a number of few enough digits stays. The others get the lowest numbers from 1001
+//! on that nothing in the program has, in the order in which they stand; the name becomes the title,
+//! if there is none, so that it is still read.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::Target;
+use crate::diag::{Diagnostic, Fault};
+use crate::program::{Control, Op, Program, Stmt, Text};
+use crate::source::Span;
+use crate::track::Tracker;
+
+/// First number that is given.
+const FIRST: u32 = 1001;
+
+/// Numbers them.
+pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
+    over(program, target.caps.call_digits, diags);
+}
+
+/// The same for a number of digits; 0 leaves every name.
+pub(super) fn over(program: &mut Program, digits: u32, diags: &mut Vec<Diagnostic>) {
+    let fits = |name: &str| {
+        name.bytes().all(|b| b.is_ascii_digit())
+            && name.parse::<u32>().is_ok_and(|n| n > 0 && n < limit(digits))
+    };
+    let subs = || program.procedures.iter().skip(1);
+    if digits == 0 || subs().all(|p| fits(&p.name)) {
+        return;
+    }
+    let mut taken: BTreeSet<u32> = subs().filter_map(|p| p.name.parse().ok()).collect();
+    taken.extend(program.name.number);
+    let mut free = (FIRST..limit(digits)).filter(|n| !taken.contains(n));
+    let mut new: BTreeMap<Text, Text> = BTreeMap::new();
+    for procedure in program.procedures.iter_mut().skip(1).filter(|p| !fits(&p.name)) {
+        let at = procedure.body.first().map_or(Span::default(), |s| s.span);
+        let Some(number) = free.next() else {
+            let what = format!("a subprogram called {}", procedure.name).into();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, at));
+            continue;
+        };
+        let name: Text = number.to_string().into();
+        let old = std::mem::replace(&mut procedure.name, name.clone());
+        diags.push(Diagnostic::new(Fault::NameChanged { from: old.clone(), to: name.clone() }, at));
+        procedure.title.get_or_insert_with(|| old.clone());
+        new.insert(old, name);
+    }
+    for procedure in &mut program.procedures {
+        rename(&mut procedure.body, &new);
+    }
+}
+
+fn limit(digits: u32) -> u32 {
+    10u32.saturating_pow(digits.min(8))
+}
+
+fn rename(body: &mut [Stmt], new: &BTreeMap<Text, Text>) {
+    for stmt in body {
+        match &mut stmt.op {
+            Op::Call(call) => {
+                if let Some(name) = new.get(&call.name) {
+                    call.name = name.clone();
+                }
+            }
+            Op::Control(control) => match &mut **control {
+                Control::Repeat { body, .. }
+                | Control::Loop { body }
+                | Control::While { body, .. }
+                | Control::For { body, .. } => rename(body, new),
+                Control::If { then, otherwise, .. } => {
+                    rename(then, new);
+                    rename(otherwise, new);
+                }
+            },
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! `state-clearance`: what one control leaves to a parameter of a cycle, another states.
+//!
+//! The parameter's value is taken for granted, and told. Where it is not known the cycle stays as it
+//! is, for another pass to refuse.
+
+use super::Target;
+use crate::cycle::{Clearance, CycleKind};
+use crate::diag::{Diagnostic, Fault};
+use crate::num::Num;
+use crate::program::{Op, Program, Stmt};
+use crate::track::Tracker;
+
+/// States them.
+pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
+    for procedure in &mut program.procedures {
+        over(&mut procedure.body, target, diags);
+    }
+}
+
+/// The same for one body.
+pub(super) fn over(body: &mut [Stmt], target: &Target, diags: &mut Vec<Diagnostic>) {
+    for stmt in body {
+        let Op::StartCycle(cycle) = &mut stmt.op else { continue };
+        let kind = cycle.kind.name();
+        let states = target.caps.cycles.iter().any(|c| c.kind == kind && c.clearance && !c.parameter);
+        if !states {
+            continue;
+        }
+        let (clearance, value, parameter) = match &mut cycle.kind {
+            CycleKind::DrillPeck { clearance, .. } => {
+                (clearance, target.peck_clearance, "clearance of peck drilling")
+            }
+            CycleKind::DrillBreak { lift, .. } => (lift, target.break_lift, "lift of chip-breaking drilling"),
+            CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::Bore { .. } => continue,
+        };
+        if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
+            *clearance = Clearance::Stated(value.into());
+            diags.push(Diagnostic::new(told(parameter, value), stmt.span));
+        }
+    }
+}
+
+/// What is told of a parameter that was taken for granted.
+pub(super) fn told(parameter: &str, value: Num) -> Fault {
+    let nanos = value.nanos(false).unwrap_or(0);
+    Fault::AssumedParameter {
+        parameter: parameter.into(),
+        value: format!("{} mm", nanos as f64 / 1e9).into(),
+    }
+}
