@@ -44,14 +44,20 @@ impl Writer {
             | Op::SelectTool(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
             | Op::FloodOn
             | Op::MistOn
-            | Op::CoolantOff
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Return => self.words.statement(stmt, sink),
+            // Beside a move, machine data decide whether it is off before or after.
+            Op::StopSpindleTurning | Op::CoolantOff => {
+                if b"XYZABCIJK".iter().any(|letter| self.words.block.has(*letter)) {
+                    self.words.flush(false, sink);
+                    self.words.split = true;
+                }
+                self.words.statement(stmt, sink)
+            }
             // Every call of a cycle says its plane of return.
             Op::SetReturnLevel(_) => Ok(()),
             Op::UseLengthUnits(_) => {

@@ -220,3 +220,11 @@ fn no_work_offset_is_g500() {
         blocks(vec![vec![rapid("X0.")], vec![Op::SetOriginOffsets(0)], vec![Op::SetOriginOffsets(99)]]);
     assert_eq!(clean(&stmts), "G0 X0\nG500\nG599\n");
 }
+
+#[test]
+fn what_is_turned_off_stands_behind_the_move() {
+    let stmts =
+        blocks(vec![vec![rapid("Z50"), Op::StopSpindleTurning, Op::CoolantOff], vec![Op::ProgramEnd]]);
+    let (text, _) = text(&stmts);
+    assert_eq!(text, "G0 Z50\nM5 M9\nM30\n");
+}
