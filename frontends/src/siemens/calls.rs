@@ -164,6 +164,13 @@ impl Lower {
             let name = "call under another cycle than where the subprogram was called before";
             return self.not_supported(&src.text(at), name, at, out);
         }
+        // What a subprogram finds in force that nothing has said is not what the text says.
+        if self.state.units == Know::Unsaid {
+            self.only_units.open();
+        }
+        if self.state.plane == Know::Unsaid {
+            self.only_plane.open();
+        }
         out.whole = true;
         let times = times as u32;
         self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new() })), out);

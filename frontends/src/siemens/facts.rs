@@ -81,8 +81,8 @@ pub(super) struct State {
     pub(super) feed_mode: Know<FeedMode>,
     pub(super) motion: Know<Motion>,
     pub(super) work_offset: Know<u16>,
-    /// Whether an edge was named.
-    pub(super) length: Know<()>,
+    /// Whether a tool's length is in force.
+    pub(super) length: Know<bool>,
     /// Where a tool was changed without naming an edge, which no move has relied on yet.
     pub(super) implied_edge: Option<Span>,
     pub(super) no_shift: Know<bool>,
@@ -159,6 +159,11 @@ impl<T: Copy + PartialEq> Only<T> {
         self.relied.take()
     }
 
+    /// Blocks may run under a value that the text does not say.
+    pub(super) fn open(&mut self) {
+        self.mixed = true;
+    }
+
     /// The value, if there is only one; `otherwise` if the text has said none.
     pub(super) fn rely(&mut self, otherwise: Option<T>, at: Span) -> Option<T> {
         if self.mixed {
@@ -196,6 +201,9 @@ impl Lower {
                 Units::Inch => "inch",
             });
             report(out, at, ModeName::Units, value);
+            if let Some(units) = self.state.units.value() {
+                self.only_units.see(units);
+            }
         }
         self.state.units.fact()
     }
@@ -210,6 +218,9 @@ impl Lower {
                 Plane::Yz => "YZ",
             });
             report(out, at, ModeName::Plane, value);
+            if let Some(plane) = self.state.plane.value() {
+                self.only_plane.see(plane);
+            }
         }
         self.state.plane.fact()
     }
@@ -251,10 +262,15 @@ impl Lower {
             return Some(unit_of(self.units(at, out)));
         }
         let basic = self.settings.get("feed_unit") == "inch";
+        let unit = if basic { Units::Inch } else { Units::Mm };
+        if self.state.units == Know::Lost && self.only_units.rely(None, at) == Some(unit) {
+            // The only units of the text are those of the basic system.
+            return Some(Unit::Entry);
+        }
         if self.state.units == Know::Said(if basic { Units::Mm } else { Units::Inch }) {
             self.option("feed_unit", at, out);
         }
-        Some(if basic { Unit::Inch } else { Unit::Mm })
+        Some(unit_of(Fact::Known(unit)))
     }
 
     /// A feed relies on what it counts.
@@ -302,7 +318,7 @@ impl Lower {
         if self.state.length == Know::Unsaid
             && let Some(row) = &power_on.length_offset
         {
-            self.state.length = Know::Taken(());
+            self.state.length = Know::Taken(row.value != 0);
             out.assumed.length_offset = Some(row.value);
             if !row.always {
                 report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));

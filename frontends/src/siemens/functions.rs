@@ -4,11 +4,12 @@
 //! Moves and frames have files of their own.
 
 use ncc_dialects::{Meaning, NameMeaning, Quantity, Role};
-use ncc_ir::canon::{Fact, Units};
+use ncc_ir::canon::{Fact, Plane, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
 use ncc_ir::program::Op;
+use ncc_ir::source::Span;
 
 use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::facts::{InForce, Motion};
@@ -81,10 +82,14 @@ impl Lower {
             self.push(code.span, op, out);
         }
         let machine = coded.clone().find(|(_, m)| *m == Meaning::UseMachineCoordinates).map(|(c, _)| *c);
+        let moves = words.has_any(b"XYZABC");
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
         self.motion_words(motion, machine, head.span, words, src, out);
         for (code, meaning) in coded {
             if rank(meaning) >= RANK_AFTER {
+                if moves && matches!(meaning, Meaning::StopSpindleTurning | Meaning::CoolantOff) {
+                    self.after_the_move(code, out);
+                }
                 self.ending(code, meaning, out);
             }
         }
@@ -156,6 +161,9 @@ impl Lower {
             self.not_supported(code.name, name, code.span, out);
         }
         self.set_mode(*code, out);
+        if matches!(meaning, Meaning::SelectPlane(_)) {
+            self.length_along_z(out, code.span);
+        }
         let op = match meaning {
             Meaning::NoEffect => {
                 if self.first_time(code.name) {
@@ -238,8 +246,18 @@ impl Lower {
             }
             (None, None) => return,
         };
-        self.state.length = Know::Said(());
+        self.state.length = Know::Said(edge > 0);
+        self.length_along_z(out, span);
         self.push(span, Op::UseToolEdge { edge: Expr::int(edge.into()), said }, out);
+    }
+
+    /// In other planes than XY, a machine may take the tool's length along the axis that drills.
+    fn length_along_z(&mut self, out: &mut Batch, at: Span) {
+        let tilted = self.state.plane.value().is_some_and(|plane| plane != Plane::Xy);
+        if tilted && self.state.length.value() != Some(false) && self.first_time("SD 42940") {
+            let (parameter, value) = ("SD 42940 TOOL_LENGTH_CONST".into(), "17: length along Z".into());
+            out.report(Fault::AssumedParameter { parameter, value }, at);
+        }
     }
 
     /// A dwell, which stands alone.
@@ -259,6 +277,14 @@ impl Lower {
         };
         if let Some(num) = self.number(given, quantity, src, out) {
             self.push(code.span.to(given.span), Op::Dwell(Expr::Num(num)), out);
+        }
+    }
+
+    /// Machine data decide whether these come before, with or after a move of their block.
+    fn after_the_move(&mut self, code: &Code, out: &mut Batch) {
+        if self.first_time(code.name) {
+            let parameter = format!("{} in a block with a move", code.name).into();
+            out.report(Fault::AssumedParameter { parameter, value: "after the move".into() }, code.span);
         }
     }
 

@@ -92,6 +92,8 @@ pub(super) struct Now {
     pub(super) m_codes: u8,
     /// A block that is a heading, and no statement.
     pub(super) heading: bool,
+    /// All of the block.
+    pub(super) span: Span,
     /// Length of the target before the block.
     mark: usize,
 }
@@ -277,7 +279,13 @@ impl Lower {
             1 => 10,
             level => level,
         });
-        self.now = Now { number: head.number, skip: level, mark: self.target(out).len(), ..Now::default() };
+        self.now = Now {
+            number: head.number,
+            skip: level,
+            mark: self.target(out).len(),
+            span: head.span,
+            ..Now::default()
+        };
         if let (Some(level), Some((written, at))) = (level, head.skip)
             && level > self.settings.dialect.block.skip_levels
         {

@@ -52,8 +52,11 @@ pub struct Reader {
     /// Not a text; nothing is read any more.
     is_binary: bool,
     control_signs: u32,
-    /// End of what has been read.
+    /// End of the last line that was looked at.
     end: u32,
+    /// Every line goes through the grammar.
+    #[cfg(test)]
+    slow: bool,
 }
 
 impl Reader {
@@ -77,7 +80,15 @@ impl Reader {
             is_binary: false,
             control_signs: 0,
             end: 0,
+            #[cfg(test)]
+            slow: false,
         }
+    }
+
+    /// Takes no short ways, to compare with.
+    #[cfg(test)]
+    pub(super) fn grammar_alone(&mut self) {
+        self.slow = true;
     }
 
     /// Reads further whole lines; `base` is the place of their first byte in the source.
@@ -92,10 +103,16 @@ impl Reader {
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
-            if !self.passing
+            #[cfg(test)]
+            let short = !self.slow;
+            #[cfg(not(test))]
+            let short = true;
+            if short
+                && !self.passing
                 && !self.lower.ended
                 && let Some(end) = plain::read(text, at, base, &mut self.words)
                 && end - at <= self.longest
+                && !negative_number(&self.words, src)
             {
                 if self.lower.fast_move(&self.words, out) {
                     at = end + 1;
@@ -113,7 +130,6 @@ impl Reader {
             }
             at = end + 1;
         }
-        self.end = base + text.len() as u32;
     }
 
     /// A line that is too long to be handed over: only its place is known.
@@ -160,6 +176,7 @@ impl Reader {
         let words = std::mem::take(&mut self.words);
         self.blocks = true;
         self.after_header = false;
+        self.end = span.end;
         self.lower.plain(&words, span, src, out);
         self.words = words;
         self.faulty |= self.lower.now.failed;
@@ -316,6 +333,13 @@ impl Reader {
         self.faulty = true;
         out.report(Fault::NotText, span);
     }
+}
+
+/// Whether a block number is written with a sign, `N-0`, which its value need not show.
+#[inline]
+fn negative_number(words: &[Word], src: Source) -> bool {
+    let at = |word: &Word| src.text.get((word.span.start - src.base) as usize + 1);
+    matches!(words, [first, ..] if first.letter == b'N' && at(first) == Some(&b'-'))
 }
 
 /// Whether a block has nothing but a comment.

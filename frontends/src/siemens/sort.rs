@@ -10,6 +10,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
+use super::letters::letter_for_zero;
 use super::lower::Lower;
 use super::tree::{Address, Called, Expr, Item, Place, Qualifier, Value};
 use crate::Batch;
@@ -151,6 +152,10 @@ impl Lower {
         let place = usize::from(letter.wrapping_sub(b'A'));
         let Some(row) = self.settings.dialect.address_row(letter) else {
             self.now.refused = true;
+            // `X1O.5`
+            if let (b'O', Some(at)) = (letter, letter_for_zero(src, self.now.span)) {
+                return self.fault(Fault::LetterOForZero, at, out);
+            }
             return self.fault(Fault::UnknownCode { code: src.text(given.span) }, given.span, out);
         };
         let measured = matches!(row.role, Role::Axis | Role::CentreX | Role::CentreY | Role::CentreZ);

@@ -16,17 +16,6 @@ fn the_corpus_is_read() {
         let text = std::fs::read(&path).expect("a file");
         let out = read_with(settings(), true, &text);
         count += 1;
-        if std::env::var("SHOW").is_ok_and(|name| path.to_string_lossy().contains(&name)) {
-            println!("{}", stmts(&out).join("\n"));
-            for sub in &out.procedures {
-                println!(
-                    "SUB {}\n{}",
-                    sub.name,
-                    sub.body.iter().map(show::stmt).collect::<Vec<_>>().join("\n")
-                );
-            }
-            println!("{}", diagnostics(&out, &text).join("\n"));
-        }
         for (diagnostic, shown) in out.diagnostics.iter().zip(diagnostics(&out, &text)) {
             if diagnostic.fault.gravity() == Gravity::Error {
                 wrong += &format!("{}: {shown}\n", path.display());

@@ -3,8 +3,17 @@
 //! Statements are compared in a short rendering of their own (`show`); diagnostics with the very
 //! text that they point at.
 
+mod arcs;
+mod calls;
 mod corpus;
+mod cycles;
+mod facts;
+mod faults;
+mod frames;
+mod laws;
+mod patterns;
 mod show;
+mod words;
 
 use ncc_dialects::{Settings, builtin};
 
@@ -38,7 +47,9 @@ fn stmts(out: &Batch) -> Vec<String> {
 fn diagnostics(out: &Batch, text: &[u8]) -> Vec<String> {
     let place = |d: &ncc_ir::diag::Diagnostic| {
         let bytes = &text[d.span.start as usize..d.span.end as usize];
-        format!("{:?} at {:?}", d.fault, String::from_utf8_lossy(bytes)).replace('"', "'")
+        format!("{:?} at {:?}", d.fault, String::from_utf8_lossy(bytes))
+            .replace("\\\"", "'")
+            .replace('"', "'")
     };
     out.diagnostics.iter().map(place).collect()
 }

@@ -1,0 +1,210 @@
+//! Units, subprograms, repetition.
+
+use super::*;
+
+/// A main program and its subprograms: their statements, and the errors.
+fn units(text: &str) -> (Vec<String>, Vec<String>) {
+    let out = read(text);
+    let subs = out
+        .procedures
+        .iter()
+        .map(|p| format!("{}: {}", p.name, p.body.iter().map(show::stmt).collect::<Vec<_>>().join(" | ")));
+    let subs = subs.collect();
+    let errors =
+        diagnostics(&out, text.as_bytes()).into_iter().filter(|d| !d.starts_with("Assumed")).collect();
+    (subs, errors)
+}
+
+fn with_subs(main: &str, subs: &str) -> (Vec<String>, Vec<String>) {
+    units(&format!("%_N_A_MPF\n;$PATH=/_N_MPF_DIR\n{HEAD}{main}M30\n{subs}"))
+}
+
+#[test]
+fn subprograms_by_number_and_name() {
+    let calls = after_head("L12\nl012 P3\nNAME P=2\nCALL \"l12\"\nNAME()\n");
+    assert_eq!(calls, ["CALL 12 x1", "CALL L012 x3", "CALL NAME x2", "CALL 12 x1", "CALL NAME x1"]);
+    assert!(read("L12\n").whole && !read("G0\n").whole);
+    let (subs, errors) =
+        with_subs("L12\nL012\n", "%_N_L12_SPF\nG0 X1\nM17\n%_N_l012_SPF\nPROC L012 DISPLOF\nRET\n");
+    assert_eq!(subs, ["12: TRAVERSE! X?1u | Return", "L012: Return"]);
+    assert_eq!(errors, [] as [&str; 0]);
+    let out = read("%_N_PLATE_MPF\nM30\n");
+    assert_eq!((out.name.title.as_deref(), out.name.number), (Some("PLATE"), None));
+    assert_eq!(read("%_N_0815_MPF\nM30\n").name.number, Some(815));
+}
+
+#[test]
+fn ends_of_programs() {
+    assert_eq!(stmts(&read("G0\nM17\n")), ["Blank", "ProgramEnd"]);
+    assert_eq!(
+        units("G90\nRET\n").1,
+        ["NotSupported { code: 'RET', name: 'return in the main program' } at 'RET'"]
+    );
+    assert_eq!(stmts(&read("PROC A_A\nG90\nRET\n")), ["SetDistanceMode(Absolute)", "ProgramEnd"]);
+    assert_eq!(stmts(&read("%_N_A_SPF\nG90\nRET\n")), ["SetDistanceMode(Absolute)", "ProgramEnd"]);
+    let (subs, errors) = with_subs("B_B\n", "%_N_B_B_SPF\nM8\nM30\n");
+    assert_eq!((subs, errors), (vec!["B_B: FloodOn | Return".to_owned()], vec![]));
+    assert_eq!(units("G90\n").1, ["NoProgramEnd at 'G90'"]);
+    assert_eq!(units("M30\n; c\nX1\nY1 Q1\n").1, ["TextAfterEnd at 'X1'"]);
+    assert_eq!(units("\n;\n").1, ["EmptyProgram at ''"]);
+}
+
+#[test]
+fn units_that_are_refused() {
+    let refused = |code: &str, name: &str, at: &str| {
+        format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'")
+    };
+    assert_eq!(
+        with_subs("", "%_N_B_MPF\nX5\n").1,
+        [refused("%_N_B_MPF", "second main program in one text", "%_N_B_MPF")]
+    );
+    assert_eq!(
+        with_subs("", "%_N_B_INI\n$X=5\n").1,
+        [refused("%_N_B_INI", "unit that is no program", "%_N_B_INI")]
+    );
+    assert_eq!(
+        with_subs("", "%_N_12_SPF\nM17\n").1,
+        [refused("12", "subprogram that only a path can call", "12")]
+    );
+    assert_eq!(with_subs("", "%_N_L1_SPF\nM17\n%_N_L1_SPF\nM17\n").1, ["ProgramTwice { name: '1' } at 'L1'"]);
+    assert_eq!(units("%_X\nM30\n").1[0], "Syntax { found: '%_X', expected: '%_N_NAME_MPF' } at '%_X'");
+    assert_eq!(units("%\nM30\n").1, [] as [&str; 0]);
+}
+
+#[test]
+fn a_call_loses_every_fact() {
+    assert_eq!(after_head("L12\nX5\nG0 X6\n"), ["CALL 12 x1", "POSITION X?5u", "TRAVERSE! X?6u"]);
+}
+
+#[test]
+fn a_motion_that_was_only_said_is_handed_on() {
+    assert_eq!(after_head("G1\nL12\n"), ["Blank", "FEED!", "& CALL 12 x1"]);
+    assert_eq!(after_head("G1 X1\nL12\n"), ["FEED! X1", "CALL 12 x1"]);
+}
+
+#[test]
+fn positions_of_a_subprogram_under_a_cycle_of_its_caller() {
+    let drill = "MCALL CYCLE81(5,0,2,-3)\nL1\nX9\nMCALL\n";
+    let (subs, errors) = with_subs(drill, "%_N_L1_SPF\nX1 Y2\nG0 X3\nM17\n");
+    assert_eq!(errors, [] as [&str; 0]);
+    assert_eq!(subs, ["1: POSITION X?1u Y?2u | POSITION X?3u | Return"]);
+    assert_eq!(after_head(drill)[2], "HOLE X?9u");
+    let refused = |sub: &str| with_subs(drill, &format!("%_N_L1_SPF\n{sub}\nM17\n")).1.remove(0);
+    assert_eq!(
+        refused("G1 X1"),
+        "NotSupported { code: 'G1', name: 'motion at feed while a cycle of the caller may be in force' } at 'G1'"
+    );
+    assert_eq!(
+        refused("Z1"),
+        "NotSupported { code: 'Z1', name: 'move other than a position under the cycle of a caller' } at 'Z1'"
+    );
+    assert_eq!(
+        refused("MCALL"),
+        "NotSupported { code: 'MCALL', name: 'cycle that its subprogram leaves in force or ends' } at 'M17'"
+    );
+    // The feed of its own is not the subprogram's.
+    let bore = "MCALL CYCLE85(5,0,2,-3,,,9,9)\nL1\nMCALL\n";
+    assert_eq!(
+        with_subs(bore, "%_N_L1_SPF\nX1 F5\nM17\n").1,
+        [
+            "NotSupported { code: 'F5', name: 'feed under the cycle of a caller that may have its own' } at 'F5'"
+        ]
+    );
+    assert_eq!(faults("MCALL CYCLE85(5,0,2,-3,,,9,9)\nL1\nMCALL\nG1 X1\n"), ["NoFeed at 'G1 X1'"]);
+    assert_eq!(
+        faults("G1 X1\nMCALL CYCLE81(5,0,2,-3)\nL1\n"),
+        [
+            "NotSupported { code: 'L1', name: 'call under a cycle with another motion than G0 in force' } at 'L1'"
+        ]
+    );
+}
+
+#[test]
+fn a_subprogram_keeps_to_what_it_was_read_under() {
+    let both = "L1\nMCALL CYCLE81(5,0,2,-3)\nL1\nMCALL\n";
+    // Without a motion code it is whatever is in force; with one it cannot be told.
+    assert_eq!(with_subs(both, "%_N_L1_SPF\nX1\nM17\n").1, [] as [&str; 0]);
+    assert_eq!(
+        with_subs(both, "%_N_L1_SPF\nG0 X1\nM17\n").1,
+        ["EntryFactNeeded { fact: Motion } at 'G0 X1'"]
+    );
+    let late = "%_N_L1_SPF\nG0 X1\nM17\n%_N_L2_SPF\nMCALL CYCLE81(5,0,2,-3)\nL1\nMCALL\nM17\n";
+    assert_eq!(
+        with_subs("L1\nL2\n", late).1,
+        [
+            "NotSupported { code: 'L1', name: 'call under another cycle than where the subprogram was called before' } at 'L1'"
+        ]
+    );
+    let open = with_subs("L2\n", "%_N_L2_SPF\nMCALL CYCLE81(5,0,2,-3)\nX1\nM17\n").1;
+    assert_eq!(
+        open,
+        [
+            "NotSupported { code: 'MCALL', name: 'cycle that its subprogram leaves in force or ends' } at 'M17'"
+        ]
+    );
+}
+
+#[test]
+fn the_plane_of_a_cycle_in_a_subprogram() {
+    let drill = "%_N_L1_SPF\nMCALL CYCLE81(5,0,2,-3)\nX1 Y2\nMCALL\nM17\n";
+    let (subs, errors) = with_subs("L1\n", drill);
+    assert_eq!(errors, [] as [&str; 0]);
+    assert_eq!(subs, ["1: CYCLE drill ? R2u Z-3u back 5u | HOLE X?1u Y?2u | EndCycle | Return"]);
+    assert_eq!(with_subs("G18\nL1\n", drill).1, ["EntryFactNeeded { fact: Plane } at 'X1 Y2'"]);
+    // Said only afterwards.
+    assert_eq!(
+        with_subs("L1\n", &format!("{drill}%_N_L2_SPF\nG19\nM17\n")).1,
+        ["EntryFactNeeded { fact: Plane } at 'X1 Y2'"]
+    );
+}
+
+#[test]
+fn the_unit_of_a_feed_in_a_subprogram() {
+    let feed = "%_N_L1_SPF\nF50\nM17\n";
+    assert_eq!(with_subs("L1\n", feed).0, ["1: F50u | Return"]);
+    assert_eq!(units(&format!("G70\nL1\nM30\n{feed}")).0, ["1: F50 | Return"]);
+    assert_eq!(units(&format!("G71\nL1\nM30\n{feed}")).0, ["1: F50u | Return"]);
+    assert_eq!(units(&format!("G70\nG700\nL1\nM30\n{feed}")).1, ["EntryFactNeeded { fact: Units } at 'F50'"]);
+    assert_eq!(
+        units(&format!("G700\nL1\nM30\n{feed}%_N_L2_SPF\nG70\nM17\n")).1,
+        ["EntryFactNeeded { fact: Units } at 'F50'"]
+    );
+}
+
+#[test]
+fn labels_and_repetition() {
+    assert_eq!(after_head("N5 A_B: X1\nREPEAT a_b P=3\n"), ["N5 A_B:", "& TRAVERSE X1", "REPEAT A_B x3"]);
+    assert_eq!(after_head("AA: X1\nBB: X2\nREPEAT AA BB\n")[4], "REPEAT AA to BB x1");
+    assert_eq!(faults("REPEAT AA\n"), ["LabelUnknown { name: 'AA' } at 'AA'"]);
+    assert_eq!(faults("AA: X1\nREPEAT AA BB\n"), ["LabelUnknown { name: 'BB' } at 'BB'"]);
+    assert_eq!(
+        faults("AA: X1\nREPEAT AA P=0\n"),
+        ["OutOfRange { word: 'REPEAT AA P=0' } at 'REPEAT AA P=0'"]
+    );
+    assert_eq!(faults("AA: X1\nREPEAT AA P=R1\n"), ["MacroLanguage { what: 'R1' } at 'R1'"]);
+    assert_eq!(
+        faults("AA: X1\nREPEATB AA P=2\n"),
+        ["NotSupported { code: 'REPEATB', name: 'repetition of a block' } at 'REPEATB AA P=2'"]
+    );
+    assert_eq!(
+        faults("ENDLABEL:\n"),
+        ["NotSupported { code: 'ENDLABEL', name: 'end of a repeated part' } at 'ENDLABEL'"]
+    );
+}
+
+#[test]
+fn repeated_blocks_find_what_they_found_the_first_time() {
+    let refused = [
+        "NotSupported { code: 'REPEAT', name: 'repetition of blocks that find other modes in force than the first time' } at 'REPEAT AA'",
+    ];
+    assert_eq!(faults("AA: X1\nG91\nREPEAT AA\n"), refused);
+    assert_eq!(faults("AA: G90 X1\nG91\nREPEAT AA\n"), [] as [&str; 0]);
+    assert_eq!(faults("AA: X1\nG1 X2\nREPEAT AA\n"), refused);
+    assert_eq!(faults("AA: G0 X1\nG1 X2\nREPEAT AA\n"), [] as [&str; 0]);
+    assert_eq!(faults("AA: G0 X1\nMCALL CYCLE81(5,0,2,-3)\nREPEAT AA\n"), refused);
+    assert_eq!(faults("AA: G2 X1 I1\nG18\nREPEAT AA\n"), refused);
+    // What was taken for granted in passing is no other mode.
+    assert_eq!(units("AA: G0 X1\nREPEAT AA\nM30\n").1, [] as [&str; 0]);
+    // Behind it, the modes of either end.
+    assert_eq!(after_head("AA: G91 X1\nBB: X2\nG90\nREPEAT AA BB\nX3\n").pop(), Some("TRAVERSE X?3".into()));
+}
