@@ -6,6 +6,7 @@
 mod cycles;
 mod expected;
 mod faults;
+mod fold;
 mod laws;
 mod pages;
 mod pairs;

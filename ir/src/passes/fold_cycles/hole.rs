@@ -42,9 +42,9 @@ impl Hole {
             && same(self.feed, other.feed)
     }
 
-    /// Whether it takes more than one stroke.
-    pub(super) fn is_pecked(&self) -> bool {
-        matches!(self.kind, CycleKind::DrillPeck { .. } | CycleKind::DrillBreak { .. })
+    /// Whether it is drilled in one stroke without a dwell, as any plunge is.
+    pub(super) fn is_plain(&self) -> bool {
+        matches!(self.kind, CycleKind::Drill)
     }
 }
 

@@ -6,8 +6,8 @@
 //! one cycle makes are a run, whichever way their blocks are laid out: words that stay as they were,
 //! moves that go nowhere, a feed at each hole, once, or at rapids that do not count it.
 //!
-//! A run is folded from two holes on; a hole of several strokes alone as well, because it is hard to
-//! read long-hand. One plain hole is no cycle: a plunge of milling looks like that.
+//! A run of plain holes is folded from two on: a single plunge is as well said in three blocks. A hole
+//! with strokes, with a dwell, or with a cut out is folded alone as well; nothing else looks like that.
 //!
 //! Folded is only what the target has words for, and only if the machine does the same: the moves
 //! and the cycle are executed side by side. Left as they are: moves aside and down at once, two moves
@@ -36,7 +36,7 @@ use crate::world::World;
 use acts::Acts;
 use hole::{Hole, Reading, Unread};
 
-/// Fewest holes of one stroke that are worth a cycle.
+/// Fewest plain holes that are worth a cycle.
 const FEWEST_HOLES: usize = 2;
 
 /// Folds what the target can say.
@@ -155,7 +155,7 @@ impl Run {
         diags: &mut Vec<Diagnostic>,
     ) -> usize {
         let (first, _) = &self.holes[0];
-        if self.holes.len() < FEWEST_HOLES && !first.is_pecked() {
+        if self.holes.len() < FEWEST_HOLES && first.is_plain() {
             return 0;
         }
         let Some(cycle) = self.cycle(target) else { return 0 };
@@ -260,31 +260,40 @@ fn further(acts: &mut Acts<'_>, plane: Plane, first: &Hole, reading: Reading) ->
     if first.is_like(&short) { Ok(short) } else { Err(Unread::NotHere) }
 }
 
-/// Puts a hole in the place of its moves: remarks before them stay before it, others come after it.
+/// Puts a hole in the place of its moves. It has the number and the remark of the block with its first
+/// move; other remarks come before it or after it, as they stand before its cut or after.
 fn one(moves: &[Stmt], ops: Vec<(bool, Op)>, made: &mut Rebuild) {
-    let before = moves.iter().take_while(|stmt| matches!(stmt.op, Op::Comment(_) | Op::Blank)).count();
-    for stmt in &moves[..before] {
-        made.push(stmt.clone());
-    }
-    let Some((first, others)) = moves[before..].split_first() else { return };
-    let mut first = first.clone();
-    // The block's remark is on its last statement.
-    let block = others.iter().take_while(|stmt| stmt.joined).count();
-    let mut remarks: Vec<&Stmt> = others.iter().filter(|stmt| stmt.comment.is_some()).collect();
-    if first.comment.is_none()
-        && let Some(at) =
-            remarks.iter().position(|stmt| others[..block].iter().any(|b| std::ptr::eq(b, *stmt)))
-    {
-        first.comment = remarks.remove(at).comment.clone();
-    }
-    made.replace(first, ops);
-    for stmt in others {
-        let alone = match (&stmt.op, &stmt.comment) {
+    let is_move = |stmt: &Stmt| matches!(stmt.op, Op::StraightTraverse(_) | Op::StraightFeed(_));
+    let cut = moves.iter().position(|stmt| matches!(stmt.op, Op::StraightFeed(_))).unwrap_or(0);
+    let Some(first) = moves.iter().position(is_move) else { return };
+    let begin = moves[..first].iter().rposition(|stmt| !stmt.joined).filter(|_| moves[first].joined);
+    let begin = begin.unwrap_or(first);
+    let end = first + 1 + moves[first + 1..].iter().take_while(|stmt| stmt.joined).count();
+    let mut hole = moves[first].clone();
+    hole.number = moves[begin].number;
+    hole.joined = moves[begin].joined;
+    hole.comment = moves[begin..end].iter().find_map(|stmt| stmt.comment.clone());
+    let remark = |at: usize, stmt: &Stmt| -> Option<Stmt> {
+        let text = match (&stmt.op, &stmt.comment) {
             (Op::Comment(text), _) => text.clone(),
-            (_, Some(text)) if remarks.iter().any(|r| std::ptr::eq(*r, stmt)) => (**text).clone(),
-            _ => continue,
+            (_, Some(text)) if !(begin..end).contains(&at) => (**text).clone(),
+            _ => return None,
         };
-        made.push(Stmt::new(stmt.span, Op::Comment(alone)));
+        let mut alone = Stmt::new(stmt.span, Op::Comment(text));
+        alone.number = stmt.number.filter(|_| matches!(stmt.op, Op::Comment(_)));
+        Some(alone)
+    };
+    let mut hole = Some((hole, ops));
+    for (at, stmt) in moves.iter().enumerate() {
+        if at > cut
+            && let Some((stmt, ops)) = hole.take()
+        {
+            made.replace(stmt, ops);
+        }
+        remark(at, stmt).into_iter().for_each(|stmt| made.push(stmt));
+    }
+    if let Some((stmt, ops)) = hole {
+        made.replace(stmt, ops);
     }
 }
 

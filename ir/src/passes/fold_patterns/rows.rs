@@ -112,8 +112,8 @@ fn angles(away: &[Away], more: f64) -> Range {
 fn pitch(away: &[Away], direction: [f64; 2]) -> Option<Range> {
     let mut range = Range::ALL;
     for a in away {
-        for i in 0..2 {
-            let way = direction[i] * a.times;
+        for (i, way) in direction.into_iter().enumerate() {
+            let way = way * a.times;
             if way.abs() > 1e-12 {
                 range.keep(a.by[i] / way, (a.half[i] / way).abs());
             } else if a.by[i].abs() > a.half[i] {

@@ -1,0 +1,62 @@
+//! The corpus, flattened and folded.
+
+use ncc_dialects::builtin;
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::passes::Target;
+use ncc_ir::program::Program;
+use ncc_tests::corpus::{self, DIALECTS};
+use ncc_tests::expect::Failures;
+use ncc_tests::translate;
+
+use super::law::{Table, apply, everything, same};
+
+/// What flattens a program.
+const FLATTEN: [&str; 2] = ["expand-patterns", "expand-cycles"];
+
+/// Every program of the corpus that can be flattened makes the same moves folded, for a target that
+/// can say everything and for each dialect. What does not come back are cycles of one plain hole.
+#[test]
+fn the_corpus_flattened_and_folded() {
+    let mut failures = Failures::default();
+    let (mut table, mut done, mut refused) = (Table::default(), 0, Vec::new());
+    let one = Some(Num { mantissa: 1, scale: 0, point: true, unit: Unit::Mm });
+    let flat = Target { decimals: 3, peck_clearance: one, break_lift: one, ..Target::default() };
+    for program in corpus::all() {
+        let name = format!("{}/{}", program.dialect, program.file);
+        let Ok(mut before) = translate::read(program.dialect, &program.text) else {
+            refused.push(name);
+            continue;
+        };
+        // Holes at a call's positions are the cycle's where they are written out.
+        let written_out = apply(&["expand-calls", "expand-repeats"], &mut before, &flat);
+        let mut long_hand = before.clone();
+        if written_out.is_err() || apply(&FLATTEN, &mut long_hand, &flat).is_err() {
+            refused.push(name);
+            continue;
+        }
+        done += 1;
+        let folded = |target: &Target| -> Result<Program, String> {
+            let mut after = long_hand.clone();
+            apply(&["fold-cycles", "fold-patterns"], &mut after, target)?;
+            same(&long_hand, &after, 3)?;
+            Ok(after)
+        };
+        if let Some(after) = failures.check(&name, folded(&everything(8))) {
+            let missed = table.count(&before, &after);
+            if !missed.is_empty() {
+                println!("{name}: {}", missed.join(", "));
+            }
+            let others = missed.iter().filter(|what| *what != "cycle drill of 1");
+            let others: Vec<&String> = others.collect();
+            failures.check(&name, if others.is_empty() { Ok(()) } else { Err(format!("{others:?}")) });
+        }
+        for dialect in DIALECTS {
+            let caps = builtin(dialect).map(|d| d.caps.clone()).unwrap_or_default();
+            let target = Target { caps, decimals: 3, ..Target::default() };
+            failures.check(format!("{name} for {dialect}"), folded(&target));
+        }
+    }
+    println!("{done} programs, not flattened: {}\n{}", refused.join(" "), table.show());
+    failures.finish();
+    assert!(done > refused.len(), "most of the corpus is flattened");
+}

@@ -1,0 +1,7 @@
+//! Folding: long-hand text gets its cycles and patterns back, and the machine does the same.
+
+mod corpus;
+mod law;
+mod made;
+mod soup;
+mod styles;
