@@ -18,6 +18,7 @@ pub mod num;
 pub mod passes;
 pub mod places;
 pub mod program;
+pub mod round;
 pub mod source;
 pub mod track;
 pub mod verify;

@@ -1,16 +1,14 @@
 //! Execution of arcs.
 
 use super::{Event, Exec, Kind, MOTION};
-use crate::canon::{AXES, Axis, Distance, Fact, Motion, Plane, Turn};
+use crate::canon::{AXES, Motion, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
-use crate::num::{Nanos, ONE};
-use crate::program::{Arc, ArcForm, Centre, CentreFrom, Coord, Point, Shape};
+use crate::num::Nanos;
+use crate::program::{Arc, ArcForm, Centre, CentreFrom, Point, Shape};
+use crate::round::{ARC_TOLERANCE, Around, Round, round};
 use crate::source::Span;
-
-/// Greatest difference of an arc's two radii, 0.02 mm; a control's parameter is of this order.
-const ARC_TOLERANCE: Nanos = ONE / 50;
 
 /// Most turns of one arc; more is a slip of the pen.
 const MOST_TURNS: u32 = 10_000;
@@ -28,7 +26,7 @@ pub(super) enum Heading {
 
 /// An arc in program coordinates.
 #[derive(Clone, Copy)]
-struct Round {
+struct Way {
     plane: Plane,
     turn: Turn,
     turns: u32,
@@ -42,6 +40,46 @@ struct Round {
 fn ends(plane: Plane, before: &[Nanos; AXES], after: &[Nanos; AXES]) -> [[Nanos; 2]; 2] {
     let (f, s, _) = plane.axes();
     [[before[f as usize], before[s as usize]], [after[f as usize], after[s as usize]]]
+}
+
+/// What execution knows where an arc begins.
+struct Now<'e> {
+    exec: &'e Exec,
+    plane: Plane,
+    before: &'e [Nanos; AXES],
+    heading: Heading,
+    /// Whether the third axis stays where it is.
+    flat: bool,
+    span: Span,
+}
+
+impl Around for Now<'_> {
+    type Unknown = Diagnostic;
+
+    fn value(&self, value: &Expr) -> Result<Nanos, Diagnostic> {
+        self.exec.value(value, self.span)
+    }
+
+    fn via(&self, point: &Point) -> Result<[Nanos; 2], Diagnostic> {
+        let (first, second, normal) = self.plane.axes();
+        let via = self.exec.point(point, self.before, self.span)?;
+        if via[normal as usize] != self.before[normal as usize] || !self.flat {
+            self.exec.not_executed("a circle in space", self.span)?;
+        }
+        Ok([via[first as usize], via[second as usize]])
+    }
+
+    fn heading(&self) -> Result<[f64; 2], Diagnostic> {
+        Ok(match self.heading {
+            Heading::None => [0.0; 2],
+            Heading::From(from) => {
+                let [a, b] = ends(self.plane, &from, self.before);
+                [(b[0] - a[0]) as f64, (b[1] - a[1]) as f64]
+            }
+            Heading::Bent(plane, direction) if plane == self.plane => direction,
+            Heading::Bent(..) => [0.0; 2],
+        })
+    }
 }
 
 impl Exec {
@@ -70,7 +108,7 @@ impl Exec {
             }
         };
         let centre = self.shaped(centre, span)?;
-        self.go_round(Round { plane, turn: arc.turn, turns: arc.turns, before, centre }, span, out)
+        self.go_round(Way { plane, turn: arc.turn, turns: arc.turns, before, centre }, span, out)
     }
 
     pub(super) fn arc_form(
@@ -85,59 +123,18 @@ impl Exec {
         let heading = self.heading;
         self.set_axes(&arc.to, span)?;
         let [start, end] = ends(plane, &before, &self.position);
-        let (centre, turn) = match &arc.shape {
-            Shape::Angle { turn, angle } => {
-                let angle = self.value(angle, span)?;
-                (geometry::centre_by_angle(start, end, angle, *turn), *turn)
-            }
-            Shape::AngleAbout { turn, angle, centre } => {
-                let centre = self.centre_of(centre, plane, &before, span)?;
-                let angle = self.value(angle, span)?;
-                if arc.to.get(first).is_some() || arc.to.get(second).is_some() {
-                    return self.fault(Fault::ArcCentreAndRadius, span);
-                }
-                if angle <= 0 || angle >= 360 * ONE {
-                    return self.fault(Fault::OutOfRange { word: "opening angle".into() }, span);
-                }
-                let signed = if *turn == Turn::Counterclockwise { angle } else { -angle };
-                let end = geometry::turned(centre, start, signed);
-                self.position[first as usize] = end[0];
-                self.position[second as usize] = end[1];
-                (geometry::check_on_circle(start, end, centre, ARC_TOLERANCE).map(|()| centre), *turn)
-            }
-            Shape::Mixed { turn, centre } => {
-                let centre = self.centre_of(centre, plane, &before, span)?;
-                (geometry::check_on_circle(start, end, centre, ARC_TOLERANCE).map(|()| centre), *turn)
-            }
-            Shape::Through(via) => {
-                let via = self.point(via, &before, span)?;
-                if via[normal as usize] != before[normal as usize]
-                    || self.position[normal as usize] != before[normal as usize]
-                {
-                    return self.not_executed("a circle in space", span);
-                }
-                let via = [via[first as usize], via[second as usize]];
-                let found = geometry::arc_through(start, via, end);
-                let turn = found.map_or(Turn::Clockwise, |(_, turn)| turn);
-                (found.map(|(centre, _)| centre), turn)
-            }
-            Shape::Tangent => {
-                let direction = match heading {
-                    Heading::None => [0.0; 2],
-                    Heading::From(from) => {
-                        let [a, b] = ends(plane, &from, &before);
-                        [(b[0] - a[0]) as f64, (b[1] - a[1]) as f64]
-                    }
-                    Heading::Bent(p, direction) if p == plane => direction,
-                    Heading::Bent(..) => [0.0; 2],
-                };
-                let found = geometry::arc_tangent(start, end, direction);
-                let turn = found.map_or(Turn::Clockwise, |(_, turn)| turn);
-                (found.map(|(centre, _)| centre), turn)
-            }
-        };
-        let centre = self.shaped(centre, span)?;
-        self.go_round(Round { plane, turn, turns: arc.turns, before, centre }, span, out)
+        let in_plane = [first, second].iter().any(|axis| arc.to.get(*axis).is_some());
+        if in_plane && matches!(arc.shape, Shape::AngleAbout { .. }) {
+            return self.fault(Fault::ArcCentreAndRadius, span);
+        }
+        let normal = normal as usize;
+        let flat = self.position[normal] == before[normal];
+        let now = Now { exec: self, plane, before: &before, heading, flat, span };
+        let found = round(&arc.shape, plane, start, end, &now)?;
+        let Round { centre, end, turn } = self.shaped(found, span)?;
+        self.position[first as usize] = end[0];
+        self.position[second as usize] = end[1];
+        self.go_round(Way { plane, turn, turns: arc.turns, before, centre }, span, out)
     }
 
     /// Where words put the axes, as seen from `before`.
@@ -151,32 +148,8 @@ impl Exec {
         Ok(next)
     }
 
-    /// A centre whose words say each from where they are measured.
-    fn centre_of(
-        &self,
-        words: &[Option<Coord>; 3],
-        plane: Plane,
-        before: &[Nanos; AXES],
-        span: Span,
-    ) -> Result<[Nanos; 2], Diagnostic> {
-        let (first, second, _) = plane.axes();
-        let along = |axis: Axis| match &words[axis as usize] {
-            None => Ok(before[axis as usize]),
-            Some(word) => {
-                let value = self.value(&word.value as &Expr, span)?;
-                Ok(match word.distance {
-                    Fact::Known(Distance::Absolute) => value,
-                    Fact::Known(Distance::Incremental) | Fact::Entry => {
-                        before[axis as usize].wrapping_add(value)
-                    }
-                })
-            }
-        };
-        Ok([along(first)?, along(second)?])
-    }
-
-    fn shaped(&self, centre: Result<[Nanos; 2], ArcFault>, span: Span) -> Result<[Nanos; 2], Diagnostic> {
-        centre.or_else(|fault| {
+    fn shaped<T>(&self, found: Result<T, ArcFault>, span: Span) -> Result<T, Diagnostic> {
+        found.or_else(|fault| {
             let fault = match fault {
                 ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
                 ArcFault::NoWay => Fault::ArcRadiusNoWay,
@@ -188,8 +161,8 @@ impl Exec {
     }
 
     /// Makes the arc; the position is already that of its end.
-    fn go_round(&mut self, round: Round, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        let Round { plane, turn, turns, before, centre } = round;
+    fn go_round(&mut self, way: Way, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let Way { plane, turn, turns, before, centre } = way;
         let (first, second, _) = plane.axes();
         let (f, s) = (first as usize, second as usize);
         let [start, end] = ends(plane, &before, &self.position);

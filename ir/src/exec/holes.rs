@@ -205,6 +205,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         let normal = cycle.plane.axes().2 as usize;
+        self.heading = super::Heading::None;
         if self.position[normal] < cycle.retract && cycle.approach == Approach::RaiseFirst {
             self.go_to_level(normal, cycle.retract, false, span, out)?;
         }

@@ -5,7 +5,7 @@
 //! not looked into: a target that has such control can say everything.
 
 use super::walk::Walk;
-use super::{Target, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance, origin_shift, return_plane, skip_levels, state_clearance, tool_edge, work_offset};
+use super::{Target, arc_form, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance, origin_shift, return_plane, skip_levels, state_clearance, tool_edge, work_offset};
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
@@ -47,6 +47,7 @@ pub struct Legaliser {
     work: work_offset::State,
     shift: origin_shift::State,
     skip: skip_levels::State,
+    arcs: arc_form::State,
     edge: tool_edge::State,
 }
 
@@ -72,6 +73,7 @@ impl Legaliser {
             work: work_offset::State::default(),
             shift: origin_shift::State::default(),
             skip: skip_levels::State::default(),
+            arcs: arc_form::State::default(),
             edge: tool_edge::State::default(),
         }
     }
@@ -111,7 +113,9 @@ impl Legaliser {
         self.walk.assume(assumed);
         let needs = self.needs(stmts);
         let start = (needs != 0).then(|| self.walk.clone());
-        if self.follow {
+        if self.measures && !self.target.caps.arc_forms && needs & ARC == 0 {
+            arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
+        } else if self.follow {
             self.walk.pass(stmts);
         }
         if let Some(start) = start {
@@ -204,6 +208,9 @@ impl Legaliser {
         if needs & PATTERN != 0 {
             expand_patterns::reform(stmts, &mut start.clone(), &self.target, diags);
         }
+        if needs & ARC != 0 && !self.target.caps.arc_forms {
+            arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
+        }
         if needs & ARC != 0 && !self.target.caps.arc_turns {
             expand_turns::over(stmts, &mut start.clone(), &self.target, diags);
         }
@@ -236,6 +243,7 @@ impl Legaliser {
             self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
             self.edge.start_over();
+            self.arcs = arc_form::State::default();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
         }

@@ -7,6 +7,7 @@
 
 pub mod absolute_holes;
 pub mod approach;
+pub mod arc_form;
 pub mod convert_arcs;
 pub mod convert_distance;
 pub mod convert_units;
@@ -154,6 +155,11 @@ pub const PASSES: &[Pass] = &[
         name: "absolute-holes",
         about: "measures planes and positions of cycles from program zero",
         run: absolute_holes::run,
+    },
+    Pass {
+        name: "arc-form",
+        about: "writes arcs by angle, through a point or tangent by their centre",
+        run: arc_form::run,
     },
     Pass {
         name: "expand-turns",

@@ -1,0 +1,219 @@
+//! `arc-form`: arcs by angle, through a point, tangent, or with a centre measured both ways are
+//! written by their centre.
+//!
+//! Where the tool stands must be known, and for a tangent arc which way it came.
+
+use super::walk::Walk;
+use super::write::{rounded, unit_of};
+use super::{Target, each_body};
+use crate::canon::{AXES, Axis, Fact, Plane};
+use crate::cycle::absolute;
+use crate::diag::{Diagnostic, Fault, ModeName};
+use crate::expr::Expr;
+use crate::geometry::{self, ArcFault};
+use crate::num::Nanos;
+use crate::program::{Arc, ArcForm, Centre, CentreFrom, Op, Point, Program, Shape, Stmt};
+use crate::round::{Around, Round, round};
+use crate::track::Tracker;
+
+/// What the pass remembers from piece to piece: which way the tool came.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    heading: Heading,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+enum Heading {
+    #[default]
+    Unknown,
+    /// Straight, from there.
+    From([Option<Nanos>; AXES]),
+    /// The end of an arc in a plane.
+    Bent(Plane, [f64; 2]),
+}
+
+/// Writes them by their centre.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(
+    body: &mut [Stmt],
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    for stmt in body {
+        walk.enter(stmt.skip);
+        if let Op::ArcForm(arc) = &stmt.op {
+            match by_centre(arc, walk, state.heading, target) {
+                Ok(arc) => {
+                    diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
+                    stmt.op = Op::ArcFeed(Box::new(arc));
+                }
+                Err(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+            }
+        }
+        state.step(stmt, walk);
+    }
+}
+
+/// Statements at the end of a piece that say which way the tool came, as good as always.
+const TAIL: usize = 8;
+
+/// Follows a piece without such arcs.
+pub(super) fn follow(body: &[Stmt], walk: &mut Walk, state: &mut State) {
+    let (most, tail) = body.split_at(body.len().saturating_sub(TAIL));
+    if !most.is_empty() {
+        walk.pass(most);
+        state.heading = Heading::Unknown;
+    }
+    tail.iter().for_each(|stmt| state.step(stmt, walk));
+}
+
+impl State {
+    /// Executes a statement.
+    fn step(&mut self, stmt: &Stmt, walk: &mut Walk) {
+        let before = walk.at.position;
+        let bent = match &stmt.op {
+            Op::ArcFeed(arc) => bend(arc, &walk.at),
+            _ => Heading::Unknown,
+        };
+        walk.step(stmt);
+        self.heading = match &stmt.op {
+            Op::StraightTraverse(_) | Op::StraightFeed(_) if stmt.skip.is_none() => {
+                if before == walk.at.position { self.heading } else { Heading::From(before) }
+            }
+            Op::ArcFeed(_) if stmt.skip.is_none() => bent,
+            op if keeps(op) => self.heading,
+            _ => Heading::Unknown,
+        };
+    }
+}
+
+/// Whether a statement leaves the direction of the last move as it is.
+fn keeps(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::Comment(_)
+            | Op::NoEffect(_)
+            | Op::Blank
+            | Op::SetFeedRate(_)
+            | Op::SetSpindleSpeed(_)
+            | Op::SetDistanceMode(_)
+            | Op::SelectPlane(_)
+            | Op::SetFeedMode(_)
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::Dwell(_)
+            | Op::Message(_)
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::StopCutterRadiusCompensation
+    )
+}
+
+fn bend(arc: &Arc, at: &Tracker) -> Heading {
+    let end = at.target(&arc.to);
+    let bent = at.plane(arc.plane).zip(at.centre(arc)).and_then(|(plane, centre)| {
+        let (first, second, _) = plane.axes();
+        let end = [end[first as usize]?, end[second as usize]?];
+        Some(Heading::Bent(plane, geometry::tangent(end, centre, arc.turn)))
+    });
+    bent.unwrap_or_default()
+}
+
+/// What is known where an arc begins.
+struct Known<'w> {
+    at: &'w Tracker,
+    plane: Plane,
+    heading: Heading,
+}
+
+impl Known<'_> {
+    fn side(&self, axis: Axis) -> Result<Nanos, Fault> {
+        let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
+        self.at.position[axis as usize].ok_or(unknown)
+    }
+}
+
+impl Around for Known<'_> {
+    type Unknown = Fault;
+
+    fn value(&self, value: &Expr) -> Result<Nanos, Fault> {
+        self.at.nanos(value).ok_or(match self.at.modes.units {
+            None => Fault::EntryFactNeeded { fact: ModeName::Units },
+            Some(_) => Fault::CannotSay { what: "an arc with a computed value".into() },
+        })
+    }
+
+    fn via(&self, point: &Point) -> Result<[Nanos; 2], Fault> {
+        let (first, second, normal) = self.plane.axes();
+        let via = self.at.target(point);
+        if via[normal as usize] != self.at.position[normal as usize] {
+            return Err(Fault::CannotSay { what: "a circle in space".into() });
+        }
+        let at = |axis: Axis| via[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
+        Ok([at(first)?, at(second)?])
+    }
+
+    fn heading(&self) -> Result<[f64; 2], Fault> {
+        let (first, second, _) = self.plane.axes();
+        match self.heading {
+            Heading::Bent(plane, direction) if plane == self.plane => Ok(direction),
+            Heading::Bent(..) => Ok([0.0; 2]),
+            Heading::From(from) => {
+                let along = |axis: Axis| {
+                    let unknown = Fault::PositionUnknown { axis: axis.letter() as char };
+                    Ok((self.side(axis)? - from[axis as usize].ok_or(unknown)?) as f64)
+                };
+                Ok([along(first)?, along(second)?])
+            }
+            Heading::Unknown => {
+                Err(Fault::CannotSay { what: "a tangent arc after a move that is not known".into() })
+            }
+        }
+    }
+}
+
+fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> Result<Arc, Fault> {
+    let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+    let (first, second, _) = plane.axes();
+    let known = Known { at: &walk.at, plane, heading };
+    let start = [known.side(first)?, known.side(second)?];
+    let end = walk.at.target(&arc.to);
+    let at = |axis: Axis| end[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
+    let end = [at(first)?, at(second)?];
+    let found = round(&arc.shape, plane, start, end, &known)?;
+    let Round { centre, end, turn } = found.map_err(|fault| match fault {
+        ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
+        ArcFault::NoWay => Fault::ArcRadiusNoWay,
+        ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
+        ArcFault::NoRadius => Fault::ArcWithoutCentre,
+    })?;
+    let unit = walk.unit();
+    let mut words: [Option<Expr>; 3] = [None, None, None];
+    let mut to = arc.to.clone();
+    for (i, axis) in [first, second].into_iter().enumerate() {
+        let unit = unit_of(axis, unit);
+        let decimals = target.decimals_in(unit);
+        words[axis as usize] = Some(rounded(centre[i].wrapping_sub(start[i]), decimals, unit).into());
+        if matches!(arc.shape, Shape::AngleAbout { .. }) {
+            to.set(axis, absolute(rounded(end[i], decimals, unit)));
+        }
+    }
+    Ok(Arc {
+        plane: Fact::Known(plane),
+        turn,
+        to,
+        centre: Centre::Point { words, from: CentreFrom::Start },
+        turns: arc.turns,
+        said: arc.said,
+    })
+}
