@@ -19,7 +19,13 @@ use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 /// Generated worlds in which every program is executed.
 pub(crate) const WORLDS: u32 = 2;
 
+/// Highest level of block skip: a tenth is a Sinumerik's `/1`.
+const MOST_LEVELS: u8 = 10;
+
 /// Levels of block skip of which every setting is tried; of more, only pairs.
+/// Digits after the point, in mm, to which positions are surely written that are folded into a pattern.
+const FOLDED_DIGITS: u8 = ncc_ir::passes::fold_patterns::LEAST_DIGITS;
+
 const ALL_SETTINGS: u32 = 6;
 
 /// Events that are made on each side before they are compared, in a program kept whole.
@@ -152,6 +158,11 @@ impl Verifier {
                 exec.set_break_lift(lift);
             }
         }
+    }
+
+    /// A pattern has been folded: its holes are where the source writes them to half a unit.
+    pub(crate) fn folded(&mut self) {
+        self.runs.iter_mut().for_each(|run| run.comparison.rounded(FOLDED_DIGITS));
     }
 
     /// Executes further statements of the source's main procedure.
@@ -333,7 +344,7 @@ impl Verifier {
     /// Adds the settings that a new level of block skip makes.
     fn fork(&mut self, levels: u16) {
         let new = levels & !self.levels;
-        for level in (1..=9u32).filter(|l| new & 1 << l != 0) {
+        for level in (1..=u32::from(MOST_LEVELS)).filter(|l| new & 1 << l != 0) {
             let bit = 1u16 << level;
             let first = self.levels == 0;
             let all = self.levels;
@@ -391,7 +402,7 @@ impl Verifier {
 fn levels(stmts: &[Stmt]) -> u16 {
     let mut found = 0;
     for stmt in stmts {
-        found |= stmt.skip.map_or(0, |level| 1u16 << level.min(9));
+        found |= stmt.skip.map_or(0, |level| 1u16 << level.min(MOST_LEVELS));
         if let Op::Control(control) = &stmt.op {
             found |= match &**control {
                 Control::Repeat { body, .. }
