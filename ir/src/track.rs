@@ -10,6 +10,7 @@ use crate::geometry;
 use crate::num::Nanos;
 use crate::places::{Here, Places};
 use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Stmt};
+use crate::round::{Around, round};
 
 /// State of the abstract execution.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -75,6 +76,25 @@ impl Here for Known<'_> {
     }
 
     fn out_of_range(&self) {}
+}
+
+/// What is known of an arc by its angle.
+struct Turning<'t>(&'t Tracker);
+
+impl Around for Turning<'_> {
+    type Unknown = ();
+
+    fn value(&self, value: &Expr) -> Result<Nanos, ()> {
+        self.0.nanos(value).ok_or(())
+    }
+
+    fn via(&self, _: &Point) -> Result<[Nanos; 2], ()> {
+        Err(())
+    }
+
+    fn heading(&self) -> Result<[f64; 2], ()> {
+        Err(())
+    }
 }
 
 impl Tracker {
@@ -353,23 +373,33 @@ impl Tracker {
     }
 
     fn go_form(&mut self, arc: &ArcForm) {
+        let end = self.end_of(arc);
         self.go(&arc.to, Motion::Traverse);
-        let (turn, end_follows) = match &arc.shape {
-            Shape::Angle { turn, .. } | Shape::Mixed { turn, .. } => (Some(*turn), false),
-            Shape::AngleAbout { turn, .. } => (Some(*turn), true),
-            Shape::Through(_) | Shape::Tangent => (None, false),
-        };
-        if end_follows {
-            match self.plane(arc.plane) {
-                Some(plane) => {
-                    let (first, second, _) = plane.axes();
-                    self.position[first as usize] = None;
-                    self.position[second as usize] = None;
+        let turn = match &arc.shape {
+            Shape::Angle { turn, .. } | Shape::Mixed { turn, .. } => Some(*turn),
+            Shape::AngleAbout { turn, .. } => {
+                match self.plane(arc.plane) {
+                    Some(plane) => {
+                        let (first, second, _) = plane.axes();
+                        self.position[first as usize] = end.map(|end| end[0]);
+                        self.position[second as usize] = end.map(|end| end[1]);
+                    }
+                    None => self.position[..3].fill(None),
                 }
-                None => self.position[..3].fill(None),
+                Some(*turn)
             }
-        }
+            Shape::Through(_) | Shape::Tangent => None,
+        };
         self.modes.motion = turn.map(Motion::Arc);
+    }
+
+    /// Where an arc ends of which the end follows from its angle.
+    fn end_of(&self, arc: &ArcForm) -> Option<[Nanos; 2]> {
+        let plane = self.plane(arc.plane)?;
+        let (first, second, _) = plane.axes();
+        let start = [self.position[first as usize]?, self.position[second as usize]?];
+        let found = round(&arc.shape, plane, start, start, &Turning(self)).ok()?.ok()?;
+        Some(found.end)
     }
 
     fn start_cycle(&mut self, cycle: &Cycle) {

@@ -47,9 +47,12 @@ pub(super) fn over(
 ) {
     for stmt in body {
         walk.enter(stmt.skip);
+        // Errors of rounding do not add up: the next arc begins where this one really ends.
+        let mut end = None;
         if let Op::ArcForm(arc) = &stmt.op {
             match by_centre(arc, walk, state.heading, target) {
-                Ok(arc) => {
+                Ok((arc, ends)) => {
+                    end = Some(ends);
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
                     stmt.op = Op::ArcFeed(Box::new(arc));
                 }
@@ -57,6 +60,9 @@ pub(super) fn over(
             }
         }
         state.step(stmt, walk);
+        for (axis, nanos) in end.into_iter().flatten() {
+            walk.at.position[axis as usize] = Some(nanos);
+        }
     }
 }
 
@@ -182,7 +188,10 @@ impl Around for Known<'_> {
     }
 }
 
-fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> Result<Arc, Fault> {
+/// An arc by its centre, and its exact end.
+type Made = (Arc, [(Axis, Nanos); 2]);
+
+fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> Result<Made, Fault> {
     let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
     let (first, second, _) = plane.axes();
     let known = Known { at: &walk.at, plane, heading };
@@ -208,12 +217,13 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> R
             to.set(axis, absolute(rounded(end[i], decimals, unit)));
         }
     }
-    Ok(Arc {
+    let arc = Arc {
         plane: Fact::Known(plane),
         turn,
         to,
         centre: Centre::Point { words, from: CentreFrom::Start },
         turns: arc.turns,
         said: arc.said,
-    })
+    };
+    Ok((arc, [(first, end[0]), (second, end[1])]))
 }
