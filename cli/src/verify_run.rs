@@ -23,9 +23,6 @@ pub(crate) const WORLDS: u32 = 2;
 const MOST_LEVELS: u8 = 10;
 
 /// Levels of block skip of which every setting is tried; of more, only pairs.
-/// Digits after the point, in mm, to which positions are surely written that are folded into a pattern.
-const FOLDED_DIGITS: u8 = ncc_ir::passes::fold_patterns::LEAST_DIGITS;
-
 const ALL_SETTINGS: u32 = 6;
 
 /// Events that are made on each side before they are compared, in a program kept whole.
@@ -158,11 +155,6 @@ impl Verifier {
                 exec.set_break_lift(lift);
             }
         }
-    }
-
-    /// A pattern has been folded: its holes are where the source writes them to half a unit.
-    pub(crate) fn folded(&mut self) {
-        self.runs.iter_mut().for_each(|run| run.comparison.rounded(FOLDED_DIGITS));
     }
 
     /// Executes further statements of the source's main procedure.
