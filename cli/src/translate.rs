@@ -233,8 +233,13 @@ impl<'j> Line<'j> {
         self.output.push(&text)
     }
 
-    /// Lets the verification's worlds have the machine parameters that the passes took for granted.
+    /// Lets the verification's worlds have the machine parameters that the passes took for granted, and
+    /// patterns be where the source's rounded positions are.
     fn take_parameters(&mut self, found: &[Diagnostic]) {
+        let folded = found.iter().any(|d| matches!(d.fault, Fault::PatternFolded { .. }));
+        if let (true, Some(verifier)) = (folded, &mut self.verifier) {
+            verifier.folded();
+        }
         let taken = found.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. }));
         if let (true, Some(verifier)) = (taken, &mut self.verifier) {
             verifier.take_parameters(self.job);

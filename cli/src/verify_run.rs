@@ -7,6 +7,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::num::Nanos;
+use ncc_ir::passes::fold_patterns::LEAST_DIGITS;
 use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{self, Comparison, Difference, Resolution};
@@ -155,6 +156,11 @@ impl Verifier {
                 exec.set_break_lift(lift);
             }
         }
+    }
+
+    /// A pattern has been folded: its holes are where the source writes them to half a unit.
+    pub(crate) fn folded(&mut self) {
+        self.runs.iter_mut().for_each(|run| run.comparison.rounded(LEAST_DIGITS));
     }
 
     /// Executes further statements of the source's main procedure.

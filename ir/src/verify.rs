@@ -112,6 +112,15 @@ impl Comparison {
         Comparison { resolution, half, source_at: start, target_at: start, events: 0 }
     }
 
+    /// From now on lengths may be off by half a unit of this digit in mm (of the next in inches),
+    /// where the target resolves finer: holes that the source writes rounded are made where a pattern
+    /// has them.
+    pub fn rounded(&mut self, digits: u8) {
+        self.resolution.mm = self.resolution.mm.min(digits);
+        self.resolution.inch = self.resolution.inch.min(digits + 1);
+        self.half = [self.resolution.lengths(false), self.resolution.lengths(true)];
+    }
+
     /// Both machines stand here; before the first event.
     pub fn start_at(&mut self, start: [Nanos; AXES]) {
         self.source_at = start;

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::circle::{self, Circle, Wanted};
 use super::decimal::Decimal;
 use super::rows::{self, Line, Rows, Start, Step};
-use super::{Hole, Spot, here, may_lead_in, plane, stand};
+use super::{Hole, LEAST_DIGITS, Spot, here, may_lead_in, plane, stand};
 use crate::canon::{Axis, Plane};
 use crate::cycle::{Along, First, Pattern, Row, absolute};
 use crate::num::{Nanos, ONE, POW10, Unit};
@@ -64,7 +64,7 @@ impl<'t> Stretch<'t> {
         let inch = unit == Unit::Inch;
         let most = target.decimals_in(unit).min(9);
         let of_unit = if inch { 25.4 } else { 1.0 } * ONE as f64;
-        let least = most.min(if inch { 4 } else { 3 });
+        let least = most.min(LEAST_DIGITS + u8::from(inch));
         let digits = |own: u8| own.max(least).min(9) as usize;
         let nanos = |own: u8| POW10[9 - digits(own)].unsigned_abs() * if inch { 254 } else { 10 } / 20;
         let spot = |hole: &Hole| Spot {

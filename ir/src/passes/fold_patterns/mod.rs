@@ -34,6 +34,10 @@ use crate::program::{Op, Point, Program, Stmt};
 use crate::track::Tracker;
 use choose::{Found, Stretch};
 
+/// Positions are taken to be written to at least so many digits after the point in mm, and one more in
+/// inches: a program leaves zeros at the end out.
+pub const LEAST_DIGITS: u8 = 3;
+
 /// Holes of a stretch; a longer one is folded in pieces, so that the work does not grow beyond
 /// measure.
 const MOST_HOLES: usize = 4096;
