@@ -252,7 +252,8 @@ impl Here<'_> {
         };
         let mut forms = Vec::new();
         for first in [first.clone(), other] {
-            for centre in self.starts(said, centre) {
+            // About where the tool stands, if it can be said so: that needs no words.
+            for centre in self.starts(said, centre).into_iter().rev() {
                 forms.push(Pattern::Circle { centre, first: first.clone(), step: step.clone(), count });
             }
         }
