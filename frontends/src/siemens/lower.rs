@@ -456,7 +456,13 @@ impl Lower {
             self.target(out).truncate(mark);
             return self.forgive();
         }
-        let comment = head.comment.map(|c| decode(src.bytes(c)));
+        // The blank that is written between mark and text is no part of the text.
+        let mark = self.settings.dialect.comment.open.as_bytes();
+        let between = mark.get(1..).unwrap_or_default();
+        let comment = head.comment.map(|c| {
+            let text = src.bytes(c);
+            decode(text.strip_prefix(between).unwrap_or(text))
+        });
         match (comment, self.now.pushed) {
             (None, true) => {}
             (None, false) if self.now.heading => {}

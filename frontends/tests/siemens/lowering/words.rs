@@ -140,7 +140,7 @@ fn skip_levels() {
 fn comments_messages_and_empty_blocks() {
     assert_eq!(
         after_head("; a\nX1 ; b;c \n\nN7\nN8 ;d\n;\n"),
-        ["( a)", "TRAVERSE X1 ( b;c)", "Blank", "N7 Blank", "N8 (d)", "()"]
+        ["(a)", "TRAVERSE X1 (b;c)", "Blank", "N7 Blank", "N8 (d)", "()"]
     );
     assert_eq!(
         after_head("MSG(\"a;\"\"b\") ;c\nMSG()\nMSG(\"\")\nMSG\n"),
