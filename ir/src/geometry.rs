@@ -16,6 +16,8 @@ pub enum ArcFault {
     EndOffCircle(Nanos),
     /// Start and centre are the same point.
     NoRadius,
+    /// A tangent arc whose end lies straight ahead: a line.
+    Straight,
 }
 
 /// Centre of an arc by its radius: positive for at most half a turn, negative for more (Fanuc,
@@ -159,7 +161,8 @@ pub fn arc_through(
 /// Centre and sense of the arc from `start` to `end` that leaves in a direction.
 ///
 /// # Errors
-/// [`ArcFault::NoWay`] if there is no direction, or the end lies in it.
+/// [`ArcFault::NoWay`] if there is no direction, or the end lies behind; [`ArcFault::Straight`] if it
+/// lies ahead.
 pub fn arc_tangent(
     start: [Nanos; 2],
     end: [Nanos; 2],
@@ -170,8 +173,12 @@ pub fn arc_tangent(
     let (ux, uy) = (direction[0] / length, direction[1] / length);
     // How far the end lies to the left of the direction.
     let left = ux * dy - uy * dx;
-    if length == 0.0 || left.abs() < 1000.0 {
+    if length == 0.0 || dx == 0.0 && dy == 0.0 {
         return Err(ArcFault::NoWay);
+    }
+    if left.abs() < 1000.0 {
+        let ahead = ux * dx + uy * dy > 0.0;
+        return Err(if ahead { ArcFault::Straight } else { ArcFault::NoWay });
     }
     let radius = (dx * dx + dy * dy) / (2.0 * left);
     let turn = if left > 0.0 { Turn::Counterclockwise } else { Turn::Clockwise };

@@ -77,7 +77,7 @@ pub(super) fn centre(at: &Tracker, arc: &Arc, axes: [Axis; 2]) -> Result<[Nanos;
             let radius = at.nanos(radius).ok_or(Fault::CannotSay { what: "an expression".into() })?;
             geometry::centre_by_radius([x, y], [to_x, to_y], radius, arc.turn).map_err(|fault| match fault {
                 ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-                ArcFault::NoWay | ArcFault::NoRadius => Fault::ArcRadiusNoWay,
+                ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
                 ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
             })
         }

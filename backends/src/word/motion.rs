@@ -263,7 +263,7 @@ impl Writer {
                 let end = [self.arrives(arc, first)?, self.arrives(arc, second)?];
                 let centre = geometry::centre_by_radius(start, end, radius, arc.turn);
                 let centre = centre.map_err(|fault| match fault {
-                    geometry::ArcFault::NoWay => Fault::ArcRadiusNoWay,
+                    geometry::ArcFault::NoWay | geometry::ArcFault::Straight => Fault::ArcRadiusNoWay,
                     geometry::ArcFault::RadiusTooSmall
                     | geometry::ArcFault::EndOffCircle(_)
                     | geometry::ArcFault::NoRadius => Fault::ArcRadiusTooSmall,

@@ -131,6 +131,13 @@ impl Exec {
         let flat = self.position[normal] == before[normal];
         let now = Now { exec: self, plane, before: &before, heading, flat, span };
         let found = round(&arc.shape, plane, start, end, &now)?;
+        if found == Err(ArcFault::Straight) {
+            self.heading = Heading::From(before);
+            self.modes.motion = Motion::Feed;
+            self.said |= MOTION;
+            self.cycle = None;
+            return self.emit_move(true, span, out);
+        }
         let Round { centre, end, turn } = self.shaped(found, span)?;
         self.position[first as usize] = end[0];
         self.position[second as usize] = end[1];
@@ -152,7 +159,7 @@ impl Exec {
         found.or_else(|fault| {
             let fault = match fault {
                 ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-                ArcFault::NoWay => Fault::ArcRadiusNoWay,
+                ArcFault::NoWay | ArcFault::Straight => Fault::ArcRadiusNoWay,
                 ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
                 ArcFault::NoRadius => Fault::ArcWithoutCentre,
             };

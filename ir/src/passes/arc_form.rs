@@ -1,7 +1,7 @@
 //! `arc-form`: arcs by angle, through a point, tangent, or with a centre measured both ways are
 //! written by their centre.
 //!
-//! Where the tool stands must be known, and for a tangent arc which way it came.
+//! Where the tool stands must be known (a tangent arc straight ahead is a line), and for a tangent arc which way it came.
 
 use super::walk::Walk;
 use super::write::{rounded, unit_of};
@@ -12,7 +12,7 @@ use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
 use crate::num::Nanos;
-use crate::program::{Arc, ArcForm, Centre, CentreFrom, Op, Point, Program, Shape, Stmt};
+use crate::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt};
 use crate::round::{Around, Round, round};
 use crate::track::Tracker;
 
@@ -51,10 +51,10 @@ pub(super) fn over(
         let mut end = None;
         if let Op::ArcForm(arc) = &stmt.op {
             match by_centre(arc, walk, state.heading, target) {
-                Ok((arc, ends)) => {
-                    end = Some(ends);
+                Ok((op, ends)) => {
+                    end = ends;
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
-                    stmt.op = Op::ArcFeed(Box::new(arc));
+                    stmt.op = op;
                 }
                 Err(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
             }
@@ -188,8 +188,8 @@ impl Around for Known<'_> {
     }
 }
 
-/// An arc by its centre, and its exact end.
-type Made = (Arc, [(Axis, Nanos); 2]);
+/// An arc by its centre, and its exact end; or the line that it is.
+type Made = (Op, Option<[(Axis, Nanos); 2]>);
 
 fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> Result<Made, Fault> {
     let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
@@ -200,9 +200,12 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> R
     let at = |axis: Axis| end[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
     let end = [at(first)?, at(second)?];
     let found = round(&arc.shape, plane, start, end, &known)?;
+    if found == Err(ArcFault::Straight) {
+        return Ok((Op::StraightFeed(Move { to: arc.to.clone(), said: arc.said }), None));
+    }
     let Round { centre, end, turn } = found.map_err(|fault| match fault {
         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-        ArcFault::NoWay => Fault::ArcRadiusNoWay,
+        ArcFault::NoWay | ArcFault::Straight => Fault::ArcRadiusNoWay,
         ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
         ArcFault::NoRadius => Fault::ArcWithoutCentre,
     })?;
@@ -225,5 +228,5 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> R
         turns: arc.turns,
         said: arc.said,
     };
-    Ok((arc, [(first, end[0]), (second, end[1])]))
+    Ok((Op::ArcFeed(Box::new(arc)), Some([(first, end[0]), (second, end[1])])))
 }
