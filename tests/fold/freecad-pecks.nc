@@ -31,3 +31,17 @@ G00 Z10.
 M05
 M30
 %
+---
+ncc-ir 1
+program 1006
+assumed(feed-mode per-minute, work-offset 1, length-offset 0, no-origin-shift true)
+USE_LENGTH_UNITS(mm) & SELECT_PLANE(XY) & SET_DISTANCE_MODE(absolute)
+said STRAIGHT_TRAVERSE(X 0.mm, Y 0.mm, Z 30.mm)
+SET_SPINDLE_SPEED(3000) & START_SPINDLE_CLOCKWISE()
+said STRAIGHT_TRAVERSE(Z 10.mm)
+START_CYCLE(drill-peck(peck 5.mm, clearance 2.5mm), XY, retract 2.mm, depth -11.mm, return initial, plane-first, feed 120.mm)
+HOLE(X 10.mm, Y 20.mm)
+HOLE(X 40.mm)
+END_CYCLE()
+STOP_SPINDLE_TURNING()
+PROGRAM_END()
