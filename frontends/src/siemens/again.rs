@@ -9,6 +9,7 @@
 use std::collections::HashMap;
 
 use ncc_ir::program::Text;
+use ncc_ir::source::Span;
 
 use super::facts::{InForce, State};
 use crate::word::facts::Know;
@@ -69,9 +70,11 @@ impl Under {
 }
 
 /// A subprogram, as far as its callers and itself are known.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Sub {
     under: Under,
+    /// The first call: the name as it is written there, and the place.
+    called: Option<(Text, Span)>,
     /// Whether its text has been met.
     met: bool,
 }
@@ -175,10 +178,11 @@ impl Again {
 
     /// A subprogram is called; `false` if it cannot be, because it was read as if it were called
     /// under another cycle.
-    pub(super) fn call(&mut self, name: &str, under: Under) -> bool {
+    pub(super) fn call(&mut self, name: &str, written: &str, at: Span, under: Under) -> bool {
         match self.subs.get_mut(name) {
             None => {
-                self.subs.insert(name.into(), Sub { under, met: false });
+                let called = Some((written.into(), at));
+                self.subs.insert(name.into(), Sub { under, called, met: false });
                 true
             }
             Some(sub) if sub.met => sub.under.allows(under),
@@ -194,11 +198,20 @@ impl Again {
         }
     }
 
+    /// Subprograms that are called and have not been met, each where it is called first.
+    pub(super) fn unknown(&self) -> Vec<(Text, Span)> {
+        let missing = self.subs.values().filter(|sub| !sub.met);
+        let mut missing: Vec<_> = missing.filter_map(|sub| sub.called.clone()).collect();
+        missing.sort_by_key(|(_, at)| at.start);
+        missing
+    }
+
     /// The text of a subprogram begins; gives what it finds in force, or nothing if it has been met
     /// before.
     pub(super) fn enter(&mut self, name: &str) -> Option<InForce> {
         self.labels.clear();
-        let sub = self.subs.entry(name.into()).or_insert(Sub { under: Under::Nothing, met: false });
+        let sub =
+            self.subs.entry(name.into()).or_insert(Sub { under: Under::Nothing, called: None, met: false });
         if std::mem::replace(&mut sub.met, true) {
             return None;
         }

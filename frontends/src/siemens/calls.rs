@@ -54,7 +54,7 @@ impl Lower {
         if !text[1..].bytes().all(|b| b.is_ascii_digit()) {
             return self.fault(Fault::OutOfRange { word: text.into() }, word, out);
         }
-        self.call(&procedure_name(&text), word, before, after, src, out);
+        self.call(&text, word, before, after, src, out);
     }
 
     /// A name that the dictionary has as a cycle or pattern, or does not have: a subprogram's.
@@ -75,7 +75,7 @@ impl Lower {
             if called.arguments.as_ref().is_some_and(|a| !a.is_empty()) {
                 return self.not_supported(&name, "call with arguments", called.span, out);
             }
-            return self.call(&procedure_name(&name), called.span, before, after, src, out);
+            return self.call(&name, called.span, before, after, src, out);
         }
         if !before.is_empty() || !after.is_empty() {
             return self.not_supported(&name, "call beside other words", head.span, out);
@@ -95,7 +95,7 @@ impl Lower {
         if !plain || name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
             return self.not_supported("CALL", "call by path", head.span, out);
         }
-        self.call(&procedure_name(name), head.span, &[], &[], src, out);
+        self.call(name, head.span, &[], &[], src, out);
     }
 
     /// `MCALL`, alone or with a cycle.
@@ -110,17 +110,28 @@ impl Lower {
             (None, Some(row)) => {
                 let refuse = row.refuse.as_deref().unwrap_or("modal call");
                 self.not_supported(&name, refuse, called.span, out);
-                self.state.cycle = InForce::Lost { own_feed: false };
+                self.state.cycle = InForce::Refused;
             }
             (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
             (None, None) => {
                 self.not_supported(&name, "subprogram called after each move", called.span, out);
-                self.state.cycle = InForce::Lost { own_feed: false };
+                self.state.cycle = InForce::Refused;
             }
         }
     }
 
-    fn call(&mut self, name: &str, at: Span, before: &[Item], after: &[Item], src: Source, out: &mut Batch) {
+    /// A call of a subprogram by its name in the text.
+    fn call(
+        &mut self,
+        written: &str,
+        at: Span,
+        before: &[Item],
+        after: &[Item],
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let written = written.to_ascii_uppercase();
+        let name = &*procedure_name(&written);
         let times = match (before, after) {
             ([], []) => Some(1),
             ([], [item]) => times(item),
@@ -140,7 +151,7 @@ impl Lower {
         }
         let own_feed = self.state.cycle.own_feed();
         let under = match &self.state.cycle {
-            InForce::None => Under::Nothing,
+            InForce::None | InForce::Refused => Under::Nothing,
             InForce::Active(_) | InForce::Inherited { .. } => Under::Cycle { own_feed },
             InForce::Lost { .. } => Under::Either { own_feed },
         };
@@ -160,7 +171,7 @@ impl Lower {
         } else {
             self.hand_motion_on(at, out);
         }
-        if !self.again.call(name, under) {
+        if !self.again.call(name, &written, at, under) {
             let name = "call under another cycle than where the subprogram was called before";
             return self.not_supported(&src.text(at), name, at, out);
         }
@@ -207,7 +218,7 @@ impl Lower {
 
     /// The subprogram that is read goes back to its caller.
     pub(super) fn leave(&mut self, at: Span, out: &mut Batch) {
-        if self.state.cycle != self.entry {
+        if self.state.cycle != self.entry && self.state.cycle != InForce::Refused {
             let name = "cycle that its subprogram leaves in force or ends";
             return self.not_supported("MCALL", name, at, out);
         }

@@ -149,7 +149,7 @@ impl Lower {
         }
         let Some(cycle) = cycle.filter(|_| !self.now.failed) else {
             if modal {
-                self.state.cycle = InForce::Lost { own_feed: false };
+                self.state.cycle = InForce::Refused;
             }
             return;
         };
@@ -163,7 +163,7 @@ impl Lower {
             return;
         }
         self.again.use_fact(CYCLE);
-        if self.state.cycle != InForce::None {
+        if !matches!(self.state.cycle, InForce::None | InForce::Refused) {
             let name = "cycle called while another is modal";
             return self.not_supported(&row.name, name, block, out);
         }

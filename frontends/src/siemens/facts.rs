@@ -57,13 +57,15 @@ pub(super) enum InForce {
         /// Whether it may have a feed of its own.
         own_feed: bool,
     },
+    /// One that was refused: what follows from it is not blamed as well.
+    Refused,
 }
 
 impl InForce {
     /// Whether a cycle may be in force that has a feed of its own.
     pub(super) fn own_feed(&self) -> bool {
         match self {
-            InForce::None => false,
+            InForce::None | InForce::Refused => false,
             InForce::Active(cycle) => cycle.feed.is_some(),
             InForce::Inherited { own_feed } | InForce::Lost { own_feed } => *own_feed,
         }

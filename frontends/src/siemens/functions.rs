@@ -128,8 +128,7 @@ impl Lower {
     }
 
     fn set_units(&mut self, code: Code, units: Units, out: &mut Batch) {
-        // G700 and G710 are of the feed as well.
-        let scaled = matches!(code.name, "G700" | "G710");
+        let scaled = !code.feed_stays;
         let counts = |scaled: Know<bool>, units: Know<Units>| match (scaled, units) {
             (Know::Said(true), Know::Said(units)) => Some(unit_of(Fact::Known(units))),
             (Know::Lost, _) => None,
@@ -201,7 +200,7 @@ impl Lower {
                         let name = "feed under the cycle of a caller that may have its own";
                         self.not_supported(&src.text(given.span), name, given.span, out);
                     }
-                    InForce::None | InForce::Inherited { .. } | InForce::Lost { .. } => {}
+                    InForce::None | InForce::Refused | InForce::Inherited { .. } | InForce::Lost { .. } => {}
                 }
                 self.push(given.span, Op::SetFeedRate(Expr::Num(num)), out);
             }

@@ -73,7 +73,8 @@ impl Lower {
         self.again.use_fact(CYCLE);
         self.again.use_fact(MOTION);
         match std::mem::take(&mut self.state.cycle) {
-            InForce::None => {
+            cycle @ (InForce::None | InForce::Refused) => {
+                self.state.cycle = cycle;
                 let made = self.path(motion.is_some(), machine, block, words, src, out);
                 self.moved = made;
             }

@@ -148,6 +148,9 @@ impl Reader {
             return;
         }
         self.end_of_program(out);
+        for (name, at) in self.lower.again.unknown() {
+            out.report(Fault::CallUnknown { name }, at);
+        }
         if !self.blocks && !self.faulty {
             out.report(Fault::EmptyProgram, Span::new(0, 0));
         }

@@ -26,6 +26,8 @@ pub(super) struct Code {
     pub(super) name: &'static str,
     pub(super) meaning: NameMeaning,
     group: &'static str,
+    /// Whether units leave the feed in the machine's basic system.
+    pub(super) feed_stays: bool,
     pub(super) span: Span,
 }
 
@@ -200,6 +202,7 @@ impl Lower {
             name: &row.code,
             meaning: NameMeaning::Code(meaning),
             group: &row.group,
+            feed_stays: row.feed_stays,
             span: given.span,
         };
         self.add_code(code, row.sure, words, src, out);
@@ -307,7 +310,8 @@ impl Lower {
         };
         match (row.means, row.refuse.as_deref(), &called.arguments) {
             (Some(meaning), _, None) => {
-                let code = Code { name: &row.name, meaning, group: &row.group, span: called.span };
+                let (group, span) = (&*row.group, called.span);
+                let code = Code { name: &row.name, meaning, group, feed_stays: false, span };
                 self.add_code(code, row.sure, words, src, out);
             }
             (_, Some(refuse), _) => self.not_supported(&row.name, refuse, called.span, out),

@@ -72,6 +72,15 @@ fn units_that_are_refused() {
 }
 
 #[test]
+fn subprograms_that_are_not_there_are_told_where_they_are_called_first() {
+    let (_, errors) = with_subs("L77\nL1\nDRILL_ALL\nL77\n", "%_N_L1_SPF\nM17\n");
+    assert_eq!(
+        errors,
+        ["CallUnknown { name: 'L77' } at 'L77'", "CallUnknown { name: 'DRILL_ALL' } at 'DRILL_ALL'"]
+    );
+}
+
+#[test]
 fn a_call_loses_every_fact() {
     assert_eq!(after_head("L12\nX5\nG0 X6\n"), ["CALL 12 x1", "POSITION X?5u", "TRAVERSE! X?6u"]);
 }

@@ -200,3 +200,11 @@ fn a_cycle_behind_a_switch_leaves_open_what_a_position_is() {
     assert_eq!(faults("/ MCALL CYCLE81(5,0,2,-5)\nX5\n"), ["EntryFactNeeded { fact: Motion } at 'X5'"]);
     assert_eq!(faults("/ MCALL CYCLE81(5,0,2,-5)\n/ X5\n/ MCALL\nX6\n"), [] as [&str; 0]);
 }
+
+#[test]
+fn a_refused_cycle_is_refused_once() {
+    let follow = "X10\nG1 X5\nHOLES2(0,0,5,0,0,3)\nL1\nF5\nMCALL\nX1\n";
+    for call in ["CYCLE81(5,0,2)", "CYCLE84(5,0,2,-5)", "CYCLE81(5,0,2,-3,4)", "L70"] {
+        assert_eq!(faults(&format!("MCALL {call}\n{follow}")).len(), 1, "{call}");
+    }
+}

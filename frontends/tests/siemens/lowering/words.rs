@@ -147,7 +147,7 @@ fn comments_messages_and_empty_blocks() {
         ["MSG 'a;\\'b' (c)", "MSG ''", "MSG ''", "MSG ''"]
     );
     let out = read_with(settings(), true, b"; \xD8 6\nMSG(\"\xFC\")\nM30\n");
-    assert_eq!(stmts(&out), ["( \u{d8} 6)", "MSG '\u{fc}'", "ProgramEnd"]);
+    assert_eq!(stmts(&out), ["(\u{d8} 6)", "MSG '\u{fc}'", "ProgramEnd"]);
 }
 
 #[test]
