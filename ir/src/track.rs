@@ -365,8 +365,16 @@ impl Tracker {
 
     #[inline]
     fn go(&mut self, to: &Point, motion: Motion) {
-        self.position = if self.raw { [None; AXES] } else { self.target(to) };
-        self.raw = false;
+        if std::mem::take(&mut self.raw) {
+            // The machine goes along the axes that have words; a frame may mix them.
+            for (at, word) in self.position.iter_mut().zip(&to.axes) {
+                if word.is_some() || self.framed {
+                    *at = None;
+                }
+            }
+        } else {
+            self.position = self.target(to);
+        }
         self.modes.motion = Some(motion);
         self.cycle = None;
         self.cycle_in_doubt = false;

@@ -4,8 +4,9 @@
 //! and are rounded to a nano. Rotations are in a plane of two axes; others are refused.
 
 use super::{Exec, Length};
-use crate::canon::{AXES, Axis, Distance, Plane, Turn};
+use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
 use crate::geometry;
 use crate::num::{Nanos, ONE};
 use crate::program::{Frame, FrameStep, Point};
@@ -13,7 +14,7 @@ use crate::source::Span;
 
 /// Frames in force: what the program calls `p` is `turn · p + shift` in the work offset.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Chain {
+pub(crate) struct Chain {
     /// `None` is no rotation, factor or mirror.
     turn: Option<[[f64; 3]; 3]>,
     shift: [Nanos; AXES],
@@ -22,10 +23,10 @@ pub(super) struct Chain {
 const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Chain {
-    const NONE: Chain = Chain { turn: None, shift: [0; AXES] };
+    pub(crate) const NONE: Chain = Chain { turn: None, shift: [0; AXES] };
 
     /// A point of the program in the work offset.
-    pub(super) fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+    pub(crate) fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
         let mut out = *p;
         if let Some(turn) = &self.turn {
             for (out, row) in out.iter_mut().zip(turn) {
@@ -39,7 +40,7 @@ impl Chain {
     }
 
     /// A point of the work offset in the program.
-    pub(super) fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
+    pub(crate) fn unplace(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
         let mut q: [Nanos; AXES] = std::array::from_fn(|i| p[i].wrapping_sub(self.shift[i]));
         if let Some(turn) = &self.turn {
             let x = [q[0] as f64, q[1] as f64, q[2] as f64];
@@ -51,6 +52,83 @@ impl Chain {
         q
     }
 
+    /// Adds a step of a program.
+    ///
+    /// # Errors
+    /// What `plane`, `value` and `out_of_range` give.
+    pub(crate) fn add<E>(
+        &mut self,
+        step: &FrameStep,
+        plane: impl Fn(Fact<Plane>) -> Result<Plane, E>,
+        value: impl Fn(&Expr) -> Result<Nanos, E>,
+        out_of_range: impl Fn() -> E,
+    ) -> Result<(), E> {
+        match step {
+            FrameStep::Translate(words) => {
+                let mut by = [0; AXES];
+                for (by, word) in by.iter_mut().zip(words.iter()) {
+                    if let Some(word) = word {
+                        *by = value(word)?;
+                    }
+                }
+                self.shift = self.place(&by);
+            }
+            FrameStep::Rotate { plane: p, angle } => {
+                let (f, s, _) = plane(*p)?.axes();
+                let (sin, cos) = geometry::sin_cos(value(angle)?);
+                let mut step = STRAIGHT;
+                let (f, s) = (f as usize, s as usize);
+                (step[f][f], step[f][s], step[s][f], step[s][s]) = (cos, -sin, sin, cos);
+                self.append(step);
+            }
+            FrameStep::Scale(words) => {
+                let mut step = STRAIGHT;
+                for (i, word) in words.iter().enumerate() {
+                    if let Some(word) = word {
+                        let factor = value(word)?;
+                        if factor <= 0 {
+                            return Err(out_of_range());
+                        }
+                        step[i][i] = factor as f64 / ONE as f64;
+                    }
+                }
+                self.append(step);
+            }
+            FrameStep::Mirror(axes) => {
+                let mut step = STRAIGHT;
+                for (i, axis) in axes.iter().enumerate() {
+                    if *axis {
+                        step[i][i] = -1.0;
+                    }
+                }
+                self.append(step);
+            }
+        }
+        Ok(())
+    }
+
+    /// Rotation, factors and mirrors of X, Y and Z; `None` if there are none.
+    pub(crate) fn turn(&self) -> Option<&[[f64; 3]; 3]> {
+        self.turn.as_ref()
+    }
+
+    /// Translation, in the work offset.
+    pub(crate) fn shift(&self) -> &[Nanos; AXES] {
+        &self.shift
+    }
+
+    /// As [`Chain::place`], of a point of which not every axis is known.
+    pub(crate) fn place_known(&self, p: &[Option<Nanos>; AXES]) -> [Option<Nanos>; AXES] {
+        let placed = self.place(&p.map(Option::unwrap_or_default));
+        known(self.turn.as_ref(), p, placed)
+    }
+
+    /// As [`Chain::unplace`], of a point of which not every axis is known.
+    pub(crate) fn unplace_known(&self, p: &[Option<Nanos>; AXES]) -> [Option<Nanos>; AXES] {
+        let placed = self.unplace(&p.map(Option::unwrap_or_default));
+        known(self.turn.as_ref().map(inverse).as_ref(), p, placed)
+    }
+
     /// Appends a step as the innermost one.
     fn append(&mut self, step: [[f64; 3]; 3]) {
         let turn = self.turn.unwrap_or(STRAIGHT);
@@ -60,7 +138,7 @@ impl Chain {
     }
 
     /// The sense that an arc of a plane has outside, if it is an arc of the same plane there.
-    pub(super) fn sense(&self, plane: Plane, turn: Turn) -> Option<Turn> {
+    pub(crate) fn sense(&self, plane: Plane, turn: Turn) -> Option<Turn> {
         let Some(m) = &self.turn else { return Some(turn) };
         let (f, s, n) = plane.axes();
         let (f, s, n) = (f as usize, s as usize, n as usize);
@@ -77,6 +155,21 @@ impl Chain {
             _ => None,
         }
     }
+}
+
+/// What is known of a point that comes from one of which not every axis is known.
+fn known(
+    turn: Option<&[[f64; 3]; 3]>,
+    from: &[Option<Nanos>; AXES],
+    to: [Nanos; AXES],
+) -> [Option<Nanos>; AXES] {
+    std::array::from_fn(|i| match turn.and_then(|turn| turn.get(i)) {
+        None => from[i].map(|_| to[i]),
+        Some(row) => {
+            let all = (0..3).all(|j| from[j].is_some() || row[j].abs() < 1e-12);
+            all.then_some(to[i])
+        }
+    })
 }
 
 /// The inverse of a matrix that has one.
@@ -97,47 +190,12 @@ impl Exec {
             Some(chain) if frame.added => *chain,
             Some(_) | None => Chain::NONE,
         };
-        match &frame.step {
-            FrameStep::Translate(words) => {
-                let mut by = [0; AXES];
-                for (by, word) in by.iter_mut().zip(words.iter()) {
-                    if let Some(word) = word {
-                        *by = self.value(word, span)?;
-                    }
-                }
-                chain.shift = chain.place(&by);
-            }
-            FrameStep::Rotate { plane, angle } => {
-                let (f, s, _) = self.plane_of(*plane).axes();
-                let (sin, cos) = geometry::sin_cos(self.value(angle, span)?);
-                let mut step = STRAIGHT;
-                let (f, s) = (f as usize, s as usize);
-                (step[f][f], step[f][s], step[s][f], step[s][s]) = (cos, -sin, sin, cos);
-                chain.append(step);
-            }
-            FrameStep::Scale(words) => {
-                let mut step = STRAIGHT;
-                for (i, word) in words.iter().enumerate() {
-                    if let Some(word) = word {
-                        let factor = self.value(word, span)?;
-                        if factor <= 0 {
-                            return self.fault(Fault::OutOfRange { word: "factor".into() }, span);
-                        }
-                        step[i][i] = factor as f64 / ONE as f64;
-                    }
-                }
-                chain.append(step);
-            }
-            FrameStep::Mirror(axes) => {
-                let mut step = STRAIGHT;
-                for (i, axis) in axes.iter().enumerate() {
-                    if *axis {
-                        step[i][i] = -1.0;
-                    }
-                }
-                chain.append(step);
-            }
-        }
+        chain.add(
+            &frame.step,
+            |plane| Ok(self.plane_of(plane)),
+            |value| self.value(value, span),
+            || Diagnostic::new(Fault::OutOfRange { word: "factor".into() }, span),
+        )?;
         self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
         self.reframe(here);
         Ok(())

@@ -11,6 +11,7 @@ mod holes;
 mod run;
 
 pub use event::{Event, Kind, State};
+pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
 
@@ -24,7 +25,6 @@ use crate::program::{Coord, FrameSlot, Op, Point, Stmt};
 use crate::source::Span;
 use crate::world::World;
 use arcs::Heading;
-use frame::Chain;
 use holes::InForce;
 
 const Z: usize = Axis::Z as usize;

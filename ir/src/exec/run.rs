@@ -147,9 +147,8 @@ impl<'p> Runner<'p> {
 /// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of
 /// another label's block.
 pub(crate) fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str>) -> Option<&'p [Stmt]> {
-    let label = |name: &str| {
-        body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name))
-    };
+    let label =
+        |name: &str| body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name));
     let start = label(from)?;
     let end = match to {
         None => {

@@ -75,8 +75,12 @@ fn first_leg(
     }
     // A rapid would end the cycle that is in force, and change a level to return to.
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
-    // A stated plane is one and the same wherever the tool stood.
-    let stays = returns == Some(ReturnLevel::Retract) || in_force.return_plane.is_some();
+    // A stated plane is one and the same wherever the tool stood; the next hole is made from there.
+    let above = in_force.return_plane.zip(in_force.retract).is_some_and(|(plane, r)| plane >= r);
+    let stays = match cycle.return_plane {
+        None => returns == Some(ReturnLevel::Retract),
+        Some(_) => above,
+    };
     if chained || !stays {
         return None;
     }

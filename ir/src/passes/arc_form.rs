@@ -4,7 +4,7 @@
 //! Where the tool stands must be known (a tangent arc straight ahead is a line), and for a tangent arc which way it came.
 
 use super::walk::Walk;
-use super::write::{rounded, unit_of};
+use super::write::{EXACT, rounded, unit_of};
 use super::{Target, each_body};
 use crate::canon::{AXES, Axis, Fact, Plane};
 use crate::cycle::absolute;
@@ -50,7 +50,7 @@ pub(super) fn over(
         // Errors of rounding do not add up: the next arc begins where this one really ends.
         let mut end = None;
         if let Op::ArcForm(arc) = &stmt.op {
-            match by_centre(arc, walk, state.heading, target) {
+            match state.by_centre(arc, walk, target.decimals_in(walk.unit())) {
                 Ok((op, ends)) => {
                     end = ends;
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
@@ -80,8 +80,17 @@ pub(super) fn follow(body: &[Stmt], walk: &mut Walk, state: &mut State) {
 }
 
 impl State {
+    /// An arc by its centre, for the walk that stands before it; its computed words have at most so
+    /// many digits.
+    ///
+    /// # Errors
+    /// What must be known and is not; an arc that is none.
+    pub(super) fn by_centre(&self, arc: &ArcForm, walk: &Walk, decimals: u8) -> Result<Made, Fault> {
+        by_centre(arc, walk, self.heading, decimals)
+    }
+
     /// Executes a statement.
-    fn step(&mut self, stmt: &Stmt, walk: &mut Walk) {
+    pub(super) fn step(&mut self, stmt: &Stmt, walk: &mut Walk) {
         let before = walk.at.position;
         let bent = match &stmt.op {
             Op::ArcFeed(arc) => bend(arc, &walk.at),
@@ -165,7 +174,8 @@ impl Around for Known<'_> {
         if via[normal as usize] != self.at.position[normal as usize] {
             return Err(Fault::CannotSay { what: "a circle in space".into() });
         }
-        let at = |axis: Axis| via[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
+        let at =
+            |axis: Axis| via[axis as usize].ok_or(Fault::PositionUnknown { axis: axis.letter() as char });
         Ok([at(first)?, at(second)?])
     }
 
@@ -189,9 +199,9 @@ impl Around for Known<'_> {
 }
 
 /// An arc by its centre, and its exact end; or the line that it is.
-type Made = (Op, Option<[(Axis, Nanos); 2]>);
+pub(super) type Made = (Op, Option<[(Axis, Nanos); 2]>);
 
-fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> Result<Made, Fault> {
+fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Result<Made, Fault> {
     let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
     let (first, second, _) = plane.axes();
     let known = Known { at: &walk.at, plane, heading };
@@ -210,11 +220,12 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, target: &Target) -> R
         ArcFault::NoRadius => Fault::ArcWithoutCentre,
     })?;
     let unit = walk.unit();
+    // How a third axis goes with several turns depends on the very angle.
+    let decimals = if arc.turns > 0 { EXACT } else { decimals };
     let mut words: [Option<Expr>; 3] = [None, None, None];
     let mut to = arc.to.clone();
     for (i, axis) in [first, second].into_iter().enumerate() {
         let unit = unit_of(axis, unit);
-        let decimals = target.decimals_in(unit);
         words[axis as usize] = Some(rounded(centre[i].wrapping_sub(start[i]), decimals, unit).into());
         if matches!(arc.shape, Shape::AngleAbout { .. }) {
             to.set(axis, absolute(rounded(end[i], decimals, unit)));

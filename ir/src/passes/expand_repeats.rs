@@ -50,6 +50,13 @@ pub(super) fn in_procedures(program: &mut Program, diags: &mut Vec<Diagnostic>) 
     }
 }
 
+/// Writes every repetition out.
+pub(super) fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
+    for procedure in &mut program.procedures {
+        over(&mut procedure.body, &Target::default(), diags);
+    }
+}
+
 fn has_blocks(body: &[Stmt]) -> bool {
     body.iter().any(|s| matches!(s.op, Op::RepeatBlocks(_)))
 }

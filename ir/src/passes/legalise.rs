@@ -5,12 +5,16 @@
 //! not looked into: a target that has such control can say everything.
 
 use super::walk::Walk;
-use super::{Target, arc_form, absolute_holes, approach, expand_calls, expand_cycles, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance, origin_shift, return_plane, skip_levels, state_clearance, tool_edge, work_offset};
+use super::{
+    Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
+    expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance,
+    origin_shift, return_plane, skip_levels, state_clearance, tool_edge, work_offset,
+};
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
 use crate::num::{Nanos, Num};
-use crate::program::{Arc, Op, Program, Stmt};
+use crate::program::{Arc, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
 
 // What a statement may need, and a target may lack.
@@ -49,6 +53,7 @@ pub struct Legaliser {
     skip: skip_levels::State,
     arcs: arc_form::State,
     edge: tool_edge::State,
+    frames: expand_frames::State,
 }
 
 impl Legaliser {
@@ -75,6 +80,7 @@ impl Legaliser {
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             edge: tool_edge::State::default(),
+            frames: expand_frames::State::default(),
         }
     }
 
@@ -111,6 +117,7 @@ impl Legaliser {
     /// are the facts taken for granted so far.
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
+        self.frames.assume(assumed);
         let needs = self.needs(stmts);
         let start = (needs != 0).then(|| self.walk.clone());
         if self.measures && !self.target.caps.arc_forms && needs & ARC == 0 {
@@ -147,6 +154,9 @@ impl Legaliser {
             let apart = |op: &Op| one_distance::may_mix(op) || feed_unit::differs(op, units) || changes(op);
             needs |= if stmts.iter().any(|stmt| apart(&stmt.op)) { MEASURE } else { 0 };
         }
+        if self.frames.is_busy() {
+            needs |= FRAME;
+        }
         if self.edge.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
         }
@@ -174,11 +184,26 @@ impl Legaliser {
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);
         }
-        if self.follow && needs & (CONTROL | WORK | SHIFT) != 0 {
+        if needs & FRAME != 0 {
+            expand_frames::over(stmts, &mut start.clone(), &mut self.frames, &self.target, diags);
+        }
+        if self.follow && needs & (CONTROL | WORK | SHIFT | FRAME) != 0 {
             self.walk = start.clone();
-            self.walk.pass(stmts);
+            if needs & FRAME != 0 && needs & ARC == 0 {
+                self.arcs = arc_form::State::default();
+                arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
+            } else {
+                self.walk.pass(stmts);
+            }
         }
         // Every pass walks from the same start: what it walks over does what the piece does.
+        if needs & ARC != 0 && !self.target.caps.arc_forms {
+            arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
+        }
+        // Computed words are from zero, others may not be.
+        let computed = self.measures && needs & (ARC | FRAME) != 0;
+        let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
+        let needs = if mixed { needs | MEASURE } else { needs };
         if needs & MEASURE != 0 && !self.target.caps.feed_apart {
             feed_unit::over(stmts, &mut start.clone(), &self.target);
         }
@@ -208,9 +233,6 @@ impl Legaliser {
         if needs & PATTERN != 0 {
             expand_patterns::reform(stmts, &mut start.clone(), &self.target, diags);
         }
-        if needs & ARC != 0 && !self.target.caps.arc_forms {
-            arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
-        }
         if needs & ARC != 0 && !self.target.caps.arc_turns {
             expand_turns::over(stmts, &mut start.clone(), &self.target, diags);
         }
@@ -228,7 +250,11 @@ impl Legaliser {
     pub fn run_program(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) {
         let assumed = rest.assumed;
         self.walk.assume(&assumed);
-        if self.lacks & CALL != 0 || self.calls_under_expanded(rest) {
+        let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest);
+        if frames {
+            expand_repeats::everywhere(rest, diags);
+        }
+        if self.lacks & CALL != 0 || frames || self.calls_under_expanded(rest) {
             expand_repeats::in_procedures(rest, diags);
             // The walk is needed again for the other passes.
             expand_calls::over(rest, &mut self.walk.clone(), diags);
@@ -244,6 +270,7 @@ impl Legaliser {
             self.cycles = expand_cycles::State::default();
             self.edge.start_over();
             self.arcs = arc_form::State::default();
+            self.frames.start_over();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
         }
@@ -366,6 +393,7 @@ fn lacks(caps: &Caps) -> u16 {
     needs(EDGE, caps.tool_edges != Some(false));
     needs(TABLE, caps.tool_edges != Some(true));
     needs(MACHINE, caps.machine_coordinates);
+    needs(FRAME, caps.frames);
     lacks
 }
 
@@ -383,6 +411,7 @@ fn interest(stmt: &Stmt) -> u16 {
         Op::ChangeTool => TABLE,
         Op::UseMachineCoordinates => MACHINE,
         Op::SetOriginOffsets(_) => WORK,
+        Op::ClearFrame(FrameSlot::Chain) | Op::SetFrame(_) => FRAME,
         Op::ClearFrame(_) => SHIFT,
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
@@ -395,7 +424,6 @@ fn interest(stmt: &Stmt) -> u16 {
         | Op::SelectPlane(_)
         | Op::SetFeedMode(_)
         | Op::SetReturnLevel(_)
-        | Op::SetFrame(_)
         | Op::StopCutterRadiusCompensation
         | Op::SetSpindleSpeed(_)
         | Op::SelectTool(_)

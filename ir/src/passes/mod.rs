@@ -14,6 +14,7 @@ pub mod convert_units;
 pub mod drop_redundant;
 pub mod expand_calls;
 pub mod expand_cycles;
+pub mod expand_frames;
 pub mod expand_patterns;
 pub mod expand_repeats;
 pub mod expand_turns;
@@ -132,6 +133,12 @@ pub const PASSES: &[Pass] = &[
         about: "names tool lengths by edges of the tool or by entries of a table",
         run: tool_edge::run,
     },
+    // Before everything that looks at coordinates.
+    Pass {
+        name: "expand-frames",
+        about: "works chains of frames into the coordinates",
+        run: expand_frames::run,
+    },
     // Before the patterns: a first hole may come out of one.
     Pass {
         name: "return-plane",
@@ -156,6 +163,7 @@ pub const PASSES: &[Pass] = &[
         about: "measures planes and positions of cycles from program zero",
         run: absolute_holes::run,
     },
+    // Before the turns, which belong to arcs with a centre.
     Pass {
         name: "arc-form",
         about: "writes arcs by angle, through a point or tangent by their centre",

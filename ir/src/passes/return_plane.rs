@@ -200,6 +200,16 @@ fn behind_first(body: &[Stmt], i: usize, in_force: &InForce, walk: &Walk, target
         Op::Hole(m) => (m.to.clone(), Vec::new()),
         Op::Pattern(pattern) => {
             let holes = expand_patterns::holes(&inner, pattern, target.decimals_in(inner.unit())).ok()?;
+            // What comes next may count from where the last hole is: it must not be a rounded one.
+            let (mut exact, mut rounded) = (inner.clone(), inner.clone());
+            exact.step(&body[hole]);
+            for to in &holes {
+                let op = Op::Hole(Move { to: to.clone(), said: false });
+                rounded.step(&Stmt::new(body[hole].span, op));
+            }
+            if exact.at.position != rounded.at.position {
+                return None;
+            }
             let mut holes = holes.into_iter();
             (holes.next()?, holes.collect())
         }

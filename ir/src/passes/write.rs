@@ -6,7 +6,7 @@ use crate::num::{Nanos, Num, POW10, Unit};
 use crate::program::{Coord, Move, Op, Point, Stmt};
 
 /// Digits with which every length is exact that a program can write.
-const EXACT: u8 = 9;
+pub(super) const EXACT: u8 = 9;
 
 /// The literal nearest to a position, with at most `decimals` (0 to 9) digits after the point, half
 /// away from zero.

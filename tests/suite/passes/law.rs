@@ -9,7 +9,10 @@ use ncc_ir::caps::Caps;
 use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, ONE, Unit};
-use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point, Procedure, Program, Stmt};
+use ncc_ir::program::{
+    Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameSlot, FrameStep, Move, Op, Point, Procedure,
+    Program, Shape, Stmt,
+};
 use ncc_ir::source::Span;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -173,6 +176,67 @@ fn arc() -> impl Strategy<Value = Op> {
     )
 }
 
+/// An arc in another form.
+fn arc_form() -> impl Strategy<Value = Op> {
+    let turn = || any::<bool>().prop_map(|cw| if cw { Turn::Clockwise } else { Turn::Counterclockwise });
+    let degrees = |d: i64| Expr::from(Num::int(d, Unit::Degree));
+    let about = || [prop::option::of(coord(-100, 100)), prop::option::of(coord(-100, 100))];
+    let centre = |[i, j]: [Option<Coord>; 2]| Box::new([i, j, None]);
+    let shape = prop_oneof![
+        (turn(), 1i64..359).prop_map(move |(turn, a)| Shape::Angle { turn, angle: degrees(a) }),
+        (turn(), 1i64..359, about()).prop_map(move |(turn, a, c)| {
+            Shape::AngleAbout { turn, angle: degrees(a), centre: centre(c) }
+        }),
+        (turn(), about()).prop_map(move |(turn, c)| Shape::Mixed { turn, centre: centre(c) }),
+        point(&[Axis::X, Axis::Y]).prop_map(|m| Shape::Through(Box::new(m.to))),
+        Just(Shape::Tangent),
+    ];
+    let to = (point(&[Axis::X, Axis::Y]), prop::option::of(coord(-50, 50)), any::<bool>());
+    (shape, to, 0u32..2).prop_map(|(shape, (m, z, end), turns)| {
+        let ends = end && !matches!(shape, Shape::AngleAbout { .. } | Shape::Mixed { .. });
+        let mut to = if ends { m.to } else { Point::default() };
+        if let (Some(z), false) = (z, matches!(shape, Shape::Through(_))) {
+            to.set(Axis::Z, z);
+        }
+        Op::ArcForm(Box::new(ArcForm { plane: Fact::Known(Plane::Xy), to, shape, turns, said: true }))
+    })
+}
+
+/// A step of the chain of frames, or its end.
+fn frame() -> impl Strategy<Value = Op> {
+    let length = || prop::option::of((-300i64..300).prop_map(|t| Expr::from(mm(t))));
+    let factor = || {
+        let tenths = prop_oneof![Just(5i64), Just(20), Just(13)];
+        prop::option::of(tenths.prop_map(|t| Num { unit: Unit::One, ..mm(t) }.into()))
+    };
+    let angle = prop_oneof![3 => -180i64..180, 2 => select(&[0i64, 90, 180, -90][..])];
+    let step = prop_oneof![
+        3 => [length(), length(), length()].prop_map(|[x, y, z]| {
+            FrameStep::Translate(Box::new([x, y, z, None, None, None]))
+        }),
+        2 => angle.prop_map(|a| FrameStep::Rotate {
+            plane: Fact::Known(Plane::Xy),
+            angle: Num::int(a, Unit::Degree).into(),
+        }),
+        1 => factor().prop_map(|f| FrameStep::Scale(Box::new([f.clone(), f, None]))),
+        1 => [factor(), factor(), factor()].prop_map(|f| FrameStep::Scale(Box::new(f))),
+        1 => [any::<bool>(), any::<bool>()].prop_map(|[x, y]| FrameStep::Mirror([x, y, false])),
+    ];
+    let set = (step, any::<bool>()).prop_map(|(step, added)| Op::SetFrame(Box::new(Frame { added, step })));
+    prop_oneof![3 => set, 2 => Just(Op::ClearFrame(FrameSlot::Chain))]
+}
+
+/// Statements that stand together.
+fn ops() -> impl Strategy<Value = Vec<Op>> {
+    let raw = point(&[Axis::X, Axis::Y, Axis::Z]).prop_map(|mut m| {
+        for word in m.to.axes.iter_mut().flatten() {
+            word.distance = Fact::Known(Distance::Absolute);
+        }
+        vec![Op::UseMachineCoordinates, Op::StraightTraverse(m)]
+    });
+    prop_oneof![30 => op().prop_map(|op| vec![op]), 1 => raw]
+}
+
 fn op() -> impl Strategy<Value = Op> {
     const ALL: &[Axis] = &[Axis::X, Axis::Y, Axis::Z];
     const ASIDE: &[Axis] = &[Axis::X, Axis::Y];
@@ -189,6 +253,8 @@ fn op() -> impl Strategy<Value = Op> {
         1 => Just(Op::ChangeTool),
         1 => (100i64..3000).prop_map(|f| Op::SetFeedRate(mm(f).into())),
         1 => arc(),
+        1 => arc_form(),
+        1 => frame(),
         1 => Just(Op::StartSpindleClockwise),
         1 => Just(Op::Comment("A COMMENT".into())),
     ]
@@ -196,12 +262,13 @@ fn op() -> impl Strategy<Value = Op> {
 
 fn program() -> impl Strategy<Value = Program> {
     let skip = prop_oneof![8 => Just(None), 1 => Just(Some(1)), 1 => Just(Some(2))];
-    let block = (prop::collection::vec(op(), 1..3), skip, prop::option::of(1u32..999), any::<bool>());
+    let block = (prop::collection::vec(ops(), 1..3), skip, prop::option::of(1u32..999), any::<bool>());
     prop::collection::vec(block, 1..14).prop_map(|blocks| {
         let first = [Op::SetFeedRate(mm(1000).into()), Op::SelectTool(Expr::int(1))]
             .map(|op| Stmt::new(Span::default(), op));
         let mut body = Vec::from(first);
         for (ops, skip, number, comment) in blocks {
+            let ops: Vec<Op> = ops.into_iter().flatten().collect();
             let last = ops.len() - 1;
             for (at, op) in ops.into_iter().enumerate() {
                 let mut stmt = Stmt::new(Span::default(), op);
@@ -270,10 +337,12 @@ fn as_read_back(mut program: Program, caps: &Caps) -> Program {
 
 #[test]
 fn the_machine_does_the_same() {
-    let targets = ["canon", "mach9", "fanuc", "siemens"].map(|id| (id, builtin(id).unwrap().caps.clone()));
+    let mut targets =
+        ["canon", "mach9", "fanuc", "siemens", "siemens"].map(|id| (id, builtin(id).unwrap().caps.clone()));
+    targets[4].1.frames = false;
     let cases = std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(2000);
     let config = Config { cases, failure_persistence: None, max_shrink_iters: 20_000, ..Config::default() };
-    let counts = std::cell::RefCell::new([[0u32; 2]; 4]);
+    let counts = std::cell::RefCell::new([[0u32; 2]; 5]);
     let start = prop_oneof![3 => Just([Some(0), Some(0), Some(20 * ONE)]), 1 => Just([None; 3])];
     TestRunner::new_with_rng(config, TestRng::deterministic_rng(Default::default()))
         .run(&(program(), start), |(program, start)| {
