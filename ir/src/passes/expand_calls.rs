@@ -180,7 +180,7 @@ pub(super) fn also_skipped(stmt: &mut Stmt, skip: Option<u8>) -> Result<(), Faul
 }
 
 /// Replaces what a statement takes from its caller by what is in force.
-fn settle(op: &mut Op, here: &Tracker) {
+pub(super) fn settle(op: &mut Op, here: &Tracker) {
     if let Op::Position(m) = op {
         let m = std::mem::take(m);
         *op = match here.modes.motion {

@@ -8,11 +8,11 @@ use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance,
-    origin_shift, return_plane, skip_levels, state_clearance, tool_edge, work_offset,
+    origin_shift, return_plane, skip_levels, specialise_procedures, state_clearance, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
-use crate::diag::{Diagnostic, Fault};
+use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
@@ -254,10 +254,44 @@ impl Legaliser {
         if frames {
             expand_repeats::everywhere(rest, diags);
         }
-        if self.lacks & CALL != 0 || frames || self.calls_under_expanded(rest) {
-            expand_repeats::in_procedures(rest, diags);
-            // The walk is needed again for the other passes.
-            expand_calls::over(rest, &mut self.walk.clone(), diags);
+        // A subprogram may lack what only its callers know: it is given that, or written out.
+        let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
+        let first = match self.lacks & CALL != 0 || frames {
+            true => 2,
+            false if !self.calls_under_expanded(rest) => 0,
+            false => {
+                let mut own = rest.clone();
+                specialise_procedures::over(&mut own, &self.walk, &mut Vec::new());
+                if self.calls_under_expanded(&own) { 2 } else { 1 }
+            }
+        };
+        if first == 2 {
+            return self.run_whole(rest, Subprograms::Expand, diags);
+        }
+        if self.lacks != 0 && rest.procedures.len() > 1 {
+            for way in ways.into_iter().skip(first) {
+                let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
+                own.run_whole(&mut program, way, &mut found);
+                if !found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
+                    (*self, *rest) = (own, program);
+                    return diags.append(&mut found);
+                }
+            }
+        }
+        self.run_whole(rest, ways[first], diags);
+    }
+
+    /// The same, with subprograms treated in one way.
+    fn run_whole(&mut self, rest: &mut Program, way: Subprograms, diags: &mut Vec<Diagnostic>) {
+        let assumed = rest.assumed;
+        match way {
+            Subprograms::Keep => {}
+            Subprograms::Specialise => specialise_procedures::over(rest, &self.walk, diags),
+            Subprograms::Expand => {
+                expand_repeats::in_procedures(rest, diags);
+                // The walk is needed again for the other passes.
+                expand_calls::over(rest, &mut self.walk.clone(), diags);
+            }
         }
         number_names::over(rest, self.target.caps.call_digits, diags);
         let mut procedures = rest.procedures.iter_mut();
@@ -336,6 +370,17 @@ impl Legaliser {
             }
         }
     }
+}
+
+/// What is done with subprograms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Subprograms {
+    /// They stay as they are.
+    Keep,
+    /// They get what their callers have in force.
+    Specialise,
+    /// They are written out.
+    Expand,
 }
 
 /// Whether an arc has a word of the third axis that moves it.

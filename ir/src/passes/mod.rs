@@ -31,6 +31,7 @@ pub mod origin_shift;
 mod pattern_forms;
 pub mod return_plane;
 pub mod skip_levels;
+pub mod specialise_procedures;
 pub mod state_clearance;
 pub mod tool_edge;
 mod walk;
@@ -87,6 +88,12 @@ pub struct Pass {
 
 /// All passes, in the order in which they are run.
 pub const PASSES: &[Pass] = &[
+    // Before the calls are written out: what callers disagree about may be all that is missing.
+    Pass {
+        name: "specialise-procedures",
+        about: "gives subprograms what their callers have in force, a copy for each that differs",
+        run: specialise_procedures::run,
+    },
     Pass {
         name: "expand-calls",
         about: "writes subprograms out where they are called",
