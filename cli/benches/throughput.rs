@@ -152,6 +152,33 @@ fn translate_to_mach9(bencher: Bencher<'_, '_>, kind: Workload) {
     whole(bencher, kind, "mach9", true);
 }
 
+/// The whole, Fanuc to Sinumerik, verified.
+#[divan::bench(args = Workload::ALL)]
+fn translate_to_siemens(bencher: Bencher<'_, '_>, kind: Workload) {
+    whole(bencher, kind, "siemens", true);
+}
+
+/// The whole, Sinumerik to Sinumerik, verified.
+#[divan::bench(args = Workload::ALL)]
+fn translate_siemens(bencher: Bencher<'_, '_>, kind: Workload) {
+    from_siemens(bencher, kind, "siemens");
+}
+
+/// The whole, Sinumerik to Fanuc, verified.
+#[divan::bench(args = Workload::ALL)]
+fn translate_siemens_to_fanuc(bencher: Bencher<'_, '_>, kind: Workload) {
+    from_siemens(bencher, kind, "fanuc");
+}
+
+/// A workload as a Sinumerik program, with block numbers as the original has them.
+fn from_siemens(bencher: Bencher<'_, '_>, kind: Workload, to: &str) {
+    let mut job = job("fanuc", "siemens", false);
+    job.layout.numbering = ncc_backends::Numbering::Keep;
+    let mut made = translate(&job, &mut Cursor::new(text(kind))).expect("reading from memory");
+    let text = made.output.to_vec().expect("an output in memory");
+    all(bencher, &text, &self::job("siemens", to, true));
+}
+
 /// The whole, Fanuc to canonical functions, verified.
 #[divan::bench(args = Workload::ALL)]
 fn translate_to_canon(bencher: Bencher<'_, '_>, kind: Workload) {
@@ -159,10 +186,12 @@ fn translate_to_canon(bencher: Bencher<'_, '_>, kind: Workload) {
 }
 
 fn whole(bencher: Bencher<'_, '_>, kind: Workload, to: &str, verify: bool) {
-    let text = text(kind);
-    let job = job("fanuc", to, verify);
-    counted(bencher, &text).bench_local(|| {
-        let outcome = translate(&job, &mut Cursor::new(&text)).expect("reading from memory");
+    all(bencher, &text(kind), &job("fanuc", to, verify));
+}
+
+fn all(bencher: Bencher<'_, '_>, text: &[u8], job: &Job) {
+    counted(bencher, text).bench_local(|| {
+        let outcome = translate(job, &mut Cursor::new(text)).expect("reading from memory");
         assert!(outcome.release.is_ok(), "{:?}", outcome.diagnostics.first());
         outcome.output.bytes()
     });
