@@ -7,7 +7,7 @@
 use ncc_ir::canon::{Axis, Modes};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::passes::{FOLDS, PASSES, Pass, Target};
+use ncc_ir::passes::{FOLDS, FOLDS_OF_EVENTS, PASSES, Pass, Target};
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 
@@ -30,14 +30,15 @@ pub(crate) fn run(
 ) {
     let nothing = Target { caps: Caps::default(), ..target.clone() };
     for pass in passes {
-        let target = if FOLDS.contains(&pass.name) { target } else { &nothing };
+        let target = if FOLDS_OF_EVENTS.contains(&pass.name) { target } else { &nothing };
         (pass.run)(program, target, entry, found);
     }
 }
 
-/// The passes that fold.
-pub(crate) fn folds() -> Vec<&'static Pass> {
-    FOLDS.iter().filter_map(|name| pass(name)).collect()
+/// The passes that fold a program, or a list of events.
+pub(crate) fn folds(events: bool) -> Vec<&'static Pass> {
+    let names = if events { FOLDS_OF_EVENTS } else { FOLDS };
+    names.iter().filter_map(|name| pass(name)).collect()
 }
 
 /// Folding of a program that streams.
@@ -52,8 +53,8 @@ pub(crate) struct Folder {
 }
 
 impl Folder {
-    pub(crate) fn new(target: Target, entry: Tracker) -> Folder {
-        Folder { passes: folds(), target, held: Vec::new(), entry, assumed: Modes::default() }
+    pub(crate) fn new(target: Target, entry: Tracker, events: bool) -> Folder {
+        Folder { passes: folds(events), target, held: Vec::new(), entry, assumed: Modes::default() }
     }
 
     /// Further statements. What need not be held back is given as it was, and folded.

@@ -91,7 +91,7 @@ impl<'j> Line<'j> {
         legaliser.set_measures(own);
         legaliser.stand_at(&job.start);
         let start = Tracker { position: job.start, ..Tracker::default() };
-        let folder = job.folds().then(|| Folder::new(target(job), start));
+        let folder = job.folds().then(|| Folder::new(target(job), start, job.from.dialect.caps.flat));
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
         writer.stand_at(&job.start);
         let mut line = Line {
@@ -210,7 +210,7 @@ impl<'j> Line<'j> {
         let entry = self.folder.as_ref().map_or(&start, |folder| &folder.entry);
         let mut passes = self.job.passes.clone();
         if self.folder.is_some() {
-            passes.extend(rewrite::folds());
+            passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
         self.legaliser.run_program(&mut program, &mut found);

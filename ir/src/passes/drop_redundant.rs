@@ -87,10 +87,12 @@ fn stands(walk: &Walk, m: &Move, axis: Axis) -> bool {
 /// Leaves words out for axes that stand there already; at least one stays.
 fn shorten(walk: &Walk, stmt: &mut Stmt) {
     let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = &mut stmt.op else { return };
-    if walk.at.raw || walk.waiting {
+    if walk.at.raw {
         return;
     }
-    let needless: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| stands(walk, m, *axis)).collect();
+    let needed = |axis: &Axis| *axis == Axis::Z && walk.waiting;
+    let needless: Vec<Axis> =
+        Axis::ALL.into_iter().filter(|axis| stands(walk, m, *axis) && !needed(axis)).collect();
     let words = m.to.axes.iter().flatten().count();
     // An incremental word of no way says that nothing is meant to move; it goes as well.
     let keep = usize::from(needless.len() == words);

@@ -247,6 +247,9 @@ pub const PASSES: &[Pass] = &[
 /// Names of the passes that fold: moves into cycles, positions into patterns.
 pub const FOLDS: &[&str] = &["fold-cycles", "feed-with-cycle", "fold-patterns"];
 
+/// Names of the passes that a list of events goes through: it names every axis in every line.
+pub const FOLDS_OF_EVENTS: &[&str] = &["fold-cycles", "feed-with-cycle", "fold-patterns", "drop-redundant"];
+
 /// Runs a pass over each procedure; what holds before a subprogram is not known.
 fn each_body(program: &mut Program, entry: &Tracker, mut over: impl FnMut(&mut Vec<Stmt>, &mut Walk)) {
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
