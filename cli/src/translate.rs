@@ -4,6 +4,7 @@
 //! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
 //! difference; the caller decides where a released output goes.
 
+use std::collections::BTreeSet;
 use std::io::{self, Read};
 
 use ncc_backends::{Head, Writer};
@@ -27,6 +28,9 @@ pub(crate) const PECK_CLEARANCE: &str = "peck_clearance";
 
 /// Option of a dialect: lift of its chip-breaking cycle.
 pub(crate) const BREAK_LIFT: &str = "break_lift";
+
+/// Highest number of a program.
+const MOST_NUMBER: u32 = 99_999_999;
 
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
@@ -75,6 +79,8 @@ struct Line<'j> {
     output: Output,
     written: u64,
     diagnostics: Vec<Diagnostic>,
+    /// Numbers of the output's subprograms.
+    numbers: BTreeSet<u32>,
     errors: usize,
     refused: bool,
     failed: bool,
@@ -107,6 +113,7 @@ impl<'j> Line<'j> {
             output: Output::new(),
             written: 0,
             diagnostics: Vec::new(),
+            numbers: BTreeSet::new(),
             errors: 0,
             refused: false,
             failed: false,
@@ -121,7 +128,8 @@ impl<'j> Line<'j> {
     /// written only at the end, and is read then.
     fn open_frame(&mut self) {
         let mut text = Vec::new();
-        let name = ProgramName { number: Some(1), title: None };
+        // A number that no subprogram is likely to have; it is not the one that is written.
+        let name = ProgramName { number: Some(MOST_NUMBER), title: None };
         self.writer.head(&Head { name, lines: Vec::new() }, &mut text, &mut Vec::new());
         self.check(|v| v.head(&text));
     }
@@ -214,6 +222,7 @@ impl<'j> Line<'j> {
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
         self.legaliser.run_program(&mut program, &mut found);
+        self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {
             match at {
@@ -392,7 +401,9 @@ impl<'j> Line<'j> {
     fn name(&self) -> ProgramName {
         let mut name = self.batch.name.clone();
         if self.job.to.dialect.program.number.is_some() {
-            name.number = self.job.program_number.or(name.number).or(Some(1));
+            // The lowest number that no subprogram has.
+            let free = (1..).find(|n| !self.numbers.contains(n));
+            name.number = self.job.program_number.or(name.number).or(free);
             if name.title.is_none() {
                 let stem = self.job.source_name.rsplit_once('.').map_or(&*self.job.source_name, |n| n.0);
                 name.title = (stem != "-" && !stem.is_empty()).then(|| stem.to_uppercase().into());
