@@ -46,11 +46,13 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
                     None => Ok(()),
                 })
             }
-            Op::Pattern(pattern) => match before.at.cycle.as_ref().and_then(|c| before.at.plane(c.cycle.plane)) {
-                Some(plane) => pattern_absolute(pattern, plane, &before),
-                None if words_of(pattern).next().is_none() => Ok(()),
-                None => Err(Fault::EntryFactNeeded { fact: ModeName::Plane }),
-            },
+            Op::Pattern(pattern) => {
+                match before.at.cycle.as_ref().and_then(|c| before.at.plane(c.cycle.plane)) {
+                    Some(plane) => pattern_absolute(pattern, plane, &before),
+                    None if words_of(pattern).next().is_none() => Ok(()),
+                    None => Err(Fault::EntryFactNeeded { fact: ModeName::Plane }),
+                }
+            }
             _ => Ok(()),
         };
         if let Err(fault) = made {
@@ -71,7 +73,11 @@ fn words_of(pattern: &mut Pattern) -> impl Iterator<Item = &mut [Coord; 2]> {
     pairs.into_iter().flatten()
 }
 
-fn pattern_absolute(pattern: &mut Pattern, plane: Plane, before: &Walk) -> Result<(), Fault> {
+/// Writes the words of a pattern from program zero, for the walk that stands before it.
+///
+/// # Errors
+/// A place that must be known and is not; the words up to there are written.
+pub(super) fn pattern_absolute(pattern: &mut Pattern, plane: Plane, before: &Walk) -> Result<(), Fault> {
     let (first, second, _) = plane.axes();
     for pair in words_of(pattern) {
         make_absolute(&mut pair[0], first, before)?;

@@ -10,22 +10,34 @@ use super::write::{at, only, traverse};
 use super::{Target, each_body};
 use crate::canon::ReturnLevel;
 use crate::cycle::{Approach, Cycle, Pattern};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Fault};
 use crate::program::{Op, Point, Program, Stmt};
 use crate::track::Tracker;
 
 /// Writes out first legs that the target would make in another order.
-pub fn run(program: &mut Program, target: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target));
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, target, diags));
 }
 
 /// The same for one body.
-pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) {
+pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     let Some(way) = target.caps.approach else { return };
     let mut i = 0;
+    let mut other_way = false;
     while i < body.len() {
         walk.enter(body[i].skip);
         let chained = walk.at.cycle.is_some();
+        // What the tool stands above it may not stand above any more.
+        if (chained || walk.at.cycle_in_doubt)
+            && other_way
+            && matches!(body[i].op, Op::SetFrame(_) | Op::ClearFrame(_) | Op::SetOriginOffsets(_))
+        {
+            let what = "another zero under a cycle that goes another way to its holes";
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
+        }
+        if let Op::StartCycle(cycle) = &body[i].op {
+            other_way = cycle.approach != way || other_way && body[i].skip.is_some();
+        }
         walk.step(&body[i]);
         if let Op::StartCycle(cycle) = &body[i].op
             && cycle.approach != way

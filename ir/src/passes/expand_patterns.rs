@@ -3,7 +3,7 @@
 
 use super::walk::Walk;
 use super::write::{Rebuild, as_absolute, exact, is_absolute, rebuild, rounded, unit_of};
-use super::{Target, each_body, pattern_forms};
+use super::{Target, absolute_holes, each_body, pattern_forms};
 use crate::canon::{AXES, Axis, Plane};
 use crate::cycle::{Along, First, Pattern, absolute};
 use crate::diag::{Diagnostic, Fault};
@@ -47,10 +47,21 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
 
 /// Patterns of one body take the target's form; afterwards no cycle is written out any more.
 pub(super) fn reform(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
-    rebuild(body, |stmt, made| {
+    let mut reformed = false;
+    rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
-        let forms = match &stmt.op {
-            Op::Pattern(pattern) => forms(walk, pattern, target),
+        let plane = plane(walk);
+        let forms = match &mut stmt.op {
+            Op::Pattern(pattern) => {
+                if let (Some(plane), true) = (plane, reformed) {
+                    // An increment would count from where the form before has left the tool, which
+                    // may be half a unit off. What is not known here nothing counts from.
+                    let _ = absolute_holes::pattern_absolute(pattern, plane, walk);
+                }
+                let forms = forms(walk, pattern, target);
+                reformed |= forms.as_ref().is_some_and(|f| f.len() != 1 || f.first() != Some(&**pattern));
+                forms
+            }
             _ => None,
         };
         walk.step(&stmt);

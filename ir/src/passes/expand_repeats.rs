@@ -50,6 +50,11 @@ pub(super) fn in_procedures(program: &mut Program, diags: &mut Vec<Diagnostic>) 
     }
 }
 
+/// Whether a program repeats blocks.
+pub(super) fn repeats_blocks(program: &Program) -> bool {
+    program.procedures.iter().any(|p| has_blocks(&p.body))
+}
+
 /// Writes every repetition out.
 pub(super) fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     for procedure in &mut program.procedures {

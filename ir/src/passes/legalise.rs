@@ -224,7 +224,7 @@ impl Legaliser {
             expand_patterns::over(stmts, &mut start.clone(), &self.target, diags);
         }
         if needs & CYCLE != 0 {
-            approach::over(stmts, &mut start.clone(), &self.target);
+            approach::over(stmts, &mut start.clone(), &self.target, diags);
             expand_cycles::over(stmts, &mut start.clone(), &mut self.cycles, &self.target, diags);
             if !self.target.caps.incremental_cycles {
                 absolute_holes::over(stmts, &mut start.clone(), diags);
@@ -251,7 +251,7 @@ impl Legaliser {
         let assumed = rest.assumed;
         self.walk.assume(&assumed);
         let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest);
-        if frames {
+        if frames || self.repeats_in_the_way(rest) {
             expand_repeats::everywhere(rest, diags);
         }
         // A subprogram may lack what only its callers know: it is given that, or written out.
@@ -313,6 +313,20 @@ impl Legaliser {
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.length.flush(stmts, diags);
+    }
+
+    /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
+    /// is known only where they are written out.
+    fn repeats_in_the_way(&self, program: &Program) -> bool {
+        if self.lacks == 0 || !self.target.caps.repeat_blocks || !expand_repeats::repeats_blocks(program) {
+            return false;
+        }
+        let (mut own, mut trial, mut found) = (self.clone(), program.clone(), Vec::new());
+        own.run_whole(&mut trial, Subprograms::Keep, &mut found);
+        let written_out = |d: &Diagnostic| {
+            matches!(d.fault, Fault::CycleExpanded { .. }) || d.fault.gravity() == Gravity::Error
+        };
+        found.iter().any(written_out)
     }
 
     /// Whether positions in a subprogram may belong to a cycle that the target cannot say.

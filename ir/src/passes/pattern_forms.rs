@@ -8,7 +8,7 @@
 use super::Target;
 use super::expand_patterns::MOST_HOLES;
 use super::walk::Walk;
-use super::write::{at, rounded};
+use super::write::{at, is_absolute, rounded};
 use crate::canon::{Axis, Plane};
 use crate::caps::Caps;
 use crate::cycle::{Along, First, Pattern, Row};
@@ -180,6 +180,9 @@ impl Here<'_> {
         let mut starts = Vec::with_capacity(2);
         if self.caps.pattern_start || self.caps.circle_polar.is_some() {
             let stands = || [0, 1].map(|i| at(place[i], self.axes[i], self.unit));
+            // An increment would count from where the form before has left the tool.
+            let in_force = self.walk.at.modes.distance;
+            let said = said.filter(|words| words.iter().all(|w| is_absolute(w, in_force)));
             starts.push(Some(said.cloned().unwrap_or_else(stands)));
         }
         if self.caps.pattern_here && self.stands() == place.map(Some) {

@@ -100,7 +100,7 @@ impl Walk {
                     continue;
                 }
             };
-            let plain = stmt.skip.is_none() && self.skipped.is_none() && !self.waiting;
+            let plain = stmt.skip.is_none() && self.skipped.is_none() && !self.waiting && !self.at.raw;
             if !(plain && last.note(to, motion)) {
                 self.take(&mut last);
                 self.step(stmt);

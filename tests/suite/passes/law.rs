@@ -11,7 +11,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::program::{
     Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameSlot, FrameStep, Move, Op, Point, Procedure,
-    Program, Shape, Stmt,
+    Program, RepeatBlocks, Shape, Stmt,
 };
 use ncc_ir::source::Span;
 use proptest::prelude::*;
@@ -263,11 +263,20 @@ fn op() -> impl Strategy<Value = Op> {
 fn program() -> impl Strategy<Value = Program> {
     let skip = prop_oneof![8 => Just(None), 1 => Just(Some(1)), 1 => Just(Some(2))];
     let block = (prop::collection::vec(ops(), 1..3), skip, prop::option::of(1u32..999), any::<bool>());
-    prop::collection::vec(block, 1..14).prop_map(|blocks| {
+    let again = prop::option::weighted(0.1, (0usize..14, 1usize..14, 1u32..3));
+    (prop::collection::vec(block, 1..14), again).prop_map(|(blocks, again)| {
         let first = [Op::SetFeedRate(mm(1000).into()), Op::SelectTool(Expr::int(1))]
             .map(|op| Stmt::new(Span::default(), op));
         let mut body = Vec::from(first);
-        for (ops, skip, number, comment) in blocks {
+        let count = blocks.len();
+        for (k, (ops, skip, number, comment)) in blocks.into_iter().enumerate() {
+            if let Some((from, length, times)) = again {
+                let (from, to) = (from % count, (from % count + length).min(count - 1));
+                let repeat = || RepeatBlocks { from: "A".into(), to: None, times };
+                let marks = [(from, Op::Label("A".into())), (to, Op::RepeatBlocks(Box::new(repeat())))];
+                let here = marks.into_iter().filter(|(at, _)| *at == k && from < to);
+                body.extend(here.map(|(_, op)| Stmt::new(Span::default(), op)));
+            }
             let ops: Vec<Op> = ops.into_iter().flatten().collect();
             let last = ops.len() - 1;
             for (at, op) in ops.into_iter().enumerate() {
@@ -377,6 +386,11 @@ fn the_machine_does_the_same() {
                 let read = as_read_back(after.clone(), caps);
                 same_events(&program, &read, &told).map_err(show)?;
                 // Less is known of a piece than of the whole: more may be refused.
+                let repeats = |s: &Stmt| matches!(s.op, Op::RepeatBlocks(_));
+                if program.procedures[0].body.iter().any(repeats) {
+                    // Such a program is kept whole.
+                    continue;
+                }
                 let Some(pieces) = in_pieces(&program, &told) else { continue };
                 well_formed(&pieces.procedures[0].body).map_err(show)?;
                 let pieces = as_read_back(pieces, caps);
