@@ -49,6 +49,9 @@ impl<'j> Judge<'j> {
         if self.outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. })) {
             verifier.take_parameters(self.job);
         }
+        if self.outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::PatternFolded { .. })) {
+            verifier.folded();
+        }
         match verifier.whole(&self.source, text, 0, &self.inherited) {
             Ok(()) => Ok(verifier.covered()),
             Err(Stop::Source(diagnostic) | Stop::Target(diagnostic)) => Err(diagnostic),

@@ -85,12 +85,13 @@ pub(crate) fn fixed(dialect: &Dialect) -> Modes {
 /// What a dialect's numbers resolve.
 pub(crate) fn resolution(settings: &Settings) -> Resolution {
     let numbers = |q| settings.dialect.numbers(q);
-    let length = numbers(Quantity::Length);
+    let (length, feed) = (numbers(Quantity::Length), numbers(Quantity::Feed));
     Resolution {
         mm: length.decimals,
         inch: length.decimals_inch.unwrap_or(length.decimals),
         degree: numbers(Quantity::Angle).decimals,
-        feed: numbers(Quantity::Feed).decimals,
+        feed: feed.decimals,
+        feed_inch: feed.decimals_inch.unwrap_or(feed.decimals),
         second: numbers(Quantity::Seconds).decimals.max(3),
     }
 }

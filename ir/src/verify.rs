@@ -20,8 +20,10 @@ pub struct Resolution {
     pub inch: u8,
     /// Digits after the point of an angle in degrees.
     pub degree: u8,
-    /// Digits after the point of a feed.
+    /// Digits after the point of a feed in mm.
     pub feed: u8,
+    /// Digits after the point of a feed in inches.
+    pub feed_inch: u8,
     /// Digits after the point of a dwell in seconds.
     pub second: u8,
 }
@@ -32,6 +34,10 @@ impl Resolution {
         let unit = POW10[9 - digits.min(9) as usize];
         // An inch is 25.4 mm.
         (if inch { unit * 254 / 10 } else { unit }) / 2
+    }
+
+    fn feeds(&self, inch: bool) -> Nanos {
+        Resolution::half(if inch { self.feed_inch } else { self.feed }, inch)
     }
 
     #[inline]
@@ -238,7 +244,7 @@ impl Comparison {
         if let Some(axis) = self.end(&a.end, &b.end, b.inch) {
             return Some(Aspect::End(axis));
         }
-        if a.rate != b.rate && !near(a.rate, b.rate, Resolution::half(self.resolution.feed, b.inch)) {
+        if a.rate != b.rate && !near(a.rate, b.rate, self.resolution.feeds(b.inch)) {
             return Some(Aspect::Feed);
         }
         (!a.state.same(&b.state)).then_some(Aspect::State)

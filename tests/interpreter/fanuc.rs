@@ -15,6 +15,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         cycle: None,
         kept: Kept::default(),
         initial: 0.0,
+        initial_known: false,
         return_initial: modes.return_initial,
         depth: 0,
     };
@@ -89,6 +90,8 @@ struct Control {
     cycle: Option<u32>,
     kept: Kept,
     initial: f64,
+    /// Whether the program has said where that is.
+    initial_known: bool,
     return_initial: bool,
     depth: u32,
 }
@@ -238,9 +241,7 @@ impl Control {
             Some(cycle @ (73 | 81..=89)) => {
                 if self.cycle.is_none() {
                     self.initial = self.m.at[2];
-                    if !self.m.settled[2] {
-                        return self.m.halt("the initial level is not known");
-                    }
+                    self.initial_known = self.m.settled[2];
                 }
                 self.cycle = Some(cycle);
             }
@@ -369,6 +370,9 @@ impl Control {
             return self.m.halt("a cycle without Z and R");
         };
         let shift = self.m.shift(2);
+        if (r_inc || self.return_initial) && !self.initial_known {
+            return self.m.halt("the initial level is not known");
+        }
         let r = if r_inc { self.initial + r } else { r + shift };
         let z = if z_inc { r + z } else { z + shift };
         let hole = match (cycle, self.kept.q, self.kept.p) {

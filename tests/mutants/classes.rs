@@ -5,6 +5,8 @@
 //! end), or the second interpreter, which shares nothing with the compiler, makes the same events
 //! of both texts, from several power-on states; the class then names what kind of word it was.
 
+use ncc_ir::num::ONE;
+use ncc_tests::corpus::Program;
 use ncc_tests::interpreter::{PowerOn, Setup};
 use ncc_tests::plain::{self, Plain, Tolerance};
 
@@ -33,6 +35,8 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
     }
     the_same_moves(dialect, text, &mutant.text)?;
     Ok(match (&mutant.change, mutant.is) {
+        (Change::Sibling(mark), _) if mark == "AC" || mark == "IC" => "a place counted from elsewhere",
+        (_, Is::Name) if old.starts_with(b"CYCLE") => "a cycle that does the same with these arguments",
         (Change::Swapped, _) => "order of blocks without an event between",
         (Change::Sign, _) if !old.iter().any(|b| (b'1'..=b'9').contains(b)) => "minus zero",
         (_, Is::Letter(b'O')) if dialect == "fanuc" => "the program's number",
@@ -55,6 +59,9 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
         (Change::Deleted, Is::Sign) if old == b"," => "a comma before nothing",
         (_, Is::Letter(b'T')) => "a tool called ahead, and called again",
         (_, Is::Letter(b'H' | b'O')) => "a length that no Z takes up",
+        (Change::Digit | Change::Sign, Is::Letter(b'Z')) if in_a_cycle(text, mutant.at.start) => {
+            "a cycle's word that is in force, or that makes no hole"
+        }
         (_, Is::Letter(b'R' | b'Q' | b'P' | b'L' | b'D')) => {
             "a cycle's word that is in force, or that makes no hole"
         }
@@ -68,6 +75,48 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
         }
         (_, Is::Text) => "a comment, text or title",
     })
+}
+
+/// A mutant that is as near to the source as the text itself: the last digit of a number that was
+/// rounded, or a word that says the rounded place where an axis stands. Half a unit of the last digit
+/// is what equality allows; the second interpreter runs the source and the mutant.
+pub(crate) fn rounded(
+    source: &Program,
+    to: &str,
+    text: &[u8],
+    mutant: &Mutant,
+    only: Option<u16>,
+) -> Option<&'static str> {
+    let class = match mutant.change {
+        Change::Digit => "the last digit of a rounded number, as near to the source",
+        Change::Deleted => "an axis that stands there already, but for a rounding",
+        Change::Sign | Change::Sibling(_) | Change::Swapped => return None,
+    };
+    let has = |code: &[u8]| text.windows(code.len()).any(|w| w == code);
+    let inch = [&b"G20"[..], b"G70", b"INCHES", b"inch"].iter().any(|code| has(code));
+    let half = if inch { 0.00128 } else { 0.000_501 };
+    let within = Tolerance { place: half, feed: half };
+    for seed in [0, 1, 2] {
+        let mut world = plain::world(seed);
+        (world.peck_clearance, world.break_lift) = (ONE, ONE);
+        let start = world.start.map(|n| n as f64 / 1e9);
+        for skip in [0, 0b10, 0x7fe] {
+            let list = |dialect: &str, text: &[u8], only: Option<u16>| {
+                let mut setup = plain::setup(&world, skip);
+                setup.power_on.offset = only.map_or(setup.power_on.offset, u32::from);
+                Some(plain::of_machine(&plain::second(dialect, text, setup).ok()?, start))
+            };
+            let (a, b) = (list(source.dialect, &source.text, None)?, list(to, &mutant.text, only)?);
+            plain::compare(&a, &b, within).ok()?;
+        }
+    }
+    Some(class)
+}
+
+/// Whether a word stands in the block of a canned cycle.
+fn in_a_cycle(text: &[u8], place: usize) -> bool {
+    let from = text[..place].iter().rposition(|b| *b == b'\n').map_or(0, |n| n + 1);
+    text[from..place].windows(2).any(|w| w == b"G8")
 }
 
 /// Whether a place lies behind the block that ends the program, outside of subprograms.

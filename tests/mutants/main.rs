@@ -17,6 +17,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ncc::judge::Judge;
 use ncc_dialects::{Family, builtin};
+use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::job;
@@ -72,6 +73,11 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
     if !all {
         mutants = sample(mutants, seed(&program.file, to));
     }
+    // The one work offset of a control without words for it is the one that is named.
+    let only = judge.outcome.diagnostics.iter().find_map(|d| match d.fault {
+        Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => Some(offset),
+        _ => None,
+    });
     let what = format!("{}/{} to {to}", program.dialect, program.file);
     // What passes the untouched text is what the mutants are measured against.
     let untouched = judge.judge(&text).map_err(|d| format!("{:?}", d.fault));
@@ -81,7 +87,8 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
         match judge.judge(&mutant.text) {
             Err(_) => caught += 1,
             Ok(_) => {
-                let class = classes::class(to, &text, &mutant);
+                let class = classes::class(to, &text, &mutant)
+                    .or_else(|why| classes::rounded(program, to, &text, &mutant, only).ok_or(why));
                 found.push((mutant, class));
             }
         }

@@ -24,6 +24,8 @@ struct Cited {
     unit: f64,
     moves: Vec<Plain>,
     within: Tolerance,
+    /// Code with which a translation into canonical functions is refused, if it is.
+    refused: Option<String>,
 }
 
 fn cited() -> Vec<Cited> {
@@ -79,6 +81,7 @@ fn read(path: &PathBuf) -> Cited {
         unit,
         moves,
         within: Tolerance { place, feed: 1e-6 },
+        refused: page.fact("canon").and_then(|f| f.strip_prefix("refused ")).map(str::to_owned),
     }
 }
 
@@ -172,6 +175,14 @@ fn written_out_they_make_the_cited_moves() {
             job.start[axis] = Some((at * 1e9).round() as i64);
         }
         let (outcome, text) = translate::translate(&job, program.as_bytes());
+        if let Some(code) = &c.refused {
+            let codes: Vec<String> =
+                translate::stopping(&job, &outcome).iter().map(|c| format!("NC{c:04}")).collect();
+            if codes != [code.clone()] {
+                failures.add(&c.name, format!("refused with {codes:?}"));
+            }
+            continue;
+        }
         if outcome.release.is_err() {
             let said = translate::rendered(&job, "cited", program.as_bytes(), &outcome.diagnostics);
             failures.add(&c.name, said);

@@ -14,5 +14,6 @@ mod passes;
 mod second;
 mod shared;
 mod siemens_second;
+mod structure;
 mod text_forms;
 mod tidy;

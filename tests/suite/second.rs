@@ -1,6 +1,8 @@
 //! The second interpreter: it runs the corpus, and its events are the compiler's.
 
+use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
+use ncc_ir::program::Op;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
@@ -64,6 +66,7 @@ fn emitted_programs_make_the_same_moves() {
                 Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => Some(offset),
                 _ => None,
             });
+            let within = rounded(&program);
             for mut world in [0, 1, 2].map(plain::world) {
                 // Where a peck cycle was written out, this is what the head says was assumed.
                 world.peck_clearance = ncc_ir::num::ONE;
@@ -76,9 +79,8 @@ fn emitted_programs_make_the_same_moves() {
                     Ok::<_, String>(plain::of_machine(&machine, start))
                 };
                 for skip in [0, 0x7fe] {
-                    let result = list(program.dialect, &program.text, skip, None).and_then(|source| {
-                        plain::compare(&source, &list(to, &text, skip, only)?, Tolerance::ROUNDED)
-                    });
+                    let result = list(program.dialect, &program.text, skip, None)
+                        .and_then(|source| plain::compare(&source, &list(to, &text, skip, only)?, within));
                     if let Err(fault) = result {
                         failures.add(&what, format!("{fault}\n{}", String::from_utf8_lossy(&text)));
                     }
@@ -88,4 +90,14 @@ fn emitted_programs_make_the_same_moves() {
     }
     println!("{pairs} pairs");
     failures.finish();
+}
+
+/// How far an output may be off: a feed in inches has three digits.
+fn rounded(program: &corpus::Program) -> Tolerance {
+    let in_inches = translate::read(program.dialect, &program.text).is_ok_and(|read| {
+        let mut stmts = read.procedures.iter().flat_map(|p| &p.body);
+        stmts.any(|s| s.op == Op::UseLengthUnits(Units::Inch))
+    });
+    let feed = if in_inches { 0.0005 * 25.4 + 0.002 } else { Tolerance::ROUNDED.feed };
+    Tolerance { feed, ..Tolerance::ROUNDED }
 }

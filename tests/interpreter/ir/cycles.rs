@@ -16,6 +16,8 @@ pub(super) struct Cycle {
     back_plane: Option<f64>,
     raise_first: bool,
     feed: Option<f64>,
+    /// 17, 18, 19.
+    plane: u32,
 }
 
 /// How a hole is made.
@@ -37,9 +39,7 @@ impl Control {
     pub(super) fn start(&mut self, a: &[Token]) -> Result<(), Halt> {
         let parts = split(a);
         let [kind, [Token::Name(plane)], ..] = &parts[..] else { return self.m.halt("no cycle") };
-        if self.plane(plane)? != 17 {
-            return self.m.halt("a cycle out of XY");
-        }
+        let plane = self.plane(plane)?;
         let Some(Token::Name(name)) = kind.first() else { return self.m.halt("no cycle") };
         let number = |word: &str| self.after(kind, word);
         let hole = match (name.as_str(), number("dwell"), number("peck")) {
@@ -103,7 +103,7 @@ impl Control {
             return self.m.halt("the bottom lies above the retract plane");
         }
         self.cycle =
-            Some(Cycle { hole, retract, depth, initial, back_initial, back_plane, raise_first, feed });
+            Some(Cycle { hole, retract, depth, initial, back_initial, back_plane, raise_first, feed, plane });
         Ok(())
     }
 
@@ -136,6 +136,9 @@ impl Control {
 
     fn hole_at(&mut self, (x, y): (f64, f64)) -> Result<(), Halt> {
         let Some(cycle) = self.cycle else { return self.m.halt("a hole without a cycle") };
+        if cycle.plane != 17 {
+            return self.m.halt("a hole out of XY");
+        }
         let (r, z) = (cycle.retract, cycle.depth);
         if cycle.raise_first && self.here()[2] < r {
             self.rapid(r);

@@ -171,7 +171,11 @@ impl Control {
         if let Some(about) = about {
             for word in split(about) {
                 let [Token::Name(letter), value @ ..] = word else { return self.m.halt("no centre") };
-                let (absolute, value) = self.distance(value);
+                // A centre counts from the start of the arc unless it is said to count from zero.
+                let (absolute, value) = match value {
+                    [Token::Name(n), after @ ..] if n == "inc" || n == "entry" => (false, after),
+                    value => (true, value),
+                };
                 let [Token::Number(v, u)] = value else { return self.m.halt("no centre") };
                 let axis = ["I", "J", "K"].iter().position(|l| l == letter);
                 let value = self.base(*v, u);
@@ -269,6 +273,7 @@ impl Control {
                     by[AXES.iter().position(|a| a == n).unwrap_or(0)] = Some(self.base(*v, u));
                 }
                 [Token::Number(v, _)] => angle = Some(*v),
+                [Token::Name(n), Token::Number(v, _)] if AXES.contains(&n.as_str()) && *v == 0.0 => {}
                 _ => return self.m.halt("another word in a frame"),
             }
         }

@@ -64,11 +64,7 @@ pub(super) enum Argument {
 
 /// Parts a text.
 pub(super) fn units(text: &str) -> Vec<Unit> {
-    let headed = text.lines().any(|line| header(line).is_some());
     let mut units: Vec<Unit> = Vec::new();
-    if !headed {
-        units.push(Unit { name: String::new(), main: true, blocks: Vec::new() });
-    }
     for (index, line) in text.lines().enumerate() {
         if let Some((name, main)) = header(line) {
             units.push(Unit { name, main, blocks: Vec::new() });
@@ -78,6 +74,10 @@ pub(super) fn units(text: &str) -> Vec<Unit> {
         let bare = bare.trim();
         if bare.is_empty() || bare == "%" {
             continue;
+        }
+        if units.is_empty() {
+            // The heading is no part of the program on the control (section 1).
+            units.push(Unit { name: String::new(), main: true, blocks: Vec::new() });
         }
         if let Some(unit) = units.last_mut() {
             unit.blocks.push((index + 1, Reader { text: bare.chars().collect(), at: 0 }.block()));

@@ -231,7 +231,7 @@ fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), Str
             let mut a = Machine::new(before, &world, skip, told);
             let on_after = if skip == 0 { 0 } else { skip | 1 << 1 };
             let mut b = Machine::new(after, &world, on_after, told);
-            let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, second: 3 };
+            let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, feed_inch: 4, second: 3 };
             let mut comparison = Comparison::new(resolution, a.exec.machine());
             let (mut source, mut target) = (a.run()?, b.run()?);
             comparison

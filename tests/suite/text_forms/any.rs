@@ -182,8 +182,7 @@ fn cycle() -> impl Strategy<Value = Cycle> {
 }
 
 fn row() -> impl Strategy<Value = Row> {
-    let along =
-        prop_oneof![select(Axis::ALL.to_vec()).prop_map(Along::Axis), expr().prop_map(Along::Angle)];
+    let along = prop_oneof![select(Axis::ALL.to_vec()).prop_map(Along::Axis), expr().prop_map(Along::Angle)];
     (along, expr(), any::<u32>()).prop_map(|(along, pitch, count)| Row { along, pitch, count })
 }
 
@@ -198,8 +197,7 @@ fn shape() -> impl Strategy<Value = Shape> {
     let about = || [of(coord()), of(coord()), of(coord())].prop_map(Box::new);
     prop_oneof![
         (turn(), expr()).prop_map(|(turn, angle)| Shape::Angle { turn, angle }),
-        (turn(), expr(), about())
-            .prop_map(|(turn, angle, centre)| Shape::AngleAbout { turn, angle, centre }),
+        (turn(), expr(), about()).prop_map(|(turn, angle, centre)| Shape::AngleAbout { turn, angle, centre }),
         (turn(), about()).prop_map(|(turn, centre)| Shape::Mixed { turn, centre }),
         point().prop_map(|via| Shape::Through(Box::new(via))),
         Just(Shape::Tangent),
@@ -287,7 +285,13 @@ fn simple() -> BoxedStrategy<Op> {
             }))
         ),
         (fact(planes()), point(), shape(), 0u32..3, any::<bool>()).prop_map(
-            |(plane, to, shape, turns, said)| Op::ArcForm(Box::new(ArcForm { plane, to, shape, turns, said }))
+            |(plane, to, shape, turns, said)| Op::ArcForm(Box::new(ArcForm {
+                plane,
+                to,
+                shape,
+                turns,
+                said
+            }))
         ),
         cycle().prop_map(|c| Op::StartCycle(Box::new(c))),
         pattern().prop_map(|p| Op::Pattern(Box::new(p))),
