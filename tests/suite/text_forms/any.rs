@@ -112,25 +112,27 @@ fn turn() -> impl Strategy<Value = Turn> {
     select(vec![Turn::Clockwise, Turn::Counterclockwise])
 }
 
-fn coord() -> impl Strategy<Value = Coord> {
-    (expr(), fact(distances())).prop_map(|(value, distance)| Coord { value, distance })
+fn coord() -> BoxedStrategy<Coord> {
+    (expr(), fact(distances())).prop_map(|(value, distance)| Coord { value, distance }).boxed()
 }
 
-fn point() -> impl Strategy<Value = Point> {
-    prop::collection::vec(of(coord()), 6).prop_map(|axes| {
-        let mut point = Point::default();
-        for (axis, coord) in Axis::ALL.into_iter().zip(axes) {
-            point.axes[axis as usize] = coord;
-        }
-        point
-    })
+fn point() -> BoxedStrategy<Point> {
+    prop::collection::vec(of(coord()), 6)
+        .prop_map(|axes| {
+            let mut point = Point::default();
+            for (axis, coord) in Axis::ALL.into_iter().zip(axes) {
+                point.axes[axis as usize] = coord;
+            }
+            point
+        })
+        .boxed()
 }
 
-fn moves() -> impl Strategy<Value = Move> {
-    (point(), any::<bool>()).prop_map(|(to, said)| Move { to, said })
+fn moves() -> BoxedStrategy<Move> {
+    (point(), any::<bool>()).prop_map(|(to, said)| Move { to, said }).boxed()
 }
 
-fn centre() -> impl Strategy<Value = Centre> {
+fn centre() -> BoxedStrategy<Centre> {
     prop_oneof![
         expr().prop_map(Centre::Radius),
         (of(expr()), of(expr()), of(expr()), any::<bool>()).prop_map(|(i, j, k, start)| Centre::Point {
@@ -138,9 +140,10 @@ fn centre() -> impl Strategy<Value = Centre> {
             from: if start { CentreFrom::Start } else { CentreFrom::Zero },
         }),
     ]
+    .boxed()
 }
 
-fn cycle() -> impl Strategy<Value = Cycle> {
+fn cycle() -> BoxedStrategy<Cycle> {
     let kind = prop_oneof![
         Just(CycleKind::Drill),
         expr().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
@@ -167,8 +170,8 @@ fn cycle() -> impl Strategy<Value = Cycle> {
         (of(expr()), of(expr())).prop_map(|(dwell, feed_out)| CycleKind::Bore { dwell, feed_out }),
     ];
     let approach = select(vec![Approach::PlaneFirst, Approach::RaiseFirst]);
-    (kind, fact(planes()), coord(), coord(), fact(levels()), of(coord()), approach, of(expr())).prop_map(
-        |(kind, plane, retract, depth, return_level, return_plane, approach, feed)| Cycle {
+    (kind, fact(planes()), coord(), coord(), fact(levels()), of(coord()), approach, of(expr()))
+        .prop_map(|(kind, plane, retract, depth, return_level, return_plane, approach, feed)| Cycle {
             kind,
             plane,
             retract,
@@ -177,23 +180,24 @@ fn cycle() -> impl Strategy<Value = Cycle> {
             return_plane,
             approach,
             feed,
-        },
-    )
+        })
+        .boxed()
 }
 
-fn row() -> impl Strategy<Value = Row> {
+fn row() -> BoxedStrategy<Row> {
     let along = prop_oneof![select(Axis::ALL.to_vec()).prop_map(Along::Axis), expr().prop_map(Along::Angle)];
-    (along, expr(), any::<u32>()).prop_map(|(along, pitch, count)| Row { along, pitch, count })
+    (along, expr(), any::<u32>()).prop_map(|(along, pitch, count)| Row { along, pitch, count }).boxed()
 }
 
-fn first() -> impl Strategy<Value = First> {
+fn first() -> BoxedStrategy<First> {
     prop_oneof![
         [coord(), coord()].prop_map(First::At),
         (expr(), expr()).prop_map(|(radius, angle)| First::Polar { radius, angle }),
     ]
+    .boxed()
 }
 
-fn shape() -> impl Strategy<Value = Shape> {
+fn shape() -> BoxedStrategy<Shape> {
     let about = || [of(coord()), of(coord()), of(coord())].prop_map(Box::new);
     prop_oneof![
         (turn(), expr()).prop_map(|(turn, angle)| Shape::Angle { turn, angle }),
@@ -202,9 +206,10 @@ fn shape() -> impl Strategy<Value = Shape> {
         point().prop_map(|via| Shape::Through(Box::new(via))),
         Just(Shape::Tangent),
     ]
+    .boxed()
 }
 
-fn frame() -> impl Strategy<Value = Frame> {
+fn frame() -> BoxedStrategy<Frame> {
     let step = prop_oneof![
         prop::collection::vec(of(expr()), AXES).prop_map(|words| {
             let mut by = [const { None }; AXES];
@@ -215,10 +220,10 @@ fn frame() -> impl Strategy<Value = Frame> {
         [of(expr()), of(expr()), of(expr())].prop_map(|by| FrameStep::Scale(Box::new(by))),
         any::<[bool; 3]>().prop_map(FrameStep::Mirror),
     ];
-    (any::<bool>(), step).prop_map(|(added, step)| Frame { added, step })
+    (any::<bool>(), step).prop_map(|(added, step)| Frame { added, step }).boxed()
 }
 
-fn pattern() -> impl Strategy<Value = Pattern> {
+fn pattern() -> BoxedStrategy<Pattern> {
     prop_oneof![
         (of([coord(), coord()]), first(), expr(), any::<u32>())
             .prop_map(|(centre, first, step, count)| Pattern::Circle { centre, first, step, count }),
@@ -230,6 +235,7 @@ fn pattern() -> impl Strategy<Value = Pattern> {
             |(start, columns, rows, serpentine)| Pattern::Grid { start, columns, rows, serpentine }
         ),
     ]
+    .boxed()
 }
 
 /// A statement's operation that has no body.

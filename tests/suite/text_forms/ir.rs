@@ -132,7 +132,7 @@ fn each_fault_once_at_its_place() {
     one("SET_FEED_RATE(1.2345678901234567890)", 102, "1.2345678901234567890");
     one("COMMENT(\"open)", 103, "\"open)");
     one("COMMENT(\"a\\q\")", 109, "\"a\\q\"");
-    one("/10 FLOOD_ON()", 209, "10");
+    one("/11 FLOOD_ON()", 209, "11");
     one("FLOOD_ON() § MIST_ON()", 101, "§");
     one("while local:i <", 109, "");
     one("repeat 3", 109, "repeat 3");
