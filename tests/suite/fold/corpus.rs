@@ -13,6 +13,21 @@ use super::law::{Table, apply, everything, same};
 /// What flattens a program.
 const FLATTEN: [&str; 2] = ["expand-patterns", "expand-cycles"];
 
+/// What cannot come back, besides cycles of one plain hole: program, what, why.
+const LOST: [(&str, &str, &str); 7] = [
+    (
+        "siemens/cycle-args.mpf",
+        "cycle drill of 2",
+        "a dwell stands between the two, so that each is one hole",
+    ),
+    ("siemens/cycle-feed.mpf", "cycle drill-dwell of 4", "its positions are reached at feed"),
+    ("siemens/holes1.mpf", "pattern line of 2", "two positions are no pattern"),
+    ("siemens/holes2.mpf", "pattern circle of 1", "one position is no pattern"),
+    ("siemens/nested.mpf", "cycle drill-dwell of 4", "a feed in a block of its own follows its first hole"),
+    ("siemens/points.mpf", "pattern list of 2", "two positions are no pattern"),
+    ("siemens/points.mpf", "pattern list of 9", "eight of them lie in a grid"),
+];
+
 /// Every program of the corpus that can be flattened makes the same moves folded, for a target that
 /// can say everything and for each dialect. What does not come back are cycles of one plain hole.
 #[test]
@@ -46,7 +61,8 @@ fn the_corpus_flattened_and_folded() {
             if !missed.is_empty() {
                 println!("{name}: {}", missed.join(", "));
             }
-            let others = missed.iter().filter(|what| *what != "cycle drill of 1");
+            let lost = |what: &str| LOST.iter().any(|l| l.0 == name && l.1 == what);
+            let others = missed.iter().filter(|what| *what != "cycle drill of 1" && !lost(what));
             let others: Vec<&String> = others.collect();
             failures.check(&name, if others.is_empty() { Ok(()) } else { Err(format!("{others:?}")) });
         }
