@@ -97,6 +97,8 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let to = place(m, a, [0, 1, 2, 3, 4, 5])?;
             match name {
                 "STRAIGHT_TRAVERSE" => m.traverse(to),
+                // A move that goes nowhere needs no feed.
+                _ if m.feed.is_none() && to == m.at => {}
                 _ => m.straight(to)?,
             }
         }

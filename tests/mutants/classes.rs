@@ -5,6 +5,8 @@
 //! end), or the second interpreter, which shares nothing with the compiler, makes the same events
 //! of both texts, from several power-on states; the class then names what kind of word it was.
 
+use std::cell::OnceCell;
+
 use ncc_ir::num::ONE;
 use ncc_tests::corpus::Program;
 use ncc_tests::interpreter::{PowerOn, Setup};
@@ -13,7 +15,8 @@ use ncc_tests::plain::{self, Plain, Tolerance};
 use crate::words::{Change, Is, Mutant};
 
 /// A class of equivalent mutants, or why there is none.
-pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'static str, String> {
+pub(crate) fn class(emitted: &Emitted, mutant: &Mutant) -> Result<&'static str, String> {
+    let (dialect, text) = (emitted.dialect, emitted.text);
     let old = &text[mutant.at.clone()];
     let sinumerik = dialect == "siemens";
     // A comment on a Sinumerik begins with a semicolon; the operator reads the rest.
@@ -33,10 +36,11 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
     if behind_the_end(dialect, text, mutant.at.start) {
         return Ok("behind the end of the program");
     }
-    the_same_moves(dialect, text, &mutant.text)?;
+    the_same_moves(emitted, &mutant.text)?;
     Ok(match (&mutant.change, mutant.is) {
         (Change::Sibling(mark), _) if mark == "AC" || mark == "IC" => "a place counted from elsewhere",
         (_, Is::Name) if old.starts_with(b"CYCLE") => "a cycle that does the same with these arguments",
+        (Change::Sibling(_), Is::Name) if old.starts_with(b"STRAIGHT_") => "a move that goes nowhere",
         (Change::Swapped, _) => "order of blocks without an event between",
         (Change::Sign, _) if !old.iter().any(|b| (b'1'..=b'9').contains(b)) => "minus zero",
         (_, Is::Letter(b'O')) if dialect == "fanuc" => "the program's number",
@@ -82,8 +86,7 @@ pub(crate) fn class(dialect: &str, text: &[u8], mutant: &Mutant) -> Result<&'sta
 /// is what equality allows; the second interpreter runs the source and the mutant.
 pub(crate) fn rounded(
     source: &Program,
-    to: &str,
-    text: &[u8],
+    emitted: &Emitted,
     mutant: &Mutant,
     only: Option<u16>,
 ) -> Option<&'static str> {
@@ -92,7 +95,7 @@ pub(crate) fn rounded(
         Change::Deleted => "an axis that stands there already, but for a rounding",
         Change::Sign | Change::Sibling(_) | Change::Swapped => return None,
     };
-    let has = |code: &[u8]| text.windows(code.len()).any(|w| w == code);
+    let has = |code: &[u8]| emitted.text.windows(code.len()).any(|w| w == code);
     let inch = [&b"G20"[..], b"G70", b"INCHES", b"inch"].iter().any(|code| has(code));
     let half = if inch { 0.00128 } else { 0.000_501 };
     let within = Tolerance { place: half, feed: half };
@@ -106,7 +109,8 @@ pub(crate) fn rounded(
                 setup.power_on.offset = only.map_or(setup.power_on.offset, u32::from);
                 Some(plain::of_machine(&plain::second(dialect, text, setup).ok()?, start))
             };
-            let (a, b) = (list(source.dialect, &source.text, None)?, list(to, &mutant.text, only)?);
+            let (a, b) =
+                (list(source.dialect, &source.text, None)?, list(emitted.dialect, &mutant.text, only)?);
             plain::compare(&a, &b, within).ok()?;
         }
     }
@@ -142,8 +146,29 @@ fn behind_the_end(dialect: &str, text: &[u8], place: usize) -> bool {
     }
 }
 
-/// Runs both texts in the second interpreter, from several states.
-fn the_same_moves(dialect: &str, text: &[u8], mutant: &[u8]) -> Result<(), String> {
+/// An emitted text, with what the second interpreter makes of it.
+pub(crate) struct Emitted<'t> {
+    pub(crate) dialect: &'t str,
+    pub(crate) text: &'t [u8],
+    runs: OnceCell<Vec<Result<Vec<Plain>, String>>>,
+}
+
+impl<'t> Emitted<'t> {
+    pub(crate) fn new(dialect: &'t str, text: &'t [u8]) -> Emitted<'t> {
+        Emitted { dialect, text, runs: OnceCell::new() }
+    }
+
+    /// Its events from several states, in the order of [`states`].
+    fn runs(&self) -> &[Result<Vec<Plain>, String>] {
+        self.runs.get_or_init(|| states(self.text).map(|s| run(self.dialect, self.text, s)).collect())
+    }
+}
+
+/// A state of the control: modes at power-on, world, switches of block skip.
+type State = (PowerOn, u32, u16);
+
+/// The states in which a text is run; without a skip mark the switches do not matter.
+fn states(text: &[u8]) -> impl Iterator<Item = State> {
     let unusual = PowerOn {
         inch: true,
         absolute: false,
@@ -155,26 +180,31 @@ fn the_same_moves(dialect: &str, text: &[u8], mutant: &[u8]) -> Result<(), Strin
         tool: None,
         edge: 1,
     };
+    let skips: &[u16] = match text.contains(&b'/') {
+        true => &[0, 0b10, 0b100, 0b1000, 0x400, 0x7fe],
+        false => &[0],
+    };
+    [PowerOn::default(), unusual].into_iter().flat_map(move |power_on| {
+        [0, 1, 2].into_iter().flat_map(move |seed| skips.iter().map(move |skip| (power_on, seed, *skip)))
+    })
+}
+
+fn run(dialect: &str, text: &[u8], (power_on, seed, skip): State) -> Result<Vec<Plain>, String> {
+    let world = plain::world(seed);
+    let start = world.start.map(|n| n as f64 / 1e9);
+    let setup = Setup { power_on, ..plain::setup(&world, skip) };
+    Ok(plain::of_machine(&plain::second(dialect, text, setup)?, start))
+}
+
+/// Runs both texts in the second interpreter, from several states.
+fn the_same_moves(emitted: &Emitted, mutant: &[u8]) -> Result<(), String> {
     let mut ran = 0;
-    for power_on in [PowerOn::default(), unusual] {
-        for seed in [0, 1, 2] {
-            let world = plain::world(seed);
-            let start = world.start.map(|n| n as f64 / 1e9);
-            for skip in [0, 0b10, 0b100, 0b1000, 0x3fe] {
-                let events = |text: &[u8]| -> Result<Vec<Plain>, String> {
-                    let setup = Setup { power_on, ..plain::setup(&world, skip) };
-                    Ok(plain::of_machine(&plain::second(dialect, text, setup)?, start))
-                };
-                match (events(text), events(mutant)) {
-                    (Ok(a), Ok(b)) => {
-                        plain::compare(&a, &b, Tolerance::SAME)?;
-                        ran += 1;
-                    }
-                    (Err(_), _) => {}
-                    (Ok(_), Err(why)) => return Err(format!("the second interpreter stops: {why}")),
-                }
-            }
-        }
+    for (state, was) in states(emitted.text).zip(emitted.runs()) {
+        let Ok(was) = was else { continue };
+        let now = run(emitted.dialect, mutant, state)
+            .map_err(|why| format!("the second interpreter stops: {why}"))?;
+        plain::compare(was, &now, Tolerance::SAME)?;
+        ran += 1;
     }
     if ran < 3 {
         return Err("the second interpreter does not run the text itself".into());

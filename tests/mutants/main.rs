@@ -81,14 +81,15 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
     let what = format!("{}/{} to {to}", program.dialect, program.file);
     // What passes the untouched text is what the mutants are measured against.
     let untouched = judge.judge(&text).map_err(|d| format!("{:?}", d.fault));
+    let emitted = classes::Emitted::new(to, &text);
     let mut found: Vec<(Mutant, Result<&'static str, String>)> = Vec::new();
     let mut caught = 0;
     for mutant in mutants {
         match judge.judge(&mutant.text) {
             Err(_) => caught += 1,
             Ok(_) => {
-                let class = classes::class(to, &text, &mutant)
-                    .or_else(|why| classes::rounded(program, to, &text, &mutant, only).ok_or(why));
+                let class = classes::class(&emitted, &mutant)
+                    .or_else(|why| classes::rounded(program, &emitted, &mutant, only).ok_or(why));
                 found.push((mutant, class));
             }
         }
