@@ -96,7 +96,8 @@ fn programs_from_elsewhere() {
                         Err(_) => failures.add(format!("{name} to {to}"), said),
                     }
                 }
-                if needs_variables && codes.is_some() {
+                if let (true, Some(codes)) = (needs_variables, &codes) {
+                    println!("  {from} {name} {to} {codes} (needs variables)");
                     continue;
                 }
                 println!("  {from} {name} {to} {}", codes.as_deref().unwrap_or("verified"));
