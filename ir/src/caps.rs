@@ -57,6 +57,8 @@ pub struct Caps {
     pub word_distance: bool,
     /// A feed can be in another unit than the lengths.
     pub feed_apart: bool,
+    /// A change of units leaves it open what a feed said before means.
+    pub feed_again: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.
     pub call_digits: u32,
     /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.

@@ -290,6 +290,7 @@ fn caps(dialect: &Dialect) -> Caps {
         arc_forms: everything || names(NameMeaning::ArcThrough),
         word_distance: everything || dialect.can.flat || dialect.block.qualifiers,
         feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
+        feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
         call_digits: if says(Meaning::Call) { dialect.program.packed_call_digits.max(4) } else { 0 },
         repeat_blocks: everything || names(NameMeaning::RepeatBlocks),
         circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,

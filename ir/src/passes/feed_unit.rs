@@ -1,12 +1,15 @@
 //! `feed-unit`: feeds are written in the unit of length in force.
 //!
+//! Likewise a feed is said again before the first cut after a change of units, for targets of which
+//! it is not known what a feed said before means then.
+//!
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
 
 use super::walk::Walk;
-use super::write::{exact, rounded};
+use super::write::{exact, rebuild, rounded};
 use super::{Target, each_body};
-use crate::canon::Units;
+use crate::canon::{Motion, Units};
 use crate::cycle::CycleKind;
 use crate::diag::Diagnostic;
 use crate::expr::Expr;
@@ -14,9 +17,69 @@ use crate::num::{Num, Unit};
 use crate::program::{Op, Program, Stmt};
 use crate::track::Tracker;
 
+/// Feed in force, and whether the units have changed since it was said.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    feed: Option<Num>,
+    stale: bool,
+}
+
+impl State {
+    /// Whether a feed waits to be said again.
+    pub(super) fn is_busy(&self) -> bool {
+        self.stale
+    }
+
+    /// Notes the feed of a statement.
+    #[inline]
+    pub(super) fn note(&mut self, op: &Op) {
+        let feed = match op {
+            Op::SetFeedRate(feed) => feed,
+            Op::StartCycle(cycle) => match &cycle.feed {
+                Some(feed) => feed,
+                None => return,
+            },
+            _ => return,
+        };
+        self.feed = feed.literal();
+        self.stale = false;
+    }
+}
+
+/// Says feeds again after a change of units.
+pub(super) fn again(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, target: &Target) {
+    rebuild(body, |mut stmt, made| {
+        walk.enter(stmt.skip);
+        let cuts = match &stmt.op {
+            Op::StraightFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
+            Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
+            Op::StartCycle(cycle) => cycle.feed.is_none(),
+            _ => false,
+        };
+        if let (true, true, Some(feed), Some(units)) = (cuts, state.stale, state.feed, walk.at.modes.units) {
+            let feed = in_unit(feed, units, target).unwrap_or(feed);
+            let mut said = Stmt::new(stmt.span, Op::SetFeedRate(feed.into()));
+            (said.number, said.skip, said.joined) = (stmt.number.take(), stmt.skip, stmt.joined);
+            stmt.joined = true;
+            // In a block that may be skipped it is said for that block alone.
+            state.stale = stmt.skip.is_some();
+            made.push(said);
+        }
+        if let Op::UseLengthUnits(units) = &stmt.op {
+            state.stale |= state.feed.is_some() && walk.at.modes.units != Some(*units);
+        }
+        state.note(&stmt.op);
+        walk.step(&stmt);
+        made.push(stmt);
+    });
+}
+
 /// Writes them in the unit in force.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, target));
+    each_body(program, entry, |body, walk| {
+        over(body, &mut walk.clone(), target);
+        again(body, walk, &mut State::default(), target);
+    });
 }
 
 /// The same for one body.

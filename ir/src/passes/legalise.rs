@@ -52,6 +52,7 @@ pub struct Legaliser {
     shift: origin_shift::State,
     skip: skip_levels::State,
     arcs: arc_form::State,
+    feed: feed_unit::State,
     edge: tool_edge::State,
     frames: expand_frames::State,
 }
@@ -79,6 +80,7 @@ impl Legaliser {
             shift: origin_shift::State::default(),
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
+            feed: feed_unit::State::default(),
             edge: tool_edge::State::default(),
             frames: expand_frames::State::default(),
         }
@@ -120,6 +122,9 @@ impl Legaliser {
         self.frames.assume(assumed);
         let needs = self.needs(stmts);
         let start = (needs != 0).then(|| self.walk.clone());
+        if self.target.caps.feed_again && needs & MEASURE == 0 {
+            stmts.iter().for_each(|stmt| self.feed.note(&stmt.op));
+        }
         if self.measures && !self.target.caps.arc_forms && needs & ARC == 0 {
             arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
         } else if self.follow {
@@ -147,6 +152,10 @@ impl Legaliser {
         }
         if self.cycles.is_busy() {
             needs |= CYCLE;
+        }
+        if self.target.caps.feed_again {
+            let changes = |stmt: &Stmt| matches!(stmt.op, Op::UseLengthUnits(_));
+            needs |= if self.feed.is_busy() || stmts.iter().any(changes) { MEASURE } else { 0 };
         }
         if self.measures {
             let units = self.walk.at.modes.units;
@@ -191,6 +200,7 @@ impl Legaliser {
             self.walk = start.clone();
             if needs & FRAME != 0 && needs & ARC == 0 {
                 self.arcs = arc_form::State::default();
+            self.feed = feed_unit::State::default();
                 arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
             } else {
                 self.walk.pass(stmts);
@@ -204,6 +214,9 @@ impl Legaliser {
         let computed = self.measures && needs & (ARC | FRAME) != 0;
         let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
         let needs = if mixed { needs | MEASURE } else { needs };
+        if needs & MEASURE != 0 && self.target.caps.feed_again {
+            feed_unit::again(stmts, &mut start.clone(), &mut self.feed, &self.target);
+        }
         if needs & MEASURE != 0 && !self.target.caps.feed_apart {
             feed_unit::over(stmts, &mut start.clone(), &self.target);
         }
