@@ -90,7 +90,8 @@ struct Line<'j> {
 
 impl<'j> Line<'j> {
     fn new(job: &'j Job) -> Line<'j> {
-        let mut legaliser = Legaliser::new(&job.to.dialect.caps, legal_decimals(job), parameter(job, PECK_CLEARANCE));
+        let mut legaliser =
+            Legaliser::new(&job.to.dialect.caps, legal_decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
@@ -156,10 +157,7 @@ impl<'j> Line<'j> {
         }
         let assumed = self.batch.assumed;
         let mut found = Vec::new();
-        let unfolded = match &mut self.folder {
-            Some(folder) => Some(folder.piece(stmts, &assumed, over, &mut found)),
-            None => None,
-        };
+        let unfolded = self.folder.as_mut().map(|folder| folder.piece(stmts, &assumed, over, &mut found));
         self.state_given(stmts);
         let touched = unfolded.is_some() || self.legaliser.touches(stmts);
         if touched {

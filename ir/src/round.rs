@@ -64,7 +64,11 @@ pub fn round<A: Around>(
     Ok(match shape {
         Shape::Angle { turn, angle } => {
             let angle = around.value(angle)?;
-            geometry::centre_by_angle(start, end, angle, *turn).map(|centre| Round { centre, end, turn: *turn })
+            geometry::centre_by_angle(start, end, angle, *turn).map(|centre| Round {
+                centre,
+                end,
+                turn: *turn,
+            })
         }
         Shape::AngleAbout { turn, angle, centre } => {
             let centre = centre_of(centre, plane, start, around)?;
@@ -78,8 +82,11 @@ pub fn round<A: Around>(
         Shape::Mixed { turn, centre } => on(centre_of(centre, plane, start, around)?, end, *turn),
         Shape::Through(via) => geometry::arc_through(start, around.via(via)?, end)
             .map(|(centre, turn)| Round { centre, end, turn }),
-        Shape::Tangent => geometry::arc_tangent(start, end, around.heading()?)
-            .map(|(centre, turn)| Round { centre, end, turn }),
+        Shape::Tangent => geometry::arc_tangent(start, end, around.heading()?).map(|(centre, turn)| Round {
+            centre,
+            end,
+            turn,
+        }),
     })
 }
 

@@ -336,12 +336,9 @@ impl Tracker {
             }
             Op::ChangeTool => self.tool = self.selected,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
-            Op::Call(_)
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_)
-            | Op::Return
-            | Op::RepeatBlocks(_) => self.forget(),
+            Op::Call(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::Return | Op::RepeatBlocks(_) => {
+                self.forget()
+            }
             Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank

@@ -289,14 +289,7 @@ mod tests {
 
     #[test]
     fn what_fits_several_is_not_chosen() {
-        for text in [
-            "",
-            "\n\n",
-            "G0 X1.\nM30\n",
-            "hello world\n",
-            "\0\0\0\0",
-            "X1 Y2\n",
-        ] {
+        for text in ["", "\n\n", "G0 X1.\nM30\n", "hello world\n", "\0\0\0\0", "X1 Y2\n"] {
             assert_eq!(id(text), None, "{text:?}");
         }
     }

@@ -67,7 +67,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } => Vec::new(),
         Fault::LabelUnknown { .. } => own("put the label before the block that repeats from it"),
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),
-        Fault::AssumedEdge { .. } => own("give the length-table entry of that number the length of the tool's edge 1"),
+        Fault::AssumedEdge { .. } => {
+            own("give the length-table entry of that number the length of the tool's edge 1")
+        }
         Fault::FramesExpanded | Fault::CycleFolded { .. } | Fault::PatternFolded { .. } => Vec::new(),
         Fault::MacroLanguage { .. } => own("write the values out, or translate the blocks around it alone"),
         Fault::NoToolSelected => own("say the tool number in this block or before it"),

@@ -239,10 +239,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::NameAsComment => {
             ("program name kept as a comment".into(), format!("{to} has no place for it"))
         }
-        Fault::NameChanged { from, to: name } => (
-            format!("{} is called {}", plain(from), plain(name)),
-            format!("{to} cannot have the name"),
-        ),
+        Fault::NameChanged { from, to: name } => {
+            (format!("{} is called {}", plain(from), plain(name)), format!("{to} cannot have the name"))
+        }
         Fault::BlockSplit => ("block written as several".into(), "this block".into()),
         Fault::MessageDropped => {
             ("message to the operator lost".into(), format!("{to} cannot show a message"))

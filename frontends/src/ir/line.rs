@@ -135,7 +135,13 @@ pub(crate) fn along<const N: usize>(
     let mut all = [const { None }; N];
     for (axis, value) in words {
         match all.get_mut(axis as usize) {
-            None => return refuse(l, r, Fault::WordUnused { word: char::from(axis.letter()).to_string().into() }),
+            None => {
+                return refuse(
+                    l,
+                    r,
+                    Fault::WordUnused { word: char::from(axis.letter()).to_string().into() },
+                );
+            }
             Some(place) if place.is_some() => {
                 return refuse(l, r, Fault::WordTwice { letter: axis.letter() as char });
             }
@@ -150,7 +156,13 @@ pub(crate) fn mirrored(axes: &[Axis], l: usize, r: usize) -> Parsed<[bool; 3]> {
     let mut all = [false; 3];
     for axis in axes {
         match all.get_mut(*axis as usize) {
-            None => return refuse(l, r, Fault::WordUnused { word: char::from(axis.letter()).to_string().into() }),
+            None => {
+                return refuse(
+                    l,
+                    r,
+                    Fault::WordUnused { word: char::from(axis.letter()).to_string().into() },
+                );
+            }
             Some(turned) => *turned = true,
         }
     }

@@ -117,7 +117,9 @@ fn cycle(c: &Cycle) -> String {
             assert_eq!((lift, dwell), (&Clearance::Parameter, &None));
             format!(" break {}", expr(peck))
         }
-        CycleKind::Bore { dwell, .. } => dwell.as_ref().map_or(String::new(), |d| format!(" dwell {}", expr(d))),
+        CycleKind::Bore { dwell, .. } => {
+            dwell.as_ref().map_or(String::new(), |d| format!(" dwell {}", expr(d)))
+        }
     };
     let feed = c.feed.as_ref().map_or(String::new(), |f| format!(" F{}", expr(f)));
     let (plane, level) = (fact(&c.plane), fact(&c.return_level));

@@ -13,9 +13,7 @@ use crate::cycle::{Clearance, CycleKind, First, Pattern};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
 use crate::num::Unit;
-use crate::program::{
-    Call, Centre, Control, Coord, FrameStep, Op, Point, Procedure, Program, Shape, Stmt,
-};
+use crate::program::{Call, Centre, Control, Coord, FrameStep, Op, Point, Procedure, Program, Shape, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 

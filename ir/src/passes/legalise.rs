@@ -200,7 +200,7 @@ impl Legaliser {
             self.walk = start.clone();
             if needs & FRAME != 0 && needs & ARC == 0 {
                 self.arcs = arc_form::State::default();
-            self.feed = feed_unit::State::default();
+                self.feed = feed_unit::State::default();
                 arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
             } else {
                 self.walk.pass(stmts);

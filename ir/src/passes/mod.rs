@@ -120,16 +120,8 @@ pub const PASSES: &[Pass] = &[
         about: "makes block-skip levels that the target cannot tell apart one",
         run: skip_levels::run,
     },
-    Pass {
-        name: "feed-unit",
-        about: "writes feeds in the unit of length in force",
-        run: feed_unit::run,
-    },
-    Pass {
-        name: "one-distance",
-        about: "measures the words of a block in one way",
-        run: one_distance::run,
-    },
+    Pass { name: "feed-unit", about: "writes feeds in the unit of length in force", run: feed_unit::run },
+    Pass { name: "one-distance", about: "measures the words of a block in one way", run: one_distance::run },
     Pass {
         name: "state-clearance",
         about: "states what one control leaves to a parameter of a cycle",
@@ -200,11 +192,7 @@ pub const PASSES: &[Pass] = &[
         run: convert_units::millimetres,
     },
     Pass { name: "inches", about: "writes lengths and feeds in inches", run: convert_units::inches },
-    Pass {
-        name: "arcs-by-centre",
-        about: "gives arcs by radius their centre",
-        run: convert_arcs::by_centre,
-    },
+    Pass { name: "arcs-by-centre", about: "gives arcs by radius their centre", run: convert_arcs::by_centre },
     Pass {
         name: "arcs-by-radius",
         about: "gives arcs their radius instead of the centre, where it says the same",
