@@ -9,6 +9,7 @@ pub mod absolute_holes;
 pub mod approach;
 pub mod arc_form;
 pub mod convert_arcs;
+pub mod convert_circles;
 pub mod convert_distance;
 pub mod convert_units;
 pub mod drop_redundant;
@@ -197,6 +198,16 @@ pub const PASSES: &[Pass] = &[
         name: "arcs-by-radius",
         about: "gives arcs their radius instead of the centre, where it says the same",
         run: convert_arcs::by_radius,
+    },
+    Pass {
+        name: "polar-circles",
+        about: "gives the first hole of a circle by radius and angle",
+        run: convert_circles::polar,
+    },
+    Pass {
+        name: "cartesian-circles",
+        about: "gives the first hole of a circle by its position",
+        run: convert_circles::cartesian,
     },
     Pass {
         name: "absolute",
