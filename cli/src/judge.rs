@@ -7,7 +7,7 @@ use std::io;
 
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::{Procedure, Program};
 
 use crate::job::{Job, Outcome, Verified};
@@ -46,12 +46,7 @@ impl<'j> Judge<'j> {
     /// What differs, or why the text cannot be read or executed.
     pub fn judge(&self, text: &[u8]) -> Result<Verified, Diagnostic> {
         let mut verifier = Verifier::new(self.job);
-        if self.outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. })) {
-            verifier.take_parameters(self.job);
-        }
-        if self.outcome.diagnostics.iter().any(|d| matches!(d.fault, Fault::PatternFolded { .. })) {
-            verifier.folded();
-        }
+        verifier.take(&self.outcome.diagnostics, self.job);
         match verifier.whole(&self.source, text, 0, &self.inherited) {
             Ok(()) => Ok(verifier.covered()),
             Err(Stop::Source(diagnostic) | Stop::Target(diagnostic)) => Err(diagnostic),

@@ -240,16 +240,10 @@ impl<'j> Line<'j> {
         self.output.push(&text)
     }
 
-    /// Lets the verification's worlds have the machine parameters that the passes took for granted, and
-    /// patterns be where the source's rounded positions are.
+    /// Lets the verification know what the passes took for granted, and what they folded.
     fn take_parameters(&mut self, found: &[Diagnostic]) {
-        let folded = found.iter().any(|d| matches!(d.fault, Fault::PatternFolded { .. }));
-        if let (true, Some(verifier)) = (folded, &mut self.verifier) {
-            verifier.folded();
-        }
-        let taken = found.iter().any(|d| matches!(d.fault, Fault::AssumedParameter { .. }));
-        if let (true, Some(verifier)) = (taken, &mut self.verifier) {
-            verifier.take_parameters(self.job);
+        if let Some(verifier) = &mut self.verifier {
+            verifier.take(found, self.job);
         }
     }
 
@@ -357,6 +351,10 @@ impl<'j> Line<'j> {
             }
             _ => None,
         };
+        if let Some(number) = self.job.program_number.filter(|n| self.numbers.contains(n)) {
+            let name = number.to_string().into();
+            self.take(vec![Diagnostic::new(Fault::ProgramTwice { name }, Span::default())]);
+        }
         let mut text = Vec::new();
         let mut found = Vec::new();
         let head = Head { name: self.name(), lines: self.head_lines(&hash) };

@@ -7,7 +7,6 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::num::Nanos;
-use ncc_ir::passes::fold_patterns::LEAST_DIGITS;
 use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{self, Comparison, Difference, Resolution};
@@ -146,7 +145,7 @@ impl Verifier {
     }
 
     /// The source control's parameters of cycles are taken for granted of both controls.
-    pub(crate) fn take_parameters(&mut self, job: &Job) {
+    fn take_parameters(&mut self, job: &Job) {
         let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
         let (clearance, lift) = (value(PECK_CLEARANCE), value(BREAK_LIFT));
         for exec in self.runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]) {
@@ -159,9 +158,22 @@ impl Verifier {
         }
     }
 
-    /// A pattern has been folded: its holes are where the source writes them to half a unit.
-    pub(crate) fn folded(&mut self) {
-        self.runs.iter_mut().for_each(|run| run.comparison.rounded(LEAST_DIGITS));
+    /// What the passes have taken for granted of both controls, and patterns that they have folded:
+    /// their holes are where the source writes them to half a unit of its own last digit.
+    pub(crate) fn take(&mut self, found: &[Diagnostic], job: &Job) {
+        let mut parameters = false;
+        for diagnostic in found {
+            match diagnostic.fault {
+                Fault::AssumedParameter { .. } => parameters = true,
+                Fault::PatternFolded { digits, inch, .. } => {
+                    self.runs.iter_mut().for_each(|run| run.comparison.rounded(digits, inch));
+                }
+                _ => {}
+            }
+        }
+        if parameters {
+            self.take_parameters(job);
+        }
     }
 
     /// Executes further statements of the source's main procedure.

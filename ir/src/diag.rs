@@ -221,6 +221,8 @@ faults! {
 
     /// A label that stands nowhere before the block that repeats from it.
     LabelUnknown { name: Box<str> } = 228, Error;
+    /// An arc by angle, through a point or tangent, and no circle fits its words.
+    NoArc = 229, Error;
 
     // NC03xx: assumptions.
     /// The program relies on a state at power-on that it never says.
@@ -276,8 +278,9 @@ faults! {
     FramesExpanded = 413, verdict(Verdict::Expanded);
     /// Long-hand moves written as a cycle.
     CycleFolded { kind: Box<str>, holes: u32 } = 414, verdict(Verdict::Reformatted);
-    /// Positions written as a pattern.
-    PatternFolded { pattern: Box<str>, holes: u32 } = 415, verdict(Verdict::Reformatted);
+    /// Positions written as a pattern that meets each to half a unit of the last of its `digits`
+    /// after the point, of an inch or of a millimetre.
+    PatternFolded { pattern: Box<str>, holes: u32, digits: u8, inch: bool } = 415, verdict(Verdict::Reformatted);
 
     /// A subprogram or a label whose name the target cannot have.
     NameChanged { from: Box<str>, to: Box<str> } = 416, verdict(Verdict::Reformatted);

@@ -118,12 +118,11 @@ impl Comparison {
         Comparison { resolution, half, source_at: start, target_at: start, events: 0 }
     }
 
-    /// From now on lengths may be off by half a unit of this digit in mm (of the next in inches),
-    /// where the target resolves finer: holes that the source writes rounded are made where a pattern
-    /// has them.
-    pub fn rounded(&mut self, digits: u8) {
-        self.resolution.mm = self.resolution.mm.min(digits);
-        self.resolution.inch = self.resolution.inch.min(digits + 1);
+    /// From now on lengths of one unit may be off by half a unit of this digit, where the target
+    /// resolves finer: holes that the source writes rounded are made where a pattern has them.
+    pub fn rounded(&mut self, digits: u8, inch: bool) {
+        let resolved = if inch { &mut self.resolution.inch } else { &mut self.resolution.mm };
+        *resolved = (*resolved).min(digits);
         self.half = [self.resolution.lengths(false), self.resolution.lengths(true)];
     }
 

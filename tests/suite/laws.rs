@@ -205,7 +205,7 @@ fn the_corpus_there_and_back() {
     }
     println!("{done} there and back");
     // What a dialect was given it can give back.
-    assert_eq!(refused, [""; 0], "refused on the way back");
+    assert!(refused.is_empty(), "refused on the way back: {refused:?}");
     failures.finish();
 }
 

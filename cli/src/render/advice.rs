@@ -23,6 +23,13 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::WordWithoutNumber { letter } => vec![format!("if zero is meant, write `{letter}0`")],
         Fault::LetterOForZero => own(&mend(at)),
         Fault::EmptyProgram => own("the file is empty, or holds comments alone: is it the right one?"),
+        // Only some dialects have comments in brackets.
+        Fault::Syntax { found, .. } if **found == *"(" && !at.from.comment.open.starts_with('(') => {
+            match at.from.comment.open.trim() {
+                "" => Vec::new(),
+                open => vec![format!("a comment of {from} begins with `{open}`")],
+            }
+        }
         Fault::Syntax { .. } => Vec::new(),
         Fault::NoProgramEnd => {
             own("is the file complete? if so, end the program with its end code, such as M30")
@@ -58,6 +65,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             false => "check the centre: here it is measured from the start of the arc, not from program zero",
         }),
         Fault::ArcRadiusTooSmall => own("check the radius, the end point, and where the tool stands before"),
+        Fault::NoArc => {
+            own("check the angle (more than 0, less than 360), and that the points do not lie on a line")
+        }
         Fault::ArcRadiusNoWay => own("write a full circle with its centre (I, J, K)"),
         Fault::PositionUnknown { axis } => vec![
             format!("say the position: an absolute {axis} word before this block"),

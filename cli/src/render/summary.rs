@@ -186,7 +186,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CycleFolded { kind, holes } => {
             format!("moves into the {} cycle ({holes} {})", plain(kind), plural(u64::from(*holes), "hole"))
         }
-        Fault::PatternFolded { pattern, holes } => {
+        Fault::PatternFolded { pattern, holes, .. } => {
             format!("{holes} positions into a {}", plain(pattern))
         }
         Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
@@ -226,6 +226,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::ArcCentreAndRadius
         | Fault::ArcEndOffCircle { .. }
         | Fault::ArcRadiusTooSmall
+        | Fault::NoArc
         | Fault::ArcRadiusNoWay
         | Fault::PositionUnknown { .. }
         | Fault::CallUnknown { .. }

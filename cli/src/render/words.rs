@@ -111,6 +111,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "the radius is too small for this arc".into(),
             "less than half the distance from start to end".into(),
         ),
+        Fault::NoArc => ("no arc fits these words".into(), "this arc".into()),
         Fault::ArcRadiusNoWay => (
             "arc by radius, with its end where the tool stands".into(),
             "any number of circles would fit".into(),
@@ -168,7 +169,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CycleFolded { kind, holes } => {
             (format!("{holes} holes written as the cycle {}", plain(kind)), "long-hand moves here".into())
         }
-        Fault::PatternFolded { pattern, holes } => {
+        Fault::PatternFolded { pattern, holes, .. } => {
             (format!("{holes} positions written as a {}", plain(pattern)), "positions here".into())
         }
         Fault::NoEnd { steps } => {

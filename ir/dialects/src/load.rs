@@ -214,7 +214,7 @@ fn caps(dialect: &Dialect) -> Caps {
     let everything = dialect.can.everything;
     let calls = |kind| dialect.call_for(kind);
     let names = |meaning| dialect.name_for(meaning).is_some();
-    let states = dialect.family == Family::Sinumerik;
+    let states = dialect.call.iter().any(|row| row.place(ParameterRole::ReturnPlane).is_some());
     let either = |says: bool| (!everything).then_some(says);
     let list = calls(CallKind::List).map(|row| {
         row.parameters.iter().filter(|p| p.role == Some(ParameterRole::PointFirst)).count() as u32
@@ -281,7 +281,8 @@ fn caps(dialect: &Dialect) -> Caps {
         list_pattern: if everything { u32::MAX } else { list.unwrap_or(0) },
         circle_polar: either(calls(CallKind::Circle).is_some()),
         pattern_start: everything || calls(CallKind::Grid).is_some(),
-        pattern_here: !states,
+        // A pattern that is called has its start among the arguments.
+        pattern_here: calls(CallKind::Grid).is_none(),
         pattern_angle: everything || calls(CallKind::Grid).is_some(),
         frames: everything || names(NameMeaning::SetFrame(FrameWord::Translate)),
         machine_coordinates: everything || names(NameMeaning::Code(Meaning::UseMachineCoordinates)),
@@ -291,7 +292,7 @@ fn caps(dialect: &Dialect) -> Caps {
         word_distance: everything || dialect.can.flat || dialect.block.qualifiers,
         feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
         feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
-        call_digits: if says(Meaning::Call) { dialect.program.packed_call_digits.max(4) } else { 0 },
+        call_digits: if says(Meaning::Call) { dialect.program.number_digits as u32 } else { 0 },
         repeat_blocks: everything || names(NameMeaning::RepeatBlocks),
         circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
         incremental_cycles: everything || dialect.cycles.incremental,

@@ -138,6 +138,9 @@ impl Exec {
             self.cycle = None;
             return self.emit_move(true, span, out);
         }
+        if found == Err(ArcFault::NoWay) {
+            return self.fault(Fault::NoArc, span);
+        }
         let Round { centre, end, turn } = self.shaped(found, span)?;
         self.position[first as usize] = end[0];
         self.position[second as usize] = end[1];

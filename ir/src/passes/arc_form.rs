@@ -49,6 +49,7 @@ pub(super) fn over(
         walk.enter(stmt.skip);
         // Errors of rounding do not add up: the next arc begins where this one really ends.
         let mut end = None;
+        let mut refused = false;
         if let Op::ArcForm(arc) = &stmt.op {
             match state.by_centre(arc, walk, target.decimals_in(walk.unit())) {
                 Ok((op, ends)) => {
@@ -56,10 +57,17 @@ pub(super) fn over(
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
                     stmt.op = op;
                 }
-                Err(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+                Err(fault) => {
+                    diags.push(Diagnostic::new(fault, stmt.span));
+                    refused = true;
+                }
             }
         }
         state.step(stmt, walk);
+        if refused {
+            // It is told once.
+            stmt.op = Op::Blank;
+        }
         for (axis, nanos) in end.into_iter().flatten() {
             walk.at.position[axis as usize] = Some(nanos);
         }
@@ -215,7 +223,7 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
     }
     let Round { centre, end, turn } = found.map_err(|fault| match fault {
         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-        ArcFault::NoWay | ArcFault::Straight => Fault::ArcRadiusNoWay,
+        ArcFault::NoWay | ArcFault::Straight => Fault::NoArc,
         ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
         ArcFault::NoRadius => Fault::ArcWithoutCentre,
     })?;

@@ -30,6 +30,7 @@ fn run(program: &mut Program, target: &Target, entry: &Tracker, to: Units, diags
     program.assumed.units = program.assumed.units.map(|_| to);
     each_body(program, entry, |body, walk| {
         for stmt in body {
+            walk.enter(stmt.skip);
             let before = walk.clone();
             walk.step(stmt);
             let converter = Converter { target, to, before: &before, after: &walk.at };

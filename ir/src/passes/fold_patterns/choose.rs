@@ -19,12 +19,14 @@ use crate::program::Point;
 pub(super) struct Stretch<'t> {
     pub(super) holes: Vec<Hole>,
     target: &'t Target,
-    unit: Unit,
+    pub(super) unit: Unit,
     /// Nanos of a millimetre in the program's unit.
     of_unit: f64,
     spots: Vec<Spot>,
     /// Half a unit of the last digit of each hole's words, nanos.
-    half: Vec<[u64; 2]>,
+    half: u64,
+    /// Digits after the point to which the holes are written.
+    pub(super) digits: u8,
     /// Most digits after the point of a parameter.
     most: u8,
     /// Whether the cycle can be called up again at another place.
@@ -64,16 +66,18 @@ impl<'t> Stretch<'t> {
         let inch = unit == Unit::Inch;
         let most = target.decimals_in(unit).min(9);
         let of_unit = if inch { 25.4 } else { 1.0 } * ONE as f64;
+        // Zeros at the end are left out, so that every hole is written as finely as the finest one.
         let least = most.min(LEAST_DIGITS + u8::from(inch));
-        let digits = |own: u8| own.max(least).min(9) as usize;
-        let nanos = |own: u8| POW10[9 - digits(own)].unsigned_abs() * if inch { 254 } else { 10 } / 20;
+        let digits = holes.iter().flat_map(|hole| hole.digits).fold(least, u8::max).min(9);
+        let last = POW10[9 - digits as usize].unsigned_abs();
         let spot = |hole: &Hole| Spot {
             at: hole.at.map(|v| v as f64 / of_unit),
-            half: hole.digits.map(|own| 0.5 / POW10[digits(own)] as f64),
+            half: [0.5 / POW10[digits as usize] as f64; 2],
         };
         Stretch {
             spots: holes.iter().map(spot).collect(),
-            half: holes.iter().map(|hole| hole.digits.map(nanos)).collect(),
+            half: last * if inch { 254 } else { 10 } / 20,
+            digits,
             holes,
             target,
             unit,
@@ -260,7 +264,7 @@ impl<'t> Stretch<'t> {
         }
         let Some(places) = there.at.positions(pattern) else { return false };
         let near = |k: usize, place: &[Nanos; 2]| {
-            (0..2).all(|i| place[i].abs_diff(self.holes[k].at[i]) <= self.half[k][i])
+            (0..2).all(|i| place[i].abs_diff(self.holes[k].at[i]) <= self.half)
         };
         let same = places.len() == holes.len() && holes.zip(&places).all(|(k, place)| near(k, place));
         same && sayable(&there, pattern, self.target)
@@ -270,7 +274,7 @@ impl<'t> Stretch<'t> {
     pub(super) fn begins(&self, pattern: &Pattern, hole: usize, walk: &Walk) -> bool {
         let places = walk.at.positions(pattern);
         let Some(first) = places.as_ref().and_then(|places| places.first()) else { return false };
-        (0..2).all(|i| first[i].abs_diff(self.holes[hole].at[i]) <= self.half[hole][i])
+        (0..2).all(|i| first[i].abs_diff(self.holes[hole].at[i]) <= self.half)
     }
 }
 

@@ -29,7 +29,7 @@ use super::{Target, each_body};
 use crate::canon::{Axis, Plane, ReturnLevel};
 use crate::cycle::Pattern;
 use crate::diag::{Diagnostic, Fault};
-use crate::num::Nanos;
+use crate::num::{Nanos, Unit};
 use crate::program::{Op, Point, Program, Stmt};
 use crate::track::Tracker;
 use choose::{Found, Stretch};
@@ -244,7 +244,9 @@ fn put(
     diags: &mut Vec<Diagnostic>,
 ) {
     let holes = u32::try_from(found.count).unwrap_or(u32::MAX);
-    let fault = Fault::PatternFolded { pattern: name(&found.pattern).into(), holes };
+    let pattern = name(&found.pattern).into();
+    let (digits, inch) = (stretch.digits, stretch.unit == Unit::Inch);
+    let fault = Fault::PatternFolded { pattern, holes, digits, inch };
     diags.push(Diagnostic::new(fault, stmt.span));
     let mut ops = Vec::new();
     if choose::begins_here(&found.pattern) && !stretch.begins(&found.pattern, at, now) {
