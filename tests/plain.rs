@@ -183,6 +183,8 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::ProgramEnd => Happening::End,
             Kind::Message(_) => Happening::Message,
             Kind::TextEnd => Happening::TextEnd,
+            // The events under test are never narrated.
+            Kind::Attribute(_) => continue,
         };
         from = at;
         let speed = mm(event.state.speed);

@@ -40,6 +40,7 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         Kind::OptionalProgramStop => "an optional stop".to_owned(),
         Kind::ProgramEnd => "the end".to_owned(),
         Kind::TextEnd => "the end of the text".to_owned(),
+        Kind::Attribute(_) => "an attribute".to_owned(),
         Kind::Message(text) => format!("the message {text:?}"),
     };
     match aspect {

@@ -56,6 +56,28 @@ pub enum Kind {
     TextEnd,
     /// Text for the operator.
     Message(Text),
+    /// What sets something and moves nothing. Made only where functions are told one by one
+    /// ([`Exec::narrate`](super::Exec::narrate)), and never compared: what it sets is an attribute of
+    /// the events after it.
+    Attribute(Attribute),
+}
+
+/// Functions that set an attribute of later events; `SELECT_PLANE` and others that say in which
+/// terms the program speaks are not among them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attribute {
+    /// The tool that the next change puts in.
+    SelectTool(i64),
+    /// Speed of the spindle, rev/min in nanos.
+    SpindleSpeed(Nanos),
+    /// The spindle starts.
+    StartSpindle(Spindle),
+    /// The spindle stops.
+    StopSpindle,
+    /// Feed, mm/min in nanos.
+    FeedRate(Nanos),
+    /// A hole begins, at the retract plane over it. No function of its own: a mark for tables.
+    Hole,
 }
 
 /// What is on while an event happens.

@@ -3,7 +3,7 @@
 //! The moves are defined in `passes::expand_cycles` as statements and here as events; a law in the
 //! tests holds the two together.
 
-use super::{Event, Exec, Kind};
+use super::{Attribute, Event, Exec, Kind};
 use crate::canon::{AXES, Motion, Plane, ReturnLevel};
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern};
 use crate::diag::{Diagnostic, Fault};
@@ -26,6 +26,8 @@ pub(super) struct InForce {
     return_level: Option<ReturnLevel>,
     return_plane: Option<Nanos>,
     approach: Approach,
+    /// Feed that the cycle's own block says.
+    feed: Option<Nanos>,
     way: Way,
 }
 
@@ -123,9 +125,8 @@ impl Exec {
             Some(word) => Some(self.target(word, retract, span)?),
             None => None,
         };
-        if let Some(feed) = &cycle.feed {
-            self.feed = self.value(feed, span)?;
-        }
+        let feed = cycle.feed.as_ref().map(|f| self.value(f, span)).transpose()?;
+        self.feed = feed.unwrap_or(self.feed);
         self.modes.motion = Motion::Cycle;
         self.cycle = Some(InForce {
             plane,
@@ -135,6 +136,7 @@ impl Exec {
             return_level: cycle.return_level.known(),
             return_plane,
             approach: cycle.approach,
+            feed,
             way,
         });
         Ok(())
@@ -217,6 +219,10 @@ impl Exec {
         }
         self.emit_move(false, span, out)?;
         self.go_to_level(normal, cycle.retract, false, span, out)?;
+        self.tell(Attribute::Hole, span, out)?;
+        if let Some(feed) = cycle.feed {
+            self.tell(Attribute::FeedRate(feed), span, out)?;
+        }
         match cycle.way {
             Way::Drill { dwell } => {
                 self.go_to_level(normal, cycle.depth, true, span, out)?;

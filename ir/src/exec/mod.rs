@@ -10,7 +10,7 @@ mod frame;
 mod holes;
 mod run;
 
-pub use event::{Event, Kind, State};
+pub use event::{Attribute, Event, Kind, State};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
@@ -62,6 +62,8 @@ pub struct Exec {
     muted: bool,
     /// Whether events are counted only.
     quiet: bool,
+    /// Whether functions are told that make no events.
+    narrating: bool,
     counted: u64,
 }
 
@@ -130,6 +132,7 @@ impl Exec {
             ended: false,
             muted: false,
             quiet: false,
+            narrating: false,
             counted: 0,
         };
         exec.reframe(world.start);
@@ -268,6 +271,25 @@ impl Exec {
     /// Makes no events of messages: for a comparison with a control that cannot show them.
     pub fn mute(&mut self) {
         self.muted = true;
+    }
+
+    /// Tells functions one by one: those that set an attribute make events too, and so do straight
+    /// moves of the program that go nowhere. For tables of what happens; not for a comparison.
+    pub fn narrate(&mut self) {
+        self.narrating = true;
+    }
+
+    /// A point of the machine in the program's coordinates, as the frames are now.
+    pub fn in_program(&self, machine: &[Nanos; AXES]) -> [Nanos; AXES] {
+        self.unplace(machine)
+    }
+
+    /// Entry of the tool-length table in force; `None` is an edge of a tool.
+    pub fn length_entry(&self) -> Option<u32> {
+        match self.waiting.unwrap_or(self.modes.length) {
+            Length::Entry(entry) => Some(entry),
+            Length::Edge(..) => None,
+        }
     }
 
     /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
@@ -441,7 +463,7 @@ impl Exec {
             },
             Op::SetFeedRate(f) => {
                 self.feed = self.value(f, span)?;
-                Ok(())
+                self.tell(Attribute::FeedRate(self.feed), span, out)
             }
             _ => self.other(stmt, out),
         }
@@ -467,7 +489,19 @@ impl Exec {
         self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
         self.said |= MOTION;
         self.cycle = None;
+        if self.narrating && !(feed && self.feed == 0) && same_point(&self.machine(), &self.last) {
+            return self.emit(if feed { Kind::Feed } else { Kind::Traverse }, span, out);
+        }
         self.emit_move(feed, span, out)
+    }
+
+    /// Tells a function that moves nothing, where functions are told.
+    #[inline]
+    fn tell(&mut self, what: Attribute, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if !self.narrating {
+            return Ok(());
+        }
+        self.emit(Kind::Attribute(what), span, out)
     }
 
     /// Everything but plain moves and feeds.
@@ -516,8 +550,14 @@ impl Exec {
             Op::ClearFrame(_) => {}
             Op::SetFrame(frame) => self.set_frame(frame, span)?,
             Op::UseMachineCoordinates => self.raw = true,
-            Op::SetSpindleSpeed(speed) => self.state.speed = self.value(speed, span)?,
-            Op::SelectTool(tool) => self.selected = self.whole(tool, span)?,
+            Op::SetSpindleSpeed(speed) => {
+                self.state.speed = self.value(speed, span)?;
+                self.tell(Attribute::SpindleSpeed(self.state.speed), span, out)?;
+            }
+            Op::SelectTool(tool) => {
+                self.selected = self.whole(tool, span)?;
+                self.tell(Attribute::SelectTool(self.selected), span, out)?;
+            }
             Op::ChangeTool => {
                 if self.selected < 0 {
                     return self.fault(Fault::NoToolSelected, span);
@@ -540,9 +580,12 @@ impl Exec {
                 self.said |= LENGTH;
                 self.waiting = Some(self.edge(edge));
             }
-            Op::StartSpindleClockwise => self.state.spindle = Spindle::Clockwise,
-            Op::StartSpindleCounterclockwise => self.state.spindle = Spindle::Counterclockwise,
-            Op::StopSpindleTurning => self.state.spindle = Spindle::Stopped,
+            Op::StartSpindleClockwise => self.turn_spindle(Spindle::Clockwise, span, out)?,
+            Op::StartSpindleCounterclockwise => self.turn_spindle(Spindle::Counterclockwise, span, out)?,
+            Op::StopSpindleTurning => {
+                self.state.spindle = Spindle::Stopped;
+                self.tell(Attribute::StopSpindle, span, out)?;
+            }
             Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
             Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
             Op::CoolantOff => self.coolant(false, false, span, out)?,
@@ -571,6 +614,11 @@ impl Exec {
             Op::Label(_) => {}
         }
         Ok(())
+    }
+
+    fn turn_spindle(&mut self, to: Spindle, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        self.state.spindle = to;
+        self.tell(Attribute::StartSpindle(to), span, out)
     }
 
     fn coolant(

@@ -1,0 +1,60 @@
+//! The model of the case study: no acceleration at all.
+//!
+//! A rapid is its straight line at one rate, a feed move its length at the feed; a tool change, and a
+//! start or stop of the spindle, take a fixed time. Source: Aguiar 2023, table 10 and the text to
+//! figures 20 to 22.
+
+use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::exec::{Attribute, Kind};
+
+use crate::act::Act;
+use crate::machine::{Machine, ToolChangeOn};
+use crate::path::{path, units};
+
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+
+/// Seconds that a function takes. What the machine does not know takes no time.
+pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
+    let known = |time: Option<f64>| time.unwrap_or(0.0);
+    match &act.event.kind {
+        Kind::Traverse => {
+            let path = path(&act.event, &act.from);
+            rapid(path.length, &path.change, machine)
+        }
+        Kind::Feed | Kind::Arc { .. } => {
+            let rate = units(act.event.rate);
+            match path(&act.event, &act.from).length {
+                0.0 => 0.0,
+                length => length / machine.max_feed.map_or(rate, |most| rate.min(most)) * MINUTE,
+            }
+        }
+        Kind::Dwell(seconds) => units(*seconds),
+        Kind::ToolChange if machine.tool_change_on == ToolChangeOn::Change => known(machine.tool_change),
+        Kind::Attribute(Attribute::SelectTool(_)) if machine.tool_change_on == ToolChangeOn::Select => {
+            known(machine.tool_change)
+        }
+        Kind::Attribute(Attribute::StartSpindle(_)) => known(machine.spindle_start),
+        Kind::Attribute(Attribute::StopSpindle) => known(machine.spindle_stop),
+        Kind::ToolChange
+        | Kind::Coolant
+        | Kind::ProgramStop
+        | Kind::OptionalProgramStop
+        | Kind::ProgramEnd
+        | Kind::TextEnd
+        | Kind::Message(_)
+        | Kind::Attribute(
+            Attribute::SelectTool(_) | Attribute::SpindleSpeed(_) | Attribute::FeedRate(_) | Attribute::Hole,
+        ) => 0.0,
+    }
+}
+
+/// Seconds of a rapid: along the line at the machine's rate, or as its slowest axis allows.
+fn rapid(length: f64, change: &[f64; AXES], machine: &Machine) -> f64 {
+    let line = machine.rapid_rate.map_or(0.0, |rate| length / rate * MINUTE);
+    let axes = Axis::ALL.into_iter().filter_map(|axis| {
+        let rate = machine.axes[axis as usize].rapid_rate?;
+        Some(change[axis as usize].abs() / rate * MINUTE)
+    });
+    axes.fold(line, f64::max)
+}

@@ -1,0 +1,18 @@
+//! ncc-timeline: when everything happens.
+//!
+//! Execution says what a machine does; here every function gets its start and its duration, by a
+//! model of the machine that the caller chooses. Functions come in one by one and leave in the same
+//! order, as soon as nothing that follows can change their time.
+//!
+//! Not here: reading programs, machine profiles as files, tables and pictures. No dialect's name.
+
+mod act;
+mod clock;
+mod ideal;
+mod machine;
+mod path;
+
+pub use act::{Act, Place};
+pub use clock::{Clock, Model, Timed};
+pub use machine::{AxisFacts, Machine, ToolChangeOn};
+pub use path::{Path, path};
