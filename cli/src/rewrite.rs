@@ -97,16 +97,7 @@ impl Folder {
         if self.assumed == *assumed {
             return;
         }
-        let modes = &mut self.entry.modes;
-        modes.motion = modes.motion.or(assumed.motion);
-        modes.distance = modes.distance.or(assumed.distance);
-        modes.units = modes.units.or(assumed.units);
-        modes.plane = modes.plane.or(assumed.plane);
-        modes.feed_mode = modes.feed_mode.or(assumed.feed_mode);
-        modes.return_level = modes.return_level.or(assumed.return_level);
-        modes.work_offset = modes.work_offset.or(assumed.work_offset);
-        modes.length_offset = modes.length_offset.or(assumed.length_offset);
-        modes.no_origin_shift = modes.no_origin_shift.or(assumed.no_origin_shift);
+        self.entry.modes = self.entry.modes.or(*assumed);
         self.assumed = *assumed;
     }
 }

@@ -198,3 +198,20 @@ pub struct Modes {
     /// Whether there is no temporary shift of the origin (`true`), or one may be left over.
     pub no_origin_shift: Option<bool>,
 }
+
+impl Modes {
+    /// These facts; where one is not known, the other's.
+    pub fn or(self, other: Modes) -> Modes {
+        Modes {
+            motion: self.motion.or(other.motion),
+            distance: self.distance.or(other.distance),
+            units: self.units.or(other.units),
+            plane: self.plane.or(other.plane),
+            feed_mode: self.feed_mode.or(other.feed_mode),
+            return_level: self.return_level.or(other.return_level),
+            work_offset: self.work_offset.or(other.work_offset),
+            length_offset: self.length_offset.or(other.length_offset),
+            no_origin_shift: self.no_origin_shift.or(other.no_origin_shift),
+        }
+    }
+}

@@ -185,15 +185,5 @@ pub(crate) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
 
 /// Facts of two lists; the later one counts.
 pub(crate) fn with(known: Modes, more: Modes) -> Modes {
-    Modes {
-        motion: more.motion.or(known.motion),
-        distance: more.distance.or(known.distance),
-        units: more.units.or(known.units),
-        plane: more.plane.or(known.plane),
-        feed_mode: more.feed_mode.or(known.feed_mode),
-        return_level: more.return_level.or(known.return_level),
-        work_offset: more.work_offset.or(known.work_offset),
-        length_offset: more.length_offset.or(known.length_offset),
-        no_origin_shift: more.no_origin_shift.or(known.no_origin_shift),
-    }
+    more.or(known)
 }
