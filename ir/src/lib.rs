@@ -14,6 +14,7 @@ pub mod diag;
 pub mod exec;
 pub mod expr;
 pub mod geometry;
+mod kinds;
 pub mod num;
 pub mod passes;
 pub mod places;

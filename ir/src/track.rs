@@ -7,6 +7,7 @@ use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel
 use crate::cycle::{Cycle, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
+use crate::kinds::{flow, miscellaneous};
 use crate::num::Nanos;
 use crate::places::{Here, Places};
 use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Stmt};
@@ -336,27 +337,8 @@ impl Tracker {
             }
             Op::ChangeTool => self.tool = self.selected,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
-            Op::Call(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::Return | Op::RepeatBlocks(_) => {
-                self.forget()
-            }
-            Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::StopCutterRadiusCompensation
-            | Op::SetFeedRate(_)
-            | Op::SetSpindleSpeed(_)
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
-            | Op::ProgramEnd
-            | Op::Message(_)
-            | Op::Assign(..) => {}
+            flow!() => self.forget(),
+            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | miscellaneous!() => {}
         }
     }
 

@@ -11,6 +11,7 @@ use super::{Target, each_body};
 use crate::canon::ReturnLevel;
 use crate::cycle::{Approach, Cycle, Pattern};
 use crate::diag::{Diagnostic, Fault};
+use crate::kinds::{flow, moves};
 use crate::program::{Op, Point, Program, Stmt};
 use crate::track::Tracker;
 
@@ -151,24 +152,8 @@ fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, Option<&Point>)> {
 fn is_last(body: &[Stmt], i: usize) -> bool {
     for stmt in &body[i + 1..] {
         match &stmt.op {
-            Op::EndCycle
-            | Op::StraightTraverse(_)
-            | Op::StraightFeed(_)
-            | Op::ArcFeed(_)
-            | Op::ArcForm(_)
-            | Op::ProgramEnd
-                if stmt.skip.is_none() =>
-            {
-                return true;
-            }
-            Op::StartCycle(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_)
-            | Op::RepeatBlocks(_)
-            | Op::Position(_) => return false,
+            Op::EndCycle | Op::ProgramEnd | moves!() if stmt.skip.is_none() => return true,
+            Op::StartCycle(_) | Op::Position(_) | flow!() => return false,
             _ => {}
         }
     }

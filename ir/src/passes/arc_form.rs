@@ -11,6 +11,7 @@ use crate::cycle::absolute;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
+use crate::kinds::miscellaneous;
 use crate::num::Nanos;
 use crate::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt};
 use crate::round::{Around, Round, round};
@@ -120,25 +121,12 @@ impl State {
 fn keeps(op: &Op) -> bool {
     matches!(
         op,
-        Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::SetFeedRate(_)
-            | Op::SetSpindleSpeed(_)
+        Op::SetFeedRate(_)
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
             | Op::Message(_)
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
-            | Op::StopCutterRadiusCompensation
+            | miscellaneous!()
     )
 }
 

@@ -12,6 +12,7 @@ use crate::canon::{Axis, Distance, Units};
 use crate::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
+use crate::kinds::{flow, miscellaneous, tooling};
 use crate::num::{Num, Unit};
 use crate::program::{Centre, Coord, FrameStep, Op, Point, Program, Shape, Stmt};
 use crate::track::Tracker;
@@ -91,41 +92,20 @@ impl Converter<'_> {
                     words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
                 }
             }
-            Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::SetDistanceMode(_)
+            Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
             | Op::SetReturnLevel(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
             | Op::UseMachineCoordinates
-            | Op::StopCutterRadiusCompensation
-            | Op::SetSpindleSpeed(_)
-            | Op::SelectTool(_)
-            | Op::ChangeTool
-            | Op::UseToolLengthOffset(_)
-            | Op::UseToolEdge { .. }
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
             | Op::EndCycle
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Message(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::RepeatBlocks(_)
             | Op::Assign(..)
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_) => {}
+            | miscellaneous!()
+            | tooling!()
+            | flow!() => {}
         }
         Ok(())
     }

@@ -16,6 +16,7 @@ use super::write::rebuild;
 use super::{Target, each_body};
 use crate::canon::{Axis, Modes, Motion};
 use crate::diag::Diagnostic;
+use crate::kinds::{flow, moves};
 use crate::num::Num;
 use crate::program::{FrameSlot, Move, Op, Program, Stmt};
 use crate::track::Tracker;
@@ -105,15 +106,7 @@ fn shorten(walk: &Walk, stmt: &mut Stmt) {
 fn speed_after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
     let now = match &stmt.op {
         Op::SetSpindleSpeed(speed) => speed.literal().map(Num::trimmed),
-        Op::ChangeTool
-        | Op::ProgramStop
-        | Op::OptionalProgramStop
-        | Op::Call(_)
-        | Op::Return
-        | Op::RepeatBlocks(_)
-        | Op::Control(_)
-        | Op::Goto(_)
-        | Op::Label(_) => None,
+        Op::ChangeTool | Op::ProgramStop | Op::OptionalProgramStop | flow!() => None,
         _ => before,
     };
     if stmt.skip.is_some() && now != before { None } else { now }
@@ -122,9 +115,7 @@ fn speed_after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
 /// Whether a move has surely ended any cycle before.
 fn moved_after(stmt: &Stmt, before: bool) -> bool {
     match &stmt.op {
-        Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) | Op::EndCycle => {
-            before || stmt.skip.is_none()
-        }
+        Op::EndCycle | moves!() => before || stmt.skip.is_none(),
         Op::Call(_) | Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) => false,
         _ => before,
     }

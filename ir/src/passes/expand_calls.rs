@@ -12,6 +12,7 @@ use crate::canon::{Fact, Motion};
 use crate::cycle::{Clearance, CycleKind, First, Pattern};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
+use crate::kinds::{flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{Call, Centre, Control, Coord, FrameStep, Op, Point, Procedure, Program, Shape, Stmt};
 use crate::source::Span;
@@ -259,42 +260,17 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
             FrameStep::Scale(_) | FrameStep::Mirror(_) => {}
         },
         Op::SetFeedRate(feed) => settle_expr(feed, here),
-        Op::Comment(_)
-        | Op::NoEffect(_)
-        | Op::Blank
-        | Op::UseLengthUnits(_)
-        | Op::SetDistanceMode(_)
-        | Op::SelectPlane(_)
-        | Op::SetFeedMode(_)
-        | Op::SetReturnLevel(_)
-        | Op::SetOriginOffsets(_)
+        Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
         | Op::UseMachineCoordinates
-        | Op::UseToolEdge { .. }
-        | Op::RepeatBlocks(_)
-        | Op::StopCutterRadiusCompensation
-        | Op::SetSpindleSpeed(_)
-        | Op::SelectTool(_)
-        | Op::ChangeTool
-        | Op::UseToolLengthOffset(_)
-        | Op::StartSpindleClockwise
-        | Op::StartSpindleCounterclockwise
-        | Op::StopSpindleTurning
-        | Op::FloodOn
-        | Op::MistOn
-        | Op::CoolantOff
-        | Op::Dwell(_)
         | Op::EndCycle
-        | Op::ProgramStop
-        | Op::OptionalProgramStop
         | Op::ProgramEnd
         | Op::Message(_)
-        | Op::Call(_)
-        | Op::Return
         | Op::Assign(..)
-        | Op::Control(_)
-        | Op::Goto(_)
-        | Op::Label(_) => {}
+        | miscellaneous!()
+        | modes!()
+        | tooling!()
+        | flow!() => {}
     }
 }
 

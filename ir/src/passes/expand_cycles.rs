@@ -21,6 +21,7 @@ use crate::caps::CycleCap;
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
+use crate::kinds::{flow, moves};
 use crate::num::{Nanos, Num};
 use crate::program::{Coord, Op, Point, Program, Stmt};
 use crate::source::Span;
@@ -161,21 +162,7 @@ pub(super) fn over(
 
 /// Whether a statement ends a cycle that is in force, or goes where this pass does not follow.
 fn ends(op: &Op) -> bool {
-    matches!(
-        op,
-        Op::StraightTraverse(_)
-            | Op::StraightFeed(_)
-            | Op::ArcFeed(_)
-            | Op::ArcForm(_)
-            | Op::Position(_)
-            | Op::ProgramEnd
-            | Op::Call(_)
-            | Op::Return
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_)
-            | Op::RepeatBlocks(_)
-    )
+    matches!(op, Op::Position(_) | Op::ProgramEnd | moves!() | flow!())
 }
 
 impl State {

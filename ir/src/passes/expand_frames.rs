@@ -16,6 +16,7 @@ use crate::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::Chain;
 use crate::expr::Expr;
+use crate::kinds::{flow, frames, miscellaneous, modes, tooling};
 use crate::num::{Nanos, Num, ONE, POW10, Unit};
 use crate::places::Places;
 use crate::program::{Arc, Centre, CentreFrom, Coord, Frame, FrameSlot, Move, Op, Point, Program, Stmt};
@@ -228,49 +229,19 @@ impl Frames<'_> {
             Op::ArcForm(_) => return Ok(Vec::new()),
             Op::StartCycle(cycle) => Op::StartCycle(Box::new(self.cycle(cycle)?)),
             Op::Pattern(pattern) => return self.pattern(pattern),
-            Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_)
-                if self.chain != Chain::NONE =>
-            {
+            flow!() if self.chain != Chain::NONE => {
                 return Err(cannot("a frame where the program does not go straight on"));
             }
-            Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::UseLengthUnits(_)
-            | Op::SetDistanceMode(_)
-            | Op::SelectPlane(_)
-            | Op::SetFeedMode(_)
-            | Op::SetReturnLevel(_)
-            | Op::SetOriginOffsets(_)
-            | Op::ClearFrame(_)
-            | Op::SetFrame(_)
-            | Op::UseMachineCoordinates
-            | Op::StopCutterRadiusCompensation
-            | Op::SetFeedRate(_)
-            | Op::SetSpindleSpeed(_)
-            | Op::SelectTool(_)
-            | Op::ChangeTool
-            | Op::UseToolLengthOffset(_)
-            | Op::UseToolEdge { .. }
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
+            Op::SetFeedRate(_)
             | Op::EndCycle
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Message(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_)
-            | Op::RepeatBlocks(_)
-            | Op::Assign(..) => return Ok(Vec::new()),
+            | Op::Assign(..)
+            | miscellaneous!()
+            | modes!()
+            | tooling!()
+            | frames!()
+            | flow!() => return Ok(Vec::new()),
         }])
     }
 

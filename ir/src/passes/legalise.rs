@@ -13,6 +13,7 @@ use super::{
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault, Gravity};
+use crate::kinds::{miscellaneous, modes};
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
@@ -488,27 +489,6 @@ fn interest(stmt: &Stmt) -> u16 {
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,
-        Op::Comment(_)
-        | Op::NoEffect(_)
-        | Op::Blank
-        | Op::UseLengthUnits(_)
-        | Op::SetDistanceMode(_)
-        | Op::SelectPlane(_)
-        | Op::SetFeedMode(_)
-        | Op::SetReturnLevel(_)
-        | Op::StopCutterRadiusCompensation
-        | Op::SetSpindleSpeed(_)
-        | Op::SelectTool(_)
-        | Op::StartSpindleClockwise
-        | Op::StartSpindleCounterclockwise
-        | Op::StopSpindleTurning
-        | Op::FloodOn
-        | Op::MistOn
-        | Op::CoolantOff
-        | Op::Dwell(_)
-        | Op::ProgramStop
-        | Op::OptionalProgramStop
-        | Op::ProgramEnd
-        | Op::Assign(..) => 0,
+        Op::SelectTool(_) | Op::ProgramEnd | Op::Assign(..) | miscellaneous!() | modes!() => 0,
     }
 }

@@ -13,6 +13,7 @@ use super::{Target, each_body, expand_patterns};
 use crate::canon::{Distance, Fact, ReturnLevel};
 use crate::cycle::Cycle;
 use crate::diag::{Diagnostic, Fault};
+use crate::kinds::{flow, moves};
 use crate::num::Nanos;
 use crate::program::{Coord, Move, Op, Point, Program, Stmt};
 use crate::track::{InForce, Tracker};
@@ -53,18 +54,7 @@ fn keeps_level(after: &[Stmt]) -> bool {
         matches!(s.op, Op::EndCycle | Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::ProgramEnd)
             && s.skip.is_none()
     };
-    let changes = |s: &&Stmt| {
-        matches!(
-            s.op,
-            Op::SetReturnLevel(_)
-                | Op::Call(_)
-                | Op::Return
-                | Op::Control(_)
-                | Op::Goto(_)
-                | Op::Label(_)
-                | Op::RepeatBlocks(_)
-        )
-    };
+    let changes = |s: &&Stmt| matches!(s.op, Op::SetReturnLevel(_) | flow!());
     let end = after.iter().position(|s| ends(&s));
     let change = after.iter().position(|s| changes(&s));
     end.is_some_and(|end| change.is_none_or(|change| end < change))
@@ -252,15 +242,7 @@ fn makes_more(body: &[Stmt]) -> bool {
 
 /// Whether a statement ends the cycle in force.
 fn ends(stmt: &Stmt) -> bool {
-    matches!(
-        stmt.op,
-        Op::EndCycle
-            | Op::StraightTraverse(_)
-            | Op::StraightFeed(_)
-            | Op::ArcFeed(_)
-            | Op::ArcForm(_)
-            | Op::ProgramEnd
-    )
+    matches!(stmt.op, Op::EndCycle | Op::ProgramEnd | moves!())
 }
 
 /// Whether no further cycle, called up before this one is ended, counts from the level at which the
@@ -275,9 +257,7 @@ fn level_is_free(body: &[Stmt]) -> bool {
                     return false;
                 }
             }
-            Op::Call(_) | Op::Label(_) | Op::Goto(_) | Op::Control(_) | Op::RepeatBlocks(_) | Op::Return => {
-                return false;
-            }
+            flow!() => return false,
             _ if ends(stmt) && stmt.skip.is_none() => return true,
             _ => {}
         }

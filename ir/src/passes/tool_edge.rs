@@ -10,6 +10,7 @@ use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
+use crate::kinds::flow;
 use crate::program::{Op, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
@@ -80,10 +81,7 @@ pub(super) fn over(
 
 /// Whether a statement may take a length up, or goes where this pass does not follow.
 fn may_command_z(walk: &Walk, op: &Op) -> bool {
-    let elsewhere = matches!(
-        op,
-        Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_)
-    );
+    let elsewhere = matches!(op, flow!());
     let unknown = matches!(op, Op::Position(_)) && walk.at.modes.motion.is_none();
     elsewhere || unknown || walk.commands_z(op)
 }

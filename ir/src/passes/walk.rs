@@ -4,6 +4,7 @@
 //! afterwards is what holds on both ways; within the stretch nothing is in doubt.
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
+use crate::kinds::{flow, frames, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{Coord, Move, Op, Point, Stmt};
 use crate::track::Tracker;
@@ -159,45 +160,17 @@ impl Walk {
             Op::Hole(m) => m.to.get(Axis::Z).is_some() || normal_is_z(),
             // Its places are in the plane of X and Y, above which it drills, or in one with Z.
             Op::Pattern(pattern) => super::approach::has_holes(pattern),
-            Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
-            | Op::UseLengthUnits(_)
-            | Op::SetDistanceMode(_)
-            | Op::SelectPlane(_)
-            | Op::SetFeedMode(_)
-            | Op::SetReturnLevel(_)
-            | Op::SetOriginOffsets(_)
-            | Op::ClearFrame(_)
-            | Op::SetFrame(_)
-            | Op::UseMachineCoordinates
-            | Op::UseToolEdge { .. }
-            | Op::RepeatBlocks(_)
-            | Op::StopCutterRadiusCompensation
-            | Op::SetFeedRate(_)
-            | Op::SetSpindleSpeed(_)
-            | Op::SelectTool(_)
-            | Op::ChangeTool
-            | Op::UseToolLengthOffset(_)
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
+            Op::SetFeedRate(_)
             | Op::StartCycle(_)
             | Op::EndCycle
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Message(_)
-            | Op::Call(_)
-            | Op::Return
             | Op::Assign(..)
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_) => false,
+            | miscellaneous!()
+            | modes!()
+            | tooling!()
+            | frames!()
+            | flow!() => false,
         }
     }
 

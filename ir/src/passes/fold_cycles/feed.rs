@@ -2,6 +2,7 @@
 
 use crate::cycle::CycleKind;
 use crate::expr::Expr;
+use crate::kinds::{flow, frames, miscellaneous, moves, tooling};
 use crate::num::Num;
 use crate::program::{Op, Stmt};
 
@@ -22,50 +23,21 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
             | CycleKind::DrillPeck { .. }
             | CycleKind::DrillBreak { .. } => cycle.feed.as_ref().map_or(before, Expr::literal),
         },
-        Op::UseLengthUnits(_)
-        | Op::SetFeedMode(_)
-        | Op::Call(_)
-        | Op::Return
-        | Op::RepeatBlocks(_)
-        | Op::Control(_)
-        | Op::Goto(_)
-        | Op::Label(_) => None,
-        Op::Comment(_)
-        | Op::NoEffect(_)
-        | Op::Blank
-        | Op::SetDistanceMode(_)
+        Op::UseLengthUnits(_) | Op::SetFeedMode(_) | flow!() => None,
+        Op::SetDistanceMode(_)
         | Op::SelectPlane(_)
         | Op::SetReturnLevel(_)
-        | Op::SetOriginOffsets(_)
-        | Op::ClearFrame(_)
-        | Op::SetFrame(_)
-        | Op::UseMachineCoordinates
-        | Op::StopCutterRadiusCompensation
-        | Op::SetSpindleSpeed(_)
-        | Op::SelectTool(_)
-        | Op::ChangeTool
-        | Op::UseToolLengthOffset(_)
-        | Op::UseToolEdge { .. }
-        | Op::StartSpindleClockwise
-        | Op::StartSpindleCounterclockwise
-        | Op::StopSpindleTurning
-        | Op::FloodOn
-        | Op::MistOn
-        | Op::CoolantOff
-        | Op::Dwell(_)
-        | Op::StraightTraverse(_)
-        | Op::StraightFeed(_)
-        | Op::ArcFeed(_)
-        | Op::ArcForm(_)
         | Op::Position(_)
         | Op::Hole(_)
         | Op::Pattern(_)
         | Op::EndCycle
-        | Op::ProgramStop
-        | Op::OptionalProgramStop
         | Op::ProgramEnd
         | Op::Message(_)
-        | Op::Assign(..) => before,
+        | Op::Assign(..)
+        | miscellaneous!()
+        | tooling!()
+        | frames!()
+        | moves!() => before,
     }
 }
 
@@ -85,43 +57,19 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | Op::StartCycle(_)
             | Op::UseLengthUnits(_)
             | Op::SetFeedMode(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::RepeatBlocks(_)
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_)
-            | Op::Assign(..) => return true,
+            | Op::Assign(..)
+            | flow!() => return true,
             Op::SetFeedRate(_)
             | Op::ProgramEnd
-            | Op::Comment(_)
-            | Op::NoEffect(_)
-            | Op::Blank
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetReturnLevel(_)
-            | Op::SetOriginOffsets(_)
-            | Op::ClearFrame(_)
-            | Op::SetFrame(_)
-            | Op::UseMachineCoordinates
-            | Op::StopCutterRadiusCompensation
-            | Op::SetSpindleSpeed(_)
-            | Op::SelectTool(_)
-            | Op::ChangeTool
-            | Op::UseToolLengthOffset(_)
-            | Op::UseToolEdge { .. }
-            | Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::FloodOn
-            | Op::MistOn
-            | Op::CoolantOff
-            | Op::Dwell(_)
             | Op::StraightTraverse(_)
             | Op::EndCycle
-            | Op::ProgramStop
-            | Op::OptionalProgramStop
-            | Op::Message(_) => {}
+            | Op::Message(_)
+            | miscellaneous!()
+            | tooling!()
+            | frames!() => {}
         }
     }
     true

@@ -28,6 +28,7 @@ use crate::canon::{AXES, Fact, Modes, Plane, ReturnLevel};
 use crate::cycle::{Approach, Cycle, CycleKind};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::{Event, Exec};
+use crate::kinds::{flow, moves};
 use crate::num::{Num, Unit};
 use crate::program::{Move, Op, Program, Stmt};
 use crate::source::Span;
@@ -301,23 +302,8 @@ fn one(moves: &[Stmt], ops: Vec<(bool, Op)>, made: &mut Rebuild) {
 fn inherits_motion(rest: &[Stmt]) -> bool {
     for stmt in rest {
         match &stmt.op {
-            Op::Position(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::RepeatBlocks(_)
-            | Op::Control(_)
-            | Op::Goto(_)
-            | Op::Label(_) => return true,
-            Op::StraightTraverse(_)
-            | Op::StraightFeed(_)
-            | Op::ArcFeed(_)
-            | Op::ArcForm(_)
-            | Op::StartCycle(_)
-            | Op::ProgramEnd
-                if stmt.skip.is_none() =>
-            {
-                return false;
-            }
+            Op::Position(_) | flow!() => return true,
+            Op::StartCycle(_) | Op::ProgramEnd | moves!() if stmt.skip.is_none() => return false,
             _ => {}
         }
     }

@@ -1,0 +1,84 @@
+//! Kinds of statements: patterns for those that most passes answer for alike.
+//!
+//! Each macro stands for a list of [`Op`](crate::program::Op) in a pattern, so that a `match` stays
+//! without a catch-all and the compiler still counts: a new `Op` fails to compile in every pass until
+//! somebody puts it into a kind, whose promise it must keep, or answers for it there.
+//!
+//! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
+
+/// Beside the way: remarks, spindle, coolant, pauses. Without axis words, lengths or a feed; what is
+/// in force for the moves that follow, where the axes stand and which tool is meant stay as they are.
+macro_rules! miscellaneous {
+    () => {
+        $crate::program::Op::Comment(_)
+            | $crate::program::Op::NoEffect(_)
+            | $crate::program::Op::Blank
+            | $crate::program::Op::StopCutterRadiusCompensation
+            | $crate::program::Op::SetSpindleSpeed(_)
+            | $crate::program::Op::StartSpindleClockwise
+            | $crate::program::Op::StartSpindleCounterclockwise
+            | $crate::program::Op::StopSpindleTurning
+            | $crate::program::Op::FloodOn
+            | $crate::program::Op::MistOn
+            | $crate::program::Op::CoolantOff
+            | $crate::program::Op::Dwell(_)
+            | $crate::program::Op::ProgramStop
+            | $crate::program::Op::OptionalProgramStop
+    };
+}
+
+/// What the numbers that follow mean, where cycles leave the tool: no axis moves.
+macro_rules! modes {
+    () => {
+        $crate::program::Op::UseLengthUnits(_)
+            | $crate::program::Op::SetDistanceMode(_)
+            | $crate::program::Op::SelectPlane(_)
+            | $crate::program::Op::SetFeedMode(_)
+            | $crate::program::Op::SetReturnLevel(_)
+    };
+}
+
+/// Tools and their lengths: nothing moves until an axis is commanded.
+macro_rules! tooling {
+    () => {
+        $crate::program::Op::SelectTool(_)
+            | $crate::program::Op::ChangeTool
+            | $crate::program::Op::UseToolLengthOffset(_)
+            | $crate::program::Op::UseToolEdge { .. }
+    };
+}
+
+/// From where, and turned how, the coordinates that follow are counted.
+macro_rules! frames {
+    () => {
+        $crate::program::Op::SetOriginOffsets(_)
+            | $crate::program::Op::ClearFrame(_)
+            | $crate::program::Op::SetFrame(_)
+            | $crate::program::Op::UseMachineCoordinates
+    };
+}
+
+/// Moves that say themselves which they are: they end a cycle.
+macro_rules! moves {
+    () => {
+        $crate::program::Op::StraightTraverse(_)
+            | $crate::program::Op::StraightFeed(_)
+            | $crate::program::Op::ArcFeed(_)
+            | $crate::program::Op::ArcForm(_)
+    };
+}
+
+/// Where the program goes another way than straight on: nothing that was known before need hold
+/// behind it.
+macro_rules! flow {
+    () => {
+        $crate::program::Op::Call(_)
+            | $crate::program::Op::Return
+            | $crate::program::Op::RepeatBlocks(_)
+            | $crate::program::Op::Control(_)
+            | $crate::program::Op::Goto(_)
+            | $crate::program::Op::Label(_)
+    };
+}
+
+pub(crate) use {flow, frames, miscellaneous, modes, moves, tooling};
