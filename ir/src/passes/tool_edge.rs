@@ -34,6 +34,10 @@ struct Waiting {
     refused: Option<Fault>,
 }
 
+/// What stands for a length that is refused: the edge that comes with the tool, so that the moves after
+/// it are not refused for it once more. Nothing is released, for the refusal stays.
+const REFUSED: Expr = Expr::int(1);
+
 /// Puts one in the other's place, as the target has it.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
@@ -224,6 +228,7 @@ fn to_edges(
                 Err(fault) => {
                     state.waiting = None;
                     diags.push(Diagnostic::new(fault, stmt.span));
+                    stmt.op = Op::UseToolEdge { edge: REFUSED, said: true };
                     return made.push(stmt);
                 }
             };
@@ -292,13 +297,18 @@ fn in_force(
         None => Err(cannot("a tool change under a length offset that is not known".into())),
     };
     let edge = match found {
-        Ok(edge) => edge,
-        Err(fault) => return diags.push(Diagnostic::new(fault, waiting.span)),
+        Ok(edge) => {
+            if let (1, Some(tool)) = (edge, tool(walk)) {
+                state.tell(tool, waiting.span, diags);
+            }
+            Expr::int(edge)
+        }
+        Err(fault) => {
+            diags.push(Diagnostic::new(fault, waiting.span));
+            REFUSED
+        }
     };
-    if let (1, Some(tool)) = (edge, tool(walk)) {
-        state.tell(tool, waiting.span, diags);
-    }
-    let mut new = Stmt::new(waiting.span, Op::UseToolEdge { edge: Expr::int(edge), said: true });
+    let mut new = Stmt::new(waiting.span, Op::UseToolEdge { edge, said: true });
     new.skip = waiting.skip;
     match behind(&waiting, made) {
         Some(place) if place < made.out.len() || !stmt.joined => made.out.insert(place, new),
