@@ -7,13 +7,18 @@
 //!
 //! Not here: lexing, lowering and layout. A dictionary says what, never how.
 
+mod caps;
+mod check;
+mod fault;
 mod load;
 mod meaning;
+mod merge;
 mod names;
 mod schema;
 mod settings;
 
-pub use load::{DialectError, builtin, builtins, parse};
+pub use fault::{DialectError, DialectFault, Place, Text};
+pub use load::{builtin, builtin_text, builtins, load, parse, renew};
 pub use meaning::Meaning;
 pub use names::*;
 pub use schema::*;

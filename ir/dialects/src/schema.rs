@@ -21,7 +21,10 @@ pub struct Dialect {
     pub id: String,
     /// What it is, for people.
     pub title: String,
-    /// Which reader and writer it has.
+    /// The dialect that it builds on: what this file does not say is as that one has it.
+    #[serde(default)]
+    pub base: Option<String>,
+    /// Which reader and writer it has; the base's, if it builds on one.
     pub family: Family,
     /// Usual file extensions, the first one for writing; without the dot.
     #[serde(default)]

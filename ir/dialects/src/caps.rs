@@ -1,0 +1,130 @@
+//! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
+
+use ncc_ir::canon::ReturnLevel;
+use ncc_ir::caps::{Caps, CycleCap};
+
+use crate::meaning::Meaning;
+use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
+use crate::schema::{CycleRow, Dialect, Family, PatternRow};
+
+/// The capabilities that follow from a dictionary's rows.
+pub(crate) fn caps(dialect: &Dialect) -> Caps {
+    let says = |meaning| dialect.code_for(meaning).is_some();
+    let returns: Vec<ReturnLevel> = match dialect.cycles.return_level {
+        Some(level) => vec![level.into()],
+        None => vec![ReturnLevel::Initial, ReturnLevel::Retract],
+    };
+    let everything = dialect.can.everything;
+    let calls = |kind| dialect.call_for(kind);
+    let names = |meaning| dialect.name_for(meaning).is_some();
+    let states = dialect.call.iter().any(|row| row.place(ParameterRole::ReturnPlane).is_some());
+    let either = |says: bool| (!everything).then_some(says);
+    let list = calls(CallKind::List).map(|row| {
+        row.parameters.iter().filter(|p| p.role == Some(ParameterRole::PointFirst)).count() as u32
+    });
+    Caps {
+        cycles: if everything {
+            let all = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
+            let cap = |kind: &str| CycleCap {
+                kind: kind.to_owned(),
+                returns: vec![ReturnLevel::Initial, ReturnLevel::Retract],
+                dwell: true,
+                clearance: true,
+                parameter: true,
+                strokes: true,
+                feed_out: true,
+                lift_at_feed: None,
+            };
+            all.into_iter().map(cap).collect()
+        } else {
+            let cap = |row: &CycleRow| CycleCap {
+                kind: row.kind.clone(),
+                returns: returns.clone(),
+                dwell: row.dwell.is_some(),
+                clearance: false,
+                parameter: true,
+                strokes: false,
+                feed_out: false,
+                lift_at_feed: Some(false),
+            };
+            let called = |row: &CallRow| {
+                let has = |role| row.place(role).is_some();
+                let caps = row.kind.cycles().iter().map(|kind| CycleCap {
+                    kind: (*kind).to_owned(),
+                    returns: returns.clone(),
+                    dwell: has(ParameterRole::Dwell),
+                    clearance: has(ParameterRole::Clearance),
+                    parameter: !has(ParameterRole::Clearance),
+                    strokes: has(ParameterRole::RelativeFirstDepth),
+                    feed_out: has(ParameterRole::FeedOut),
+                    lift_at_feed: Some(has(ParameterRole::Lift)),
+                });
+                caps.collect::<Vec<_>>()
+            };
+            dialect.cycle.iter().map(cap).chain(dialect.call.iter().flat_map(called)).collect()
+        },
+        circle_pattern: everything
+            || calls(CallKind::Circle).is_some()
+            || dialect.pattern.iter().any(|p| matches!(p, PatternRow::Circle { .. })),
+        grid_pattern: match calls(CallKind::Grid) {
+            _ if everything => u32::MAX,
+            Some(_) => u32::MAX,
+            None => dialect.can.grid_upto,
+        },
+        grid_serpentine: match calls(CallKind::Grid) {
+            Some(_) => Some(true),
+            None => dialect.pattern.iter().find_map(|p| match p {
+                PatternRow::Grid { serpentine, .. } => Some(*serpentine),
+                PatternRow::Circle { .. } => None,
+            }),
+        },
+        grid_square: calls(CallKind::Grid).is_some(),
+        order_by_position: dialect.call.iter().any(|row| row.order_by_position),
+        line_pattern: everything || calls(CallKind::Line).is_some(),
+        list_pattern: if everything { u32::MAX } else { list.unwrap_or(0) },
+        circle_polar: either(calls(CallKind::Circle).is_some()),
+        pattern_start: everything || calls(CallKind::Grid).is_some(),
+        // A pattern that is called has its start among the arguments.
+        pattern_here: calls(CallKind::Grid).is_none(),
+        pattern_angle: everything || calls(CallKind::Grid).is_some(),
+        frames: everything || names(NameMeaning::SetFrame(FrameWord::Translate)),
+        machine_coordinates: everything || names(NameMeaning::Code(Meaning::UseMachineCoordinates)),
+        tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
+        return_planes: either(states),
+        arc_forms: everything || names(NameMeaning::ArcThrough),
+        word_distance: everything || dialect.can.flat || dialect.block.qualifiers,
+        feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
+        feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
+        call_digits: if says(Meaning::Call) { dialect.program.number_digits as u32 } else { 0 },
+        repeat_blocks: everything || names(NameMeaning::RepeatBlocks),
+        circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
+        incremental_cycles: everything || dialect.cycles.incremental,
+        calls: everything
+            || (dialect.program.subprograms
+                && (says(Meaning::Call) || dialect.letter_for(crate::Role::Call).is_some())),
+        repeats: everything,
+        work_offsets: if everything || dialect.family == Family::Canon {
+            u16::MAX
+        } else {
+            dialect.code.iter().filter(|r| matches!(r.means, Some(Meaning::SetOriginOffsets(1..)))).count()
+                as u16
+        },
+        clears_shift: everything
+            || dialect.can.flat
+            || dialect.power_on.no_origin_shift.as_ref().is_some_and(|f| f.always && f.value)
+            || says(Meaning::ClearFrame(ncc_ir::program::FrameSlot::Shift)),
+        offset_with_z: dialect.can.offset_with_z,
+        arc_radius: everything
+            || dialect.letter_for(crate::Role::Radius).is_some()
+            || dialect.name_with(NameRole::Radius).is_some(),
+        helix: everything || dialect.can.flat || dialect.arc.helix,
+        arc_turns: everything || dialect.can.flat || dialect.name_with(NameRole::Turns).is_some(),
+        skip_levels: if everything { 10 } else { dialect.block.skip_levels },
+        incremental: everything || says(Meaning::SetDistanceMode(ncc_ir::canon::Distance::Incremental)),
+        inch: true,
+        flat: dialect.can.flat,
+        inherits_motion: everything || dialect.can.inherits_motion,
+        messages: everything || dialect.can.flat || names(NameMeaning::Message),
+        approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
+    }
+}

@@ -1,0 +1,208 @@
+//! Rows of a dictionary that stand for several, and whether rows fit together.
+//!
+//! What a row means is not judged here: `ncc dialects test` shows whether it reads back.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use crate::fault::DialectFault;
+use crate::meaning::Meaning;
+use crate::names::{NameRow, ParameterRole};
+use crate::schema::{CodeIndex, CodeRow, Dialect};
+
+/// A fault, and the place of its row in the texts laid end to end.
+pub(crate) type Fault = (DialectFault, Option<Range<usize>>);
+
+/// Places of the rows, table by table; empty for a dictionary that was not read from a text.
+#[derive(Debug, Default)]
+pub(crate) struct Places {
+    pub(crate) address: Vec<Range<usize>>,
+    pub(crate) cycle: Vec<Range<usize>>,
+    pub(crate) pattern: Vec<Range<usize>>,
+    pub(crate) code: Vec<Range<usize>>,
+    pub(crate) name: Vec<Range<usize>>,
+    pub(crate) call: Vec<Range<usize>>,
+    pub(crate) option: Vec<Range<usize>>,
+}
+
+/// Kinds of cycles, as `ncc_ir::cycle::CycleKind::name` has them.
+pub(crate) const CYCLE_KINDS: &[&str] = &["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
+
+/// Makes a row of each code and word that a row stands for.
+pub(crate) fn spread(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fault> {
+    let mut codes = Vec::with_capacity(dialect.code.len());
+    let mut at = Vec::with_capacity(dialect.code.len());
+    for (i, row) in std::mem::take(&mut dialect.code).into_iter().enumerate() {
+        let place = places.code.get(i).cloned();
+        let before = codes.len();
+        each_code(row, &mut codes).map_err(|fault| (fault, place.clone()))?;
+        at.extend(place.into_iter().cycle().take(codes.len() - before));
+    }
+    (dialect.code, places.code) = (codes, at);
+    let mut names = Vec::with_capacity(dialect.name.len());
+    let mut at = Vec::with_capacity(dialect.name.len());
+    for (i, row) in std::mem::take(&mut dialect.name).into_iter().enumerate() {
+        for name in row.name.split(' ') {
+            names.push(NameRow { name: name.to_owned(), ..row.clone() });
+            at.extend(places.name.get(i).cloned());
+        }
+    }
+    (dialect.name, places.name) = (names, at);
+    Ok(())
+}
+
+/// The rows that a row of a code stands for.
+fn each_code(row: CodeRow, all: &mut Vec<CodeRow>) -> Result<(), DialectFault> {
+    let Some(upto) = row.upto else {
+        all.push(row);
+        return Ok(());
+    };
+    let wrong = |wrong| DialectFault::Row { row: row.code.clone(), wrong };
+    let first = row.code.get(1..).and_then(|n| n.parse::<u16>().ok()).ok_or_else(|| wrong("is no code"))?;
+    let Some(Meaning::SetOriginOffsets(number)) = row.means else {
+        return Err(wrong("stands for several codes, but for no work offsets"));
+    };
+    for code in first..=upto.min(first.saturating_add(999)) {
+        let means = Some(Meaning::SetOriginOffsets(number.saturating_add(code - first)));
+        all.push(CodeRow { code: format!("{}{code}", &row.code[..1]), upto: None, means, ..row.clone() });
+    }
+    Ok(())
+}
+
+/// Tenths of a code's number: `G5.1` is 51.
+fn tenths(code: &str) -> Option<(u8, usize)> {
+    let letter = *code.as_bytes().first()?;
+    let (whole, tenth) = code.get(1..)?.split_once('.').unwrap_or((code.get(1..)?, "0"));
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if !digits(whole) || !digits(tenth) || tenth.len() > 1 {
+        return None;
+    }
+    let number = whole.parse::<usize>().ok()?.checked_mul(10)? + tenth.parse::<usize>().ok()?;
+    (number < 100_000).then_some((letter, number))
+}
+
+/// Checks all rows, and finds them by their numbers and letters.
+pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fault> {
+    let mut index = CodeIndex::default();
+    for (at, row) in dialect.code.iter().enumerate() {
+        let wrong = |wrong| fault(&row.code, wrong, &places.code, at);
+        let (letter, number) = tenths(&row.code).ok_or_else(|| wrong("is no code"))?;
+        let table = match letter {
+            b'G' => &mut index.g,
+            b'M' => &mut index.m,
+            _ => return Err(wrong("is neither a G nor an M code")),
+        };
+        if table.len() <= number {
+            table.resize(number + 1, None);
+        }
+        if table[number].replace(at as u16).is_some() {
+            return Err(wrong("stands twice"));
+        }
+        if row.means.is_some() == row.refuse.is_some() {
+            return Err(wrong("needs either `means` or `refuse`"));
+        }
+        if row.means == Some(Meaning::StartCycle) && dialect.cycle_row(&row.code).is_none() {
+            return Err(wrong("has no [[cycle]] row"));
+        }
+        if row.means == Some(Meaning::Pattern) && dialect.pattern_row(&row.code).is_none() {
+            return Err(wrong("has no [[pattern]] row"));
+        }
+        if row.source.is_empty() {
+            return Err(wrong("names no source"));
+        }
+    }
+    let means = |code: &str, meaning| dialect.code.iter().any(|c| c.code == code && c.means == Some(meaning));
+    for (at, row) in dialect.cycle.iter().enumerate() {
+        let wrong = |wrong| fault(&row.code, wrong, &places.cycle, at);
+        if !CYCLE_KINDS.contains(&row.kind.as_str()) {
+            return Err(wrong("has a kind that there is not"));
+        }
+        if dialect.cycle.iter().take(at).any(|other| other.code == row.code) {
+            return Err(wrong("stands twice"));
+        }
+        if !means(&row.code, Meaning::StartCycle) {
+            return Err(wrong("is a cycle, and no row of [[code]] starts it"));
+        }
+    }
+    for (at, row) in dialect.pattern.iter().enumerate() {
+        if !means(row.code(), Meaning::Pattern) {
+            return Err(fault(
+                row.code(),
+                "is a pattern, and no row of [[code]] says so",
+                &places.pattern,
+                at,
+            ));
+        }
+    }
+    names(dialect, places)?;
+    for (at, row) in dialect.address.iter().enumerate() {
+        let wrong = |wrong| fault(&row.letter.to_string(), wrong, &places.address, at);
+        let place = row.letter as usize;
+        let slot = index.letter.get_mut(place.wrapping_sub(65)).ok_or_else(|| wrong("is no letter"))?;
+        if slot.replace(at as u8).is_some() {
+            return Err(wrong("stands twice"));
+        }
+        if row.source.is_empty() {
+            return Err(wrong("names no source"));
+        }
+    }
+    for (at, row) in dialect.option.iter().enumerate() {
+        let wrong = |wrong| fault(&row.name, wrong, &places.option, at);
+        let fits = match row.values.is_empty() {
+            true => row.default.parse::<f64>().is_ok_and(f64::is_finite),
+            false => row.values.contains(&row.default),
+        };
+        if !fits {
+            return Err(wrong("has a default that is none of its values"));
+        }
+    }
+    Ok(index)
+}
+
+fn fault(row: &str, wrong: &'static str, places: &[Range<usize>], at: usize) -> Fault {
+    (DialectFault::Row { row: row.to_owned(), wrong }, places.get(at).cloned())
+}
+
+/// Checks the words of several letters and the calls.
+fn names(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
+    let mut seen = BTreeSet::new();
+    let names = dialect.name.iter().enumerate().map(|(i, row)| (&row.name, &row.source, &places.name, i));
+    let calls = dialect.call.iter().enumerate().map(|(i, row)| (&row.name, &row.source, &places.call, i));
+    for (name, source, places, at) in names.chain(calls) {
+        let wrong = |wrong| fault(name, wrong, places, at);
+        if !seen.insert(name) {
+            return Err(wrong("stands twice"));
+        }
+        if name.is_empty() || !name.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_')
+        {
+            return Err(wrong("is no word in capitals"));
+        }
+        if source.is_empty() {
+            return Err(wrong("names no source"));
+        }
+    }
+    for (at, row) in dialect.name.iter().enumerate() {
+        let wrong = |wrong| fault(&row.name, wrong, &places.name, at);
+        let uses = [row.means.is_some(), row.role.is_some(), row.refuse.is_some()];
+        if uses.into_iter().filter(|u| *u).count() != 1 {
+            return Err(wrong("needs one of `means`, `role` and `refuse`"));
+        }
+        if row.role.is_some() != row.quantity.is_some() {
+            return Err(wrong("needs `quantity` with `role`"));
+        }
+    }
+    for (at, row) in dialect.call.iter().enumerate() {
+        let wrong = |wrong| fault(&row.name, wrong, &places.call, at);
+        for p in &row.parameters {
+            if p.role.is_some() == p.refuse.is_some() || p.role.is_some() != p.quantity.is_some() {
+                return Err(wrong("has a parameter without `role` and `quantity`, or `refuse`"));
+            }
+            let several = matches!(p.role, Some(ParameterRole::PointFirst | ParameterRole::PointSecond));
+            let same = row.parameters.iter().filter(|q| q.role == p.role).count();
+            if p.role.is_some() && !several && same > 1 {
+                return Err(wrong("has two parameters of one role"));
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,211 @@
+//! A dictionary laid over the one that it builds on, before any field of it is read.
+//!
+//! - A plain value, or a list of plain values, takes the place of the base's.
+//! - A table is merged field by field, to any depth.
+//! - A list of rows is merged row by row. Rows are told apart by their key: `code` in `[[code]]`,
+//!   `[[cycle]]` and `[[pattern]]` (`G1` is `G01`), `letter` in `[[address]]`, `name` in `[[name]]`,
+//!   `[[call]]` and `[[option]]`. A row of a key that the base has is merged over the base's row field
+//!   by field and keeps its place; any other is added at the end. Lists inside a row are replaced.
+//! - In `[[code]]` and `[[name]]`, `means`, `role` and `refuse` exclude each other: a row that says one
+//!   of them takes away the base's others.
+//! - `remove = true` in a row or table takes the base's away; `replace = true` puts the row or table in
+//!   its place whole, so that nothing of the base's is left in it.
+//!
+//! Not here: which fields there are, and whether rows fit together.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use toml::Spanned;
+use toml::de::{DeArray, DeTable, DeValue};
+
+use crate::fault::DialectFault;
+
+/// A tree's fault with its place in the texts laid end to end.
+pub(crate) type Fault = (DialectFault, std::ops::Range<usize>);
+
+/// Takes the base's row or table away.
+const REMOVE: &str = "remove";
+/// Puts a row or table in the place of the base's.
+const REPLACE: &str = "replace";
+
+/// Words of a row of which only one can be said.
+const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
+
+/// The field that tells the rows of a table apart.
+pub(crate) fn row_key(table: &str) -> Option<&'static str> {
+    match table {
+        "code" | "cycle" | "pattern" => Some("code"),
+        "name" | "call" | "option" => Some("name"),
+        "address" => Some("letter"),
+        _ => None,
+    }
+}
+
+/// Moves every place in a tree by an offset.
+pub(crate) fn shift(table: DeTable<'_>, by: usize) -> DeTable<'_> {
+    table
+        .into_iter()
+        .map(|(key, value)| {
+            let at = key.span();
+            (Spanned::new(at.start + by..at.end + by, key.into_inner()), shift_value(value, by))
+        })
+        .collect()
+}
+
+fn shift_value(value: Spanned<DeValue<'_>>, by: usize) -> Spanned<DeValue<'_>> {
+    let at = value.span();
+    let moved = match value.into_inner() {
+        DeValue::Table(table) => DeValue::Table(shift(table, by)),
+        DeValue::Array(array) => DeValue::Array(array.into_iter().map(|v| shift_value(v, by)).collect()),
+        plain => plain,
+    };
+    Spanned::new(at.start + by..at.end + by, moved)
+}
+
+/// Lays a dictionary over its base.
+///
+/// # Errors
+/// A row without its key, a key that stands twice, or a word about something that is not there.
+pub(crate) fn merge<'i>(base: &mut DeTable<'i>, over: DeTable<'i>) -> Result<(), Fault> {
+    for (key, value) in over {
+        let at = value.span();
+        let name = key.get_ref().to_string();
+        match (row_key(&name), value.into_inner()) {
+            (Some(field), DeValue::Array(rows)) => {
+                let there = match base.remove(name.as_str()).map(Spanned::into_inner) {
+                    Some(DeValue::Array(there)) => there,
+                    Some(_) | None => DeArray::new(),
+                };
+                let merged = merge_rows(&name, field, there, rows)?;
+                base.insert(key, Spanned::new(at, DeValue::Array(merged)));
+            }
+            (_, value) => merge_field(base, key, Spanned::new(at, value))?,
+        }
+    }
+    Ok(())
+}
+
+/// Lays the fields of a table over those of the base's.
+fn merge_fields<'i>(base: &mut DeTable<'i>, over: DeTable<'i>) -> Result<(), Fault> {
+    for (key, value) in over {
+        merge_field(base, key, value)?;
+    }
+    Ok(())
+}
+
+fn merge_field<'i>(
+    base: &mut DeTable<'i>,
+    key: Spanned<Cow<'i, str>>,
+    value: Spanned<DeValue<'i>>,
+) -> Result<(), Fault> {
+    let at = value.span();
+    let name = key.get_ref().to_string();
+    let mut over = match value.into_inner() {
+        DeValue::Table(over) => over,
+        plain => {
+            // The key's own place goes with the value.
+            base.remove(name.as_str());
+            base.insert(key, Spanned::new(at, plain));
+            return Ok(());
+        }
+    };
+    let word = word(&mut over);
+    match (word, base.get_mut(name.as_str())) {
+        (Some((word, place)), None) => Err((DialectFault::NothingThere { row: name, word }, place)),
+        (Some((REMOVE, _)), Some(_)) => {
+            base.remove(name.as_str());
+            Ok(())
+        }
+        (None, Some(there)) if there.get_ref().is_table() => match there.get_mut() {
+            DeValue::Table(there) => merge_fields(there, over),
+            _ => Ok(()),
+        },
+        (_, _) => {
+            base.remove(name.as_str());
+            base.insert(key, Spanned::new(at, DeValue::Table(over)));
+            Ok(())
+        }
+    }
+}
+
+/// Takes `remove = true` or `replace = true` out of a row or table.
+fn word(table: &mut DeTable<'_>) -> Option<(&'static str, std::ops::Range<usize>)> {
+    let mut found = None;
+    for word in [REMOVE, REPLACE] {
+        if table.get(word).is_some_and(|v| v.get_ref().is_bool())
+            && let Some(said) = table.remove(word)
+            && said.get_ref().as_bool() == Some(true)
+        {
+            found = found.or(Some((word, said.span())));
+        }
+    }
+    found
+}
+
+fn merge_rows<'i>(
+    table: &str,
+    field: &'static str,
+    base: DeArray<'i>,
+    over: DeArray<'i>,
+) -> Result<DeArray<'i>, Fault> {
+    let mut rows: Vec<Option<Spanned<DeValue<'i>>>> = base.into_iter().map(Some).collect();
+    let mut seen = BTreeSet::new();
+    for row in over {
+        let at = row.span();
+        let DeValue::Table(mut over) = row.into_inner() else {
+            return Err((DialectFault::NoKey { table: table.to_owned(), key: field }, at));
+        };
+        let Some((key, place)) = key_of(&over, field) else {
+            return Err((DialectFault::NoKey { table: table.to_owned(), key: field }, at));
+        };
+        if !seen.insert(same(&key)) {
+            return Err((DialectFault::RowTwice { row: key }, place));
+        }
+        let found = rows.iter_mut().find(|row| {
+            row.as_ref()
+                .and_then(|r| r.get_ref().as_table())
+                .and_then(|t| key_of(t, field))
+                .is_some_and(|(there, _)| same(&there) == same(&key))
+        });
+        match (word(&mut over), found) {
+            (Some((word, place)), None) => {
+                return Err((DialectFault::NothingThere { row: key, word }, place));
+            }
+            (None, None) => rows.push(Some(Spanned::new(at, DeValue::Table(over)))),
+            (Some((REMOVE, _)), Some(found)) => *found = None,
+            (Some(_), Some(found)) => *found = Some(Spanned::new(at, DeValue::Table(over))),
+            (None, Some(found)) => {
+                let mut merged = match found.take().map(Spanned::into_inner) {
+                    Some(DeValue::Table(there)) => there,
+                    Some(_) | None => DeTable::new(),
+                };
+                if EXCLUSIVE.iter().any(|word| over.contains_key(*word)) && matches!(table, "code" | "name") {
+                    for word in EXCLUSIVE {
+                        merged.remove(word);
+                    }
+                }
+                merge_fields(&mut merged, over)?;
+                *found = Some(Spanned::new(at, DeValue::Table(merged)));
+            }
+        }
+    }
+    Ok(rows.into_iter().flatten().collect())
+}
+
+/// The key of a row, and its place.
+pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops::Range<usize>)> {
+    let value = row.get(field)?;
+    Some((value.get_ref().as_str()?.to_owned(), value.span()))
+}
+
+/// The key as it is compared: `G1` is `G01`.
+fn same(key: &str) -> String {
+    let letters = key.bytes().take_while(u8::is_ascii_alphabetic).count();
+    let (letters, number) = key.split_at(letters);
+    match number.trim_start_matches('0') {
+        "" if !number.is_empty() => format!("{letters}0"),
+        rest if rest.starts_with('.') => format!("{letters}0{rest}"),
+        rest => format!("{letters}{rest}"),
+    }
+}
