@@ -44,7 +44,11 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
         | Kind::TextEnd
         | Kind::Message(_)
         | Kind::Attribute(
-            Attribute::SelectTool(_) | Attribute::SpindleSpeed(_) | Attribute::FeedRate(_) | Attribute::Hole,
+            Attribute::SelectTool(_)
+            | Attribute::SpindleSpeed(_)
+            | Attribute::FeedRate(_)
+            | Attribute::Hole
+            | Attribute::Remark,
         ) => 0.0,
     }
 }

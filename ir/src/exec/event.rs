@@ -78,6 +78,8 @@ pub enum Attribute {
     FeedRate(Nanos),
     /// A hole begins, at the retract plane over it. No function of its own: a mark for tables.
     Hole,
+    /// A comment that stands in a block of its own. No function either; its text is the statement's.
+    Remark,
 }
 
 /// What is on while an event happens.

@@ -31,6 +31,13 @@ pub(super) struct InForce {
     way: Way,
 }
 
+impl InForce {
+    /// Its plane, the retract plane and the bottom.
+    pub(super) fn levels(&self) -> (Plane, Nanos, Nanos) {
+        (self.plane, self.retract, self.depth)
+    }
+}
+
 /// How the hole is made.
 #[derive(Clone, Copy, Debug)]
 enum Way {

@@ -5,6 +5,7 @@
 //! is not executed yet (variables, jumps) are refused by name.
 
 mod arcs;
+mod ask;
 mod event;
 mod frame;
 mod holes;
@@ -279,19 +280,6 @@ impl Exec {
         self.narrating = true;
     }
 
-    /// A point of the machine in the program's coordinates, as the frames are now.
-    pub fn in_program(&self, machine: &[Nanos; AXES]) -> [Nanos; AXES] {
-        self.unplace(machine)
-    }
-
-    /// Entry of the tool-length table in force; `None` is an edge of a tool.
-    pub fn length_entry(&self) -> Option<u32> {
-        match self.waiting.unwrap_or(self.modes.length) {
-            Length::Entry(entry) => Some(entry),
-            Length::Edge(..) => None,
-        }
-    }
-
     /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
     pub fn set_peck_clearance(&mut self, clearance: Nanos) {
         self.world.peck_clearance = clearance;
@@ -514,7 +502,8 @@ impl Exec {
             | Op::ArcFeed(_)
             | Op::Position(_)
             | Op::SetFeedRate(_) => {}
-            Op::Comment(_) | Op::NoEffect(_) | Op::Blank | Op::StopCutterRadiusCompensation => {}
+            Op::Comment(_) => self.tell(Attribute::Remark, span, out)?,
+            Op::NoEffect(_) | Op::Blank | Op::StopCutterRadiusCompensation => {}
             Op::UseLengthUnits(units) => {
                 self.modes.inch = *units == Units::Inch;
                 self.said |= UNITS;

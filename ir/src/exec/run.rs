@@ -55,11 +55,26 @@ impl<'p> Runner<'p> {
         out: &mut Vec<Event>,
     ) -> Result<Progress, Diagnostic> {
         while out.len() < enough {
-            if exec.ended() {
+            let Some(stmt) = self.next(exec)? else {
                 return Ok(Progress::Done);
+            };
+            exec.step(stmt, out)?;
+        }
+        Ok(Progress::More)
+    }
+
+    /// Goes through calls and repetitions to the next statement that is to be executed by itself;
+    /// the caller executes it. `None` is the program's end.
+    ///
+    /// # Errors
+    /// An unknown or endless call, or control that is not executed.
+    pub fn next(&mut self, exec: &Exec) -> Result<Option<&'p Stmt>, Diagnostic> {
+        loop {
+            if exec.ended() {
+                return Ok(None);
             }
             let Some(level) = self.stack.last_mut() else {
-                return Ok(Progress::Done);
+                return Ok(None);
             };
             let Some(stmt) = level.body.get(level.next) else {
                 if level.again > 0 {
@@ -125,10 +140,9 @@ impl<'p> Runner<'p> {
                     | Control::For { .. }
                     | Control::If { .. } => exec.not_executed("control of the program's flow", stmt.span)?,
                 },
-                _ => exec.step(stmt, out)?,
+                _ => return Ok(Some(stmt)),
             }
         }
-        Ok(Progress::More)
     }
 
     fn push(&mut self, body: &'p [Stmt], again: u64, call: bool, at: &Stmt) -> Result<(), Diagnostic> {

@@ -1,0 +1,53 @@
+//! What a control can be asked between two statements, in the program's own terms.
+//!
+//! For those who tell what happens (tables, time). Nothing here changes anything.
+
+use super::holes::InForce;
+use super::{Exec, Length};
+use crate::canon::{AXES, Axis, Plane};
+use crate::expr::Expr;
+use crate::num::Nanos;
+use crate::program::Coord;
+use crate::source::Span;
+
+impl Exec {
+    /// A point of the machine in the program's coordinates, as the frames are now.
+    pub fn in_program(&self, machine: &[Nanos; AXES]) -> [Nanos; AXES] {
+        self.unplace(machine)
+    }
+
+    /// Entry of the tool-length table in force; `None` is an edge of a tool.
+    pub fn length_entry(&self) -> Option<u32> {
+        match self.waiting.unwrap_or(self.modes.length) {
+            Length::Entry(entry) => Some(entry),
+            Length::Edge(..) => None,
+        }
+    }
+
+    /// Position in the coordinates that the program speaks in, nanos of a millimetre or degree.
+    pub fn position(&self) -> [Nanos; AXES] {
+        self.position
+    }
+
+    /// A literal in nanos of a millimetre, a degree or a second, as units are in force; `None` is
+    /// what is not known without execution.
+    pub fn nanos(&self, value: &Expr) -> Option<Nanos> {
+        self.value(value, Span::default()).ok()
+    }
+
+    /// Where a word puts an axis, in the program's coordinates.
+    pub fn word(&self, word: &Coord, axis: Axis) -> Option<Nanos> {
+        self.target(word, self.position[axis as usize], Span::default()).ok()
+    }
+
+    /// Plane of the cycle in force, its retract plane and the bottom of its holes, in the program's
+    /// coordinates.
+    pub fn cycle_levels(&self) -> Option<(Plane, Nanos, Nanos)> {
+        self.cycle.as_ref().map(InForce::levels)
+    }
+
+    /// Plane of arcs and hole positions in force.
+    pub fn plane(&self) -> Plane {
+        self.modes.plane
+    }
+}
