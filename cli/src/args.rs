@@ -27,6 +27,9 @@ use ncc_ir::passes::Pass;
     disable_help_subcommand = true
 )]
 pub struct Cli {
+    /// A dictionary of your own; its name can then be used as any dialect's [may be repeated]
+    #[arg(long, global = true, value_name = "FILE")]
+    pub dialect: Vec<PathBuf>,
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
@@ -226,6 +229,8 @@ pub enum DialectsWhat {
         /// Its name, as `ncc dialects` lists it
         id: String,
     },
+    /// Print the form of a dictionary: every table and field
+    Schema,
 }
 
 /// `ncc explain`.

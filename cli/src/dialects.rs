@@ -5,8 +5,11 @@ use std::fmt::{self, Write};
 use ncc_dialects::{Dialect, PatternRow, PowerOn, PowerOnFact};
 use ncc_ir::canon::ReturnLevel;
 
+/// The form of a dictionary, for whoever writes one.
+pub const SCHEMA: &str = include_str!("../../docs/dialect.md");
+
 /// One line for each dialect.
-pub fn list(dialects: &[Dialect]) -> String {
+pub fn list(dialects: &[&Dialect]) -> String {
     let wide = dialects.iter().map(|d| d.id.len()).max().unwrap_or(0);
     let mut text = String::new();
     for d in dialects {
@@ -25,6 +28,9 @@ pub fn show(dialect: &Dialect) -> String {
 
 fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     writeln!(out, "{}: {}", d.id, d.title)?;
+    if let Some(base) = &d.base {
+        writeln!(out, "builds on: {base}")?;
+    }
     if let Some(extension) = d.extensions.first() {
         writeln!(out, "usual extension: .{extension}")?;
     }

@@ -14,6 +14,7 @@ pub mod guess;
 pub mod head;
 pub mod job;
 pub mod judge;
+pub mod known;
 pub mod problem;
 pub mod render;
 pub mod report;

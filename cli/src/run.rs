@@ -8,13 +8,14 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{ColorChoice, StandardStream, WriteColor};
 use ncc_backends::Layout;
-use ncc_dialects::{Dialect, SettingError, Settings, builtin, builtins};
+use ncc_dialects::{Dialect, SettingError, Settings};
 use ncc_ir::passes::PASSES;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Translate, Verb};
 use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::{Failure, Job, Outcome};
+use crate::known::{self, Known};
 use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
@@ -24,21 +25,30 @@ use crate::{arrow, dialects, explain, report, translate};
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
     let mut err = StandardStream::stderr(choice(Color::Auto));
-    let (arguments, arrow) = match honour(rewrite(arguments)) {
+    let as_json = arguments.windows(2).any(|a| a[0] == "--format" && a[1] == "json")
+        || arguments.iter().any(|a| a == "--format=json");
+    // A shell's torn arrow is understood only where the target's name is known.
+    let files = known::files(&arguments);
+    let known = match Known::with(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor)) {
+        Ok(known) => known,
+        Err(problem) => return fail(&problem, &mut err, as_json),
+    };
+    let (arguments, arrow) = match honour(rewrite(arguments), &known) {
         Ok(both) => both,
         Err(problem) => return fail(&problem, &mut err, false),
     };
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
-        Err(error) => return clap_says(&error, &arguments, &mut err),
+        Err(error) => return clap_says(&error, &arguments, &known, &mut err),
     };
     let done = match &cli.verb {
-        Verb::Translate(args) => return translate_verb(args, arrow),
+        Verb::Translate(args) => return translate_verb(args, arrow, &known),
         Verb::Dialects(args) => match &args.what {
-            None => print(&dialects::list(builtins())),
+            None => print(&dialects::list(known.all())),
             Some(DialectsWhat::Show { id }) => {
-                dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
+                known.dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
             }
+            Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
         },
         Verb::Passes => print(&passes()),
         Verb::Explain(args) => match explain::page(&args.code) {
@@ -61,12 +71,12 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
 }
 
 /// Takes up a torn arrow if it is certain that it is one.
-fn honour(said: Said) -> Result<(Vec<OsString>, Option<&'static Dialect>), Problem> {
+fn honour(said: Said, known: &Known) -> Result<(Vec<OsString>, Option<&'static Dialect>), Problem> {
     let (from, typed, rest) = match said {
         Said::Plain(arguments) => return Ok((arguments, None)),
         Said::Arrow { from, typed, rest } => (from, typed, rest),
     };
-    let to = arrow::target(builtins()).map_err(|doubt| Problem {
+    let to = arrow::target(known.all()).map_err(|doubt| Problem {
         exit: Exit::Usage,
         message: format!("`{from} {typed}` without a target: {}", doubt.words()),
         help: vec![
@@ -81,21 +91,21 @@ fn honour(said: Said) -> Result<(Vec<OsString>, Option<&'static Dialect>), Probl
 }
 
 /// What clap has to say: help and version on stdout, anything else is wrong usage.
-fn clap_says(error: &clap::Error, arguments: &[OsString], err: &mut StandardStream) -> Exit {
+fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &mut StandardStream) -> Exit {
     let unknown = error.kind() == ErrorKind::InvalidSubcommand || error.kind() == ErrorKind::UnknownArgument;
     let verbs: Vec<String> = Cli::command().get_subcommands().map(|v| v.get_name().to_owned()).collect();
     let word = arguments.iter().skip(1).find_map(|a| a.to_str().filter(|a| !a.starts_with('-')));
     if let (true, Some(word)) = (unknown, word)
         && !verbs.iter().any(|verb| verb == word)
     {
-        let is_dialect = builtin(word).is_some();
+        let is_dialect = known.get(word).is_some();
         let message = match is_dialect {
             true => format!("translate from {word} into what?"),
             false => format!("`{word}` is neither a command nor a dialect"),
         };
         let help = vec![
             "to translate a program, name both dialects: ncc mach9 to fanuc part.cn".to_owned(),
-            format!("dialects: {}; commands: {}", ids(), verbs.join(", ")),
+            format!("dialects: {}; commands: {}", known.ids(), verbs.join(", ")),
         ];
         return fail(&Problem { exit: Exit::Usage, message, help }, err, false);
     }
@@ -104,10 +114,10 @@ fn clap_says(error: &clap::Error, arguments: &[OsString], err: &mut StandardStre
     if error.use_stderr() { Exit::Usage } else { Exit::Done }
 }
 
-fn translate_verb(args: &Translate, arrow: Option<&'static Dialect>) -> Exit {
+fn translate_verb(args: &Translate, arrow: Option<&'static Dialect>, known: &Known) -> Exit {
     let mut err = StandardStream::stderr(choice(args.color));
     let as_json = args.format == Format::Json;
-    match translated(args, arrow, &mut err) {
+    match translated(args, arrow, known, &mut err) {
         Ok(exit) => exit,
         Err(problem) => fail(&problem, &mut err, as_json),
     }
@@ -116,6 +126,7 @@ fn translate_verb(args: &Translate, arrow: Option<&'static Dialect>) -> Exit {
 fn translated(
     args: &Translate,
     arrow: Option<&'static Dialect>,
+    known: &Known,
     err: &mut StandardStream,
 ) -> Result<Exit, Problem> {
     let path = match args.files.as_slice() {
@@ -137,8 +148,8 @@ fn translated(
         Some(name) if name != Path::new("-") => Destination::File(name.clone()),
         Some(_) | None => Destination::Stdout,
     };
-    let to = settings(dialect(&args.to)?, &args.to_option)?;
-    let named = if args.from == "auto" { None } else { Some(dialect(&args.from)?) };
+    let to = settings(known.dialect(&args.to)?, &args.to_option)?;
+    let named = if args.from == "auto" { None } else { Some(known.dialect(&args.from)?) };
     let mut source = files::open(path)?;
     match &destination {
         Destination::File(name) => source.guard(Some(name))?,
@@ -155,7 +166,7 @@ fn translated(
     }
     let from = match named {
         Some(dialect) => dialect,
-        None => recognise(&mut source, args, err)?,
+        None => recognise(&mut source, args, known, err)?,
     };
     let crlf = match args.eol {
         Eol::Lf => false,
@@ -189,7 +200,7 @@ fn translated(
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, &mut about, &outcome, err);
     if outcome.release == Err(Failure::Refused) && !args.quiet && args.format == Format::Human {
-        let _ = doubt_dialect(&mut source, &job, err);
+        let _ = doubt_dialect(&mut source, &job, known, err);
     }
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.quiet) {
         let _ = say_where(to, &job, &source.shown, args.format, err);
@@ -226,8 +237,8 @@ fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn Wr
 }
 
 /// If a refused text is clearly written in another dialect, says so.
-fn doubt_dialect(source: &mut Source, job: &Job, err: &mut dyn Write) -> io::Result<()> {
-    match guess(&mut source.file, builtins())? {
+fn doubt_dialect(source: &mut Source, job: &Job, known: &Known, err: &mut dyn Write) -> io::Result<()> {
+    match guess(&mut source.file, known.all())? {
         Guess::Sure(other, reasons) if other.id != job.from.dialect.id => {
             let (from, to) = (&other.id, &job.to.dialect.id);
             writeln!(err, "{} reads like {from}: {}", source.shown, reasons.join(", "))?;
@@ -256,9 +267,10 @@ fn say_where(to: &Dialect, job: &Job, shown: &str, format: Format, err: &mut dyn
 fn recognise(
     source: &mut Source,
     args: &Translate,
+    known: &Known,
     err: &mut StandardStream,
 ) -> Result<&'static Dialect, Problem> {
-    let found = guess(&mut source.file, builtins()).map_err(|e| Problem::file("read", &source.shown, &e))?;
+    let found = guess(&mut source.file, known.all()).map_err(|e| Problem::file("read", &source.shown, &e))?;
     match found {
         Guess::Sure(dialect, reasons) => {
             if !args.quiet && args.format == Format::Human {
@@ -274,7 +286,7 @@ fn recognise(
                     false => format!("{}: {}", dialect.id, against.join(", ")),
                 })
                 .collect();
-            help.insert(0, format!("name it: --from, one of {}", ids()));
+            help.insert(0, format!("name it: --from, one of {}", known.ids()));
             let message = format!("the dialect of {} cannot be told for certain", source.shown);
             Err(Problem { exit: Exit::Usage, message, help })
         }
@@ -284,34 +296,6 @@ fn recognise(
 fn passes() -> String {
     let wide = PASSES.iter().map(|pass| pass.name.len()).max().unwrap_or(0);
     PASSES.iter().map(|pass| format!("{:wide$}  {}\n", pass.name, pass.about)).collect()
-}
-
-fn ids() -> String {
-    builtins().iter().map(|d| d.id.as_str()).collect::<Vec<_>>().join(", ")
-}
-
-fn dialect(id: &str) -> Result<&'static Dialect, Problem> {
-    builtin(id).ok_or_else(|| {
-        let near = builtins().iter().find(|d| d.id.eq_ignore_ascii_case(id) || close(&d.id, id));
-        let help = match near {
-            Some(dialect) => format!("did you mean {}? there are: {}", dialect.id, ids()),
-            None => format!("there are: {}", ids()),
-        };
-        Problem::usage(format!("there is no dialect `{id}`"), help)
-    })
-}
-
-/// Whether two words differ by one letter at most.
-fn close(a: &str, b: &str) -> bool {
-    let (a, b) = (a.as_bytes(), b.as_bytes());
-    let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
-    let same = short.iter().zip(long).take_while(|(x, y)| x == y).count();
-    let rest = &short[same..];
-    match long.len() - short.len() {
-        0 => rest.is_empty() || rest[1..] == long[same + 1..],
-        1 => *rest == long[same + 1..],
-        _ => false,
-    }
 }
 
 fn settings(dialect: &'static Dialect, chosen: &[(String, String)]) -> Result<Settings, Problem> {

@@ -121,7 +121,8 @@ fn first_positional(arguments: &[OsString], command: &Command) -> Option<usize> 
         if !text.starts_with('-') || text == "-" {
             return Some(at);
         }
-        let option = translate.get_arguments().find(|a| {
+        let mut options = translate.get_arguments().chain(command.get_arguments());
+        let option = options.find(|a| {
             a.get_long().is_some_and(|long| text.strip_prefix("--") == Some(long))
                 || a.get_short().is_some_and(|short| text.strip_prefix('-') == Some(&short.to_string()))
         });

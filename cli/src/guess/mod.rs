@@ -57,7 +57,7 @@ impl Evidence {
 ///
 /// # Errors
 /// Reading it.
-pub fn guess(source: &mut (impl Read + Seek), dialects: &'static [Dialect]) -> io::Result<Guess> {
+pub fn guess(source: &mut (impl Read + Seek), dialects: &[&'static Dialect]) -> io::Result<Guess> {
     source.seek(SeekFrom::Start(0))?;
     let mut text = Vec::new();
     source.take(BEGINNING).read_to_end(&mut text)?;
@@ -65,7 +65,7 @@ pub fn guess(source: &mut (impl Read + Seek), dialects: &'static [Dialect]) -> i
         // The last line may be cut.
         text.truncate(text.iter().rposition(|b| *b == b'\n').unwrap_or(0));
     }
-    let found = dialects.iter().map(|dialect| (dialect, evidence(dialect, &text)));
+    let found = dialects.iter().map(|dialect| (*dialect, evidence(dialect, &text)));
     Ok(judge(found.collect()))
 }
 
@@ -74,6 +74,12 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
         return Guess::Sure(dialect, Evidence::list(&evidence.speaks_for));
     }
     found.retain(|(_, evidence)| !evidence.speaks_for.is_empty());
+    // Where a dialect explains all that one that builds on it explains, it is the plainer reading.
+    let fits: Vec<(&str, usize)> = found.iter().map(|(d, e)| (d.id.as_str(), e.against.len())).collect();
+    let plainer = |d: &Dialect, e: &Evidence| {
+        d.base.as_ref().is_some_and(|base| fits.iter().any(|(id, n)| id == base && *n <= e.against.len()))
+    };
+    found.retain(|(dialect, evidence)| !plainer(dialect, evidence));
     found.sort_by_key(|(_, e)| (e.against.len(), usize::MAX - e.speaks_for.len()));
     let others = found.get(1).map_or(usize::MAX, |(_, next)| next.against.len());
     let clear = found.first().is_some_and(|(_, best)| match best.against.len() {
@@ -191,7 +197,7 @@ fn word_of(
     }
     if dialect.program.number == Some(c) {
         match first {
-            true => evidence.pro(line, format!("`{c}` begins the program's number")),
+            true => program_number(dialect, line, word, value, evidence),
             false => evidence.con(line, format!("`{word}` within a block")),
         }
         return;
@@ -215,6 +221,16 @@ fn word_of(
         Some(Role::Corrector) if first || value.is_empty() => {}
         Some(Role::Corrector) => evidence.pro(line, format!("`{word}` takes up a length offset")),
         Some(_) => {}
+    }
+}
+
+/// A program's number: written with leading zeros, it shows how many digits the control gives it.
+fn program_number(dialect: &Dialect, line: usize, word: &str, value: &str, evidence: &mut Evidence) {
+    let letter = word.chars().next().unwrap_or(' ').to_ascii_uppercase();
+    evidence.pro(line, format!("`{letter}` begins the program's number"));
+    let digits = value.len();
+    if value.starts_with('0') && digits != dialect.program.number_digits {
+        evidence.con(line, format!("`{word}` has {digits} digits"));
     }
 }
 
@@ -267,7 +283,8 @@ mod tests {
     use std::io::Cursor;
 
     fn id(text: &str) -> Option<&'static str> {
-        match guess(&mut Cursor::new(text.as_bytes()), ncc_dialects::builtins()).unwrap() {
+        let all: Vec<&Dialect> = ncc_dialects::builtins().iter().collect();
+        match guess(&mut Cursor::new(text.as_bytes()), &all).unwrap() {
             Guess::Sure(dialect, reasons) => {
                 assert!(!reasons.is_empty());
                 Some(&dialect.id)

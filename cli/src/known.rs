@@ -1,0 +1,258 @@
+//! The dialects that a call knows: the built-in ones, and those of the files named by `--dialect`.
+//!
+//! A dictionary of a shop lives as long as the process, as the built-in ones do. What is wrong with it
+//! is told here, at its place in the file. Not here: what a dictionary means.
+
+use std::ffi::OsString;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use codespan_reporting::diagnostic::{Diagnostic, Label};
+use codespan_reporting::files::SimpleFiles;
+use codespan_reporting::term::termcolor::WriteColor;
+use codespan_reporting::term::{self, Config};
+use ncc_dialects::{Dialect, DialectError, DialectFault, Place, Text, builtin_text, builtins, load};
+
+use crate::problem::{Exit, Problem};
+
+/// Every dialect that can be named in this call.
+#[derive(Clone, Debug)]
+pub struct Known {
+    all: Vec<&'static Dialect>,
+}
+
+impl Known {
+    /// The built-in dialects.
+    pub fn built_in() -> Known {
+        Known { all: builtins().iter().collect() }
+    }
+
+    /// Those, and the ones that files define. Called once in a process: what is read is kept.
+    ///
+    /// # Errors
+    /// A file cannot be read, or is no dictionary; with `out`, the latter has been told there, with
+    /// its place, and the problem has no words of its own.
+    pub fn with(files: &[PathBuf], out: Option<&mut dyn WriteColor>) -> Result<Known, Problem> {
+        let mut known = Known::built_in();
+        known.add(files, out)?;
+        Ok(known)
+    }
+
+    /// Adds what files define, and gives it.
+    ///
+    /// # Errors
+    /// As of [`Known::with`].
+    pub fn add(
+        &mut self,
+        files: &[PathBuf],
+        out: Option<&mut dyn WriteColor>,
+    ) -> Result<Vec<&'static Dialect>, Problem> {
+        let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, _>>()?;
+        let borrowed: Vec<&str> = texts.iter().map(String::as_str).collect();
+        let loaded = load(&borrowed).and_then(|loaded| match verbs_named(&loaded) {
+            Some(at) => Err(verb(at, &loaded[at].id)),
+            None => Ok(loaded),
+        });
+        match loaded {
+            Ok(loaded) => {
+                let loaded: Vec<&'static Dialect> =
+                    loaded.into_iter().map(|dialect| &*Box::leak(Box::new(dialect))).collect();
+                self.all.extend(&loaded);
+                Ok(loaded)
+            }
+            Err(error) => {
+                let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+                Err(told(&error, &names, &borrowed, out))
+            }
+        }
+    }
+
+    /// All of them, the built-in ones first.
+    pub fn all(&self) -> &[&'static Dialect] {
+        &self.all
+    }
+
+    /// A dialect by its name.
+    pub fn get(&self, id: &str) -> Option<&'static Dialect> {
+        self.all.iter().find(|d| d.id == id).copied()
+    }
+
+    /// A dialect by its name.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn dialect(&self, id: &str) -> Result<&'static Dialect, Problem> {
+        self.get(id).ok_or_else(|| {
+            let near = self.all.iter().find(|d| d.id.eq_ignore_ascii_case(id) || close(&d.id, id));
+            let help = match near {
+                Some(dialect) => format!("did you mean {}? there are: {}", dialect.id, self.ids()),
+                None => format!("there are: {}", self.ids()),
+            };
+            Problem::usage(format!("there is no dialect `{id}`"), help)
+        })
+    }
+
+    /// Their names, for a message.
+    pub fn ids(&self) -> String {
+        self.all.iter().map(|d| d.id.as_str()).collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// The files that `--dialect` names, before the arguments are parsed.
+pub fn files(arguments: &[OsString]) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut arguments = arguments.iter().skip(1).take_while(|a| *a != "--");
+    while let Some(argument) = arguments.next() {
+        match argument.to_str() {
+            Some("--dialect") => files.extend(arguments.next().map(PathBuf::from)),
+            Some(text) => files.extend(text.strip_prefix("--dialect=").map(PathBuf::from)),
+            None => {}
+        }
+    }
+    files
+}
+
+fn read(file: &Path) -> Result<String, Problem> {
+    let shown = file.display().to_string();
+    let bytes = fs::read(file).map_err(|e| Problem::file("read", &shown, &e))?;
+    String::from_utf8(bytes).map_err(|_| Problem {
+        exit: Exit::File,
+        message: format!("cannot read {shown}: it is not UTF-8"),
+        help: vec!["a dictionary is a TOML file, in UTF-8".to_owned()],
+    })
+}
+
+/// The first dialect whose name means something else on the command line.
+fn verbs_named(loaded: &[Dialect]) -> Option<usize> {
+    use clap::CommandFactory;
+    let command = crate::args::Cli::command();
+    let taken = |id: &str| {
+        ["auto", "help", "to"].contains(&id) || command.get_subcommands().any(|verb| verb.get_name() == id)
+    };
+    loaded.iter().position(|dialect| taken(&dialect.id) || !crate::sugar::is_name(&dialect.id))
+}
+
+fn verb(at: usize, id: &str) -> DialectError {
+    let place = Place { text: Text::File(at), span: 0..0 };
+    DialectError { fault: DialectFault::BadId { id: id.to_owned() }, place: Some(place), inherited_by: None }
+}
+
+/// Whether two words differ by one letter at most.
+fn close(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    let (short, long) = if a.len() <= b.len() { (a, b) } else { (b, a) };
+    let same = short.iter().zip(long).take_while(|(x, y)| x == y).count();
+    let rest = &short[same..];
+    match long.len() - short.len() {
+        0 => rest.is_empty() || rest[1..] == long[same + 1..],
+        1 => *rest == long[same + 1..],
+        _ => false,
+    }
+}
+
+/// Tells what is wrong with a dictionary: as a box with the offending row where `out` can take one,
+/// else in the problem's own words.
+fn told(error: &DialectError, names: &[String], texts: &[&str], out: Option<&mut dyn WriteColor>) -> Problem {
+    let silent = Problem { exit: Exit::Usage, message: String::new(), help: Vec::new() };
+    let help = help(&error.fault);
+    if let (Some(out), Some(place)) = (out, &error.place)
+        && boxed(error, place, &help, names, texts, out).is_ok()
+    {
+        return silent;
+    }
+    let at = error.place.as_ref().map(|place| {
+        let (name, text) = file(place.text, names, texts);
+        let before = text.get(..place.span.start).unwrap_or_default();
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+        format!("{name}:{line}:{column}: ")
+    });
+    let inherited = error.inherited_by.as_ref().map(|place| file(place.text, names, texts).0);
+    let inherited = inherited.map(|name| format!(" (the base of {name})")).unwrap_or_default();
+    Problem { message: format!("{}{error}{inherited}", at.unwrap_or_default()), help, ..silent }
+}
+
+fn file<'t>(which: Text, names: &[String], texts: &[&'t str]) -> (String, &'t str) {
+    match which {
+        Text::File(at) => (names.get(at).cloned().unwrap_or_default(), texts.get(at).copied().unwrap_or("")),
+        Text::BuiltIn(at) => {
+            builtin_text(at).map_or((String::new(), ""), |(id, text)| (format!("{id} (built in)"), text))
+        }
+    }
+}
+
+fn boxed(
+    error: &DialectError,
+    place: &Place,
+    help: &[String],
+    names: &[String],
+    texts: &[&str],
+    out: &mut dyn WriteColor,
+) -> io::Result<()> {
+    let mut files = SimpleFiles::new();
+    let mut label = |place: &Place, primary: bool| {
+        let (name, text) = file(place.text, names, texts);
+        let at = files.add(name, text);
+        match primary {
+            true => Label::primary(at, place.span.clone()),
+            false => Label::secondary(at, place.span.clone()).with_message("this base is meant"),
+        }
+    };
+    let labels: Vec<_> = std::iter::once(label(place, true))
+        .chain(error.inherited_by.iter().map(|place| label(place, false)))
+        .collect();
+    let diagnostic = Diagnostic::error()
+        .with_message(error.to_string())
+        .with_labels(labels)
+        .with_notes(help.iter().map(|line| format!("help: {line}")).collect());
+    term::emit_to_write_style(out, &Config::default(), &files, &diagnostic).map_err(io::Error::other)
+}
+
+/// What to do.
+fn help(fault: &DialectFault) -> Vec<String> {
+    let line = match fault {
+        DialectFault::Form(_) => "`ncc dialects schema` lists the tables and their fields",
+        DialectFault::Missing { .. } | DialectFault::BadId { .. } => {
+            "give it a name of its own: `id = \"shop\"`; a command's name cannot be one"
+        }
+        DialectFault::BuiltInId { .. } => "give it a name of its own, and build on the other: `base = \"…\"`",
+        DialectFault::IdTwice { .. } => "leave one of the files out, or rename it",
+        DialectFault::NoBase { .. } => {
+            "`ncc dialects` lists the built-in ones; name a shop's file by a further --dialect"
+        }
+        DialectFault::BaseCycle { .. } => "the last base of all is one that builds on none",
+        DialectFault::OtherFamily => "leave `family` out",
+        DialectFault::NoKey { .. } | DialectFault::RowTwice { .. } => {
+            "rows of a table are told apart by this field; each stands once in a file"
+        }
+        DialectFault::NothingThere { .. } => "`ncc dialects show` lists the rows of the base",
+        DialectFault::Row { .. } => "`ncc dialects schema` says what a row needs",
+    };
+    vec![line.to_owned()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_found_among_arguments() {
+        let args = |line: &str| line.split(' ').map(OsString::from).collect::<Vec<_>>();
+        let found = files(&args("ncc shop - a.nc --dialect a.toml --dialect=b.toml -- --dialect c.toml"));
+        assert_eq!(found, [PathBuf::from("a.toml"), PathBuf::from("b.toml")]);
+    }
+
+    #[test]
+    fn a_fault_is_told_in_one_line_where_there_is_no_box() {
+        let text =
+            "id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n[[cycle]]\ncode = \"G81\"\nremove = true\n";
+        let error = load(&[text]).unwrap_err();
+        let problem = told(&error, &["shop.toml".to_owned()], &[text], None);
+        assert!(problem.message.starts_with("fanuc (built in):"), "{}", problem.message);
+        assert!(problem.message.ends_with(": row G81: has no [[cycle]] row (the base of shop.toml)"));
+        let text = "id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n[block]\nblank = true\n";
+        let problem = told(&load(&[text]).unwrap_err(), &["shop.toml".to_owned()], &[text], None);
+        assert!(problem.message.starts_with("shop.toml:5:1: unknown field `blank`"), "{}", problem.message);
+    }
+}
