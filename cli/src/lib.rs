@@ -15,6 +15,7 @@ pub mod head;
 pub mod job;
 pub mod judge;
 pub mod known;
+pub mod machines;
 pub mod problem;
 pub mod render;
 pub mod report;

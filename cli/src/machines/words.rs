@@ -1,0 +1,77 @@
+//! What is wrong with a profile, in words.
+
+use ncc_machines::Wrong;
+
+/// The words beside a place.
+pub(super) struct Words {
+    /// Why this place.
+    pub(super) label: String,
+    /// What to do.
+    pub(super) help: Option<String>,
+}
+
+/// What is wrong, in a line.
+pub(super) fn message(wrong: &Wrong) -> String {
+    match wrong {
+        Wrong::Form { message } => {
+            let first = message.lines().next().unwrap_or("it is no profile");
+            first.to_owned()
+        }
+        Wrong::UnknownDialect { name } => format!("there is no dialect `{name}`"),
+        Wrong::UnknownOption { option, .. } => format!("the dialect has no option `{option}`"),
+        Wrong::OptionValue { option, value, .. } => format!("`{value}` is no value of {option}"),
+        Wrong::UnknownRow { row } => format!("the dialect has no row `{row}`"),
+        Wrong::Twice { what } => format!("{what} twice"),
+        Wrong::UpsideDown => "travel upside down".to_owned(),
+        Wrong::Takes { key, .. } => format!("this is no value of {key}"),
+        Wrong::Missing { key, .. } => format!("{key} is missing"),
+        Wrong::CodeKnown { code, .. } => format!("{code} is in the dialect's dictionary already"),
+        Wrong::NotOneToOne { function } => format!("two codes for {function}"),
+        Wrong::TooFine { key, .. } => format!("{key}: finer than the control"),
+        Wrong::NoForm { key, lacks } => format!("{key}: the dialect has no {lacks}"),
+        Wrong::NotYet { key } => format!("[{key}] is not carried yet"),
+    }
+}
+
+/// The words at its place.
+pub(super) fn words(wrong: &Wrong) -> Words {
+    let list = |words: &[String]| words.join(", ");
+    let (label, help): (String, Option<String>) = match wrong {
+        Wrong::Form { .. } => {
+            ("here".into(), Some("`ncc machines schema` lists every key and what it takes".into()))
+        }
+        Wrong::UnknownDialect { .. } => {
+            ("not one of the dictionaries".into(), Some("`ncc dialects` lists them".into()))
+        }
+        Wrong::UnknownOption { has, .. } if has.is_empty() => ("it has no options at all".into(), None),
+        Wrong::UnknownOption { has, .. } => ("no such option".into(), Some(format!("it has: {}", list(has)))),
+        Wrong::OptionValue { takes, .. } if takes.is_empty() => ("it takes a number".into(), None),
+        Wrong::OptionValue { takes, .. } => (format!("it takes: {}", list(takes)), None),
+        Wrong::UnknownRow { .. } => (
+            "nothing to confirm".into(),
+            Some(
+                "`ncc dialects show` lists the rows; `ncc doctor` writes the keys that a program needs"
+                    .into(),
+            ),
+        ),
+        Wrong::Twice { .. } => ("again".into(), Some("keep one of the two".into())),
+        Wrong::UpsideDown => ("the lower end comes first".into(), None),
+        Wrong::Takes { takes, .. } => (format!("it takes {takes}"), None),
+        Wrong::Missing { why, .. } => ((*why).into(), None),
+        Wrong::CodeKnown { means, .. } => (
+            format!("there it is {means}"),
+            Some("leave it out: what a dictionary says holds for every machine of the dialect".into()),
+        ),
+        Wrong::NotOneToOne { .. } => (
+            "the second one".into(),
+            Some("which of them would be written? keep one, or give them two names".into()),
+        ),
+        Wrong::TooFine { most, .. } => (format!("it has {most} digits after the point"), None),
+        Wrong::NoForm { .. } => ("cannot be written so".into(), None),
+        Wrong::NotYet { .. } => (
+            "leave it out".into(),
+            Some("programs keep their tool, length-entry, work-offset and program numbers".into()),
+        ),
+    };
+    Words { label, help }
+}

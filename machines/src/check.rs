@@ -1,0 +1,279 @@
+//! Whether what a profile says makes sense: all faults that its form alone does not show.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use ncc_dialects::{Dialect, Quantity, SettingError, Settings};
+use ncc_ir::canon::Axis;
+
+use crate::fact::Fact;
+use crate::reading::is_reading;
+use crate::schema::{BlockNumbers, Emit, FileName, Schema};
+use crate::table::{Key, Table};
+use crate::wrong::{ProfileError, Wrong};
+
+/// Faults as they are found.
+struct Found(Vec<ProfileError>);
+
+/// Everything that is wrong.
+pub(crate) fn check(schema: &Schema, dialect: &'static Dialect) -> Vec<ProfileError> {
+    let mut found = Found(Vec::new());
+    options(schema, dialect, &mut found);
+    for key in schema.confirmed.keys() {
+        if !is_reading(key.get_ref(), dialect) {
+            found.add(Wrong::UnknownRow { row: key.get_ref().clone() }, key.span());
+        }
+    }
+    numbers(schema, &mut found);
+    axes(schema, &mut found);
+    tables(schema, &mut found);
+    codes(schema, dialect, &mut found);
+    emit(&schema.emit, dialect, &mut found);
+    if let Some(map) = &schema.map {
+        found.add(Wrong::NotYet { key: "map" }, map.span());
+    }
+    found.0
+}
+
+impl Found {
+    fn add(&mut self, wrong: Wrong, span: Range<usize>) {
+        self.0.push(ProfileError::new(wrong, span));
+    }
+
+    /// A number that must fit; what it takes is in the schema.
+    fn number<T: Table>(&mut self, fact: &Fact<f64>, key: &'static str, fits: fn(f64) -> bool) {
+        if fact.value.is_some_and(|value| !value.is_finite() || !fits(value)) {
+            self.takes::<T>(key, fact.span.clone());
+        }
+    }
+
+    fn takes<T: Table>(&mut self, key: &'static str, span: Range<usize>) {
+        let takes = T::KEYS.iter().find(|k: &&Key| k.name == key).map_or("", |k| k.takes);
+        self.add(Wrong::Takes { key, takes }, span);
+    }
+
+    /// Something that may stand once.
+    fn once(
+        &mut self,
+        seen: &mut BTreeMap<String, Range<usize>>,
+        name: String,
+        what: String,
+        span: Range<usize>,
+    ) {
+        match seen.get(&name) {
+            Some(first) => {
+                let error = ProfileError::new(Wrong::Twice { what }, span);
+                self.0.push(ProfileError { related: Some(first.clone()), ..error });
+            }
+            None => {
+                seen.insert(name, span);
+            }
+        }
+    }
+}
+
+fn options(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
+    let mut settings = Settings::new(dialect);
+    for (option, choice) in &schema.options {
+        let name = option.get_ref();
+        let Some(row) = dialect.option.iter().find(|o| o.name == *name) else {
+            let has = dialect.option.iter().map(|o| o.name.clone()).collect();
+            found.add(Wrong::UnknownOption { option: name.clone(), has }, option.span());
+            continue;
+        };
+        let Some(value) = &choice.value else { continue };
+        if let Err(SettingError::NoOption(_) | SettingError::NoValue { .. }) = settings.choose(name, &value.0)
+        {
+            let wrong = Wrong::OptionValue {
+                option: name.clone(),
+                value: value.0.clone(),
+                takes: row.values.clone(),
+            };
+            found.add(wrong, choice.span.clone());
+        }
+    }
+}
+
+fn above_zero(value: f64) -> bool {
+    value > 0.0
+}
+
+fn from_zero(value: f64) -> bool {
+    value >= 0.0
+}
+
+fn any(_: f64) -> bool {
+    true
+}
+
+fn numbers(schema: &Schema, found: &mut Found) {
+    use crate::schema::{AxisRow, MCodeRow, Rates, Spindle, Times, ToolRow, WorkOffsetRow};
+    let rates = &schema.rates;
+    found.number::<Rates>(&rates.rapid, "rapid", above_zero);
+    found.number::<Rates>(&rates.max_feed, "max_feed", above_zero);
+    found.number::<Rates>(&rates.path_tolerance, "path_tolerance", from_zero);
+    let times = &schema.times;
+    found.number::<Times>(&times.tool_change, "tool_change", from_zero);
+    found.number::<Times>(&times.spindle_start, "spindle_start", from_zero);
+    found.number::<Times>(&times.spindle_stop, "spindle_stop", from_zero);
+    found.number::<Times>(&times.m_function, "m_function", from_zero);
+    found.number::<Times>(&times.block, "block", from_zero);
+    found.number::<Spindle>(&schema.spindle.max_speed, "max_speed", above_zero);
+    found.number::<Spindle>(&schema.spindle.acceleration, "acceleration", above_zero);
+    for axis in schema.axis.iter().map(toml::Spanned::get_ref) {
+        found.number::<AxisRow>(&axis.rapid, "rapid", above_zero);
+        found.number::<AxisRow>(&axis.max_feed, "max_feed", above_zero);
+        found.number::<AxisRow>(&axis.acceleration, "acceleration", above_zero);
+        found.number::<AxisRow>(&axis.jerk, "jerk", above_zero);
+    }
+    for tool in schema.tool.iter().map(toml::Spanned::get_ref) {
+        found.number::<ToolRow>(&tool.length, "length", from_zero);
+        found.number::<ToolRow>(&tool.diameter, "diameter", from_zero);
+    }
+    for offset in schema.work_offset.iter().map(toml::Spanned::get_ref) {
+        let all = [&offset.x, &offset.y, &offset.z, &offset.a, &offset.b, &offset.c];
+        for (key, value) in ["x", "y", "z", "a", "b", "c"].into_iter().zip(all) {
+            found.number::<WorkOffsetRow>(value, key, any);
+        }
+    }
+    for code in schema.m_code.iter().map(toml::Spanned::get_ref) {
+        found.number::<MCodeRow>(&code.seconds, "seconds", from_zero);
+    }
+}
+
+fn axes(schema: &Schema, found: &mut Found) {
+    use crate::schema::AxisRow;
+    let mut seen = BTreeMap::new();
+    for row in &schema.axis {
+        let axis = row.get_ref();
+        let Some(letter) = &axis.letter.value else {
+            found.add(Wrong::Missing { key: "letter", why: "which axis is it?" }, row.span());
+            continue;
+        };
+        match letter.as_bytes() {
+            [one] if Axis::from_letter(*one).is_some() => {
+                found.once(&mut seen, letter.clone(), format!("axis {letter}"), axis.letter.span.clone());
+            }
+            _ => found.takes::<AxisRow>("letter", axis.letter.span.clone()),
+        }
+        if let Some([low, high]) = axis.travel.value {
+            if !low.is_finite() || !high.is_finite() {
+                found.takes::<AxisRow>("travel", axis.travel.span.clone());
+            } else if low >= high {
+                found.add(Wrong::UpsideDown, axis.travel.span.clone());
+            }
+        }
+    }
+}
+
+fn tables(schema: &Schema, found: &mut Found) {
+    use crate::schema::WorkOffsetRow;
+    let (mut tools, mut pockets, mut offsets) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    for row in &schema.tool {
+        let tool = row.get_ref();
+        match tool.number.value {
+            None => found.add(Wrong::Missing { key: "number", why: "which tool is it?" }, row.span()),
+            Some(n) => found.once(&mut tools, n.to_string(), format!("tool {n}"), tool.number.span.clone()),
+        }
+        if let Some(n) = tool.pocket.value {
+            found.once(&mut pockets, n.to_string(), format!("pocket {n}"), tool.pocket.span.clone());
+        }
+    }
+    for row in &schema.work_offset {
+        let offset = row.get_ref();
+        let span = offset.number.span.clone();
+        match offset.number.value {
+            None => found.add(Wrong::Missing { key: "number", why: "which work offset is it?" }, row.span()),
+            Some(0) => found.takes::<WorkOffsetRow>("number", span),
+            Some(n) => found.once(&mut offsets, n.to_string(), format!("work offset {n}"), span),
+        }
+    }
+}
+
+fn codes(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
+    use crate::schema::MCodeRow;
+    let (mut codes, mut functions) = (BTreeMap::new(), BTreeMap::<&str, Range<usize>>::new());
+    for row in &schema.m_code {
+        let m = row.get_ref();
+        let Some(code) = &m.code.value else {
+            found.add(Wrong::Missing { key: "code", why: "which code is it?" }, row.span());
+            continue;
+        };
+        let number = code.strip_prefix('M').filter(|n| n.len() <= 4 && n.bytes().all(|b| b.is_ascii_digit()));
+        let Some(number) = number.and_then(|n| n.parse::<u32>().ok()) else {
+            found.takes::<MCodeRow>("code", m.code.span.clone());
+            continue;
+        };
+        if let Some(known) = dialect.code_row(b'M', number * 10) {
+            let means = match (&known.means, &known.refuse) {
+                (Some(meaning), _) => meaning.to_string(),
+                (None, refuse) => refuse.clone().unwrap_or_default(),
+            };
+            found.add(Wrong::CodeKnown { code: code.clone(), means }, m.code.span.clone());
+        }
+        found.once(&mut codes, number.to_string(), format!("code {code}"), m.code.span.clone());
+        let Some(function) = &m.function.value else { continue };
+        let plain = |b: u8| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-';
+        if !function.bytes().all(plain) || !function.starts_with(|c: char| c.is_ascii_lowercase()) {
+            found.takes::<MCodeRow>("function", m.function.span.clone());
+        } else if let Some(first) = functions.get(function.as_str()) {
+            let wrong = Wrong::NotOneToOne { function: function.clone() };
+            let error = ProfileError::new(wrong, m.function.span.clone());
+            found.0.push(ProfileError { related: Some(first.clone()), ..error });
+        } else {
+            functions.insert(function, m.function.span.clone());
+        }
+    }
+}
+
+fn emit(emit: &Emit, dialect: &'static Dialect, found: &mut Found) {
+    let length = dialect.numbers(Quantity::Length);
+    let inch = length.decimals_inch.unwrap_or(length.decimals);
+    for (fact, key, most) in
+        [(&emit.decimals, "decimals", length.decimals), (&emit.decimals_inch, "decimals_inch", inch)]
+    {
+        if fact.value.is_some_and(|n| n > u32::from(most)) {
+            found.add(Wrong::TooFine { key, most }, fact.span.clone());
+        }
+    }
+    let numbers = &emit.block_numbers;
+    if matches!(numbers.value, Some(BlockNumbers::New | BlockNumbers::Keep)) && dialect.block.number.is_none()
+    {
+        let lacks = "block numbers";
+        found.add(Wrong::NoForm { key: "block_numbers", lacks }, numbers.span.clone());
+    }
+    if numbers.value == Some(BlockNumbers::New) {
+        for (fact, key) in [(&emit.first_number, "first_number"), (&emit.number_step, "number_step")] {
+            if fact.value.is_none() {
+                let why = "`block_numbers = \"new\"` needs the first number and the step";
+                found.add(Wrong::Missing { key, why }, numbers.span.clone());
+            }
+        }
+    }
+    let most = 99_999;
+    if emit.first_number.value.is_some_and(|n| n > most) {
+        found.takes::<Emit>("first_number", emit.first_number.span.clone());
+    }
+    if emit.number_step.value.is_some_and(|n| n == 0 || n > most) {
+        found.takes::<Emit>("number_step", emit.number_step.span.clone());
+    }
+    for (fact, key) in [(&emit.header, "header"), (&emit.footer, "footer")] {
+        let lines = fact.value.as_deref().unwrap_or_default();
+        if !lines.is_empty() && dialect.comment.open.is_empty() {
+            found.add(Wrong::NoForm { key, lacks: "comments" }, fact.span.clone());
+        }
+        if lines.iter().any(|line| line.chars().any(char::is_control)) {
+            found.takes::<Emit>(key, fact.span.clone());
+        }
+    }
+    let by_number = emit.file_name.value == Some(FileName::ProgramNumber);
+    if by_number && dialect.program.number.is_none() {
+        let lacks = "program numbers";
+        found.add(Wrong::NoForm { key: "file_name", lacks }, emit.file_name.span.clone());
+    }
+    if let Some(extension) = &emit.extension.value
+        && !extension.bytes().all(|b| b.is_ascii_alphanumeric())
+    {
+        found.takes::<Emit>("extension", emit.extension.span.clone());
+    }
+}

@@ -1,0 +1,24 @@
+//! ncc-machines: what a shop knows of its machines.
+//!
+//! A profile is a data file: the dialect and the parameters of a control, rates and times of the
+//! machine, tables, and the shop's choices for emitted programs. Every fact may be left out; what is
+//! not stated is asked for or told as assumed, never filled in. A profile is checked as a whole, and
+//! what is wrong with it is told with its place.
+//!
+//! Not here: reading files, printing, and what a translation or a timeline does with the facts.
+
+mod check;
+mod control;
+mod fact;
+mod profile;
+pub mod reading;
+pub mod schema;
+mod shipped;
+pub mod table;
+mod wrong;
+
+pub use control::Layout;
+pub use fact::Fact;
+pub use profile::{Profile, Row};
+pub use shipped::{find, shipped};
+pub use wrong::{ProfileError, Wrong};

@@ -1,0 +1,191 @@
+//! A profile that has been read and checked.
+
+use std::ops::Range;
+
+use ncc_dialects::Dialect;
+use ncc_ir::canon::{AXES, Axis};
+use ncc_timeline::{AxisFacts, Machine, ToolChangeOn};
+
+use crate::check::check;
+use crate::schema::{ChangeOn, Schema};
+use crate::table::{Stated, Table};
+use crate::wrong::{ProfileError, Wrong};
+
+/// A profile without faults, and the dictionary of its dialect.
+#[derive(Clone, Debug)]
+pub struct Profile {
+    /// What the file says.
+    pub schema: Schema,
+    /// The dictionary of its dialect, as it is without the profile.
+    pub dialect: &'static Dialect,
+}
+
+/// A table of a profile with what is stated in it.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// How it is headed in the file.
+    pub head: &'static str,
+    /// What it holds.
+    pub about: &'static str,
+    /// Its keys and values.
+    pub facts: Vec<Stated>,
+}
+
+impl Profile {
+    /// Reads a profile. `dialect` finds a dictionary by its name.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, in the order of the file; only the first fault of its form.
+    pub fn parse(
+        text: &str,
+        dialect: &dyn Fn(&str) -> Option<&'static Dialect>,
+    ) -> Result<Profile, Vec<ProfileError>> {
+        let schema: Schema = toml::from_str(text).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
+            vec![ProfileError::new(Wrong::Form { message: error.message().to_owned() }, inside(span, text))]
+        })?;
+        let Some(dialect) = dialect(schema.dialect.get_ref()) else {
+            let name = schema.dialect.get_ref().clone();
+            return Err(vec![ProfileError::new(Wrong::UnknownDialect { name }, schema.dialect.span())]);
+        };
+        let mut wrong = check(&schema, dialect);
+        if !wrong.is_empty() {
+            wrong.sort_by_key(|error| error.span.start);
+            return Err(wrong);
+        }
+        Ok(Profile { schema, dialect })
+    }
+
+    /// Its name on the command line.
+    pub fn id(&self) -> &str {
+        self.schema.id.get_ref()
+    }
+
+    /// What models of the timeline know of the machine.
+    pub fn machine(&self) -> Machine {
+        let s = &self.schema;
+        let mut axes = [AxisFacts::default(); AXES];
+        for row in &s.axis {
+            let row = row.get_ref();
+            let letter = row.letter.value.as_deref().and_then(|l| l.bytes().next());
+            let Some(axis) = letter.and_then(Axis::from_letter) else { continue };
+            axes[axis as usize] = AxisFacts {
+                travel: row.travel.get(),
+                rapid_rate: row.rapid.get(),
+                max_feed: row.max_feed.get(),
+                acceleration: row.acceleration.get(),
+                jerk: row.jerk.get(),
+            };
+        }
+        Machine {
+            axes,
+            rapid_rate: s.rates.rapid.get(),
+            max_feed: s.rates.max_feed.get(),
+            tool_change: s.times.tool_change.get(),
+            tool_change_on: match s.times.tool_change_on.get() {
+                Some(ChangeOn::Select) => ToolChangeOn::Select,
+                Some(ChangeOn::Change) | None => ToolChangeOn::Change,
+            },
+            spindle_start: s.times.spindle_start.get(),
+            spindle_stop: s.times.spindle_stop.get(),
+            spindle_acceleration: s.spindle.acceleration.get(),
+            spindle_max: s.spindle.max_speed.get(),
+            path_tolerance: s.rates.path_tolerance.get(),
+            m_function: s.times.m_function.get(),
+            block: s.times.block.get(),
+            ..Machine::default()
+        }
+    }
+
+    /// Every table with fixed keys, in the order of the schema; of those that may stand several
+    /// times, each.
+    pub fn rows(&self) -> Vec<Row> {
+        fn row<T: Table>(table: &T) -> Row {
+            Row { head: T::HEAD, about: T::ABOUT, facts: table.stated() }
+        }
+        let s = &self.schema;
+        let mut rows = vec![row(&s.power_on), row(&s.rates), row(&s.times), row(&s.spindle)];
+        rows.extend(s.axis.iter().map(|a| row(a.get_ref())));
+        rows.extend(s.tool.iter().map(|t| row(t.get_ref())));
+        rows.extend(s.work_offset.iter().map(|w| row(w.get_ref())));
+        rows.extend(s.m_code.iter().map(|m| row(m.get_ref())));
+        rows.push(row(&s.emit));
+        rows
+    }
+}
+
+/// A place that is one: not behind the end, and between characters.
+fn inside(span: Range<usize>, text: &str) -> Range<usize> {
+    let within =
+        |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+    let (start, end) = (within(span.start), within(span.end));
+    start..end.max(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shipped::shipped;
+    use ncc_dialects::builtin;
+
+    fn read(text: &str) -> Result<Profile, Vec<ProfileError>> {
+        Profile::parse(text, &builtin)
+    }
+
+    #[test]
+    fn the_case_study_machine_has_its_attributes() {
+        let machine = crate::find("romi-discovery-4022").expect("shipped").machine();
+        assert_eq!(machine.rapid_rate, Some(15000.0));
+        assert_eq!(machine.tool_change, Some(7.0));
+        assert_eq!((machine.spindle_start, machine.spindle_stop), (Some(2.0), Some(2.0)));
+        assert_eq!(machine.axes[0].acceleration, None);
+    }
+
+    #[test]
+    fn typical_machines_have_what_models_with_acceleration_need_and_mark_it() {
+        let typical: Vec<&Profile> = shipped().iter().filter(|p| p.schema.typical).collect();
+        assert_eq!(typical.len(), 3);
+        for profile in typical {
+            let machine = profile.machine();
+            for axis in &machine.axes[..3] {
+                assert!(axis.rapid_rate.is_some() && axis.acceleration.is_some() && axis.jerk.is_some());
+            }
+            for row in profile.rows() {
+                for fact in row.facts.iter().filter(|f| f.value.is_some()) {
+                    let choice = matches!(fact.key, "letter" | "tool_change_on");
+                    assert!(choice || !fact.source.is_empty(), "{}: {}", profile.id(), fact.key);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_fact_has_two_forms_and_may_be_empty() {
+        let head = "id = \"a\"\ntitle = \"t\"\ndialect = \"fanuc\"\n";
+        let profile = read(&format!(
+            "{head}[times]\ntool_change = 5\nspindle_start = {{ value = 2.5, source = \"s\", assumed = true }}\nspindle_stop = \"\"\nblock = {{ value = \"\", source = \"asked for\" }}\n"
+        ))
+        .expect("a profile");
+        let times = &profile.schema.times;
+        assert_eq!((times.tool_change.get(), times.spindle_start.get()), (Some(5.0), Some(2.5)));
+        assert!(times.spindle_start.assumed && times.spindle_start.source == "s");
+        assert_eq!((times.spindle_stop.get(), times.block.get(), times.m_function.get()), (None, None, None));
+    }
+
+    #[test]
+    fn facts_at_power_on_always_hold_in_the_derived_dictionary() {
+        let text = "id = \"a\"\ntitle = \"t\"\ndialect = \"fanuc\"\n[options]\npeck_clearance = 0.5\n[power_on]\nunits = \"inch\"\nplane = \"\"\n";
+        let settings = read(text).expect("a profile").settings();
+        let units = settings.dialect.power_on.units.as_ref().expect("stated");
+        assert!(units.always && units.value == ncc_dialects::UnitsName::Inch);
+        assert!(settings.dialect.power_on.plane.as_ref().is_none_or(|plane| !plane.always));
+        assert_eq!((settings.get("peck_clearance"), settings.is_chosen("break_lift")), ("0.5", false));
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic() {
+        for text in ["", "id = 5", "[", "id = \"é\"\ntitle = \"", "\u{feff}", "[[axis]]\n[axis]\n"] {
+            assert!(read(text).is_err(), "{text:?}");
+        }
+    }
+}

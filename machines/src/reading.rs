@@ -1,0 +1,178 @@
+//! Which fact of which machine an assumption rests on.
+//!
+//! A translation tells what it took for granted. Each of these assumptions is one fact of one of the
+//! two machines, with a place in its profile; a profile that states the fact settles it, and one that
+//! states the contrary forbids it. What has no place in a profile stays an assumption.
+
+use std::fmt;
+
+use ncc_dialects::{Dialect, Role};
+use ncc_ir::diag::{Fault, ModeName};
+
+/// One of the two machines of a translation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Side {
+    /// The one that the program was written for.
+    From,
+    /// The one that it is translated for.
+    To,
+}
+
+/// Who told the assumption.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// The reader of the source.
+    Reader,
+    /// A pass, or the writer of the output.
+    Writer,
+}
+
+/// A place in a profile.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Place {
+    /// A key of `[power_on]`.
+    PowerOn(&'static str),
+    /// A key of `[options]`.
+    Option(String),
+    /// A key of `[confirmed]`.
+    Confirmed(String),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Place::PowerOn(key) => write!(f, "power_on.{key}"),
+            Place::Option(key) => write!(f, "options.{}", quoted(key)),
+            Place::Confirmed(key) => write!(f, "confirmed.{}", quoted(key)),
+        }
+    }
+}
+
+/// A key as TOML wants it.
+pub fn quoted(key: &str) -> String {
+    let bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
+    if bare { key.to_owned() } else { format!("{key:?}") }
+}
+
+/// Option of a dialect: clearance of its peck cycle.
+const PECK_CLEARANCE: &str = "peck_clearance";
+
+/// Option of a dialect: lift of its chip-breaking cycle.
+const BREAK_LIFT: &str = "break_lift";
+
+/// Key of the reading that a length offset is taken up with the next Z.
+pub const OFFSET_WITH_Z: &str = "length-offset-with-next-z";
+
+/// Key of the reading of numbers without a decimal point, where it is no option.
+pub const BARE_NUMBERS: &str = "numbers-without-point";
+
+/// Key of the reading that edge 1 of a tool is the length entry of its number.
+pub const EDGE_IS_ENTRY: &str = "edge-1-is-length-entry";
+
+/// What follows the name of a pattern whose order of holes is the one that is written.
+const ORDER: &str = "-order";
+
+/// What follows the name of a function that acts after the move of its block.
+const AFTER: &str = "-in-a-block-with-a-move";
+
+/// What follows the name of an argument that is computed by the control.
+const AUTOMATIC: &str = "-automatic";
+
+/// Machine data of which another value would change where a tool's length counts.
+const LENGTH_CONST: &str = "SD-42940-TOOL_LENGTH_CONST";
+
+/// The fact that an assumption rests on; `None` for what is no assumption.
+pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Option<(Side, Place)> {
+    let side = match told {
+        Told::Reader => Side::From,
+        Told::Writer => Side::To,
+    };
+    let has_option = |name: &str| from.option.iter().any(|o| o.name == name);
+    let edges = |dialect: &Dialect| dialect.letter_for(Role::ToolEdge).is_some();
+    Some(match fault {
+        Fault::AssumedMode { fact, .. } => (side, Place::PowerOn(power_on_key(*fact))),
+        Fault::AssumedWorkOffset { .. } => (side, Place::PowerOn("work_offset")),
+        Fault::AssumedOption { option, .. } => (side, Place::Option(option.to_string())),
+        Fault::AssumedBareNumber { .. } if has_option("decimal_point") => {
+            (Side::From, Place::Option("decimal_point".to_owned()))
+        }
+        Fault::AssumedBareNumber { .. } => (Side::From, Place::Confirmed(BARE_NUMBERS.to_owned())),
+        Fault::AssumedParameter { parameter, .. } => match &**parameter {
+            "clearance of peck drilling" => (Side::From, Place::Option(PECK_CLEARANCE.to_owned())),
+            "lift of chip-breaking drilling" => (Side::From, Place::Option(BREAK_LIFT.to_owned())),
+            other => (side, Place::Confirmed(slug(other))),
+        },
+        Fault::AssumedNoEffect { code } => (side, Place::Confirmed(code.to_string())),
+        Fault::AssumedRow { code, .. } => (side, Place::Confirmed(row_key(code))),
+        // Where the target wants the offset with a Z word, it is still the source that takes it up so.
+        Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
+        Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
+        Fault::AssumedEdge { .. } => {
+            let side = if edges(to) { Side::To } else { Side::From };
+            (side, Place::Confirmed(EDGE_IS_ENTRY.to_owned()))
+        }
+        _ => return None,
+    })
+}
+
+/// The key of `[power_on]` for a fact.
+fn power_on_key(fact: ModeName) -> &'static str {
+    match fact {
+        ModeName::Motion => "motion",
+        ModeName::Distance => "distance",
+        ModeName::Units => "units",
+        ModeName::Plane => "plane",
+        ModeName::FeedMode => "feed_mode",
+        ModeName::ReturnLevel => "return_level",
+        ModeName::WorkOffset => "work_offset",
+        ModeName::LengthOffset => "length_offset",
+        ModeName::OriginShift => "no_origin_shift",
+    }
+}
+
+/// `O00` and `O0` are one word.
+fn row_key(code: &str) -> String {
+    match code.as_bytes() {
+        [letter, digits @ ..] if !digits.is_empty() && digits.iter().all(|d| *d == b'0') => {
+            format!("{}0", *letter as char)
+        }
+        _ => code.to_owned(),
+    }
+}
+
+/// Words made into a key.
+fn slug(words: &str) -> String {
+    let mut key = String::new();
+    for c in words.chars() {
+        if c.is_ascii_alphanumeric() || c == '_' {
+            key.push(c);
+        } else if !key.ends_with('-') {
+            key.push('-');
+        }
+    }
+    key
+}
+
+/// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
+pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
+    if [OFFSET_WITH_Z, BARE_NUMBERS, EDGE_IS_ENTRY, LENGTH_CONST].contains(&key) {
+        return true;
+    }
+    let call = |name: &str| dialect.call_row(name).is_some();
+    let code = |name: &str| dialect.code.iter().any(|row| row.code == name);
+    if let Some(name) = key.strip_suffix(ORDER) {
+        return call(name);
+    }
+    if let Some(name) = key.strip_suffix(AFTER) {
+        return code(name);
+    }
+    if let Some(name) = key.strip_suffix(AUTOMATIC) {
+        return dialect.call.iter().any(|row| row.parameters.iter().any(|p| p.name == name));
+    }
+    let letter = |key: &str| match key.as_bytes() {
+        [letter] | [letter, b'0'] => dialect.address_row(*letter).is_some(),
+        _ => false,
+    };
+    let skip = !dialect.block.skip.is_empty() && key == dialect.block.skip;
+    code(key) || call(key) || dialect.name_row(key).is_some() || letter(key) || skip
+}

@@ -1,0 +1,347 @@
+//! The form of a profile: its tables, their keys, and what each takes.
+//!
+//! Every key may be left out or empty (`""`): not stated. Units are in the keys' descriptions;
+//! lengths are millimetres and rates millimetres a minute, whatever unit the programs use.
+//! A key that is not here is an error, and so is a value that its key does not take.
+
+use std::collections::BTreeMap;
+
+use ncc_dialects::{DistanceName, FeedModeName, MotionName, PlaneName, ReturnLevelName, UnitsName};
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::fact::Fact;
+use crate::table::{Words, kebab, table};
+
+/// A profile as its file has it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Schema {
+    /// Its name on the command line.
+    pub id: Spanned<String>,
+    /// What it is, for people.
+    pub title: String,
+    /// The dialect of its control.
+    pub dialect: Spanned<String>,
+    /// Whether it stands for a kind of machine, not for one that somebody has measured.
+    #[serde(default)]
+    pub typical: bool,
+    /// Anything else that a reader should know.
+    #[serde(default)]
+    pub notes: String,
+    /// Sources that facts name by a short tag.
+    #[serde(default)]
+    pub sources: BTreeMap<String, String>,
+    /// Options of the dialect's dictionary.
+    #[serde(default)]
+    pub options: BTreeMap<Spanned<String>, Fact<Choice>>,
+    /// Rows of the dialect's dictionary, and other readings of it: whether it is so on this machine.
+    /// A program that relies on what is not so is refused.
+    #[serde(default)]
+    pub confirmed: BTreeMap<Spanned<String>, Fact<bool>>,
+    /// State at power-on.
+    #[serde(default)]
+    pub power_on: PowerOn,
+    /// Rates along the path.
+    #[serde(default)]
+    pub rates: Rates,
+    /// Times.
+    #[serde(default)]
+    pub times: Times,
+    /// The spindle.
+    #[serde(default)]
+    pub spindle: Spindle,
+    /// Axes.
+    #[serde(default)]
+    pub axis: Vec<Spanned<AxisRow>>,
+    /// Tools.
+    #[serde(default)]
+    pub tool: Vec<Spanned<ToolRow>>,
+    /// Work offsets.
+    #[serde(default)]
+    pub work_offset: Vec<Spanned<WorkOffsetRow>>,
+    /// M codes of this machine.
+    #[serde(default)]
+    pub m_code: Vec<Spanned<MCodeRow>>,
+    /// The shop's choices for emitted programs.
+    #[serde(default)]
+    pub emit: Emit,
+    /// Maps of numbers from machine to machine. There are none yet: the key is refused by name.
+    #[serde(default)]
+    pub map: Option<Spanned<toml::Value>>,
+}
+
+/// The value of an option: a number or a word.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Choice(pub String);
+
+impl<'de> Deserialize<'de> for Choice {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Choice, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Any {
+            Whole(i64),
+            Number(f64),
+            Text(String),
+        }
+        let any = Any::deserialize(deserializer);
+        let any = any.map_err(|_| serde::de::Error::custom("expected a number or a word in quotes"))?;
+        Ok(Choice(match any {
+            Any::Whole(number) => number.to_string(),
+            Any::Number(number) => number.to_string(),
+            Any::Text(text) => text,
+        }))
+    }
+}
+
+impl Words for Choice {
+    fn words(&self) -> String {
+        self.0.clone()
+    }
+}
+
+macro_rules! words {
+    ($( $(#[doc = $about:literal])+ $name:ident { $( $(#[doc = $doc:literal])+ $variant:ident ),* } )*) => { $(
+        $(#[doc = $about])+
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum $name { $( $(#[doc = $doc])+ $variant ),* }
+
+        impl Words for $name {
+            fn words(&self) -> String {
+                kebab(&format!("{self:?}"))
+            }
+        }
+    )* };
+}
+
+words! {
+    /// The function that takes the time of a tool change.
+    ChangeOn {
+        /// The change itself.
+        Change,
+        /// The selection of the tool.
+        Select
+    }
+    /// Block numbers of emitted programs.
+    BlockNumbers {
+        /// None.
+        Off,
+        /// Those of the source.
+        Keep,
+        /// New ones.
+        New
+    }
+    /// Line ends of emitted programs.
+    LineEnds {
+        /// Those of the source's first line.
+        Keep,
+        /// LF.
+        Lf,
+        /// CR LF.
+        Crlf
+    }
+    /// Characters of emitted programs.
+    Characters {
+        /// ASCII without small letters.
+        Capitals,
+        /// ASCII.
+        Ascii,
+        /// ISO 8859-1.
+        Latin1,
+        /// All.
+        Utf8
+    }
+    /// Blocks of a tool change.
+    ToolChangeForm {
+        /// Selection and change in one block.
+        OneBlock,
+        /// In two.
+        TwoBlocks
+    }
+    /// Names of files.
+    FileName {
+        /// The source's name.
+        Source,
+        /// The program's number.
+        ProgramNumber
+    }
+}
+
+macro_rules! names_of_the_dictionary {
+    ($($name:ty),*) => { $(
+        impl Words for $name {
+            fn words(&self) -> String {
+                kebab(&format!("{self:?}"))
+            }
+        }
+    )* };
+}
+
+names_of_the_dictionary!(UnitsName, DistanceName, PlaneName, FeedModeName, ReturnLevelName, MotionName);
+
+table! {
+    /// What is in force when a program starts. A fact that is stated here is taken for granted and
+    /// no assumption any more.
+    PowerOn "[power_on]" {
+        /// Unit of length.
+        units: UnitsName = "`mm`, `inch`";
+        /// From where words are measured.
+        distance: DistanceName = "`absolute`, `incremental`";
+        /// Plane of arcs.
+        plane: PlaneName = "`xy`, `zx`, `yz`";
+        /// What F counts.
+        feed_mode: FeedModeName = "`per-minute`, `per-revolution`, `inverse-time`";
+        /// Where canned cycles leave the tool (G98 or G99).
+        return_level: ReturnLevelName = "`initial`, `retract`";
+        /// What a block with axis words alone does.
+        motion: MotionName = "`traverse`, `feed`";
+        /// Work offset; on a control without words for it, the one of other controls that its only zero stands for (1 is G54).
+        work_offset: u32 = "a whole number";
+        /// Entry of the length table; 0 is none.
+        length_offset: u32 = "a whole number";
+        /// Whether no shift of the origin is left over from an earlier program.
+        no_origin_shift: bool = "`true`, `false`";
+    }
+}
+
+table! {
+    /// Rates along the path.
+    Rates "[rates]" {
+        /// Rate of a rapid along its straight line, mm/min; where not stated, the axes' rates decide.
+        rapid: f64 = "a number above 0";
+        /// Highest feed, mm/min.
+        max_feed: f64 = "a number above 0";
+        /// How far the path may leave a corner, mm; 0 is an exact stop in every corner.
+        path_tolerance: f64 = "a number from 0";
+    }
+}
+
+table! {
+    /// Times, in seconds.
+    Times "[times]" {
+        /// A tool change.
+        tool_change: f64 = "a number from 0";
+        /// The function that takes it.
+        tool_change_on: ChangeOn = "`change`, `select`";
+        /// Until the spindle turns at its speed.
+        spindle_start: f64 = "a number from 0";
+        /// Until it stands.
+        spindle_stop: f64 = "a number from 0";
+        /// An M function, besides what it does.
+        m_function: f64 = "a number from 0";
+        /// Least time of a block with a move: what the control needs to prepare the next one.
+        block: f64 = "a number from 0";
+    }
+}
+
+table! {
+    /// The spindle.
+    Spindle "[spindle]" {
+        /// Highest speed, rev/min.
+        max_speed: f64 = "a number above 0";
+        /// Change of its speed, rev/min per second.
+        acceleration: f64 = "a number above 0";
+    }
+}
+
+table! {
+    /// An axis.
+    AxisRow "[[axis]]" {
+        /// Its letter.
+        letter: String = "`X`, `Y`, `Z`, `A`, `B`, `C`";
+        /// Least and greatest machine coordinate, mm or degrees.
+        travel: [f64; 2] = "two numbers, the lower one first";
+        /// Rate in rapids, mm/min or degrees/min.
+        rapid: f64 = "a number above 0";
+        /// Highest feed, mm/min or degrees/min.
+        max_feed: f64 = "a number above 0";
+        /// Acceleration, mm/s² or degrees/s².
+        acceleration: f64 = "a number above 0";
+        /// Jerk, mm/s³ or degrees/s³.
+        jerk: f64 = "a number above 0";
+    }
+}
+
+table! {
+    /// A tool.
+    ToolRow "[[tool]]" {
+        /// Its number.
+        number: u32 = "a whole number";
+        /// Its name.
+        name: String = "text";
+        /// Its length, mm.
+        length: f64 = "a number from 0";
+        /// Its diameter, mm.
+        diameter: f64 = "a number from 0";
+        /// Its place in the magazine.
+        pocket: u32 = "a whole number";
+    }
+}
+
+table! {
+    /// A work offset: program zero in machine coordinates.
+    WorkOffsetRow "[[work_offset]]" {
+        /// Its number; 1 is G54.
+        number: u32 = "a whole number above 0";
+        /// Along X, mm.
+        x: f64 = "a number";
+        /// Along Y, mm.
+        y: f64 = "a number";
+        /// Along Z, mm.
+        z: f64 = "a number";
+        /// About X, degrees.
+        a: f64 = "a number";
+        /// About Y, degrees.
+        b: f64 = "a number";
+        /// About Z, degrees.
+        c: f64 = "a number";
+    }
+}
+
+table! {
+    /// An M code that this machine has and its dialect has not. It is carried from one machine to
+    /// another where both name the same function.
+    MCodeRow "[[m_code]]" {
+        /// The code as it is written.
+        code: String = "`M` and a number";
+        /// Its function, the same word on every machine: `chip-conveyor-on`.
+        function: String = "small letters, digits and hyphens";
+        /// Seconds that it takes.
+        seconds: f64 = "a number from 0";
+    }
+}
+
+table! {
+    /// How programs for this machine are written.
+    Emit "[emit]" {
+        /// Whether blanks stand between words.
+        blanks: bool = "`true`, `false`";
+        /// Block numbers.
+        block_numbers: BlockNumbers = "`off`, `keep`, `new`";
+        /// The first of new block numbers.
+        first_number: u32 = "a whole number";
+        /// The step of new block numbers.
+        number_step: u32 = "a whole number above 0";
+        /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and told.
+        decimals: u32 = "a whole number";
+        /// The same, of lengths in inches.
+        decimals_inch: u32 = "a whole number";
+        /// Line ends.
+        line_ends: LineEnds = "`keep`, `lf`, `crlf`";
+        /// Characters.
+        characters: Characters = "`capitals`, `ascii`, `latin1`, `utf8`";
+        /// Lines of comment at the beginning, after the one that ncc writes.
+        header: Vec<String> = "a list of texts";
+        /// Lines of comment before the end of the program.
+        footer: Vec<String> = "a list of texts";
+        /// Whether a tool is selected and changed in one block or in two.
+        tool_change: ToolChangeForm = "`one-block`, `two-blocks`";
+        /// What a file is named by, where `-o` names a folder.
+        file_name: FileName = "`source`, `program-number`";
+        /// Extension of files, without the dot.
+        extension: String = "letters and digits";
+        /// Whether names of files are in capitals.
+        upper_case: bool = "`true`, `false`";
+    }
+}

@@ -1,0 +1,135 @@
+//! What is wrong with a profile, typed, with its place in the file. The words are the command
+//! line's.
+
+use std::ops::Range;
+
+/// A fault of a profile.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProfileError {
+    /// What it is.
+    pub wrong: Wrong,
+    /// Where, in bytes of the file.
+    pub span: Range<usize>,
+    /// Another place that belongs to it.
+    pub related: Option<Range<usize>>,
+}
+
+impl ProfileError {
+    /// A fault at one place.
+    pub fn new(wrong: Wrong, span: Range<usize>) -> ProfileError {
+        ProfileError { wrong, span, related: None }
+    }
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Wrong {
+    /// Not the form of a profile: not TOML, a key that there is not, a value of another kind.
+    Form {
+        /// What the reader of the form says.
+        message: String,
+    },
+    /// No dialect of that name.
+    UnknownDialect {
+        /// The name.
+        name: String,
+    },
+    /// The dictionary has no such option.
+    UnknownOption {
+        /// The option.
+        option: String,
+        /// Those that it has.
+        has: Vec<String>,
+    },
+    /// The option takes other values.
+    OptionValue {
+        /// The option.
+        option: String,
+        /// The value.
+        value: String,
+        /// What it takes; empty if any number.
+        takes: Vec<String>,
+    },
+    /// The dictionary has no such row, and there is no such reading of it.
+    UnknownRow {
+        /// The row.
+        row: String,
+    },
+    /// An axis, a tool, a work offset or a code twice.
+    Twice {
+        /// What stands twice.
+        what: String,
+    },
+    /// The lower end of a travel is not below the upper one.
+    UpsideDown,
+    /// A value that its key does not take.
+    Takes {
+        /// The key.
+        key: &'static str,
+        /// What it takes.
+        takes: &'static str,
+    },
+    /// A key without which the table says nothing.
+    Missing {
+        /// The key.
+        key: &'static str,
+        /// Why.
+        why: &'static str,
+    },
+    /// An M code that the dialect has.
+    CodeKnown {
+        /// The code.
+        code: String,
+        /// What it means there, or the name by which it is refused.
+        means: String,
+    },
+    /// Two codes for one function: which of them would be written?
+    NotOneToOne {
+        /// The function.
+        function: String,
+    },
+    /// More digits than the control has.
+    TooFine {
+        /// The key.
+        key: &'static str,
+        /// How many it has.
+        most: u8,
+    },
+    /// A choice for emitted programs that the dialect has no form for.
+    NoForm {
+        /// The key.
+        key: &'static str,
+        /// What the dialect does not have.
+        lacks: &'static str,
+    },
+    /// A key that is reserved and means nothing yet.
+    NotYet {
+        /// The key.
+        key: &'static str,
+    },
+}
+
+impl Wrong {
+    /// The number of its stable code: 701 is `NC0701`.
+    pub const fn code(&self) -> u16 {
+        match self {
+            Wrong::Form { .. } => 701,
+            Wrong::UnknownDialect { .. } => 702,
+            Wrong::UnknownOption { .. } => 703,
+            Wrong::OptionValue { .. } => 704,
+            Wrong::UnknownRow { .. } => 705,
+            Wrong::Twice { .. } => 706,
+            Wrong::UpsideDown => 707,
+            Wrong::Takes { .. } => 708,
+            Wrong::Missing { .. } => 709,
+            Wrong::CodeKnown { .. } => 710,
+            Wrong::NotOneToOne { .. } => 711,
+            Wrong::TooFine { .. } => 712,
+            Wrong::NoForm { .. } => 713,
+            Wrong::NotYet { .. } => 714,
+        }
+    }
+
+    /// Every code.
+    pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713, 714];
+}
