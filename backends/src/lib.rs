@@ -7,6 +7,7 @@
 //! Not here: reading, passes, verification, file access, printing.
 
 pub mod canon;
+mod characters;
 pub mod ir;
 pub mod siemens;
 pub mod word;
@@ -23,6 +24,39 @@ pub struct Layout {
     pub numbering: Numbering,
     /// Windows line ends.
     pub crlf: bool,
+}
+
+/// A shop's choices for the form of emitted programs, besides those that are rows of a dictionary.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Form {
+    /// Characters of the text.
+    pub characters: Characters,
+    /// Blocks of a tool change.
+    pub tool_change: ToolChange,
+}
+
+/// Characters of an emitted program.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Characters {
+    /// All, as UTF-8.
+    #[default]
+    All,
+    /// ASCII; letters of other alphabets are transliterated.
+    Ascii,
+    /// ISO 8859-1; what it does not have is transliterated.
+    Latin1,
+}
+
+/// Blocks of a tool change.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ToolChange {
+    /// As in the source.
+    #[default]
+    Kept,
+    /// Selection and change in one block, where the change follows directly.
+    OneBlock,
+    /// The change in a block of its own.
+    TwoBlocks,
 }
 
 /// Block numbers of an emitted program.

@@ -6,10 +6,16 @@ use ncc_ir::diag::Diagnostic;
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Procedure, Stmt};
 
-use crate::{Head, Layout, canon, ir, siemens, word};
+use crate::characters::encode;
+use crate::{Characters, Form, Head, Layout, canon, ir, siemens, word};
 
 /// A writer of any dialect.
-pub enum Writer {
+pub struct Writer {
+    kind: Kind,
+    characters: Characters,
+}
+
+enum Kind {
     /// Letters and numbers.
     Word(Box<word::Writer>),
     /// The canonical functions.
@@ -23,73 +29,93 @@ pub enum Writer {
 impl Writer {
     /// A writer at the start of a program.
     pub fn new(settings: Settings, layout: Layout) -> Writer {
-        match settings.dialect.family {
-            Family::Word => Writer::Word(Box::new(word::Writer::new(settings, layout))),
-            Family::Canon => Writer::Canon(Box::new(canon::Writer::new(settings, layout))),
-            Family::Ir => Writer::Ir(Box::new(ir::Writer::new(settings, layout))),
-            Family::Sinumerik => Writer::Siemens(Box::new(siemens::Writer::new(settings, layout))),
+        let kind = match settings.dialect.family {
+            Family::Word => Kind::Word(Box::new(word::Writer::new(settings, layout))),
+            Family::Canon => Kind::Canon(Box::new(canon::Writer::new(settings, layout))),
+            Family::Ir => Kind::Ir(Box::new(ir::Writer::new(settings, layout))),
+            Family::Sinumerik => Kind::Siemens(Box::new(siemens::Writer::new(settings, layout))),
+        };
+        Writer { kind, characters: Characters::All }
+    }
+
+    /// Takes a shop's choices for the form of the text, before anything is written.
+    pub fn set_form(&mut self, form: Form) {
+        self.characters = form.characters;
+        match &mut self.kind {
+            Kind::Word(writer) => writer.set_form(form),
+            Kind::Siemens(writer) => writer.set_form(form),
+            // A call a line: there are no blocks to choose.
+            Kind::Canon(_) | Kind::Ir(_) => {}
         }
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
-        match self {
-            Writer::Word(writer) => writer.stand_at(start),
-            Writer::Siemens(writer) => writer.stand_at(start),
-            Writer::Canon(writer) => writer.stand_at(start),
+        match &mut self.kind {
+            Kind::Word(writer) => writer.stand_at(start),
+            Kind::Siemens(writer) => writer.stand_at(start),
+            Kind::Canon(writer) => writer.stand_at(start),
             // The text form names no position that the program does not.
-            Writer::Ir(_) => {}
+            Kind::Ir(_) => {}
         }
     }
 
     /// Writes further statements of the main procedure. `assumed` are the facts taken for granted
     /// so far.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        match self {
-            Writer::Word(writer) => writer.write(stmts, assumed, out, diags),
-            Writer::Siemens(writer) => writer.write(stmts, assumed, out, diags),
-            Writer::Canon(writer) => writer.write(stmts, assumed, out, diags),
-            Writer::Ir(writer) => writer.write(stmts, assumed, out, diags),
+        let start = out.len();
+        match &mut self.kind {
+            Kind::Word(writer) => writer.write(stmts, assumed, out, diags),
+            Kind::Siemens(writer) => writer.write(stmts, assumed, out, diags),
+            Kind::Canon(writer) => writer.write(stmts, assumed, out, diags),
+            Kind::Ir(writer) => writer.write(stmts, assumed, out, diags),
         }
+        encode(out, start, self.characters);
     }
 
     /// Writes a subprogram, after all of the main procedure.
     pub fn procedure(&mut self, procedure: &Procedure, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        match self {
-            Writer::Word(writer) => writer.procedure(procedure, out, diags),
-            Writer::Siemens(writer) => writer.procedure(procedure, out, diags),
-            Writer::Canon(writer) => writer.procedure(procedure, out, diags),
-            Writer::Ir(writer) => writer.procedure(procedure, out, diags),
+        let start = out.len();
+        match &mut self.kind {
+            Kind::Word(writer) => writer.procedure(procedure, out, diags),
+            Kind::Siemens(writer) => writer.procedure(procedure, out, diags),
+            Kind::Canon(writer) => writer.procedure(procedure, out, diags),
+            Kind::Ir(writer) => writer.procedure(procedure, out, diags),
         }
+        encode(out, start, self.characters);
     }
 
     /// Writes the end of the text.
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        match self {
-            Writer::Word(writer) => writer.finish(out, diags),
-            Writer::Siemens(writer) => writer.finish(out, diags),
-            Writer::Canon(writer) => writer.finish(out, diags),
-            Writer::Ir(writer) => writer.finish(out, diags),
+        let start = out.len();
+        match &mut self.kind {
+            Kind::Word(writer) => writer.finish(out, diags),
+            Kind::Siemens(writer) => writer.finish(out, diags),
+            Kind::Canon(writer) => writer.finish(out, diags),
+            Kind::Ir(writer) => writer.finish(out, diags),
         }
+        encode(out, start, self.characters);
     }
 
     /// Writes what goes before all the rest: frame, name, comment.
     pub fn head(&self, head: &Head, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        match self {
-            Writer::Word(writer) => writer.head(head, out, diags),
-            Writer::Siemens(writer) => writer.head(head, out, diags),
-            Writer::Canon(writer) => writer.head(head, out, diags),
-            Writer::Ir(writer) => writer.head(head, out, diags),
+        let start = out.len();
+        match &self.kind {
+            Kind::Word(writer) => writer.head(head, out, diags),
+            Kind::Siemens(writer) => writer.head(head, out, diags),
+            Kind::Canon(writer) => writer.head(head, out, diags),
+            Kind::Ir(writer) => writer.head(head, out, diags),
         }
+        encode(out, start, self.characters);
     }
 
     /// Facts that the written text states by itself, once its first event is written.
     pub fn stated(&self) -> Modes {
-        match self {
-            Writer::Word(writer) => writer.stated(),
-            Writer::Siemens(writer) => writer.stated(),
-            Writer::Canon(writer) => writer.stated(),
-            Writer::Ir(writer) => writer.stated(),
+        match &self.kind {
+            Kind::Word(writer) => writer.stated(),
+            Kind::Siemens(writer) => writer.stated(),
+            Kind::Canon(writer) => writer.stated(),
+            Kind::Ir(writer) => writer.stated(),
         }
     }
 }

@@ -26,13 +26,13 @@ use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
-use crate::Layout;
 use crate::word;
 use crate::word::Sink;
 use crate::word::block::{Need, Part, Rank};
 use crate::word::codes::Letter;
 use crate::word::modes::cannot;
 use crate::word::number::{self, Format, Shaped};
+use crate::{Form, Layout};
 use names::Names;
 
 /// Whether the text has a cycle in force for the blocks that follow.
@@ -126,6 +126,11 @@ impl Writer {
         self.words.stand_at(start);
     }
 
+    /// Takes a shop's choices for the form of the text.
+    pub fn set_form(&mut self, form: Form) {
+        self.words.set_form(form);
+    }
+
     /// Facts that the written text states by itself, in its safe start line.
     pub fn stated(&self) -> Modes {
         self.words.stated()
@@ -141,10 +146,7 @@ impl Writer {
     fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let mut at = 0;
         while at < stmts.len() {
-            let mut end = at + 1;
-            while end < stmts.len() && stmts[end].joined {
-                end += 1;
-            }
+            let end = self.words.block_end(stmts, at);
             let block = &stmts[at..end];
             if !self.plain_block(block, sink) {
                 self.words.pass_on(sink.out);

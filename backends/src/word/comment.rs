@@ -96,7 +96,7 @@ fn cut(text: &str, longest: usize) -> (&str, Option<&str>) {
 
 /// What stands for a character that a control with capitals alone cannot show. Signs first, then
 /// Latin letters with accents (Latin-1, Latin Extended-A), Greek and Cyrillic.
-fn stand_in(c: char) -> &'static str {
+pub(crate) fn stand_in(c: char) -> &'static str {
     match c {
         '(' | '[' | '{' => "-",
         ')' | ']' | '}' => "",

@@ -8,7 +8,7 @@
 
 pub(crate) mod block;
 pub(crate) mod codes;
-mod comment;
+pub(crate) mod comment;
 mod cycles;
 mod force;
 mod frame;
@@ -27,7 +27,7 @@ use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use crate::{Layout, Numbering};
+use crate::{Form, Layout, Numbering, ToolChange};
 use block::{Block, Need};
 use codes::Codes;
 use comment::Comments;
@@ -107,6 +107,8 @@ pub struct Writer {
     /// Words of plain moves that the tracker has not been told of yet, and which axes they name.
     last_words: [Num; AXES],
     named: u8,
+    /// Blocks of a tool change.
+    pub(crate) tool_change: ToolChange,
 }
 
 impl Writer {
@@ -156,6 +158,7 @@ impl Writer {
             filled: 0,
             last_words: [Num::int(0, Unit::Mm); AXES],
             named: 0,
+            tool_change: ToolChange::Kept,
         }
     }
 
@@ -165,6 +168,11 @@ impl Writer {
         let mut sink = Sink { out, diags };
         self.take_for_granted(assumed);
         self.body(stmts, &mut sink);
+    }
+
+    /// Takes a shop's choices for the form of the text.
+    pub fn set_form(&mut self, form: Form) {
+        self.tool_change = form.tool_change;
     }
 
     /// Facts that the written text states by itself, in its safe start line.
@@ -181,10 +189,7 @@ impl Writer {
     fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let mut at = 0;
         while at < stmts.len() {
-            let mut end = at + 1;
-            while end < stmts.len() && stmts[end].joined {
-                end += 1;
-            }
+            let end = self.block_end(stmts, at);
             let block = &stmts[at..end];
             if !self.plain_block(block, sink.out) {
                 self.pass_on(sink.out);
@@ -193,6 +198,28 @@ impl Writer {
             at = end;
         }
         self.pass_on(sink.out);
+    }
+
+    /// One past the last statement of the block that begins at `at`, by the form of a tool change.
+    pub(crate) fn block_end(&self, stmts: &[Stmt], at: usize) -> usize {
+        let mut end = at + 1;
+        while end < stmts.len() {
+            let (last, next) = (&stmts[end - 1], &stmts[end]);
+            let change = matches!((&last.op, &next.op), (Op::SelectTool(_), Op::ChangeTool));
+            let joined = match self.tool_change {
+                ToolChange::OneBlock if change => {
+                    let free = next.number.is_none() || self.numbering != Numbering::Keep;
+                    next.joined || free && last.skip == next.skip && last.comment.is_none()
+                }
+                ToolChange::TwoBlocks if change => false,
+                ToolChange::Kept | ToolChange::OneBlock | ToolChange::TwoBlocks => next.joined,
+            };
+            if !joined {
+                break;
+            }
+            end += 1;
+        }
+        end
     }
 
     /// Writes the statements of one block of the source.
