@@ -7,12 +7,22 @@
 //! Not here: reading programs, machine profiles as files, tables and pictures. No dialect's name.
 
 mod act;
+mod assumed;
 mod clock;
+mod fixed;
 mod ideal;
+mod junction;
+mod limits;
 mod machine;
 mod path;
+mod plan;
+mod profile;
+mod ramp;
+mod smooth;
 
 pub use act::{Act, Place};
-pub use clock::{Clock, Model, Timed};
+pub use assumed::{AssumedFact, Fact};
+pub use clock::{Clock, Model, Timed, UnknownModel};
 pub use machine::{AxisFacts, Machine, ToolChangeOn};
 pub use path::{Path, path};
+pub use profile::Profile;

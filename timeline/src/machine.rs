@@ -1,7 +1,7 @@
 //! What a model needs to know of a machine.
 //!
-//! Every fact may be unknown. A model that needs it takes a value for granted and says so; it is
-//! never filled in silently.
+//! Every fact may be unknown. A model that needs it takes a value for granted, which
+//! [`Machine::assumed`] lists; it is never filled in silently.
 
 use ncc_ir::canon::AXES;
 
@@ -29,6 +29,8 @@ pub struct Machine {
     pub spindle_max: Option<f64>,
     /// How far the path may leave a corner, mm; 0 is an exact stop in every corner.
     pub path_tolerance: Option<f64>,
+    /// Whether every move ends in a stop, in a straight line too: a control in exact-stop mode.
+    pub exact_stop: Option<bool>,
     /// Seconds that an M function takes besides what it does.
     pub m_function: Option<f64>,
     /// Least seconds of a block with a move: what the control needs to prepare the next one.

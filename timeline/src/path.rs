@@ -27,7 +27,8 @@ pub(crate) fn units(n: Nanos) -> f64 {
 }
 
 fn norm(v: [f64; 3]) -> f64 {
-    v[0].hypot(v[1]).hypot(v[2])
+    // Coordinates are below 1e10: no square can overflow, and `hypot` costs many times as much.
+    (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
 }
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
@@ -63,7 +64,7 @@ pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
             let arm =
                 |p: &[Nanos; AXES]| [units(p[f as usize] - centre[0]), units(p[s as usize] - centre[1])];
             let (a, b) = (arm(from), arm(&event.end));
-            let radius = a[0].hypot(a[1]);
+            let radius = (a[0] * a[0] + a[1] * a[1]).sqrt();
             let angle = (b[1].atan2(b[0]) - a[1].atan2(a[0])).rem_euclid(std::f64::consts::TAU);
             let sweep = match turn {
                 _ if *full => std::f64::consts::TAU,
@@ -80,7 +81,7 @@ pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
                 unit(v)
             };
             Path {
-                length: (radius * sweep).hypot(rise),
+                length: ((radius * sweep) * (radius * sweep) + rise * rise).sqrt(),
                 change,
                 heading_from: heading(a),
                 heading_to: heading(b),

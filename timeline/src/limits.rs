@@ -1,0 +1,215 @@
+//! What a machine allows along a move: speed, acceleration, and how long acceleration takes to build.
+//!
+//! A move has one direction in the space of all axes, and each axis bears its share of it: along a
+//! unit direction `u`, no axis exceeds its limit while `v ≤ limit / |u|` for each. So do the planners
+//! of public controls (grbl 1.1, `nuts_bolts.c`, `limit_value_by_axis_maximum`). Lengths are those of
+//! the linear axes, as feeds are; a rotary axis has a share in degrees a millimetre.
+//!
+//! An arc is one move with a curvature: each axis of its plane bears the whole of the speed and of
+//! the acceleration at some point of a circle, so the weaker one counts, for the centripetal
+//! acceleration `v² / r` too. That and the acceleration along the path are not added up.
+
+use ncc_ir::canon::AXES;
+use ncc_ir::exec::Kind;
+
+use crate::act::Act;
+use crate::machine::Machine;
+use crate::path::{Path, path, units};
+
+/// Seconds in a minute.
+const MINUTE: f64 = 60.0;
+
+/// What a planner must know of a move, or of a function that is over in no time: then there is no
+/// length and no limit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leg {
+    /// mm; degrees of a move of rotary axes alone.
+    pub(crate) length: f64,
+    /// Highest speed, mm/s.
+    pub(crate) speed: f64,
+    /// Along the path, mm/s².
+    pub(crate) acceleration: f64,
+    /// What the speed changes by while acceleration is built up and taken back, mm/s: a²/jerk. 0 where
+    /// acceleration is there at once.
+    pub(crate) softness: f64,
+    /// Square of the highest speed at its start, (mm/s)².
+    pub(crate) cap: f64,
+}
+
+impl Leg {
+    /// A function between moves that takes no time and stops nothing.
+    pub(crate) const INSTANT: Leg =
+        Leg { length: 0.0, speed: f64::INFINITY, acceleration: 1.0, softness: 0.0, cap: f64::INFINITY };
+
+    /// What the square of the speed may change by on it, (mm/s)².
+    pub(crate) fn gain(&self) -> f64 {
+        2.0 * self.acceleration * self.length
+    }
+}
+
+/// Direction of a path at a point, in the space of all axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Heading {
+    /// Of length 1.
+    pub(crate) unit: [f64; AXES],
+    /// Speed in that space for each unit of speed along the path: 1 where no rotary axis moves.
+    pub(crate) stretch: f64,
+}
+
+/// What a move is at its junctions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shape {
+    /// A straight line.
+    Straight,
+    /// An arc.
+    Bent,
+    /// Rotary axes alone: its speed is in degrees a second.
+    Turning,
+}
+
+/// A move with its limits; the cap of its start is not known yet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Move {
+    pub(crate) leg: Leg,
+    pub(crate) shape: Shape,
+    /// Direction at the start, and at the end.
+    pub(crate) headings: [Heading; 2],
+}
+
+/// A machine's limits, prepared: what a share is multiplied by, 0 where there is no limit.
+#[derive(Clone, Debug)]
+pub(crate) struct Limits {
+    rapid: [f64; AXES],
+    feed: [f64; AXES],
+    acceleration: [f64; AXES],
+    /// Seconds in which each axis builds up its acceleration.
+    build_up: [f64; AXES],
+    rapid_line: f64,
+    most_feed: f64,
+    block: f64,
+}
+
+impl Limits {
+    /// Of a machine; `soft` where jerk counts.
+    pub(crate) fn new(machine: &Machine, soft: bool) -> Limits {
+        let inverse = |limit: Option<f64>, unit: f64| limit.map_or(0.0, |limit| unit / limit);
+        let rapid = machine.axes.map(|axis| inverse(axis.rapid_rate, MINUTE));
+        Limits {
+            // An axis is no faster at feed than in a rapid.
+            feed: std::array::from_fn(|i| rapid[i].max(inverse(machine.axes[i].max_feed, MINUTE))),
+            acceleration: machine.axes.map(|axis| inverse(axis.acceleration, 1.0)),
+            build_up: machine.axes.map(|axis| match (axis.acceleration, axis.jerk) {
+                (Some(acceleration), Some(jerk)) if soft => acceleration / jerk,
+                _ => 0.0,
+            }),
+            rapid,
+            rapid_line: machine.rapid_rate.map_or(f64::INFINITY, |rate| rate / MINUTE),
+            most_feed: machine.max_feed.map_or(f64::INFINITY, |rate| rate / MINUTE),
+            block: machine.block.unwrap_or(0.0),
+        }
+    }
+
+    /// The greatest acceleration along a direction of all axes, its length 1.
+    pub(crate) fn acceleration(&self, unit: &[f64; AXES]) -> f64 {
+        1.0 / load(unit, &self.acceleration)
+    }
+
+    /// A move, if it is one and goes anywhere.
+    pub(crate) fn movement(&self, act: &Act) -> Option<Move> {
+        let rapid = match &act.event.kind {
+            Kind::Traverse => true,
+            Kind::Feed | Kind::Arc { .. } => false,
+            Kind::Dwell(_)
+            | Kind::ToolChange
+            | Kind::Coolant
+            | Kind::ProgramStop
+            | Kind::OptionalProgramStop
+            | Kind::ProgramEnd
+            | Kind::TextEnd
+            | Kind::Message(_)
+            | Kind::Attribute(_) => return None,
+        };
+        let way = path(&act.event, &act.from);
+        if way.length <= 0.0 {
+            return None;
+        }
+        let arc = match &act.event.kind {
+            Kind::Arc { plane, .. } => {
+                let (f, s, n) = plane.axes();
+                Some([f as usize, s as usize, n as usize])
+            }
+            _ => None,
+        };
+        let turns = (3..AXES).any(|i| way.change[i] != 0.0);
+        let shares = shares(&way, arc, turns);
+        let wanted = match units(act.event.rate) {
+            _ if rapid => self.rapid_line,
+            rate if rate > 0.0 => self.most_feed.min(rate / MINUTE),
+            _ => self.most_feed,
+        };
+        let mut speed = wanted.min(1.0 / load(&shares, if rapid { &self.rapid } else { &self.feed }));
+        if let Some([f, s, _]) = arc {
+            let inward = 1.0 / self.acceleration[f].max(self.acceleration[s]);
+            speed = speed.min((inward * way.radius).sqrt() / shares[f]);
+        }
+        if self.block > 0.0 {
+            // A control that needs so long for a block feeds no faster than blocks come.
+            speed = speed.min(way.length / self.block);
+        }
+        let acceleration = 1.0 / load(&shares, &self.acceleration);
+        // The slowest axis that moves sets the time in which acceleration is built up.
+        let build_up =
+            (0..AXES).filter(|i| shares[*i] > 0.0).fold(0.0, |most: f64, i| most.max(self.build_up[i]));
+        let leg =
+            Leg { length: way.length, speed, acceleration, softness: acceleration * build_up, cap: 0.0 };
+        let linear = way.change[..3].iter().any(|change| *change != 0.0) || arc.is_some();
+        let shape = match (linear, arc) {
+            (false, _) => Shape::Turning,
+            (true, None) => Shape::Straight,
+            (true, Some(_)) => Shape::Bent,
+        };
+        let rotary = (turns && linear).then(|| [3, 4, 5].map(|i: usize| way.change[i] / way.length));
+        let headings = [heading(way.heading_from, rotary), heading(way.heading_to, rotary)];
+        Some(Move { leg, shape, headings })
+    }
+}
+
+/// The largest part of its limit that an axis bears; its inverse is the limit along the direction.
+fn load(shares: &[f64; AXES], inverse_limits: &[f64; AXES]) -> f64 {
+    let mut most = 0.0;
+    for (share, inverse) in shares.iter().zip(inverse_limits) {
+        let load = share.abs() * inverse;
+        if load > most {
+            most = load;
+        }
+    }
+    most
+}
+
+/// What each axis moves for a unit of length, at most.
+fn shares(way: &Path, arc: Option<[usize; 3]>, turns: bool) -> [f64; AXES] {
+    let each = 1.0 / way.length;
+    let mut shares =
+        [way.change[0].abs() * each, way.change[1].abs() * each, way.change[2].abs() * each, 0.0, 0.0, 0.0];
+    if turns {
+        for (share, change) in shares.iter_mut().zip(&way.change).skip(3) {
+            *share = change.abs() * each;
+        }
+    }
+    if let Some([f, s, n]) = arc {
+        let round = way.radius * way.sweep * each;
+        (shares[f], shares[s], shares[n]) = (round, round, way.change[n].abs() * each);
+    }
+    shares
+}
+
+fn heading(linear: [f64; 3], rotary: Option<[f64; 3]>) -> Heading {
+    let [x, y, z] = linear;
+    match rotary {
+        None => Heading { unit: [x, y, z, 0.0, 0.0, 0.0], stretch: 1.0 },
+        Some([a, b, c]) => {
+            let stretch = (1.0 + a * a + b * b + c * c).sqrt();
+            Heading { unit: [x, y, z, a, b, c].map(|u| u / stretch), stretch }
+        }
+    }
+}

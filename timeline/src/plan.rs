@@ -1,0 +1,138 @@
+//! Look-ahead over the whole path with constant acceleration.
+//!
+//! In terms of the squared speed, a leg of length `s` at acceleration `a` can change it by `2as` and no
+//! more. The fastest plan under the caps of all junctions is known: forwards, the square at a junction
+//! is at most the one before plus the gain between, and at most its cap; backwards likewise from the
+//! stop at the end. Here the backward pass is done piece by piece, and comes to the same as if the
+//! whole path were known: a junction is settled as soon as the path known after it is long enough
+//! to stop from the highest speed that the forward pass gives it. What may still come can then only be
+//! faster than a stop. So the queue is no longer than the path in which the machine can stop.
+//!
+//! Each leg is touched once by each pass. The last settled junction is found by keeping candidates:
+//! junction `j` is settled when `forward(j) + gains before j` is at most the sum of all gains; one that
+//! comes later with a smaller sum is settled before all that are larger and earlier, which then need
+//! not be kept.
+
+use std::collections::VecDeque;
+
+use crate::limits::Leg;
+use crate::profile::Profile;
+
+/// Sum of gains from which it is counted anew, so that it keeps its digits.
+const RECOUNT: f64 = 1e9;
+
+/// A leg with the squared speed at its start: by the forward pass, later settled.
+#[derive(Clone, Copy, Debug)]
+struct Planned {
+    leg: Leg,
+    gain: f64,
+    entry: f64,
+}
+
+/// A junction that may be settled.
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    /// The leg that starts there, counted from the start of the path.
+    leg: u64,
+    /// Settled when all gains come to this.
+    at: f64,
+}
+
+/// The legs whose speeds are not certain yet.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Plan {
+    legs: VecDeque<Planned>,
+    /// Number of the first of them.
+    first: u64,
+    candidates: VecDeque<Candidate>,
+    /// Gains of all legs since the count began.
+    gains: f64,
+}
+
+impl Plan {
+    /// Takes a leg; gives the profiles of those that are certain now.
+    pub(crate) fn push(&mut self, leg: Leg, out: &mut impl FnMut(Profile)) {
+        let entry = match self.legs.back() {
+            None => 0.0,
+            Some(last) => leg.cap.min(last.entry + last.gain),
+        };
+        let candidate = Candidate { leg: self.first + self.legs.len() as u64, at: entry + self.gains };
+        while self.candidates.back().is_some_and(|other| other.at >= candidate.at) {
+            self.candidates.pop_back();
+        }
+        self.candidates.push_back(candidate);
+        let gain = leg.gain();
+        self.gains += gain;
+        self.legs.push_back(Planned { leg, gain, entry });
+        let mut settled = None;
+        while let Some(next) = self.candidates.front().filter(|next| next.at <= self.gains) {
+            settled = Some(next.leg);
+            self.candidates.pop_front();
+        }
+        if let Some(settled) = settled {
+            self.release((settled - self.first) as usize, out);
+        }
+        if self.gains > RECOUNT {
+            for candidate in &mut self.candidates {
+                candidate.at -= self.gains;
+            }
+            self.gains = 0.0;
+        }
+    }
+
+    /// The path ends in a stop: all the rest is certain.
+    pub(crate) fn stop(&mut self, out: &mut impl FnMut(Profile)) {
+        let leg = Leg::INSTANT;
+        self.legs.push_back(Planned { leg, gain: 0.0, entry: 0.0 });
+        self.release(self.legs.len() - 1, out);
+        self.legs.clear();
+        self.candidates.clear();
+        (self.first, self.gains) = (0, 0.0);
+    }
+
+    /// Gives the legs before one whose entry is settled.
+    fn release(&mut self, settled: usize, out: &mut impl FnMut(Profile)) {
+        let Some(last) = self.legs.get(settled) else { return };
+        let mut exit = last.entry;
+        for planned in self.legs.range_mut(..settled).rev() {
+            exit = planned.entry.min(exit + planned.gain);
+            planned.entry = exit;
+        }
+        let Some(mut this) = self.legs.front().copied() else { return };
+        let mut entry = this.entry.sqrt();
+        for _ in 0..settled {
+            self.legs.pop_front();
+            let Some(next) = self.legs.front().copied() else { return };
+            let exit = next.entry.sqrt();
+            out(ramps(&this, next.entry, [entry, exit]));
+            (this, entry) = (next, exit);
+        }
+        self.first += settled as u64;
+    }
+}
+
+/// The fastest way through a leg; `exit` is the square of the second of the speeds at its ends.
+fn ramps(planned: &Planned, exit: f64, [from, to]: [f64; 2]) -> Profile {
+    let Leg { length, speed, acceleration, .. } = planned.leg;
+    if length <= 0.0 {
+        return Profile::default();
+    }
+    let entry = planned.entry;
+    let top = ((entry + exit + planned.gain) / 2.0).max(entry).max(exit);
+    let most = speed * speed;
+    if top <= most {
+        // Never at a constant speed.
+        let peak = top.sqrt();
+        let (up, down) = ((peak - from) / acceleration, (peak - to) / acceleration);
+        return Profile { entry: from, peak, exit: to, t_accel: up, t_cruise: 0.0, t_decel: down };
+    }
+    let rest = length - (2.0 * most - entry - exit) / (2.0 * acceleration);
+    Profile {
+        entry: from,
+        peak: speed,
+        exit: to,
+        t_accel: (speed - from) / acceleration,
+        t_cruise: rest.max(0.0) / speed,
+        t_decel: (speed - to) / acceleration,
+    }
+}

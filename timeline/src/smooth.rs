@@ -1,0 +1,259 @@
+//! Look-ahead with limited jerk.
+//!
+//! Ramps are S-curves that begin and end without acceleration, but one ramp goes on over as many moves
+//! as it needs: a line in short pieces is as fast as in one. Acceleration is zero at *nodes*: at
+//! the junctions whose cap is reached, and at stops. A junction is a node unless the cap of another one
+//! cannot be reached from it, or it from the other, by an S-curve along the path between; that is the
+//! two passes of the trapezoidal plan with another law of reach. Nodes known so far are a stack: a
+//! junction that has to be braked for takes those away that lie too near before it. The lowest
+//! node is settled when the path known after it is long enough to stop; then the moves before are
+//! certain.
+//!
+//! Between two nodes the speed goes up, along and down. Where it would be over the limit of a move or a
+//! junction on the way, the lowest such limit is held there, and both sides are looked at again.
+//!
+//! Where moves differ in softness, a ramp is as soft as the softest of its moves.
+
+use std::collections::VecDeque;
+
+use crate::limits::Leg;
+use crate::profile::Profile;
+use crate::ramp::{Curve, gain};
+
+/// Gain from which it is counted anew, so that it keeps its digits.
+const RECOUNT: f64 = 1e9;
+/// What a limit may be over by: digits.
+const DIGITS: f64 = 1e-9;
+/// Limits to be held between two nodes; more than these are let go by. Each level halves the rest.
+const DEEPEST: u32 = 64;
+
+/// A junction whose cap is the speed, or the start of the path.
+#[derive(Clone, Copy, Debug)]
+struct Node {
+    /// Number of the leg that starts there.
+    leg: u64,
+    /// Gain up to there.
+    at: f64,
+    speed: f64,
+    /// Greatest softness from here to the next node.
+    softness: f64,
+}
+
+/// A cap that may keep later junctions from being reached.
+#[derive(Clone, Copy, Debug)]
+struct Source {
+    at: f64,
+    speed: f64,
+    softness: f64,
+}
+
+/// The legs whose speeds are not certain yet.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Smooth {
+    legs: VecDeque<Leg>,
+    /// Number of the first.
+    first: u64,
+    nodes: VecDeque<Node>,
+    sources: Vec<Source>,
+    /// Gain of all legs.
+    gains: f64,
+    /// Greatest softness since the last stop.
+    softness: f64,
+    curves: Vec<Curve>,
+}
+
+impl Smooth {
+    /// Takes a leg; gives the profiles of those that are certain now.
+    pub(crate) fn push(&mut self, leg: Leg, out: &mut impl FnMut(Profile)) {
+        let number = self.first + self.legs.len() as u64;
+        if self.legs.is_empty() {
+            self.nodes.push_back(Node { leg: number, at: self.gains, speed: 0.0, softness: 0.0 });
+            self.sources.push(Source { at: self.gains, speed: 0.0, softness: 0.0 });
+        } else if leg.cap.is_finite() {
+            self.junction(number, leg.cap.sqrt());
+        }
+        self.legs.push_back(leg);
+        self.gains += leg.gain();
+        self.softness = self.softness.max(leg.softness);
+        for source in &mut self.sources {
+            source.softness = source.softness.max(leg.softness);
+        }
+        if let Some(node) = self.nodes.back_mut() {
+            node.softness = node.softness.max(leg.softness);
+        }
+        while let Some(next) = self.nodes.get(1).copied() {
+            if gain(0.0, next.speed, self.softness) > self.gains - next.at {
+                break;
+            }
+            self.release(out);
+        }
+        if self.gains > RECOUNT {
+            let base = self.nodes.front().map_or(self.gains, |node| node.at);
+            self.nodes.iter_mut().for_each(|node| node.at -= base);
+            self.sources.iter_mut().for_each(|source| source.at -= base);
+            self.gains -= base;
+        }
+    }
+
+    /// The path ends in a stop: all the rest is certain.
+    pub(crate) fn stop(&mut self, out: &mut impl FnMut(Profile)) {
+        if !self.legs.is_empty() {
+            self.junction(self.first + self.legs.len() as u64, 0.0);
+            while self.nodes.len() > 1 {
+                self.release(out);
+            }
+        }
+        let curves = std::mem::take(&mut self.curves);
+        *self = Smooth { curves, legs: std::mem::take(&mut self.legs), ..Smooth::default() };
+        self.legs.clear();
+    }
+
+    /// A junction with a cap, after all legs so far.
+    fn junction(&mut self, leg: u64, speed: f64) {
+        let here = self.gains;
+        // Sources that this cap is within the reach of count no more: it limits what follows better.
+        self.sources.retain(|source| {
+            speed > source.speed && gain(source.speed, speed, source.softness) > here - source.at
+        });
+        let reached = self.sources.is_empty();
+        self.sources.push(Source { at: here, speed, softness: 0.0 });
+        if !reached {
+            return;
+        }
+        while self.nodes.len() > 1 {
+            let Some(last) = self.nodes.back().copied() else { return };
+            if last.speed <= speed || gain(speed, last.speed, last.softness) <= here - last.at {
+                break;
+            }
+            self.nodes.pop_back();
+            if let Some(before) = self.nodes.back_mut() {
+                before.softness = before.softness.max(last.softness);
+            }
+        }
+        self.nodes.push_back(Node { leg, at: here, speed, softness: 0.0 });
+    }
+
+    /// Gives the legs between the first two nodes.
+    fn release(&mut self, out: &mut impl FnMut(Profile)) {
+        let (Some(from), Some(to)) = (self.nodes.pop_front(), self.nodes.front().copied()) else { return };
+        let count = (to.leg - from.leg) as usize;
+        let mut curves = std::mem::take(&mut self.curves);
+        curves.clear();
+        let span = Span { legs: &self.legs, count, softness: from.softness };
+        span.fit([0.0, to.at - from.at], [from.speed, to.speed], 0, &mut curves);
+        span.profiles(&curves, out);
+        self.curves = curves;
+        self.legs.drain(..count);
+        self.first += count as u64;
+    }
+}
+
+/// The legs between two nodes: the first of the queue.
+struct Span<'a> {
+    legs: &'a VecDeque<Leg>,
+    count: usize,
+    softness: f64,
+}
+
+/// A limit that a curve is over.
+#[derive(Clone, Copy)]
+struct Limit {
+    speed: f64,
+    /// Gains between which it holds.
+    from: f64,
+    to: f64,
+}
+
+impl Span<'_> {
+    /// Lays curves from one gain to another.
+    fn fit(&self, [a, b]: [f64; 2], [from, to]: [f64; 2], depth: u32, curves: &mut Vec<Curve>) {
+        let curve = Curve::new(from, to, b - a, self.softness);
+        let limit = match self.lowest_limit(&curve, a) {
+            Some(limit) if depth < DEEPEST && limit.speed >= from.max(to) => limit,
+            _ => return curves.push(curve),
+        };
+        let up = a + gain(from, limit.speed, self.softness);
+        let down = b - gain(limit.speed, to, self.softness);
+        if up > down {
+            return curves.push(curve);
+        }
+        // The limit is held where it holds, and where the ramps to it end beyond that.
+        let (mut left, mut right) = (up.max(limit.from), down.min(limit.to));
+        if left > right {
+            left = if up > limit.to { up } else { down };
+            right = left;
+        }
+        self.fit([a, left], [from, limit.speed], depth + 1, curves);
+        if right > left {
+            curves.push(Curve::level(limit.speed, right - left));
+        }
+        self.fit([right, b], [limit.speed, to], depth + 1, curves);
+    }
+
+    /// The lowest limit that a curve from a gain on is over.
+    fn lowest_limit(&self, curve: &Curve, start: f64) -> Option<Limit> {
+        let end = start + curve.whole();
+        let mut found: Option<Limit> = None;
+        let mut at = 0.0;
+        for (i, leg) in self.legs.iter().take(self.count).enumerate() {
+            let (from, to) = (at, at + leg.gain());
+            at = to;
+            if to <= start || from >= end || leg.length <= 0.0 {
+                continue;
+            }
+            let over = |speed: f64, limit: f64| speed > limit * (1.0 + DIGITS);
+            let mut limits = [None, None];
+            if i > 0 && from > start && over(curve.at(from - start).speed, leg.cap.sqrt()) {
+                limits[0] = Some(Limit { speed: leg.cap.sqrt(), from, to: from });
+            }
+            let (a, b) = (from.max(start), to.min(end));
+            if over(curve.highest(a - start, b - start), leg.speed) {
+                limits[1] = Some(Limit { speed: leg.speed, from: a, to: b });
+            }
+            for limit in limits.into_iter().flatten() {
+                if found.is_none_or(|other| limit.speed < other.speed) {
+                    found = Some(limit);
+                }
+            }
+        }
+        found
+    }
+
+    /// Gives each leg its part of the curves.
+    fn profiles(&self, curves: &[Curve], out: &mut impl FnMut(Profile)) {
+        let mut curves = curves.iter();
+        let Some(mut curve) = curves.next() else { return };
+        // How far along it; where that is.
+        let mut along = 0.0;
+        let mut at = curve.at(0.0);
+        for leg in self.legs.iter().take(self.count) {
+            let mut left = leg.gain();
+            let mut profile =
+                Profile { entry: at.speed, peak: at.speed, exit: at.speed, ..Profile::default() };
+            if leg.length <= 0.0 {
+                out(Profile::default());
+                continue;
+            }
+            loop {
+                let more = curve.whole() - along;
+                let whole = left >= more;
+                let to = if whole { curve.whole() } else { along + left };
+                let end = curve.at(to);
+                let seconds = |i: usize| (end.times[i] - at.times[i]).max(0.0) / (2.0 * leg.acceleration);
+                profile.t_accel += seconds(0);
+                profile.t_cruise += seconds(1);
+                profile.t_decel += seconds(2);
+                profile.peak = profile.peak.max(curve.highest(along, to));
+                (along, at) = (to, end);
+                left -= more;
+                if !whole {
+                    break;
+                }
+                let Some(next) = curves.next() else { break };
+                (curve, along, at) = (next, 0.0, next.at(0.0));
+            }
+            profile.exit = at.speed;
+            out(profile);
+        }
+    }
+}
