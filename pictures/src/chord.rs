@@ -1,0 +1,67 @@
+//! Arcs as chords, in the coordinates of the program.
+//!
+//! A function has its arc in machine coordinates. Between them and the program's lie shifts, and
+//! sometimes a turn and a scale, which show in how far the end lies from the start in both. A mirrored
+//! frame cannot be told from a turned one by that alone, so there an arc may be drawn on the wrong
+//! side; where nothing turns, nothing is taken for granted.
+
+use ncc_ir::canon::{AXES, Turn};
+use ncc_ir::exec::Kind;
+use ncc_ir::num::{Nanos, ONE};
+use ncc_timeline::{Act, path};
+
+/// Chords of a whole circle. They leave it by less than a sixth of a pixel where its radius is 500.
+const CHORDS: f64 = 128.0;
+
+/// X Y Z in mm.
+pub(crate) fn place(at: &[Nanos; AXES]) -> [f64; 3] {
+    [0, 1, 2].map(|i| at[i] as f64 / ONE as f64)
+}
+
+/// Where the chords of an arc end, and after which part of its time; the last is its end. Empty for
+/// what is no arc.
+pub(crate) fn chords(act: &Act) -> Vec<([f64; 3], f64)> {
+    let Kind::Arc { plane, turn, centre, .. } = &act.event.kind else { return Vec::new() };
+    let way = path(&act.event, &act.from);
+    let (first, second, normal) = plane.axes();
+    let [f, s, n] = [first, second, normal].map(|axis| axis as usize);
+    let from = place(&act.from);
+    let (start, end) = (place(&act.program_from), place(&act.program_to));
+    let centre = centre.map(|c| c as f64 / ONE as f64);
+    let arm = [from[f] - centre[0], from[s] - centre[1]];
+    let moved = [way.change[f], way.change[s]];
+    let said = [end[f] - start[f], end[s] - start[s]];
+    // The complex number that the machine's change is multiplied by to give the program's.
+    let size = moved[0] * moved[0] + moved[1] * moved[1];
+    let same = (moved[0] - said[0]).hypot(moved[1] - said[1]) < 1e-6;
+    let by = match size {
+        _ if same || size == 0.0 => [1.0, 0.0],
+        _ => [
+            (said[0] * moved[0] + said[1] * moved[1]) / size,
+            (said[1] * moved[0] - said[0] * moved[1]) / size,
+        ],
+    };
+    let times = |v: [f64; 2]| [v[0] * by[0] - v[1] * by[1], v[0] * by[1] + v[1] * by[0]];
+    let sense = if *turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
+    let count = (way.sweep / std::f64::consts::TAU * CHORDS).ceil().clamp(2.0, CHORDS) as usize;
+    // The end is not exactly on the circle, so what it is off is spread over the arc.
+    let to = place(&act.event.end);
+    let end_arm = [to[f] - centre[0], to[s] - centre[1]];
+    let (radius, end_radius) = (arm[0].hypot(arm[1]), end_arm[0].hypot(end_arm[1]));
+    let point = |i: usize| {
+        let part = i as f64 / count as f64;
+        if i == count {
+            return (end, 1.0);
+        }
+        let (sin, cos) = (sense * way.sweep * part).sin_cos();
+        let grown = if radius > 0.0 { 1.0 + part * (end_radius / radius - 1.0) } else { 1.0 };
+        let turned = [arm[0] * cos - arm[1] * sin, arm[0] * sin + arm[1] * cos].map(|v| v * grown);
+        let off = times([turned[0] - arm[0], turned[1] - arm[1]]);
+        let mut at = start;
+        at[f] += off[0];
+        at[s] += off[1];
+        at[n] += part * (end[n] - start[n]);
+        (at, part)
+    };
+    (1..=count).map(point).collect()
+}
