@@ -66,6 +66,8 @@ pub enum Verb {
     Translate(Box<Translate>),
     /// List the dialects, or show one: its words, options, sources
     Dialects(Dialects),
+    /// How long a program takes on a machine, and when everything in it happens
+    Time(Box<crate::time::args::Time>),
     /// List the rewriting passes, in the order in which they are run
     Passes,
     /// Explain a message by its code
@@ -291,7 +293,7 @@ fn verdicts() -> impl TypedValueParser<Value = Verdict> {
         .map(|name| Verdict::ALL.into_iter().find(|v| v.name() == name).unwrap_or(Verdict::Exact))
 }
 
-fn pair(text: &str) -> Result<(String, String), String> {
+pub(crate) fn pair(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.is_empty() && !value.is_empty() => {
             Ok((name.to_owned(), value.to_owned()))
@@ -313,7 +315,7 @@ fn numbering(text: &str) -> Result<Numbering, String> {
     every.ok_or_else(|| "write `off`, `keep`, or the first number and the step, such as 10:10".to_owned())
 }
 
-fn start(text: &str) -> Result<Start, String> {
+pub(crate) fn start(text: &str) -> Result<Start, String> {
     let mut start = [None; AXES];
     for word in text.split(',').map(str::trim) {
         let mut chars = word.chars();

@@ -65,6 +65,11 @@ fn spool(from: &mut dyn Read) -> io::Result<File> {
 }
 
 impl Source {
+    /// A file that nobody has named: an anonymous one, from its beginning.
+    pub(crate) fn of(file: File, name: &str) -> Source {
+        Source { file, shown: name.to_owned(), name: name.to_owned(), identity: None }
+    }
+
     /// Whether the path is this source.
     fn is(&self, path: &Path) -> bool {
         match (&self.identity, Handle::from_path(path)) {

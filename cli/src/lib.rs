@@ -22,5 +22,6 @@ pub mod report;
 pub mod rewrite;
 pub mod run;
 pub mod sugar;
+pub mod time;
 pub mod translate;
 mod verify_run;

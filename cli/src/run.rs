@@ -20,7 +20,7 @@ use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
-use crate::{arrow, dialects, explain, report, translate};
+use crate::{arrow, dialects, explain, report, time, translate};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -51,6 +51,13 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
             Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
         },
         Verb::Passes => print(&passes()),
+        Verb::Time(args) => {
+            let mut err = StandardStream::stderr(choice(args.color));
+            return match time::run(args, &known, &mut err) {
+                Ok(exit) => exit,
+                Err(problem) => fail(&problem, &mut err, false),
+            };
+        }
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),
             None => Err(Problem::usage(
@@ -148,7 +155,7 @@ fn translated(
         Some(name) if name != Path::new("-") => Destination::File(name.clone()),
         Some(_) | None => Destination::Stdout,
     };
-    let to = settings(known.dialect(&args.to)?, &args.to_option)?;
+    let to = settings(Settings::new(known.dialect(&args.to)?), &args.to_option)?;
     let named = if args.from == "auto" { None } else { Some(known.dialect(&args.from)?) };
     let mut source = files::open(path)?;
     match &destination {
@@ -166,7 +173,7 @@ fn translated(
     }
     let from = match named {
         Some(dialect) => dialect,
-        None => recognise(&mut source, args, known, err)?,
+        None => recognise(&mut source, !args.quiet && args.format == Format::Human, known, err)?,
     };
     let crlf = match args.eol {
         Eol::Lf => false,
@@ -174,7 +181,7 @@ fn translated(
         Eol::Keep => source.is_crlf()?,
     };
     let job = Job {
-        from: settings(from, &args.from_option)?,
+        from: settings(Settings::new(from), &args.from_option)?,
         to,
         layout: Layout { numbering: args.number, crlf },
         passes: args.pass.clone(),
@@ -264,16 +271,20 @@ fn say_where(to: &Dialect, job: &Job, shown: &str, format: Format, err: &mut dyn
     )
 }
 
-fn recognise(
+/// The dialect of a source, recognised; with `say`, tells by what.
+///
+/// # Errors
+/// It cannot be told for certain, or the source cannot be read.
+pub(crate) fn recognise(
     source: &mut Source,
-    args: &Translate,
+    say: bool,
     known: &Known,
     err: &mut StandardStream,
 ) -> Result<&'static Dialect, Problem> {
     let found = guess(&mut source.file, known.all()).map_err(|e| Problem::file("read", &source.shown, &e))?;
     match found {
         Guess::Sure(dialect, reasons) => {
-            if !args.quiet && args.format == Format::Human {
+            if say {
                 let _ = writeln!(err, "{}: read as {}: {}", source.shown, dialect.id, reasons.join(", "));
             }
             Ok(dialect)
@@ -298,8 +309,12 @@ fn passes() -> String {
     PASSES.iter().map(|pass| format!("{:wide$}  {}\n", pass.name, pass.about)).collect()
 }
 
-fn settings(dialect: &'static Dialect, chosen: &[(String, String)]) -> Result<Settings, Problem> {
-    let mut settings = Settings::new(dialect);
+/// Settings with what the user has chosen.
+///
+/// # Errors
+/// There is no such option, or it does not take the value.
+pub(crate) fn settings(mut settings: Settings, chosen: &[(String, String)]) -> Result<Settings, Problem> {
+    let dialect = settings.dialect;
     for (option, value) in chosen {
         settings.choose(option, value).map_err(|error| match error {
             SettingError::NoOption(option) => Problem::usage(

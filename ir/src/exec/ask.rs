@@ -4,7 +4,7 @@
 
 use super::holes::InForce;
 use super::{Exec, Length};
-use crate::canon::{AXES, Axis, Plane};
+use crate::canon::{AXES, Plane};
 use crate::expr::Expr;
 use crate::num::Nanos;
 use crate::program::Coord;
@@ -35,9 +35,9 @@ impl Exec {
         self.value(value, Span::default()).ok()
     }
 
-    /// Where a word puts an axis, in the program's coordinates.
-    pub fn word(&self, word: &Coord, axis: Axis) -> Option<Nanos> {
-        self.target(word, self.position[axis as usize], Span::default()).ok()
+    /// Where a word puts an axis that stands at `from`, in the program's coordinates.
+    pub fn word(&self, word: &Coord, from: Nanos) -> Option<Nanos> {
+        self.target(word, from, Span::default()).ok()
     }
 
     /// Plane of the cycle in force, its retract plane and the bottom of its holes, in the program's

@@ -1,0 +1,188 @@
+//! The command line of `ncc time`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use ncc_timeline::{Model, ToolChangeOn};
+
+use crate::args::{Color, Start, pair, start};
+
+const EXAMPLES: &str = "\
+Examples:
+  ncc time part.cn --machine romi-discovery-4022         how long, by tool and by operation
+  ncc time *.nc --from fanuc --machine M --as markdown   several programs, with totals
+  ncc time part.cn --machine M --as csv -o part.csv      every function with its time
+  ncc time part.cn --machine M --as payload              the same as a JSON document
+  ncc time part.cn --as payload --stage before           cycles as they are called, not made
+  ncc time part.cn --machine M --as tools -o tools.csv   what each tool does: ERP, setup sheet
+  ncc time --schema                                      JSON Schema of payload and ndjson
+
+What a machine does not state takes no time, and the summary says so. Nothing is printed of a
+program that cannot be executed; exit codes are those of `ncc --help`.";
+
+/// `ncc time`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Time {
+    /// The programs; `-` for stdin
+    #[arg(value_name = "FILE", required_unless_present = "schema")]
+    pub files: Vec<PathBuf>,
+    /// Dialect of the programs, or `auto` to recognise each [default: the machine's, else auto]
+    #[arg(long, value_name = "DIALECT", help_heading = "What is executed")]
+    pub from: Option<String>,
+    /// Decide a question that the dialect's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is executed")]
+    pub from_option: Vec<(String, String)>,
+    /// Where the tool stands before the first block, in program coordinates, mm and degrees:
+    /// `X-9,Y15.588,Z3` [default: program zero]
+    #[arg(
+        long,
+        value_name = "AXES",
+        value_parser = start,
+        allow_hyphen_values = true,
+        help_heading = "What is executed"
+    )]
+    pub start: Option<Start>,
+    /// Block-skip switches that are on, by level; the others are off
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        value_delimiter = ',',
+        value_parser = clap::value_parser!(u8).range(1..=10),
+        help_heading = "What is executed"
+    )]
+    pub skip: Vec<u8>,
+
+    /// The machine: a profile's name or file
+    #[arg(short, long, value_name = "MACHINE", help_heading = "How it is timed")]
+    pub machine: Option<String>,
+    /// How moves are timed: ideal (rates alone), trapezoidal (accelerations, look-ahead),
+    /// jerk-limited [default: ideal]
+    #[arg(
+        long,
+        value_name = "MODEL",
+        default_value = "ideal",
+        hide_default_value = true,
+        help_heading = "How it is timed"
+    )]
+    pub model: Model,
+    /// The function that takes the time of a tool change [default: the machine's]
+    #[arg(long, value_name = "select|change", value_parser = tool_change_on, help_heading = "How it is timed")]
+    pub tool_change_on: Option<ToolChangeOn>,
+    /// Seconds on the clock before the first block
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value = "0",
+        hide_default_value = true,
+        value_parser = seconds,
+        help_heading = "How it is timed"
+    )]
+    pub start_time: f64,
+
+    /// What is printed [default: summary]
+    #[arg(
+        long = "as",
+        value_name = "FORM",
+        value_enum,
+        default_value_t = Form::Summary,
+        hide_default_value = true,
+        help_heading = "How the result looks"
+    )]
+    pub form: Form,
+    /// Before processing, cycles and patterns are one block each; after, their moves [default: after]
+    #[arg(
+        long,
+        value_name = "before|after",
+        value_enum,
+        default_value_t = Stage::After,
+        hide_default_value = true,
+        hide_possible_values = true,
+        help_heading = "How the result looks"
+    )]
+    pub stage: Stage,
+    /// Write to this file instead of stdout; it appears whole or not at all
+    #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
+    pub output: Option<PathBuf>,
+    /// Print the JSON Schema of payload and ndjson, and nothing else
+    #[arg(long, help_heading = "How the result looks")]
+    pub schema: bool,
+
+    /// Say every assumption with its place, not only the account
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
+    pub verbose: bool,
+    /// Say errors only, and show no progress
+    #[arg(short, long, help_heading = "What is reported")]
+    pub quiet: bool,
+    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
+    #[arg(
+        long,
+        value_name = "auto|always|never",
+        value_enum,
+        default_value_t = Color::Auto,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "What is reported"
+    )]
+    pub color: Color,
+}
+
+/// What is printed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// Tables for people
+    Summary,
+    /// The summary, as JSON
+    Json,
+    /// The summary, as Markdown
+    Markdown,
+    /// The tools, as CSV
+    Tools,
+    /// Every function, as CSV
+    Csv,
+    /// Every function, as one JSON document
+    Payload,
+    /// Every function, as JSON, one a line
+    Ndjson,
+    /// The canonical functions, with times in comments
+    Canon,
+}
+
+impl Form {
+    /// Whether it can tell of several programs.
+    pub(super) fn takes_several(self) -> bool {
+        match self {
+            Form::Summary | Form::Json | Form::Markdown | Form::Tools => true,
+            Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => false,
+        }
+    }
+
+    /// Its name on the command line.
+    pub(super) fn name(self) -> String {
+        self.to_possible_value().map(|v| v.get_name().to_owned()).unwrap_or_default()
+    }
+}
+
+/// Stages of the case study's document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Stage {
+    /// As the program says it
+    Before,
+    /// As the machine does it
+    After,
+}
+
+fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {
+    match text {
+        "select" => Ok(ToolChangeOn::Select),
+        "change" => Ok(ToolChangeOn::Change),
+        _ => Err("it is `select` or `change`".to_owned()),
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds.is_finite() && (0.0..1e9).contains(&seconds) => Ok(seconds),
+        Ok(_) | Err(_) => Err("write seconds as a decimal, 0 or more".to_owned()),
+    }
+}

@@ -1,0 +1,86 @@
+//! What a timing takes for granted, in the few words of a summary.
+
+use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_timeline::AssumedFact;
+
+use super::drive::{Course, Plan};
+use super::duration::short;
+use crate::head::assumption;
+use crate::job::Job;
+
+/// Of the program and its control: what the front-end took for granted.
+pub(crate) fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
+    let dialects = [job.from.dialect, job.to.dialect];
+    let assumed = diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Verdict(Verdict::Assumed));
+    let mut lines: Vec<String> = Vec::new();
+    for line in assumed.filter_map(|d| assumption(&d.fault, dialects)) {
+        if !lines.contains(&line) {
+            lines.push(line);
+        }
+    }
+    lines
+}
+
+/// Of the run: where it starts, which switches are on, what has no place in it.
+pub(crate) fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
+    let mut lines = Vec::new();
+    let silent: Vec<String> = Axis::ALL
+        .into_iter()
+        .filter(|axis| {
+            plan.job.start[*axis as usize].is_none() && (!axis.is_rotary() || course.moved[*axis as usize])
+        })
+        .map(letter)
+        .collect();
+    if !silent.is_empty() {
+        lines.push(format!("the tool starts at program zero in {}", silent.join(" ")));
+    }
+    let off: Vec<String> = (1..16)
+        .filter(|level| course.skip_levels >> level & 1 == 1 && plan.skip >> level & 1 == 0)
+        .map(|level| level.to_string())
+        .collect();
+    if !off.is_empty() {
+        let word = if off.len() == 1 { "switch" } else { "switches" };
+        lines.push(format!("block-skip {word} {} off", off.join(", ")));
+    }
+    if course.stops {
+        lines.push("stops for the operator take no time".to_owned());
+    }
+    if course.offsets {
+        lines.push("all work offsets are one".to_owned());
+    }
+    if course.lengths {
+        lines.push("all tools are of one length".to_owned());
+    }
+    lines
+}
+
+/// Of the machine: what its profile does not state.
+pub(crate) fn of_machine(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
+    let mut lines: Vec<(String, Vec<String>, String)> = Vec::new();
+    for fact in facts {
+        if fact.axis.is_some_and(|axis| !moved[axis as usize]) {
+            continue;
+        }
+        let name = fact.fact.name().to_owned();
+        let value = match fact.fact.unit(fact.axis) {
+            "" if fact.value == 0.0 => "no".to_owned(),
+            "" => "yes".to_owned(),
+            unit => format!("{} {unit}", short(fact.value, 3)),
+        };
+        let axis = fact.axis.map(letter);
+        match lines.last_mut().filter(|(n, axes, v)| *n == name && *v == value && !axes.is_empty()) {
+            Some((_, axes, _)) => axes.extend(axis),
+            None => lines.push((name, axis.into_iter().collect(), value)),
+        }
+    }
+    let line = |(name, axes, value): (String, Vec<String>, String)| match axes.as_slice() {
+        [] => format!("{name} = {value}"),
+        axes => format!("{name} of {} = {value}", axes.join(" ")),
+    };
+    lines.into_iter().map(line).collect()
+}
+
+fn letter(axis: Axis) -> String {
+    (axis.letter() as char).to_string()
+}

@@ -1,0 +1,487 @@
+//! From the text to functions with their times: read, execute in the plain world, run the clock.
+//!
+//! A program streams through in pieces until its first call, label or loop, as in a translation; its
+//! rest is kept whole and run from there. What comes out goes to a [`Sink`], function by function.
+//! Not here: what is made of them, and where it is written.
+
+use std::collections::VecDeque;
+use std::io::{self, Read, Seek, SeekFrom};
+use std::rc::Rc;
+
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::cycle::{Clearance, CycleKind};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::exec::{Event, Exec, Kind, Runner};
+use ncc_ir::num::Nanos;
+use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::world::World;
+use ncc_timeline::{Act, Clock, Machine, Model, Place, Timed};
+
+use super::args::Stage;
+use super::blocks::Blocks;
+use super::progress::Progress;
+use super::reach::{Reach, reach};
+use crate::chunks::{Chunk, Chunks};
+use crate::files::Source;
+use crate::job::Job;
+use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use crate::verify_run::fixed;
+
+/// After so many errors, reading more of the program would help nobody.
+const ENOUGH_ERRORS: usize = 200;
+
+/// What is to be executed, and how it is timed.
+pub(crate) struct Plan<'p> {
+    /// The program's dialect and options; as a translation into itself.
+    pub(crate) job: &'p Job,
+    /// The machine.
+    pub(crate) machine: Machine,
+    /// The model.
+    pub(crate) model: Model,
+    /// Block-skip switches that are on: bit n is level n.
+    pub(crate) skip: u16,
+    /// Seconds on the clock before the first block.
+    pub(crate) start_time: f64,
+    /// Whether cycles are told as they are called, or as they are made.
+    pub(crate) stage: Stage,
+}
+
+/// What the source says of a function.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Said {
+    /// Text of its block, if the sink wants it.
+    pub(crate) block: Rc<str>,
+    /// The comment, of a remark.
+    pub(crate) remark: Option<Rc<str>>,
+    /// Box around an arc in the program's coordinates, if the sink wants it.
+    pub(crate) reach: Option<Box<Reach>>,
+}
+
+/// What takes the functions.
+pub(crate) trait Sink {
+    /// Whether it wants the text of blocks.
+    fn wants_blocks(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants the boxes around arcs.
+    fn wants_reach(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants bounds of the whole.
+    fn wants_bounds(&self) -> bool {
+        false
+    }
+
+    /// A function with its time.
+    ///
+    /// # Errors
+    /// Writing.
+    fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()>;
+
+    /// A statement of a cycle that is told as it is called; the control stands before the holes.
+    ///
+    /// # Errors
+    /// Writing.
+    fn called(&mut self, _stmt: &Stmt, _exec: &Exec, _block: &str) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// What became of a program.
+pub(crate) struct Course {
+    /// What was found.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Whether the program has errors; then what the sink has is not to be used.
+    pub(crate) refused: bool,
+    /// Levels of block skip that occur: bit n is level n.
+    pub(crate) skip_levels: u16,
+    /// Whether the program stops for the operator.
+    pub(crate) stops: bool,
+    /// Whether it changes from one work offset to another.
+    pub(crate) offsets: bool,
+    /// Whether it takes up lengths of tools.
+    pub(crate) lengths: bool,
+    /// Axes that move.
+    pub(crate) moved: [bool; AXES],
+    /// Seconds at least and at most, where the sink wants them.
+    pub(crate) bounds: Option<[f64; 2]>,
+    /// Blocks of the source that say something.
+    pub(crate) blocks: u64,
+    /// Seconds on the clock at the end.
+    pub(crate) end: f64,
+}
+
+/// Executes a program.
+///
+/// # Errors
+/// Reading the source, or what the sink fails with.
+pub(crate) fn drive(
+    plan: &Plan,
+    source: &mut Source,
+    sink: &mut dyn Sink,
+    progress: &mut Progress,
+) -> io::Result<Course> {
+    let mut drive = Drive::new(plan, sink);
+    let mut chunks = Chunks::new(&mut source.file);
+    let mut read = 0;
+    loop {
+        match chunks.next()? {
+            Chunk::Lines(base, range) => {
+                read = u64::from(base) + range.len() as u64;
+                drive.piece(chunks.text(range), base)?;
+            }
+            Chunk::TooLong(start, end) => drive.reader.too_long(Span::new(start, end), &mut drive.batch),
+            Chunk::End => break,
+        }
+        progress.at(read, drive.clock.now());
+        if drive.errors >= ENOUGH_ERRORS {
+            break;
+        }
+    }
+    drive.reader.finish(&mut drive.batch);
+    drive.take_diagnostics();
+    if drive.batch.whole && drive.errors == 0 {
+        let mut text = Vec::new();
+        source.file.seek(SeekFrom::Start(0))?;
+        source.file.read_to_end(&mut text)?;
+        drive.whole(&text, progress)?;
+    } else {
+        let stmts = std::mem::take(&mut drive.batch.stmts);
+        drive.statements(&stmts, &[])?;
+    }
+    drive.end()
+}
+
+struct Drive<'d> {
+    plan: &'d Plan<'d>,
+    sink: &'d mut dyn Sink,
+    wants_blocks: bool,
+    wants_reach: bool,
+    wants_bounds: bool,
+    reader: Reader,
+    batch: Batch,
+    blocks: Blocks,
+    exec: Exec,
+    stood: bool,
+    /// Work offset that the program named last.
+    work_offset: Option<u16>,
+    /// Where the axes stood before the next function, machine coordinates.
+    last: [Nanos; AXES],
+    clock: Clock,
+    /// A model with acceleration beside one that has none, for the upper bound.
+    beside: Option<Clock>,
+    events: Vec<Event>,
+    timed: Vec<Timed>,
+    /// What comes out of the clock beside.
+    unused: Vec<Timed>,
+    /// Of functions whose time is not certain yet, in order.
+    said: VecDeque<Said>,
+    course: Course,
+    errors: usize,
+}
+
+impl<'d> Drive<'d> {
+    fn new(plan: &'d Plan<'d>, sink: &'d mut dyn Sink) -> Drive<'d> {
+        let mut exec = Exec::new(&world(plan.job), plan.skip);
+        exec.narrate();
+        // Cycles that are not made have no time, so that nothing has.
+        let model = if plan.stage == Stage::Before { Model::Ideal } else { plan.model };
+        let wants_bounds = sink.wants_bounds();
+        Drive {
+            wants_bounds,
+            wants_blocks: sink.wants_blocks(),
+            wants_reach: sink.wants_reach(),
+            plan,
+            sink,
+            reader: Reader::new(plan.job.from.clone(), true),
+            batch: Batch::default(),
+            blocks: Blocks::new(),
+            last: exec.machine(),
+            exec,
+            stood: false,
+            work_offset: None,
+            clock: Clock::new(model, plan.machine.clone()),
+            beside: (wants_bounds && model == Model::Ideal)
+                .then(|| Clock::new(Model::Trapezoidal, plan.machine.clone())),
+            events: Vec::new(),
+            timed: Vec::new(),
+            unused: Vec::new(),
+            said: VecDeque::new(),
+            course: Course {
+                diagnostics: Vec::new(),
+                refused: false,
+                skip_levels: 0,
+                stops: false,
+                offsets: false,
+                lengths: false,
+                moved: [false; AXES],
+                bounds: None,
+                blocks: 0,
+                end: 0.0,
+            },
+            errors: 0,
+        }
+    }
+
+    /// A piece of the source.
+    fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
+        self.reader.read(text, base, &mut self.batch);
+        self.take_diagnostics();
+        self.blocks.begin(base);
+        if !self.batch.whole {
+            let mut stmts = std::mem::take(&mut self.batch.stmts);
+            self.statements(&stmts, text)?;
+            stmts.clear();
+            self.batch.stmts = stmts;
+        }
+        self.blocks.end(text);
+        Ok(())
+    }
+
+    /// Statements of a program that streams.
+    fn statements(&mut self, stmts: &[Stmt], text: &[u8]) -> io::Result<()> {
+        self.look(stmts);
+        if self.errors > 0 {
+            return Ok(());
+        }
+        self.assume(self.batch.assumed);
+        for stmt in stmts {
+            if let Err(refusal) = self.statement(stmt, text)? {
+                self.take(refusal);
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+
+    /// The rest of a program, kept whole.
+    fn whole(&mut self, text: &[u8], progress: &mut Progress) -> io::Result<()> {
+        let mut procedures =
+            vec![Procedure { body: std::mem::take(&mut self.batch.stmts), ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        let program = Program { procedures, ..Program::default() };
+        for procedure in &program.procedures {
+            self.look(&procedure.body);
+        }
+        if self.errors > 0 {
+            return Ok(());
+        }
+        self.blocks = Blocks::whole(text);
+        self.assume(self.batch.assumed);
+        let mut runner = Runner::new(&program);
+        loop {
+            let next = match runner.next(&self.exec) {
+                Ok(Some(stmt)) => stmt,
+                Ok(None) => return Ok(()),
+                Err(refusal) => {
+                    self.take(refusal);
+                    return Ok(());
+                }
+            };
+            if let Err(refusal) = self.statement(next, text)? {
+                self.take(refusal);
+                return Ok(());
+            }
+            progress.now(self.clock.now());
+        }
+    }
+
+    /// Takes facts for granted that the program relies on, and puts the tool where it starts.
+    fn assume(&mut self, facts: Modes) {
+        self.exec.assume(&facts);
+        if !std::mem::replace(&mut self.stood, true) {
+            let start = self.plan.job.start.map(|at| Some(at.unwrap_or(0)));
+            self.exec.stand_at(&start);
+            self.last = self.exec.machine();
+        }
+    }
+
+    /// Executes a statement and passes on what it makes.
+    fn statement(&mut self, stmt: &Stmt, text: &[u8]) -> io::Result<Result<(), Diagnostic>> {
+        let skipped = stmt.skip.is_some_and(|level| self.plan.skip >> level & 1 == 1);
+        if self.exec.ended() || skipped {
+            return Ok(Ok(()));
+        }
+        if self.plan.stage == Stage::Before && self.is_call(&stmt.op) {
+            return self.call(stmt, text);
+        }
+        if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
+            return Ok(Err(refusal));
+        }
+        if self.events.is_empty() {
+            return Ok(Ok(()));
+        }
+        let (place, mut said) = self.place(stmt.span, text);
+        if let Op::Comment(remark) = &stmt.op {
+            said.remark = Some(Rc::from(&**remark));
+        }
+        let mut events = std::mem::take(&mut self.events);
+        for event in events.drain(..) {
+            let act = Act::of(event, self.last, &self.exec, place);
+            for (moved, (from, to)) in self.course.moved.iter_mut().zip(act.from.iter().zip(&act.event.end)) {
+                *moved |= from != to;
+            }
+            self.last = act.event.end;
+            let arc = self.wants_reach && matches!(act.event.kind, Kind::Arc { .. });
+            let reach = if arc { reach(&act, &self.exec).map(Box::new) } else { None };
+            self.said.push_back(Said { reach, ..said.clone() });
+            if let Some(clock) = &mut self.beside {
+                clock.push(act.clone(), &mut self.unused);
+                self.unused.clear();
+            }
+            self.clock.push(act, &mut self.timed);
+        }
+        self.events = events;
+        self.deliver().map(Ok)
+    }
+
+    /// Where a statement stands.
+    fn place(&mut self, span: Span, text: &[u8]) -> (Place, Said) {
+        let line = self.blocks.find(text, span.start);
+        let place = Place { line: line.map_or(0, |line| line.number), span };
+        let block = match line {
+            Some(line) if self.wants_blocks => Rc::clone(&line.text),
+            Some(_) | None => Rc::from(""),
+        };
+        (place, Said { block, ..Said::default() })
+    }
+
+    /// Whether a statement belongs to a cycle.
+    fn is_call(&self, op: &Op) -> bool {
+        match op {
+            Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) | Op::EndCycle => true,
+            Op::Position(_) => self.exec.cycle_levels().is_some(),
+            _ => false,
+        }
+    }
+
+    /// Tells a statement of a cycle as it is called; its holes are made for the position alone.
+    fn call(&mut self, stmt: &Stmt, text: &[u8]) -> io::Result<Result<(), Diagnostic>> {
+        let (_, said) = self.place(stmt.span, text);
+        let holes = matches!(stmt.op, Op::Hole(_) | Op::Pattern(_) | Op::Position(_));
+        if holes {
+            self.sink.called(stmt, &self.exec, &said.block)?;
+        }
+        if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
+            return Ok(Err(refusal));
+        }
+        self.events.clear();
+        self.last = self.exec.machine();
+        if !holes {
+            self.sink.called(stmt, &self.exec, &said.block)?;
+        }
+        Ok(Ok(()))
+    }
+
+    /// Hands over what has its time.
+    fn deliver(&mut self) -> io::Result<()> {
+        for mut timed in self.timed.drain(..) {
+            timed.start += self.plan.start_time;
+            let said = self.said.pop_front().unwrap_or_default();
+            self.sink.function(&timed, &said)?;
+        }
+        Ok(())
+    }
+
+    /// The end.
+    fn end(mut self) -> io::Result<Course> {
+        if self.errors == 0 {
+            self.clock.finish(&mut self.timed);
+            self.deliver()?;
+        }
+        if self.wants_bounds {
+            let now = self.clock.now();
+            let (least, most) = match &self.beside {
+                Some(clock) => (now, clock.bounds().1.max(now)),
+                None => self.clock.bounds(),
+            };
+            self.course.bounds = Some([least, most]);
+        }
+        self.course.refused = self.errors > 0;
+        self.course.end = self.plan.start_time + self.clock.now();
+        Ok(self.course)
+    }
+
+    /// Looks through statements for what is to be told, or known before they are executed.
+    fn look(&mut self, stmts: &[Stmt]) {
+        for stmt in stmts {
+            self.course.skip_levels |= stmt.skip.map_or(0, |level| 1 << level);
+            let says = !matches!(stmt.op, Op::Blank | Op::Comment(_));
+            self.course.blocks += u64::from(!stmt.joined && says);
+            match &stmt.op {
+                Op::ProgramStop | Op::OptionalProgramStop => self.course.stops = true,
+                Op::SetOriginOffsets(number) => {
+                    self.course.offsets |= self.work_offset.is_some_and(|other| other != *number);
+                    self.work_offset = Some(*number);
+                }
+                Op::UseToolLengthOffset(entry) => {
+                    self.course.lengths |= entry.literal().is_none_or(|n| n.mantissa != 0);
+                }
+                Op::UseToolEdge { .. } => self.course.lengths = true,
+                Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
+                _ => {}
+            }
+        }
+    }
+
+    /// Takes the control's own parameters of a cycle from the dictionary.
+    fn parameters(&mut self, kind: &CycleKind, span: Span) {
+        let (option, name, drill) = match kind {
+            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. } => {
+                (PECK_CLEARANCE, "clearance of peck drilling", true)
+            }
+            CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
+                (BREAK_LIFT, "lift of chip-breaking drilling", false)
+            }
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Bore { .. } => return,
+        };
+        match parameter(self.plan.job, option).and_then(|value| value.nanos(false)) {
+            Some(nanos) => {
+                if drill {
+                    self.exec.set_peck_clearance(nanos);
+                } else {
+                    self.exec.set_break_lift(nanos);
+                }
+                let value = format!("{} mm", nanos as f64 / 1e9).into();
+                let fault = Fault::AssumedParameter { parameter: name.into(), value };
+                self.take(Diagnostic::new(fault, span));
+            }
+            None => {
+                let what = format!("a cycle whose {name} is a parameter of the control that is not known");
+                self.take(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span));
+            }
+        }
+    }
+
+    fn take_diagnostics(&mut self) {
+        for diagnostic in std::mem::take(&mut self.batch.diagnostics) {
+            self.take(diagnostic);
+        }
+    }
+
+    fn take(&mut self, diagnostic: Diagnostic) {
+        self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
+        self.course.diagnostics.push(diagnostic);
+    }
+}
+
+/// The plain world: no offsets, no lengths, the dictionary's state at power-on.
+fn world(job: &Job) -> World {
+    let fixed = fixed(job.from.dialect);
+    let value = |option| parameter(job, option).and_then(|value| value.nanos(false)).unwrap_or(0);
+    World {
+        seed: 0,
+        power_on: Modes { no_origin_shift: Some(true), ..fixed },
+        start: [0; AXES],
+        peck_clearance: value(PECK_CLEARANCE),
+        break_lift: value(BREAK_LIFT),
+    }
+}

@@ -1,0 +1,432 @@
+//! `ncc time`: when everything in a program happens, and how long it takes.
+//!
+//! `drive` goes from the text to functions with times; each form of output is a sink that takes them
+//! one by one (`csv`, `payload`, `canon`, `tally` for the summaries). What is written goes to an
+//! anonymous file first, as a translation does, and is released when the whole program could be
+//! executed. Not here: models (ncc-timeline), machines (ncc-machines), pictures.
+
+pub mod args;
+mod assumed;
+mod blocks;
+mod canon;
+mod columns;
+mod csv;
+mod drive;
+mod duration;
+mod grid;
+mod parameters;
+mod payload;
+mod progress;
+mod reach;
+mod summary;
+mod tally;
+
+use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use codespan_reporting::term::termcolor::{StandardStream, WriteColor};
+use ncc_backends::{Layout, Numbering};
+use ncc_dialects::Settings;
+use ncc_machines::Profile;
+use ncc_timeline::{AssumedFact, Machine};
+
+use self::args::{Form, Stage, Time};
+use self::drive::{Course, Plan, Sink, drive};
+use self::payload::Header;
+pub use self::payload::SCHEMA;
+use self::progress::Progress;
+use self::summary::{Report, Timing};
+use self::tally::{Tallier, Tally};
+use crate::files::{self, Destination, Source};
+use crate::guess::{Guess, guess};
+use crate::job::{Failure, Job, Output};
+use crate::known::Known;
+use crate::problem::{Exit, Problem};
+use crate::render::human::Loudness;
+use crate::render::{About, human, summary as account};
+use crate::run::{recognise, settings};
+use crate::translate::translate;
+
+/// The machine of a call, as the model sees it.
+struct Shop {
+    profile: Option<Profile>,
+    machine: Machine,
+    /// What the model takes for granted of it.
+    assumed: Vec<AssumedFact>,
+}
+
+impl Shop {
+    fn of(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Shop, Problem> {
+        let profile = match &args.machine {
+            Some(name) => Some(crate::machines::find(name, known, err)?),
+            None => None,
+        };
+        let mut machine = profile.as_ref().map(Profile::machine).unwrap_or_default();
+        if let Some(on) = args.tool_change_on {
+            machine.tool_change_on = on;
+        }
+        let (machine, assumed) = machine.assumed(args.model);
+        Ok(Shop { profile, machine, assumed })
+    }
+
+    fn title(&self) -> &str {
+        self.profile.as_ref().map_or("", |p| &p.schema.title)
+    }
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on
+/// `err`.
+pub(crate) fn run(args: &Time, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
+    if args.schema {
+        files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
+        return Ok(Exit::Done);
+    }
+    check(args)?;
+    let shop = Shop::of(args, known, err)?;
+    let mut sources = args.files.iter().map(|path| files::open(path)).collect::<Result<Vec<_>, _>>()?;
+    let destination = destination(args, &sources)?;
+    let mut spool = Spool { output: Output::new() };
+    let exit = match args.form {
+        Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
+            summaries(args, &shop, known, &mut sources, &mut spool, err)?
+        }
+        Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => match sources.first_mut() {
+            Some(source) => stream(args, &shop, known, source, &mut spool, err)?,
+            None => Exit::Usage,
+        },
+    };
+    if exit == Exit::Done {
+        destination.release(&mut spool.output)?;
+    }
+    Ok(exit)
+}
+
+/// What options mean together.
+fn check(args: &Time) -> Result<(), Problem> {
+    if args.files.len() > 1 && !args.form.takes_several() {
+        return Err(Problem::usage(
+            format!("{} files: --as {} is about one", args.files.len(), args.form.name()),
+            "call ncc once for each of them; summary, json, markdown and tools take several",
+        ));
+    }
+    if args.stage == Stage::Before && !matches!(args.form, Form::Payload | Form::Ndjson) {
+        return Err(Problem::usage(
+            format!("--stage before with --as {}", args.form.name()),
+            "only payload and ndjson tell of cycles as they are called",
+        ));
+    }
+    Ok(())
+}
+
+fn destination(args: &Time, sources: &[Source]) -> Result<Destination, Problem> {
+    let name: Option<&PathBuf> = args.output.as_ref().filter(|name| *name != Path::new("-"));
+    for source in sources {
+        source.guard(name.map(PathBuf::as_path))?;
+    }
+    Ok(name.map_or(Destination::Stdout, |name| Destination::File(name.clone())))
+}
+
+/// What is written before it may be used.
+struct Spool {
+    output: Output,
+}
+
+impl Write for Spool {
+    fn write(&mut self, text: &[u8]) -> io::Result<usize> {
+        self.output.push(text)?;
+        Ok(text.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A program as a translation into itself: so its diagnostics are told.
+fn job(
+    args: &Time,
+    shop: &Shop,
+    known: &Known,
+    source: &mut Source,
+    err: &mut StandardStream,
+) -> Result<Job, Problem> {
+    let own = shop.profile.as_ref();
+    let named = match (args.from.as_deref(), own) {
+        (Some("auto"), _) | (None, None) => None,
+        (Some(id), _) => Some(known.dialect(id)?),
+        (None, Some(profile)) => Some(profile.dialect),
+    };
+    let dialect = match named {
+        Some(dialect) => dialect,
+        None => recognise(source, !args.quiet, known, err)?,
+    };
+    let from = match own.filter(|profile| profile.dialect.id == dialect.id) {
+        Some(profile) => settings(profile.settings(), &args.from_option)?,
+        None => settings(Settings::new(dialect), &args.from_option)?,
+    };
+    source.rewind()?;
+    Ok(Job {
+        to: from.clone(),
+        from,
+        layout: Layout { numbering: Numbering::Off, crlf: false },
+        passes: Vec::new(),
+        fold: None,
+        verify: true,
+        head: true,
+        start: args.start.unwrap_or_default(),
+        program_number: None,
+        source_name: source.name.clone(),
+        allow: Vec::new(),
+        deny: Vec::new(),
+    })
+}
+
+fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
+    Plan {
+        job,
+        machine: shop.machine.clone(),
+        model: args.model,
+        skip: args.skip.iter().fold(0, |skip, level| skip | 1 << level),
+        start_time: args.start_time,
+        stage: args.stage,
+    }
+}
+
+/// Executes a program and tells what was found.
+fn execute(
+    args: &Time,
+    plan: &Plan,
+    known: &Known,
+    source: &mut Source,
+    sink: &mut dyn Sink,
+    err: &mut StandardStream,
+) -> Result<Course, Problem> {
+    let bytes = source.file.metadata().map_or(0, |m| m.len());
+    let course = {
+        let mut progress = Progress::new(&source.name, bytes, !args.quiet);
+        drive(plan, source, sink, &mut progress).map_err(|e| Problem::file("time", &source.shown, &e))?
+    };
+    // Messages that cannot be written change nothing about what was done.
+    let _ = tell(args, plan, known, source, &course, err);
+    Ok(course)
+}
+
+fn tell(
+    args: &Time,
+    plan: &Plan,
+    known: &Known,
+    source: &mut Source,
+    course: &Course,
+    err: &mut StandardStream,
+) -> io::Result<()> {
+    let loudness = match (args.quiet, args.verbose) {
+        (true, _) => Loudness::Quiet,
+        (false, true) => Loudness::Verbose,
+        (false, false) => Loudness::Usual,
+    };
+    let shown = source.shown.clone();
+    let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
+    human::print(err, &mut about, &course.diagnostics, loudness)?;
+    if course.refused && !args.quiet {
+        writeln!(err, "{shown}: not timed; nothing was written")?;
+        let dialect = plan.job.from.dialect;
+        if let Guess::Sure(other, reasons) = guess(&mut source.file, known.all())?
+            && other.id != dialect.id
+        {
+            writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
+            writeln!(err, "  help: --from {}", other.id)?;
+        }
+    }
+    err.flush()
+}
+
+/// What a program's timing takes for granted.
+fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
+    let mut lines = Vec::new();
+    let dialect = plan.job.from.dialect;
+    match &shop.profile {
+        None => lines.push("no machine is named".to_owned()),
+        Some(profile) if profile.dialect.id != dialect.id => {
+            lines.push(format!(
+                "the machine, whose control reads {}, carries it out all the same",
+                profile.dialect.id
+            ));
+        }
+        Some(_) => {}
+    }
+    lines.extend(assumed::of_machine(&shop.assumed, &course.moved));
+    lines.extend(assumed::of_run(plan, course));
+    lines.extend(assumed::of_program(plan.job, &course.diagnostics));
+    lines
+}
+
+/// Programs that are counted.
+fn summaries(
+    args: &Time,
+    shop: &Shop,
+    known: &Known,
+    sources: &mut [Source],
+    spool: &mut Spool,
+    err: &mut StandardStream,
+) -> Result<Exit, Problem> {
+    let mut report = Report {
+        ncc_time: 1,
+        ncc_version: env!("CARGO_PKG_VERSION"),
+        model: args.model.name(),
+        machine: shop.profile.as_ref().map(|p| p.id().to_owned()),
+        machine_name: shop.title().to_owned(),
+        programs: Vec::new(),
+        total: Tally::default(),
+    };
+    let mut exit = Exit::Done;
+    for source in sources {
+        let job = job(args, shop, known, source, err)?;
+        let plan = plan(args, shop, &job);
+        let mut tallier = Tallier::new(&shop.machine);
+        let course = execute(args, &plan, known, source, &mut tallier, err)?;
+        if course.refused {
+            exit = Exit::Refused;
+            continue;
+        }
+        let mut timing = Timing {
+            prog_name: source.name.clone(),
+            dialect: job.from.dialect.id.clone(),
+            blocks: course.blocks,
+            functions: 0,
+            clock: [plan.start_time, course.end].map(payload::micro),
+            bounds: course.bounds.map(|bounds| bounds.map(payload::micro)),
+            assumed: assumptions(shop, &plan, &course),
+            total: Tally::default(),
+            tools: Vec::new(),
+            operations: Vec::new(),
+        };
+        timing.take(tallier.finish());
+        report.total.join(&timing.total);
+        report.programs.push(timing);
+    }
+    if exit == Exit::Done {
+        report.total = report.total.rounded();
+        let written = match args.form {
+            Form::Json => report.json(spool),
+            Form::Markdown => spool.write_all(report.markdown(args.model).as_bytes()),
+            Form::Tools => report.tool_list(spool),
+            Form::Summary | Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
+                spool.write_all(report.plain(args.model).as_bytes())
+            }
+        };
+        written.map_err(|e| Problem::file("write", "the summary", &e))?;
+    }
+    Ok(exit)
+}
+
+/// A program of which every function is told.
+fn stream(
+    args: &Time,
+    shop: &Shop,
+    known: &Known,
+    source: &mut Source,
+    spool: &mut Spool,
+    err: &mut StandardStream,
+) -> Result<Exit, Problem> {
+    let job = job(args, shop, known, source, err)?;
+    let name = source.name.clone();
+    let cannot = |e: io::Error| Problem::file("time", &name, &e);
+    let plan = plan(args, shop, &job);
+    let mut out = BufWriter::with_capacity(1 << 16, spool);
+    let course = match args.form {
+        Form::Csv => {
+            let mut sink = csv::Csv::new(&shop.machine, &mut out).map_err(cannot)?;
+            let course = execute(args, &plan, known, source, &mut sink, err)?;
+            sink.finish().map_err(cannot)?;
+            course
+        }
+        Form::Canon => match canonical(args, shop, &plan, source, &mut out, err)? {
+            Ok(course) => course,
+            Err(Failure::Refused) => return Ok(Exit::Refused),
+            Err(Failure::VerificationFailed) => return Ok(Exit::VerificationFailed),
+        },
+        Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
+            let header =
+                Header { prog_name: &name, machine_name: shop.title(), dialect: &job.from.dialect.id };
+            let (lines, timed) = (args.form == Form::Ndjson, args.stage == Stage::After);
+            let sink = payload::Payload::new(&header, &shop.machine, lines, timed, &mut out);
+            let mut sink = sink.map_err(cannot)?;
+            let course = execute(args, &plan, known, source, &mut sink, err)?;
+            sink.finish().map_err(cannot)?;
+            course
+        }
+    };
+    out.flush().map_err(cannot)?;
+    drop(out);
+    if course.refused {
+        return Ok(Exit::Refused);
+    }
+    if !args.quiet {
+        let _ = say(args, shop, &plan, &course, &source.shown, err);
+    }
+    Ok(Exit::Done)
+}
+
+/// The account of a program that does not tell it itself.
+fn say(
+    args: &Time,
+    shop: &Shop,
+    plan: &Plan,
+    course: &Course,
+    shown: &str,
+    err: &mut dyn Write,
+) -> io::Result<()> {
+    let on = if shop.title().is_empty() { "no machine" } else { shop.title() };
+    let end = duration::hms(course.end);
+    match args.stage {
+        Stage::After => writeln!(err, "{shown}: over at {end} on {on}, model {}", args.model.name())?,
+        Stage::Before => writeln!(err, "{shown}: before processing, without times")?,
+    }
+    for (i, line) in assumptions(shop, plan, course).iter().enumerate() {
+        writeln!(err, "  {:<13}{line}", if i == 0 { "assumed" } else { "" })?;
+    }
+    Ok(())
+}
+
+/// The program as canonical functions, with times.
+fn canonical(
+    args: &Time,
+    shop: &Shop,
+    first: &Plan,
+    source: &mut Source,
+    out: &mut dyn Write,
+    err: &mut StandardStream,
+) -> Result<Result<Course, Failure>, Problem> {
+    let known = Known::built_in();
+    let shown = source.shown.clone();
+    let cannot = |e: io::Error| Problem::file("time", &shown, &e);
+    let to = Settings::new(known.dialect("canon")?);
+    let start = first.job.start.map(|at| Some(at.unwrap_or(0)));
+    let job = Job { to: to.clone(), start, ..first.job.clone() };
+    let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;
+    if let Err(failure) = outcome.release {
+        let mut about = About { job: &job, name: &shown, source: &mut source.file };
+        let _ = human::print(err, &mut about, &outcome.diagnostics, Loudness::Usual);
+        let _ = account::print(err, &mut about, &outcome);
+        return Ok(Err(failure));
+    }
+    let mut file = tempfile::tempfile().map_err(cannot)?;
+    outcome.output.write_to(&mut file).map_err(cannot)?;
+    file.seek(SeekFrom::Start(0)).map_err(cannot)?;
+    // A reader of its own: the other one is somewhere else in the text.
+    let mut again = tempfile::tempfile().map_err(cannot)?;
+    outcome.output.write_to(&mut again).map_err(cannot)?;
+    again.seek(SeekFrom::Start(0)).map_err(cannot)?;
+    let mut text = Source::of(file, &source.name);
+    let second = Job { from: to.clone(), to, start, ..first.job.clone() };
+    let plan = Plan { job: &second, machine: shop.machine.clone(), ..plan(args, shop, &second) };
+    let mut sink = canon::Canon::new(BufReader::new(again), out);
+    let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;
+    sink.finish().map_err(cannot)?;
+    // What was taken for granted of the source; the canonical text states what it means.
+    course.diagnostics = outcome.diagnostics;
+    Ok(Ok(course))
+}
