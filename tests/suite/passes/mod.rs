@@ -3,8 +3,8 @@
 //! `passes/<pass>/<case>.ir` holds the program, `---`, what the pass makes of it, and if it reports
 //! anything another `---` and the reports. Lines `#! …` before the program say what the pass is told:
 //! `target ID` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
-//! (where the axes stand), `clearance 1.0` (the peck cycle's parameter, mm), `can tool-edges=yes`
-//! (a capability that is other than the target's; `no`, `either`). In the folder
+//! (where the axes stand), `clearance 1.0` and `lift 0.5` (the parameters of peck drilling and of chip
+//! breaking, mm), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
 //! `legaliser` the passes are picked by the target.
 //!
 //! Besides the text, every case that is not refused is executed before and after, in two worlds:
@@ -49,10 +49,8 @@ fn told(text: &str) -> Result<Told, String> {
         let (what, value) = line.split_once(' ').ok_or("a directive has a value")?;
         match what {
             "target" => told.target.caps = builtin(value).ok_or("no such dialect")?.caps.clone(),
-            "clearance" => {
-                let nanos = decimal(value)?;
-                told.target.peck_clearance = Some(Num::from_nanos(nanos, 9, Unit::Mm));
-            }
+            "clearance" => told.target.peck_clearance = Some(length(value)?),
+            "lift" => told.target.break_lift = Some(length(value)?),
             "start" => {
                 for word in value.split(' ') {
                     let axis = Axis::from_letter(word.as_bytes()[0]).ok_or("no axis")?;
@@ -92,6 +90,10 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
 fn decimal(text: &str) -> Result<Nanos, String> {
     let mm: f64 = text.parse().map_err(|e| format!("{text}: {e}"))?;
     Ok((mm * ONE as f64).round() as Nanos)
+}
+
+fn length(text: &str) -> Result<Num, String> {
+    Ok(Num::from_nanos(decimal(text)?, 9, Unit::Mm))
 }
 
 fn read(text: &str) -> Result<Program, String> {
@@ -136,9 +138,7 @@ fn refused(diags: &[Diagnostic]) -> bool {
 fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnostic>, String> {
     let mut diags = Vec::new();
     if pass == "legaliser" {
-        let mut legaliser =
-            Legaliser::new(&told.target.caps, told.target.decimals, told.target.peck_clearance);
-        legaliser.stand_at(&told.start);
+        let mut legaliser = legaliser(told);
         legaliser.run_program(program, &mut diags);
         return Ok(diags);
     }
@@ -195,10 +195,17 @@ fn case(pass: &str, path: &Path) -> Result<(), String> {
     Ok(())
 }
 
+fn legaliser(told: &Told) -> Legaliser {
+    let target = &told.target;
+    let mut legaliser = Legaliser::new(&target.caps, target.decimals, target.peck_clearance);
+    legaliser.set_break_lift(target.break_lift);
+    legaliser.stand_at(&told.start);
+    legaliser
+}
+
 /// The legaliser's work on a program that comes block by block, unless it is refused.
 fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
-    let mut legaliser = Legaliser::new(&told.target.caps, told.target.decimals, told.target.peck_clearance);
-    legaliser.stand_at(&told.start);
+    let mut legaliser = legaliser(told);
     let mut after = before.clone();
     after.procedures[0].body.clear();
     let mut diags = Vec::new();
