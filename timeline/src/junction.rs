@@ -135,15 +135,26 @@ struct Turn {
     /// Where it goes to, less where it came from.
     change: [f64; 6],
     half_sine_squared: f64,
+    half_cosine: f64,
     /// Speed in the space of all axes for each unit along the path: the greater of both sides.
     stretch: f64,
 }
 
 fn turn(from: &Heading, to: &Heading) -> Turn {
     let change: [f64; 6] = std::array::from_fn(|i| to.unit[i] - from.unit[i]);
-    // From the difference of the directions: exact for the smallest angles, where a cosine is 1.
-    let squared: f64 = change.iter().map(|x| x * x).sum();
-    Turn { change, half_sine_squared: (squared / 4.0).min(1.0), stretch: from.stretch.max(to.stretch) }
+    // From the difference and the sum of the directions: exact for the smallest angles, where a cosine
+    // is 1, and at a reversal, where it is -1.
+    let (mut difference, mut sum) = (0.0, 0.0);
+    for ((from, to), change) in from.unit.iter().zip(&to.unit).zip(&change) {
+        difference += change * change;
+        sum += (from + to) * (from + to);
+    }
+    Turn {
+        change,
+        half_sine_squared: difference / 4.0,
+        half_cosine: sum.sqrt() / 2.0,
+        stretch: from.stretch.max(to.stretch),
+    }
 }
 
 impl Turn {
@@ -152,7 +163,7 @@ impl Turn {
         // The sine of half the turn is the cosine of θ/2.
         let squared = self.half_sine_squared;
         let cosine = squared.sqrt();
-        let sine = (1.0 - squared).sqrt();
+        let sine = self.half_cosine;
         let unit = self.change.map(|x| x / (2.0 * cosine));
         let acceleration = limits.acceleration(&unit) / (self.stretch * self.stretch);
         // 1 / (1 − sin) is (1 + sin) / cos², without the difference of two numbers near 1.

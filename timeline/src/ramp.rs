@@ -51,7 +51,7 @@ fn peak(from: f64, to: f64, whole: f64, softness: f64) -> f64 {
         } else {
             low = at;
         }
-        if high - low <= 1e-14 * high {
+        if high - low <= 1e-15 * high {
             break;
         }
         let slope = slope(from, at, softness) + slope(to, at, softness);
@@ -62,8 +62,7 @@ fn peak(from: f64, to: f64, whole: f64, softness: f64) -> f64 {
         }
         at = next;
     }
-    // The lower side: what is left over is spent at the peak.
-    low
+    at
 }
 
 /// How the gain of a ramp grows with its upper speed.

@@ -24,8 +24,6 @@ use crate::ramp::{Curve, gain};
 const RECOUNT: f64 = 1e9;
 /// What a limit may be over by: digits.
 const DIGITS: f64 = 1e-9;
-/// Limits to be held between two nodes; more than these are let go by. Each level halves the rest.
-const DEEPEST: u32 = 64;
 
 /// A junction whose cap is the speed, or the start of the path.
 #[derive(Clone, Copy, Debug)]
@@ -140,7 +138,7 @@ impl Smooth {
         let mut curves = std::mem::take(&mut self.curves);
         curves.clear();
         let span = Span { legs: &self.legs, count, softness: from.softness };
-        span.fit([0.0, to.at - from.at], [from.speed, to.speed], 0, &mut curves);
+        span.fit(to.at - from.at, from.speed, to.speed, &mut curves);
         span.profiles(&curves, out);
         self.curves = curves;
         self.legs.drain(..count);
@@ -155,6 +153,12 @@ struct Span<'a> {
     softness: f64,
 }
 
+/// A piece of a span that is still to be laid.
+enum Piece {
+    Fit { gains: [f64; 2], speeds: [f64; 2] },
+    Level(Curve),
+}
+
 /// A limit that a curve is over.
 #[derive(Clone, Copy)]
 struct Limit {
@@ -165,29 +169,52 @@ struct Limit {
 }
 
 impl Span<'_> {
-    /// Lays curves from one gain to another.
-    fn fit(&self, [a, b]: [f64; 2], [from, to]: [f64; 2], depth: u32, curves: &mut Vec<Curve>) {
-        let curve = Curve::new(from, to, b - a, self.softness);
-        let limit = match self.lowest_limit(&curve, a) {
-            Some(limit) if depth < DEEPEST && limit.speed >= from.max(to) => limit,
-            _ => return curves.push(curve),
-        };
+    /// Lays curves over the whole of it, from one speed to another.
+    fn fit(&self, whole: f64, from: f64, to: f64, curves: &mut Vec<Curve>) {
+        let mut rest = vec![Piece::Fit { gains: [0.0, whole], speeds: [from, to] }];
+        // Each piece that is cut is cut at another limit.
+        let mut cuts = 2 * self.count;
+        while let Some(piece) = rest.pop() {
+            let (gains, speeds) = match piece {
+                Piece::Level(curve) => {
+                    curves.push(curve);
+                    continue;
+                }
+                Piece::Fit { gains, speeds } => (gains, speeds),
+            };
+            let curve = Curve::new(speeds[0], speeds[1], gains[1] - gains[0], self.softness);
+            match self.lowest_limit(&curve, gains[0]) {
+                Some(limit) if cuts > 0 => {
+                    cuts -= 1;
+                    let (left, speed, right) = self.hold(limit, gains, speeds);
+                    rest.push(Piece::Fit { gains: [right, gains[1]], speeds: [speed, speeds[1]] });
+                    if right > left {
+                        rest.push(Piece::Level(Curve::level(speed, right - left)));
+                    }
+                    rest.push(Piece::Fit { gains: [gains[0], left], speeds: [speeds[0], speed] });
+                }
+                _ => curves.push(curve),
+            }
+        }
+    }
+
+    /// Where to keep a limit, from one gain to another, and at which speed.
+    fn hold(&self, limit: Limit, [a, b]: [f64; 2], [from, to]: [f64; 2]) -> (f64, f64, f64) {
         let up = a + gain(from, limit.speed, self.softness);
         let down = b - gain(limit.speed, to, self.softness);
-        if up > down {
-            return curves.push(curve);
+        if up <= down {
+            // Where it holds, and where the ramps to it end beyond that.
+            let (left, right) = (up.max(limit.from), down.min(limit.to));
+            if left <= right {
+                return (left, limit.speed, right);
+            }
+            let at = if up > limit.to { up } else { down };
+            return (at, limit.speed, at);
         }
-        // The limit is held where it holds, and where the ramps to it end beyond that.
-        let (mut left, mut right) = (up.max(limit.from), down.min(limit.to));
-        if left > right {
-            left = if up > limit.to { up } else { down };
-            right = left;
-        }
-        self.fit([a, left], [from, limit.speed], depth + 1, curves);
-        if right > left {
-            curves.push(Curve::level(limit.speed, right - left));
-        }
-        self.fit([right, b], [limit.speed, to], depth + 1, curves);
+        // No room for both ramps: softness has to give way.
+        let at = if from > to { limit.from } else { limit.to }.clamp(a, b);
+        let speed = limit.speed.min((from * from + at - a).sqrt()).min((to * to + b - at).sqrt());
+        (at, speed, at)
     }
 
     /// The lowest limit that a curve from a gain on is over.
@@ -226,8 +253,11 @@ impl Span<'_> {
         // How far along it; where that is.
         let mut along = 0.0;
         let mut at = curve.at(0.0);
-        for leg in self.legs.iter().take(self.count) {
-            let mut left = leg.gain();
+        let legs = || self.legs.iter().take(self.count);
+        let last = legs().rposition(|leg| leg.length > 0.0);
+        for (i, leg) in legs().enumerate() {
+            // Near a stop, the last digit of a gain is a time that counts: the last leg takes what is left.
+            let mut left = if Some(i) == last { f64::INFINITY } else { leg.gain() };
             let mut profile =
                 Profile { entry: at.speed, peak: at.speed, exit: at.speed, ..Profile::default() };
             if leg.length <= 0.0 {

@@ -41,6 +41,16 @@ pub(crate) struct Way {
     pub(crate) state: State,
 }
 
+impl std::fmt::Debug for Way {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        for act in &self.acts {
+            let end = act.event.end.map(|x| x as f64 / ONE as f64);
+            write!(f, "{:?} F{} {:?}; ", act.event.kind, act.event.rate as f64 / ONE as f64, &end[..3])?;
+        }
+        Ok(())
+    }
+}
+
 impl Way {
     pub(crate) fn new() -> Way {
         Way { acts: Vec::new(), at: [0; AXES], state: State::default() }
@@ -85,7 +95,14 @@ impl Way {
         self.turn(rate, Turn::Counterclockwise, Plane::Xy, centre, to)
     }
 
-    pub(crate) fn turn(&mut self, rate: f64, turn: Turn, plane: Plane, centre: [f64; 2], to: &[f64]) -> &mut Way {
+    pub(crate) fn turn(
+        &mut self,
+        rate: f64,
+        turn: Turn,
+        plane: Plane,
+        centre: [f64; 2],
+        to: &[f64],
+    ) -> &mut Way {
         let end = self.target(to);
         let (f, s, _) = plane.axes();
         let same = |axis: usize| end[axis] == self.at[axis];
