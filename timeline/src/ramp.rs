@@ -38,15 +38,16 @@ pub(crate) fn stop_to_stop(leg: &Leg) -> f64 {
     2.0 * half_time / acceleration + rest / peak
 }
 
-/// The highest speed between two that so much gain leaves time for.
-fn peak(from: f64, to: f64, whole: f64, softness: f64) -> f64 {
+/// The highest speed between two that so much gain leaves time for; softness on the way up and down.
+fn peak(from: f64, to: f64, whole: f64, [up, down]: [f64; 2]) -> f64 {
+    let over = |at: f64| gain(from, at, up) + gain(at, to, down) - whole;
     let mut low = from.max(to);
     // Without any softness it would be this.
     let mut high = ((from * from + to * to + whole) / 2.0).sqrt().max(low);
     let mut at = high;
     for _ in 0..80 {
-        let over = gain(from, at, softness) + gain(at, to, softness) - whole;
-        if over > 0.0 {
+        let by = over(at);
+        if by > 0.0 {
             high = at;
         } else {
             low = at;
@@ -54,15 +55,17 @@ fn peak(from: f64, to: f64, whole: f64, softness: f64) -> f64 {
         if high - low <= 1e-15 * high {
             break;
         }
-        let slope = slope(from, at, softness) + slope(to, at, softness);
-        let newton = at - over / slope;
+        let newton = at - by / (slope(from, at, up) + slope(to, at, down));
         let next = if newton > low && newton < high { newton } else { (low + high) / 2.0 };
         if (next - at).abs() <= 1e-15 * at {
             break;
         }
         at = next;
     }
-    at
+    // From below: near the speed at an end, the last digit of the peak is much gain. What is left over is
+    // spent at the peak.
+    let near = [at, at * (1.0 - 1e-15), at * (1.0 - 1e-14), at * (1.0 - 1e-12)];
+    near.into_iter().find(|at| *at >= low && over(*at) <= 0.0).unwrap_or(low)
 }
 
 /// How the gain of a ramp grows with its upper speed.
@@ -79,10 +82,11 @@ pub(crate) struct Curve {
     from: f64,
     pub(crate) peak: f64,
     to: f64,
-    softness: f64,
+    /// On the way up, and down.
+    softness: [f64; 2],
     /// Gain of the way up, and of the way up and along.
-    up: f64,
-    level: f64,
+    pub(crate) up: f64,
+    pub(crate) level: f64,
     whole: f64,
 }
 
@@ -95,14 +99,15 @@ pub(crate) struct At {
 }
 
 impl Curve {
-    /// The fastest over so much gain.
-    pub(crate) fn new(from: f64, to: f64, whole: f64, softness: f64) -> Curve {
+    /// The fastest over so much gain; softness on the way up, and down.
+    pub(crate) fn new(from: f64, to: f64, whole: f64, softness: [f64; 2]) -> Curve {
         let mut softness = softness;
-        if gain(from, to, softness) > whole {
+        let side = &mut softness[usize::from(from > to)];
+        if gain(from, to, *side) > whole {
             // Moves of different softness: no more of it than there is room for.
             let change = (to - from).abs();
             let half = whole / (from + to).max(f64::MIN_POSITIVE);
-            softness = if half <= change {
+            *side = if half <= change {
                 0.0
             } else if half <= 2.0 * change {
                 half - change
@@ -111,14 +116,14 @@ impl Curve {
             };
         }
         let peak = peak(from, to, whole, softness);
-        let up = gain(from, peak, softness).min(whole);
-        let level = (whole - gain(peak, to, softness)).max(up);
+        let up = gain(from, peak, softness[0]).min(whole);
+        let level = (whole - gain(peak, to, softness[1])).max(up);
         Curve { from, peak, to, softness, up, level, whole }
     }
 
     /// At one speed.
     pub(crate) fn level(speed: f64, whole: f64) -> Curve {
-        Curve { from: speed, peak: speed, to: speed, softness: 0.0, up: 0.0, level: whole, whole }
+        Curve { from: speed, peak: speed, to: speed, softness: [0.0; 2], up: 0.0, level: whole, whole }
     }
 
     /// Gain of the whole.
@@ -139,20 +144,20 @@ impl Curve {
 
     /// After so much gain.
     pub(crate) fn at(&self, gain: f64) -> At {
-        let Curve { from, peak, to, softness, up, level, whole } = *self;
+        let Curve { from, peak, to, softness: [rising, falling], up, level, whole } = *self;
         if gain < up {
-            let (time, speed) = ramp(from, peak, softness, up, gain.max(0.0));
+            let (time, speed) = ramp(from, peak, rising, up, gain.max(0.0));
             return At { speed, times: [time, 0.0, 0.0] };
         }
-        let rise = 2.0 * half_time(peak - from, softness);
+        let rise = 2.0 * half_time(peak - from, rising);
         if gain <= level {
             let along = if peak > 0.0 { (gain - up) / peak } else { 0.0 };
             return At { speed: peak, times: [rise, along, 0.0] };
         }
         let along = if peak > 0.0 { (level - up) / peak } else { 0.0 };
-        let fall = 2.0 * half_time(peak - to, softness);
+        let fall = 2.0 * half_time(peak - to, falling);
         // The way down is the way up, seen from its end.
-        let (left, speed) = ramp(to, peak, softness, whole - level, (whole - gain).max(0.0));
+        let (left, speed) = ramp(to, peak, falling, whole - level, (whole - gain).max(0.0));
         At { speed, times: [rise, along, (fall - left).max(0.0)] }
     }
 }

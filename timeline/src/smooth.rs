@@ -12,7 +12,8 @@
 //! Between two nodes the speed goes up, along and down. Where it would be over the limit of a move or a
 //! junction on the way, the lowest such limit is held there, and both sides are looked at again.
 //!
-//! Where moves differ in softness, a ramp is as soft as the softest of its moves.
+//! Where moves differ in softness, a ramp is as soft as the softest move on it, and whether a limit is
+//! within reach is judged by the softest move on the way to it.
 
 use std::collections::VecDeque;
 
@@ -137,7 +138,10 @@ impl Smooth {
         let count = (to.leg - from.leg) as usize;
         let mut curves = std::mem::take(&mut self.curves);
         curves.clear();
-        let span = Span { legs: &self.legs, count, softness: from.softness };
+        let mut softness =
+            self.legs.iter().take(count).filter(|leg| leg.length > 0.0).map(|leg| leg.softness);
+        let alike = softness.all(|softness| softness == from.softness);
+        let span = Span { legs: &self.legs, count, softness: from.softness, alike };
         span.fit(to.at - from.at, from.speed, to.speed, &mut curves);
         span.profiles(&curves, out);
         self.curves = curves;
@@ -150,7 +154,10 @@ impl Smooth {
 struct Span<'a> {
     legs: &'a VecDeque<Leg>,
     count: usize,
+    /// The greatest.
     softness: f64,
+    /// Whether all are as soft.
+    alike: bool,
 }
 
 /// A piece of a span that is still to be laid.
@@ -182,7 +189,7 @@ impl Span<'_> {
                 }
                 Piece::Fit { gains, speeds } => (gains, speeds),
             };
-            let curve = Curve::new(speeds[0], speeds[1], gains[1] - gains[0], self.softness);
+            let curve = self.curve(gains, speeds);
             match self.lowest_limit(&curve, gains[0]) {
                 Some(limit) if cuts > 0 => {
                     cuts -= 1;
@@ -198,10 +205,55 @@ impl Span<'_> {
         }
     }
 
+    /// The fastest from one gain to another. Each ramp is as soft as the softest move on it.
+    fn curve(&self, [a, b]: [f64; 2], [from, to]: [f64; 2]) -> Curve {
+        let mut softness = [self.softest(a, a), self.softest(b, b)];
+        loop {
+            let curve = Curve::new(from, to, b - a, softness);
+            let on_them = [self.softest(a, a + curve.up), self.softest(a + curve.level, b)];
+            if on_them[0] <= softness[0] && on_them[1] <= softness[1] {
+                return curve;
+            }
+            softness = [softness[0].max(on_them[0]), softness[1].max(on_them[1])];
+        }
+    }
+
+    /// Gain of a ramp; `over` says between which gains it lies if it takes so much.
+    fn ramp(&self, from: f64, to: f64, over: impl Fn(f64) -> (f64, f64)) -> f64 {
+        let mut softness = 0.0;
+        loop {
+            let gain = gain(from, to, softness);
+            let (a, b) = over(gain);
+            let on_it = self.softest(a, b);
+            if on_it <= softness {
+                return gain;
+            }
+            softness = on_it;
+        }
+    }
+
+    /// The greatest softness of the moves between two gains.
+    fn softest(&self, a: f64, b: f64) -> f64 {
+        if self.alike {
+            return self.softness;
+        }
+        let (mut at, mut most) = (0.0, 0.0);
+        for leg in self.legs.iter().take(self.count).filter(|leg| leg.length > 0.0) {
+            let from = at;
+            at += leg.gain();
+            // What only touches does not count, unless there is nothing else.
+            let within = from < b && at > a || a == b && from <= a && at >= b;
+            if within {
+                most = leg.softness.max(most);
+            }
+        }
+        most
+    }
+
     /// Where to keep a limit, from one gain to another, and at which speed.
     fn hold(&self, limit: Limit, [a, b]: [f64; 2], [from, to]: [f64; 2]) -> (f64, f64, f64) {
-        let up = a + gain(from, limit.speed, self.softness);
-        let down = b - gain(limit.speed, to, self.softness);
+        let up = a + self.ramp(from, limit.speed, |gain| (a, (a + gain).min(b)));
+        let down = b - self.ramp(limit.speed, to, |gain| ((b - gain).max(a), b));
         if up <= down {
             // Where it holds, and where the ramps to it end beyond that.
             let (left, right) = (up.max(limit.from), down.min(limit.to));
@@ -217,10 +269,18 @@ impl Span<'_> {
         (at, speed, at)
     }
 
-    /// The lowest limit that a curve from a gain on is over.
+    /// The lowest limit that a curve from a gain on is over, with all of the stretch where it holds: moves
+    /// of one speed, joined where nothing is slower, are one.
     fn lowest_limit(&self, curve: &Curve, start: f64) -> Option<Limit> {
         let end = start + curve.whole();
+        let over = |speed: f64, limit: f64| speed > limit * (1.0 + DIGITS);
         let mut found: Option<Limit> = None;
+        let mut stretch: Option<(Limit, bool)> = None;
+        let lower = |limit: Limit, found: &mut Option<Limit>| {
+            if found.is_none_or(|other| limit.speed < other.speed) {
+                *found = Some(limit);
+            }
+        };
         let mut at = 0.0;
         for (i, leg) in self.legs.iter().take(self.count).enumerate() {
             let (from, to) = (at, at + leg.gain());
@@ -228,20 +288,30 @@ impl Span<'_> {
             if to <= start || from >= end || leg.length <= 0.0 {
                 continue;
             }
-            let over = |speed: f64, limit: f64| speed > limit * (1.0 + DIGITS);
-            let mut limits = [None, None];
-            if i > 0 && from > start && over(curve.at(from - start).speed, leg.cap.sqrt()) {
-                limits[0] = Some(Limit { speed: leg.cap.sqrt(), from, to: from });
+            let cap = leg.cap.sqrt();
+            if i > 0 && from > start && over(curve.at(from - start).speed, cap) {
+                lower(Limit { speed: cap, from, to: from }, &mut found);
             }
             let (a, b) = (from.max(start), to.min(end));
-            if over(curve.highest(a - start, b - start), leg.speed) {
-                limits[1] = Some(Limit { speed: leg.speed, from: a, to: b });
-            }
-            for limit in limits.into_iter().flatten() {
-                if found.is_none_or(|other| limit.speed < other.speed) {
-                    found = Some(limit);
+            let excess = over(curve.highest(a - start, b - start), leg.speed);
+            let joined = |last: &Limit| {
+                (last.speed - leg.speed).abs() <= DIGITS * last.speed && !over(last.speed, cap)
+            };
+            match &mut stretch {
+                Some((last, exceeded)) if joined(last) => {
+                    last.to = b;
+                    *exceeded |= excess;
+                }
+                _ => {
+                    if let Some((last, true)) = stretch {
+                        lower(last, &mut found);
+                    }
+                    stretch = Some((Limit { speed: leg.speed, from: a, to: b }, excess));
                 }
             }
+        }
+        if let Some((last, true)) = stretch {
+            lower(last, &mut found);
         }
         found
     }
