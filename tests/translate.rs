@@ -28,6 +28,7 @@ pub fn job(from: &str, to: &str, file: &str) -> Job {
     Job {
         from: settings(from),
         to: settings(to),
+        machines: ncc::machines::pair::Machines::default(),
         layout: ncc_backends::Layout { numbering: ncc_backends::Numbering::Keep, crlf: false },
         passes: Vec::new(),
         fold: None,

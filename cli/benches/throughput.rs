@@ -39,6 +39,7 @@ fn job(from: &str, to: &str, verify: bool) -> Job {
     Job {
         from: settings(from),
         to: settings(to),
+        machines: ncc::machines::pair::Machines::default(),
         layout: Layout::default(),
         passes: Vec::new(),
         fold: None,

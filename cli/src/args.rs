@@ -68,6 +68,10 @@ pub enum Verb {
     Dialects(Dialects),
     /// How long a program takes on a machine, and when everything in it happens
     Time(Box<crate::time::args::Time>),
+    /// List the machines, show a profile, or test one
+    Machines(crate::machines::Machines),
+    /// List the facts about both machines that a translation depends on, and ask for them
+    Doctor(Box<crate::doctor::Doctor>),
     /// List the rewriting passes, in the order in which they are run
     Passes,
     /// Explain a message by its code
@@ -84,11 +88,28 @@ pub enum Verb {
 )]
 pub struct Translate {
     /// Dialect of the source, or `auto` to recognise it
-    #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
-    pub from: String,
+    #[arg(
+        long,
+        value_name = "DIALECT",
+        required_unless_present = "machine_from",
+        help_heading = "What to translate"
+    )]
+    pub from: Option<String>,
     /// Dialect to translate into
-    #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
-    pub to: String,
+    #[arg(
+        long,
+        value_name = "DIALECT",
+        required_unless_present = "machine_to",
+        help_heading = "What to translate"
+    )]
+    pub to: Option<String>,
+    /// The machine that the program was written for: a profile by its name or file, which names the
+    /// dialect too
+    #[arg(long, value_name = "MACHINE", help_heading = "What to translate")]
+    pub machine_from: Option<String>,
+    /// The machine to translate for
+    #[arg(long, value_name = "MACHINE", help_heading = "What to translate")]
+    pub machine_to: Option<String>,
     /// The program; `-` for stdin
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
@@ -122,30 +143,27 @@ pub struct Translate {
     )]
     pub optimise: Option<u8>,
 
-    /// Write the program to this file instead of stdout; it appears whole or not at all
+    /// Write the program to this file instead of stdout; it appears whole or not at all. In a folder,
+    /// the file is named as the machine's profile has it
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,
     /// Block numbers: none, those of the source, or new ones [default: off]
     #[arg(
         long,
         value_name = "off|keep|FIRST:STEP",
-        default_value = "off",
         value_parser = numbering,
-        hide_default_value = true,
         help_heading = "How the result looks"
     )]
-    pub number: Numbering,
+    pub number: Option<Numbering>,
     /// Line ends; `keep` is those of the source's first line [default: keep]
     #[arg(
         long,
         value_name = "keep|lf|crlf",
         value_enum,
-        default_value_t = Eol::Keep,
         hide_possible_values = true,
-        hide_default_value = true,
         help_heading = "How the result looks"
     )]
-    pub eol: Eol,
+    pub eol: Option<Eol>,
     /// Program number, where the target has one
     #[arg(
         long,

@@ -11,7 +11,10 @@ use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::num::Nanos;
 use ncc_ir::passes::Pass;
+use ncc_machines::reading::{Place, Side};
 use tempfile::SpooledTempFile;
+
+use crate::machines::pair::Machines;
 
 /// A translation to be done.
 #[derive(Clone, Debug)]
@@ -20,6 +23,8 @@ pub struct Job {
     pub from: Settings,
     /// The dialect of the output, with its options.
     pub to: Settings,
+    /// The machines of both sides, as far as profiles of them were given.
+    pub machines: Machines,
     /// How the output is laid out.
     pub layout: Layout,
     /// Passes that the source's program goes through first, in this order.
@@ -71,6 +76,10 @@ impl Job {
 pub struct Outcome {
     /// What was found, in the order in which it was found. Spans are places in the source.
     pub diagnostics: Vec<Diagnostic>,
+    /// The number that the output has as a program, if it has one.
+    pub program_number: Option<u32>,
+    /// Which facts of the machines the assumptions among them rest on.
+    pub rests: Vec<Rest>,
     /// What the verification covered; `None` if it was not asked for or did not come to its end.
     pub verified: Option<Verified>,
     /// Whether the output may be used, and if not, why.
@@ -92,6 +101,17 @@ impl Outcome {
     pub fn count(&self, verdict: Verdict) -> u64 {
         self.counts[verdict as usize]
     }
+}
+
+/// A fact of a machine that an assumption rests on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Rest {
+    /// Which of the diagnostics.
+    pub diagnostic: usize,
+    /// Whose fact.
+    pub side: Side,
+    /// Its place in a profile.
+    pub place: Place,
 }
 
 /// What a verification covered.

@@ -8,6 +8,7 @@ pub mod arrow;
 mod chunks;
 pub mod dialects;
 mod difference;
+pub mod doctor;
 pub mod explain;
 pub mod files;
 pub mod guess;

@@ -10,17 +10,19 @@ use codespan_reporting::term::termcolor::{ColorChoice, StandardStream, WriteColo
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, SettingError, Settings};
 use ncc_ir::passes::PASSES;
+use ncc_machines::reading::Side;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Translate, Verb};
 use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::{Failure, Job, Outcome};
 use crate::known::{self, Known};
+use crate::machines::pair::{Machines, agreed};
 use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
-use crate::{arrow, dialects, explain, report, time, translate};
+use crate::{arrow, dialects, doctor, explain, machines, report, time, translate};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -50,6 +52,8 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
             }
             Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
         },
+        Verb::Machines(args) => return ended(machines::run(args, &known, &mut err), &mut err),
+        Verb::Doctor(args) => return ended(doctor::run(args, &known, &mut err), &mut err),
         Verb::Passes => print(&passes()),
         Verb::Time(args) => {
             let mut err = StandardStream::stderr(choice(args.color));
@@ -75,6 +79,10 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Ok(()) => Exit::Done,
         Err(problem) => fail(&problem, &mut err, false),
     }
+}
+
+fn ended(done: Result<Exit, Problem>, err: &mut StandardStream) -> Exit {
+    done.unwrap_or_else(|problem| fail(&problem, err, false))
 }
 
 /// Takes up a torn arrow if it is certain that it is one.
@@ -145,7 +153,7 @@ fn translated(
             ));
         }
     };
-    let destination = match &args.output {
+    let mut destination = match &args.output {
         Some(name) if arrow.is_some() => {
             return Err(Problem::usage(
                 format!("two places to write to: the shell's redirection, and {}", name.display()),
@@ -155,8 +163,13 @@ fn translated(
         Some(name) if name != Path::new("-") => Destination::File(name.clone()),
         Some(_) | None => Destination::Stdout,
     };
-    let to = settings(Settings::new(known.dialect(&args.to)?), &args.to_option)?;
-    let named = if args.from == "auto" { None } else { Some(known.dialect(&args.from)?) };
+    let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, err)?;
+    let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
+    let to = agreed(to, machines.to.as_deref(), "to")?;
+    let to = to.ok_or_else(|| Problem::usage("translate into what?", "name a dialect: --to fanuc"))?;
+    let to = settings(machines.settings(Side::To, to), &args.to_option)?;
+    let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
+    let named = agreed(named, machines.from.as_deref(), "from")?;
     let mut source = files::open(path)?;
     match &destination {
         Destination::File(name) => source.guard(Some(name))?,
@@ -175,15 +188,16 @@ fn translated(
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.quiet && args.format == Format::Human, known, err)?,
     };
-    let crlf = match args.eol {
+    let crlf = match args.eol.unwrap_or(machines.eol()) {
         Eol::Lf => false,
         Eol::Crlf => true,
         Eol::Keep => source.is_crlf()?,
     };
     let job = Job {
-        from: settings(Settings::new(from), &args.from_option)?,
+        from: settings(machines.settings(Side::From, from), &args.from_option)?,
         to,
-        layout: Layout { numbering: args.number, crlf },
+        layout: Layout { numbering: args.number.unwrap_or(machines.numbering()), crlf },
+        machines,
         passes: args.pass.clone(),
         fold: args.optimise.map(|level| level > 0),
         verify: !args.no_verify,
@@ -197,6 +211,14 @@ fn translated(
     source.rewind()?;
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let mut outcome = translate::translate(&job, &mut source.file).map_err(|e| cannot_read(&e, &source))?;
+    if let Destination::File(folder) = &destination
+        && folder.is_dir()
+    {
+        let name = job.machines.file_name(job.to.dialect, &source.name, outcome.program_number);
+        let name = folder.join(name);
+        source.guard(Some(&name))?;
+        destination = Destination::File(name);
+    }
     if outcome.release.is_ok() {
         destination.release(&mut outcome.output)?;
     }

@@ -16,10 +16,12 @@ use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
 use crate::head;
-use crate::job::{Failure, Job, Outcome, Output};
+use crate::job::{Failure, Job, Outcome, Output, Rest};
+use crate::machines::pair::Answer;
 use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
 
@@ -79,8 +81,11 @@ struct Line<'j> {
     output: Output,
     written: u64,
     diagnostics: Vec<Diagnostic>,
+    rests: Vec<Rest>,
     /// Numbers of the output's subprograms.
     numbers: BTreeSet<u32>,
+    /// Whether the shop's lines before the end of the program are written.
+    footed: bool,
     errors: usize,
     refused: bool,
     failed: bool,
@@ -101,6 +106,7 @@ impl<'j> Line<'j> {
         let folder = job.folds().then(|| Folder::new(target(job), start, job.from.dialect.caps.flat));
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
         writer.stand_at(&job.start);
+        writer.set_form(job.machines.form());
         let mut line = Line {
             job,
             reader: Reader::new(job.from.clone(), true),
@@ -114,6 +120,8 @@ impl<'j> Line<'j> {
             output: Output::new(),
             written: 0,
             diagnostics: Vec::new(),
+            rests: Vec::new(),
+            footed: false,
             numbers: BTreeSet::new(),
             errors: 0,
             refused: false,
@@ -169,8 +177,8 @@ impl<'j> Line<'j> {
         } else {
             self.legaliser.run(stmts, &assumed, &mut found);
         }
-        self.writer.write(stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
-        self.take(found);
+        self.write_main(stmts, &assumed, &mut found);
+        self.take(found, Told::Writer);
         self.release_text(&assumed, (!touched).then_some(&stmts[..]))
     }
 
@@ -191,9 +199,10 @@ impl<'j> Line<'j> {
         let assumed = self.batch.assumed;
         let mut found = Vec::new();
         self.legaliser.finish(&mut stmts, &mut found);
-        self.writer.write(&stmts, &without(&assumed, &self.given), &mut self.text, &mut found);
+        self.write_main(&stmts, &assumed, &mut found);
+        self.foot(&assumed, &mut found);
         self.writer.finish(&mut self.text, &mut found);
-        self.take(found);
+        self.take(found, Told::Writer);
         self.release_text(&assumed, None)?;
         self.check(Verifier::finish);
         Ok(())
@@ -225,19 +234,49 @@ impl<'j> Line<'j> {
         for (at, procedure) in program.procedures.iter().enumerate() {
             match at {
                 0 => {
-                    let taken = without(&assumed, &self.given);
-                    self.writer.write(&procedure.body, &taken, &mut self.text, &mut found);
+                    self.write_main(&procedure.body, &assumed, &mut found);
+                    self.foot(&assumed, &mut found);
                 }
                 _ => self.writer.procedure(procedure, &mut self.text, &mut found),
             }
         }
         self.writer.finish(&mut self.text, &mut found);
-        self.take(found);
+        self.take(found, Told::Writer);
         let text = std::mem::take(&mut self.text);
         let inherited = self.inherited(&assumed);
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.check(|v| v.whole(&source, &text, base, &inherited));
         self.output.push(&text)
+    }
+
+    /// Writes statements of the main procedure; the shop's last lines go before the end of the program.
+    fn write_main(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) {
+        let taken = without(assumed, &self.given);
+        let lines = self.job.machines.layout().footer;
+        let end = stmts.iter().position(|s| s.op == Op::ProgramEnd);
+        let Some(end) = end.filter(|_| !self.footed && !lines.is_empty()) else {
+            return self.writer.write(stmts, &taken, &mut self.text, found);
+        };
+        let block = (0..=end).rev().find(|at| !stmts[*at].joined).unwrap_or(end);
+        self.writer.write(&stmts[..block], &taken, &mut self.text, found);
+        self.foot(assumed, found);
+        self.writer.write(&stmts[block..], &taken, &mut self.text, found);
+    }
+
+    /// Writes the shop's last lines, once.
+    fn foot(&mut self, assumed: &Modes, found: &mut Vec<Diagnostic>) {
+        if std::mem::replace(&mut self.footed, true) {
+            return;
+        }
+        let lines = self.job.machines.layout().footer;
+        let comments: Vec<Stmt> =
+            lines.iter().map(|line| Stmt::new(Span::default(), Op::Comment(line.as_str().into()))).collect();
+        // What becomes of the shop's own words is no account of the source.
+        let mut silent = Vec::new();
+        let taken = without(assumed, &self.given);
+        self.writer.write(&comments, &taken, &mut self.text, &mut silent);
+        silent.retain(|d| d.fault.gravity() == Gravity::Error);
+        found.append(&mut silent);
     }
 
     /// Lets the verification know what the passes took for granted, and what they folded.
@@ -312,7 +351,7 @@ impl<'j> Line<'j> {
         let Some(verifier) = &mut self.verifier else { return };
         match step(verifier) {
             Ok(()) => {}
-            Err(Stop::Source(diagnostic)) => self.take(vec![diagnostic]),
+            Err(Stop::Source(diagnostic)) => self.take(vec![diagnostic], Told::Writer),
             Err(Stop::Target(diagnostic)) => {
                 self.failed = true;
                 self.diagnostics.push(diagnostic);
@@ -329,11 +368,21 @@ impl<'j> Line<'j> {
 
     fn take_diagnostics(&mut self) {
         let found = std::mem::take(&mut self.batch.diagnostics);
-        self.take(found);
+        self.take(found, Told::Reader);
     }
 
-    fn take(&mut self, found: Vec<Diagnostic>) {
-        for diagnostic in found {
+    /// Takes what was found. An assumption that a machine's profile settles is none.
+    fn take(&mut self, found: Vec<Diagnostic>, told: Told) {
+        for mut diagnostic in found {
+            match self.job.machines.answer(&diagnostic.fault, told, &self.job.from, &self.job.to) {
+                Answer::Open => {}
+                Answer::Settled => continue,
+                Answer::Denied(denied) => diagnostic.fault = denied,
+            }
+            let rests = rests_on(&diagnostic.fault, told, self.job.from.dialect, self.job.to.dialect);
+            if let Some((side, place)) = rests {
+                self.rests.push(Rest { diagnostic: self.diagnostics.len(), side, place });
+            }
             self.refused |= self.job.refuses(&diagnostic);
             self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
             self.diagnostics.push(diagnostic);
@@ -353,13 +402,14 @@ impl<'j> Line<'j> {
         };
         if let Some(number) = self.job.program_number.filter(|n| self.numbers.contains(n)) {
             let name = number.to_string().into();
-            self.take(vec![Diagnostic::new(Fault::ProgramTwice { name }, Span::default())]);
+            self.take(vec![Diagnostic::new(Fault::ProgramTwice { name }, Span::default())], Told::Writer);
         }
         let mut text = Vec::new();
         let mut found = Vec::new();
         let head = Head { name: self.name(), lines: self.head_lines(&hash) };
+        let program_number = head.name.number.filter(|_| self.job.to.dialect.program.number.is_some());
         self.writer.head(&head, &mut text, &mut found);
-        self.take(found);
+        self.take(found, Told::Writer);
         if self.verifier.is_some() {
             let job = self.job;
             self.check(|_| Verifier::new(job).head(&text));
@@ -382,6 +432,8 @@ impl<'j> Line<'j> {
         counts[Verdict::Exact as usize] = self.statements.saturating_sub(told);
         Outcome {
             diagnostics: self.diagnostics,
+            program_number,
+            rests: self.rests,
             verified,
             release,
             output: self.output,
@@ -409,10 +461,12 @@ impl<'j> Line<'j> {
     }
 
     fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
-        if !self.job.head {
-            return Vec::new();
-        }
-        head::lines(self.job, hash, &self.diagnostics)
+        let mut lines = match self.job.head {
+            true => head::lines(self.job, hash, &self.diagnostics),
+            false => Vec::new(),
+        };
+        lines.extend(self.job.machines.layout().header);
+        lines
     }
 }
 

@@ -451,6 +451,7 @@ mod tests {
         Job {
             from: settings.clone(),
             to: settings,
+            machines: crate::machines::pair::Machines::default(),
             layout: Layout::default(),
             passes: Vec::new(),
             fold: None,

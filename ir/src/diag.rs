@@ -294,6 +294,9 @@ faults! {
     ArcVanishes = 503, Error;
     /// A number outside the target's range.
     TargetRange { word: Box<str> } = 504, Error;
+    /// What the translation would take for granted is denied by the profile of a machine: which fact,
+    /// and whose.
+    ProfileDenies { fact: Box<str>, machine: Box<str> } = 505, Error;
 
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.

@@ -9,6 +9,7 @@
 
 mod check;
 mod control;
+mod document;
 mod fact;
 mod profile;
 pub mod reading;
@@ -18,6 +19,7 @@ pub mod table;
 mod wrong;
 
 pub use control::Layout;
+pub use document::tables;
 pub use fact::Fact;
 pub use profile::{Profile, Row};
 pub use shipped::{find, shipped};

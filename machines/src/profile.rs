@@ -91,9 +91,9 @@ impl Profile {
             spindle_acceleration: s.spindle.acceleration.get(),
             spindle_max: s.spindle.max_speed.get(),
             path_tolerance: s.rates.path_tolerance.get(),
+            exact_stop: s.rates.exact_stop.get(),
             m_function: s.times.m_function.get(),
             block: s.times.block.get(),
-            ..Machine::default()
         }
     }
 

@@ -214,6 +214,8 @@ table! {
         max_feed: f64 = "a number above 0";
         /// How far the path may leave a corner, mm; 0 is an exact stop in every corner.
         path_tolerance: f64 = "a number from 0";
+        /// Whether every move ends in a stop, in a straight line too.
+        exact_stop: bool = "`true`, `false`";
     }
 }
 

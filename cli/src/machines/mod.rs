@@ -1,6 +1,12 @@
 //! Machine profiles on the command line: finding one, and telling what is wrong with it.
 
+mod args;
+pub mod pair;
+mod show;
+mod test;
 mod words;
+
+pub use args::Machines;
 
 use std::path::Path;
 
@@ -12,7 +18,44 @@ use ncc_machines::{Profile, ProfileError, shipped};
 
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
+use crate::{files, machines};
+use args::What;
 use words::{message, words};
+
+/// The schema of profiles, as it is documented.
+pub const SCHEMA: &str = include_str!("../../../docs/machine-profile.md");
+
+/// `ncc machines`.
+///
+/// # Errors
+/// A profile is not there or has faults; stdout cannot be written.
+pub fn run(args: &Machines, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let print = |text: &str| files::to_stdout(&mut |out| out.write_all(text.as_bytes()));
+    match &args.what {
+        None => print(&show::list(shipped()))?,
+        Some(What::Show { machine }) => print(&show::show(&machines::find(machine, known, err)?))?,
+        Some(What::Schema) => print(SCHEMA)?,
+        Some(What::Test { machines }) => {
+            let mut exit = Exit::Done;
+            for name in machines {
+                match machines::find(name, known, err) {
+                    Ok(profile) => {
+                        let (text, passed) = test::test(&profile);
+                        print(&text)?;
+                        exit = if passed { exit } else { Exit::Refused };
+                    }
+                    // The others are tested all the same.
+                    Err(problem) => {
+                        let _ = problem.print(err, false);
+                        exit = Exit::Refused;
+                    }
+                }
+            }
+            return Ok(exit);
+        }
+    }
+    Ok(Exit::Done)
+}
 
 /// A profile by the name of a shipped one, or by its file. What is wrong with it is told on `err`.
 ///

@@ -141,6 +141,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
         Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
         Fault::TargetRange { .. } => Vec::new(),
+        Fault::ProfileDenies { .. } => own("write this place another way, or correct the profile"),
 
         Fault::NotTheSame { .. } | Fault::NotReadBack { .. } => vec![
             "this is a fault of ncc, not of your program; nothing is released".to_owned(),

@@ -245,6 +245,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::SecondWorkOffset { .. }
         | Fault::ArcVanishes
         | Fault::TargetRange { .. }
+        | Fault::ProfileDenies { .. }
         | Fault::NotTheSame { .. }
         | Fault::NotReadBack { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,

@@ -263,6 +263,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "the arc is too small to be written".into(),
             format!("its ends become one point when rounded to the digits of {to}"),
         ),
+        Fault::ProfileDenies { fact, machine } => (
+            format!("the profile of {} says otherwise", plain(machine)),
+            format!("this rests on {}", plain(fact)),
+        ),
         Fault::TargetRange { word } => {
             (format!("{} cannot be written", quoted(word)), format!("out of the range of {to}"))
         }

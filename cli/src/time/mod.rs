@@ -171,6 +171,7 @@ fn job(
     Ok(Job {
         to: from.clone(),
         from,
+        machines: crate::machines::pair::Machines::default(),
         layout: Layout { numbering: Numbering::Off, crlf: false },
         passes: Vec::new(),
         fold: None,

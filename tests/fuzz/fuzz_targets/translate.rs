@@ -13,6 +13,7 @@ fuzz_target!(|data: &[u8]| {
     let job = Job {
         from: pick(*from),
         to: pick(*to),
+        machines: ncc::machines::pair::Machines::default(),
         layout: ncc_backends::Layout::default(),
         passes: Vec::new(),
         fold: None,

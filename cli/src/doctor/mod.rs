@@ -1,0 +1,179 @@
+//! `ncc doctor`: which facts about both machines a translation depends on.
+//!
+//! The program is translated as it would be, and every assumption that was told is asked back as a
+//! question about one of the two machines. The answers have a place in a profile; a profile with
+//! exactly these questions can be written. Not here: which fact an assumption rests on
+//! (`ncc_machines::reading`).
+
+mod question;
+mod stub;
+
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use codespan_reporting::term::termcolor::StandardStream;
+use ncc_backends::{Layout, Numbering};
+use ncc_dialects::Settings;
+use ncc_ir::diag::Gravity;
+use ncc_machines::reading::Side;
+
+use crate::args::{Start, pair, start};
+use crate::files;
+use crate::job::{Job, Outcome};
+use crate::known::Known;
+use crate::machines::pair::{Machines, agreed};
+use crate::problem::{Exit, Problem};
+use crate::render::About;
+use crate::render::human::{self, Loudness};
+use crate::run::{recognise, settings};
+use crate::translate;
+use question::{Question, questions};
+
+const EXAMPLES: &str = "\
+Examples:
+  ncc doctor part.cn --from mach9 --to fanuc                      what the translation depends on
+  ncc doctor part.cn --to fanuc --write-from a.toml --write-to b.toml
+                                                                  the same, as profiles to be filled in
+  ncc translate part.cn --machine-from a.toml --machine-to b.toml
+                                                                  what is filled in is no assumption any more";
+
+/// `ncc doctor`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Doctor {
+    /// The program; `-` for stdin
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Dialect of the source, or `auto` to recognise it [default: the machine's, else auto]
+    #[arg(long, value_name = "DIALECT")]
+    pub from: Option<String>,
+    /// Dialect to translate into
+    #[arg(long, value_name = "DIALECT", required_unless_present = "machine_to")]
+    pub to: Option<String>,
+    /// What is known of the machine that the program was written for: a profile's name or file
+    #[arg(long, value_name = "MACHINE")]
+    pub machine_from: Option<String>,
+    /// What is known of the machine to translate for
+    #[arg(long, value_name = "MACHINE")]
+    pub machine_to: Option<String>,
+    /// Decide a question that the source's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    pub from_option: Vec<(String, String)>,
+    /// Decide a question that the target's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    pub to_option: Vec<(String, String)>,
+    /// Where the tool stands before the first block, in program coordinates: `X-9,Y15.588,Z3`
+    #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
+    pub start: Option<Start>,
+    /// Write a profile of the source's machine with the questions, to be filled in; a new file
+    #[arg(long, value_name = "FILE")]
+    pub write_from: Option<PathBuf>,
+    /// Write a profile of the target's machine with the questions; a new file
+    #[arg(long, value_name = "FILE")]
+    pub write_to: Option<PathBuf>,
+}
+
+/// Runs it. Exit code 0 if the program can be translated, whatever is asked.
+///
+/// # Errors
+/// Wrong usage, or a file.
+pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
+    let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, err)?;
+    let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
+    let to = agreed(to, machines.to.as_deref(), "to")?;
+    let to = to.ok_or_else(|| Problem::usage("translated into what?", "name a dialect: --to fanuc"))?;
+    let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
+    let named = agreed(named, machines.from.as_deref(), "from")?;
+    for path in [&args.write_from, &args.write_to].into_iter().flatten() {
+        if path.exists() {
+            let message = format!("{} is there already", path.display());
+            return Err(Problem::usage(message, "name a new file; nothing is written over"));
+        }
+    }
+    if args.write_from.is_some() && args.write_from == args.write_to {
+        return Err(Problem::usage("one file for two machines", "each has a profile of its own"));
+    }
+    let mut source = files::open(&args.file)?;
+    let from = match named {
+        Some(dialect) => dialect,
+        None => recognise(&mut source, true, known, err)?,
+    };
+    let job = Job {
+        from: settings(machines.settings(Side::From, from), &args.from_option)?,
+        to: settings(machines.settings(Side::To, to), &args.to_option)?,
+        machines,
+        layout: Layout { numbering: Numbering::Off, crlf: false },
+        passes: Vec::new(),
+        fold: None,
+        verify: true,
+        head: true,
+        start: args.start.unwrap_or_default(),
+        program_number: None,
+        source_name: source.name.clone(),
+        allow: Vec::new(),
+        deny: Vec::new(),
+    };
+    source.rewind()?;
+    let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
+    let outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
+    let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
+    // Messages that cannot be written change nothing about what was found.
+    let _ = human::print(err, &mut about, &outcome.diagnostics, Loudness::Quiet);
+    let asked = questions(&mut about, &outcome).map_err(cannot_read)?;
+    let text = told(&about, &outcome, &asked);
+    files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
+    for (side, path) in [(Side::From, &args.write_from), (Side::To, &args.write_to)] {
+        let Some(path) = path else { continue };
+        let text = stub::profile(side, &about, &asked, &stem(path));
+        files::to_file(path, &mut |out| out.write_all(text.as_bytes()))?;
+    }
+    Ok(if outcome.release.is_ok() { Exit::Done } else { Exit::Refused })
+}
+
+/// The name of a profile after its file.
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// The questions, grouped by machine.
+fn told(about: &About, outcome: &Outcome, asked: &[Question]) -> String {
+    let (from, to): (&Settings, &Settings) = (&about.job.from, &about.job.to);
+    let mut text = format!("{}: {} to {}, ", about.name, from.dialect.id, to.dialect.id);
+    text.push_str(&match asked.len() {
+        0 => "depends on no fact that is not stated\n".to_owned(),
+        1 => "depends on 1 fact that is not stated\n".to_owned(),
+        n => format!("depends on {n} facts that are not stated\n"),
+    });
+    for (side, whose, dialect) in [
+        (Side::From, "the machine that it was written for", from.dialect),
+        (Side::To, "the machine to translate for", to.dialect),
+    ] {
+        let own: Vec<&Question> = asked.iter().filter(|q| q.side == side).collect();
+        if own.is_empty() {
+            continue;
+        }
+        // Writing into a text cannot fail.
+        let _ = writeln!(text, "\n{whose} ({}):", dialect.id);
+        let wide = own.iter().map(|q| q.place.to_string().len()).max().unwrap_or(0);
+        for question in own {
+            let place = question.place.to_string();
+            let _ = writeln!(text, "  {place:wide$}  {} ({})", question.taken, question.lines());
+            let _ = writeln!(text, "  {:wide$}  {}", "", question.takes);
+        }
+    }
+    let errors = outcome.diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Error).count();
+    if errors > 0 {
+        text.push_str("\nThe program is refused, so there may be more questions behind what stops it.\n");
+    }
+    let open = asked.iter().any(|q| q.side == Side::From).then_some("--write-from FILE");
+    let open: Vec<&str> = open
+        .into_iter()
+        .chain(asked.iter().any(|q| q.side == Side::To).then_some("--write-to FILE"))
+        .collect();
+    if !open.is_empty() {
+        let _ = writeln!(text, "\n{} writes profiles with these questions, to be filled in.", open.join(" "));
+    }
+    text
+}

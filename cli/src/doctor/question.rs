@@ -1,0 +1,100 @@
+//! The questions that a translation leaves open.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use ncc_dialects::Dialect;
+use ncc_machines::reading::{Place, Side};
+use ncc_machines::schema::PowerOn;
+use ncc_machines::table::Table;
+
+use crate::job::Outcome;
+use crate::render::About;
+use crate::render::summary::phrase;
+use crate::render::words::Context;
+
+/// Of one question, so many lines are named.
+const MOST_LINES: usize = 8;
+
+/// A fact that is not stated.
+#[derive(Clone, Debug)]
+pub(super) struct Question {
+    /// Whose.
+    pub(super) side: Side,
+    /// Its place in a profile.
+    pub(super) place: Place,
+    /// What is taken for granted.
+    pub(super) taken: String,
+    /// What the place takes.
+    pub(super) takes: String,
+    /// Lines that depend on it, in order.
+    lines: Vec<u64>,
+    /// How many more there are.
+    more: usize,
+}
+
+impl Question {
+    /// `line 6`, `lines 9, 18 and 28`.
+    pub(super) fn lines(&self) -> String {
+        let list: Vec<String> = self.lines.iter().map(u64::to_string).collect();
+        let more = match self.more {
+            0 => String::new(),
+            n => format!(" and {n} more"),
+        };
+        match list.as_slice() {
+            [] => "the whole program".to_owned(),
+            [only] if self.more == 0 => format!("line {only}"),
+            list => format!("lines {}{more}", list.join(", ")),
+        }
+    }
+}
+
+/// The questions, machine by machine, in the order of the first line that depends on each.
+///
+/// # Errors
+/// Reading the source.
+pub(super) fn questions(about: &mut About, outcome: &Outcome) -> io::Result<Vec<Question>> {
+    let lines = about.lines(outcome.rests.iter().map(|rest| &outcome.diagnostics[rest.diagnostic]))?;
+    let (from, to) = (about.job.from.dialect, about.job.to.dialect);
+    let at = Context { from, to, snippet: "", beside: ("", "") };
+    let mut found: BTreeMap<(Side, Place), Question> = BTreeMap::new();
+    for rest in &outcome.rests {
+        let diagnostic = &outcome.diagnostics[rest.diagnostic];
+        let dialect = if rest.side == Side::From { from } else { to };
+        let question = found.entry((rest.side, rest.place.clone())).or_insert_with(|| Question {
+            side: rest.side,
+            place: rest.place.clone(),
+            taken: phrase(&diagnostic.fault, at),
+            takes: takes(&rest.place, dialect),
+            lines: Vec::new(),
+            more: 0,
+        });
+        let Some(line) = lines.line(diagnostic.span.start) else { continue };
+        match question.lines.len() < MOST_LINES {
+            _ if question.lines.contains(&line.number) => {}
+            true => question.lines.push(line.number),
+            false => question.more += 1,
+        }
+    }
+    let mut questions: Vec<Question> = found.into_values().collect();
+    questions.sort_by_key(|q| (q.side, q.lines.first().copied()));
+    Ok(questions)
+}
+
+/// What a place of a profile takes, in words.
+fn takes(place: &Place, dialect: &Dialect) -> String {
+    match place {
+        Place::PowerOn(key) => {
+            let key = PowerOn::KEYS.iter().find(|k| k.name == *key);
+            key.map_or(String::new(), |k| format!("{} possible: {}", k.doc.trim(), k.takes.replace('`', "")))
+        }
+        Place::Option(name) => dialect.option.iter().find(|o| o.name == *name).map_or(String::new(), |row| {
+            let values = match row.values.is_empty() {
+                true => "a number".to_owned(),
+                false => row.values.join(", "),
+            };
+            format!("{} possible: {values}", row.doc)
+        }),
+        Place::Confirmed(_) => "is it so on this machine? possible: true, false".to_owned(),
+    }
+}

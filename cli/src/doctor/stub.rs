@@ -1,0 +1,70 @@
+//! A profile with exactly the facts that a translation asks for, each empty, with its question.
+
+use std::fmt::Write;
+
+use ncc_machines::reading::{Place, Side, quoted};
+
+use super::question::Question;
+use crate::render::About;
+
+/// Longest line of a comment.
+const WIDE: usize = 100;
+
+/// The text of the profile.
+pub(super) fn profile(side: Side, about: &About, asked: &[Question], id: &str) -> String {
+    let (from, to) = (&about.job.from.dialect.id, &about.job.to.dialect.id);
+    let dialect = if side == Side::From { from } else { to };
+    let mut text = String::new();
+    comment(
+        &mut text,
+        &format!(
+            "Facts about the machine that the translation of {} from {from} to {to} depends on. Fill in \
+             what is known; what stays \"\" stays an assumption, and is told. `ncc machines schema` \
+             lists everything else that a profile can hold.",
+            about.job.source_name
+        ),
+    );
+    // Writing into a text cannot fail.
+    let _ = writeln!(text, "id = {id:?}");
+    let _ = writeln!(text, "title = \"\"");
+    let _ = writeln!(text, "dialect = {dialect:?}");
+    let own = || asked.iter().filter(|q| q.side == side);
+    for (head, is_here) in [
+        ("[options]", (|p: &Place| matches!(p, Place::Option(_))) as fn(&Place) -> bool),
+        ("[power_on]", |p| matches!(p, Place::PowerOn(_))),
+        ("[confirmed]", |p| matches!(p, Place::Confirmed(_))),
+    ] {
+        let here: Vec<&Question> = own().filter(|q| is_here(&q.place)).collect();
+        if here.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n{head}");
+        for question in here {
+            let key = match &question.place {
+                Place::PowerOn(key) => (*key).to_owned(),
+                Place::Option(key) | Place::Confirmed(key) => quoted(key),
+            };
+            let (lines, taken, takes) = (question.lines(), &question.taken, &question.takes);
+            comment(&mut text, &format!("{lines}: taken for granted: {taken}"));
+            comment(&mut text, takes);
+            let _ = writeln!(text, "{key} = \"\"");
+        }
+    }
+    text
+}
+
+/// A comment in lines that are not too long.
+fn comment(text: &mut String, words: &str) {
+    let mut line = String::from("#");
+    for word in words.split_whitespace() {
+        if line.chars().count() + 1 + word.chars().count() > WIDE {
+            text.push_str(&line);
+            text.push('\n');
+            line = String::from("#");
+        }
+        line.push(' ');
+        line.push_str(word);
+    }
+    text.push_str(&line);
+    text.push('\n');
+}

@@ -1,0 +1,186 @@
+//! The two machines of a translation: what their profiles settle, and how the shop writes programs.
+//!
+//! A fact that a profile states is no assumption; one that it denies stops the translation. Nothing
+//! else is changed here about what was found.
+
+use std::sync::Arc;
+
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_backends::{Characters, Form, Numbering, ToolChange};
+use ncc_dialects::{Dialect, Settings};
+use ncc_ir::diag::Fault;
+use ncc_machines::reading::{Place, Side, Told, rests_on};
+use ncc_machines::schema::{BlockNumbers, Characters as Set, FileName, LineEnds, ToolChangeForm};
+use ncc_machines::{Layout, Profile};
+
+use crate::args::Eol;
+use crate::known::Known;
+use crate::problem::Problem;
+
+/// The profiles of both machines, where they were given.
+#[derive(Clone, Debug, Default)]
+pub struct Machines {
+    /// The machine that the program was written for.
+    pub from: Option<Arc<Profile>>,
+    /// The machine that it is translated for.
+    pub to: Option<Arc<Profile>>,
+}
+
+/// What the profiles say to something that was found.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// Nothing.
+    Open,
+    /// That it is so: it is no assumption.
+    Settled,
+    /// That it is not so: the fault that takes its place.
+    Denied(Fault),
+}
+
+impl Machines {
+    /// The profiles of both sides, by name or file.
+    ///
+    /// # Errors
+    /// There is none, or it has faults; those are told on `err`.
+    pub(crate) fn find(
+        from: Option<&str>,
+        to: Option<&str>,
+        known: &Known,
+        err: &mut dyn WriteColor,
+    ) -> Result<Machines, Problem> {
+        let mut one = |name: Option<&str>| {
+            name.map(|name| super::find(name, known, err)).transpose().map(|found| found.map(Arc::new))
+        };
+        Ok(Machines { from: one(from)?, to: one(to)? })
+    }
+
+    /// A side's dialect with what its profile states; the dialect alone if there is no profile.
+    pub(crate) fn settings(&self, side: Side, dialect: &'static Dialect) -> Settings {
+        self.side(side).map_or_else(|| Settings::new(dialect), Profile::settings)
+    }
+
+    /// Line ends, as the shop wants them.
+    pub(crate) fn eol(&self) -> Eol {
+        match self.layout().line_ends {
+            None | Some(LineEnds::Keep) => Eol::Keep,
+            Some(LineEnds::Lf) => Eol::Lf,
+            Some(LineEnds::Crlf) => Eol::Crlf,
+        }
+    }
+
+    /// Block numbers, as the shop wants them.
+    pub(crate) fn numbering(&self) -> Numbering {
+        match self.layout().numbers {
+            None | Some((BlockNumbers::Off, ..)) => Numbering::Off,
+            Some((BlockNumbers::Keep, ..)) => Numbering::Keep,
+            Some((BlockNumbers::New, first, step)) => Numbering::Every { first, step },
+        }
+    }
+
+    /// The profile of a side.
+    pub fn side(&self, side: Side) -> Option<&Profile> {
+        match side {
+            Side::From => self.from.as_deref(),
+            Side::To => self.to.as_deref(),
+        }
+    }
+
+    /// What the profiles say to something that was found.
+    pub fn answer(&self, fault: &Fault, told: Told, from: &Settings, to: &Settings) -> Answer {
+        if self.from.is_none() && self.to.is_none() {
+            return Answer::Open;
+        }
+        let Some((side, place)) = rests_on(fault, told, from.dialect, to.dialect) else {
+            return Answer::Open;
+        };
+        let Some(profile) = self.side(side) else { return Answer::Open };
+        let power_on = &profile.schema.power_on;
+        let says = match (&place, fault) {
+            (Place::Option(option), _) => {
+                let chosen = profile.schema.options.iter().find(|(name, _)| name.get_ref() == option);
+                chosen.and_then(|(_, choice)| choice.value.as_ref()).map(|_| true)
+            }
+            (Place::Confirmed(row), _) => {
+                let confirmed = profile.schema.confirmed.iter().find(|(name, _)| name.get_ref() == row);
+                confirmed.and_then(|(_, yes)| yes.get())
+            }
+            (Place::PowerOn("work_offset"), Fault::AssumedWorkOffset { offset }) => {
+                power_on.work_offset.get().map(|own| own == u32::from(*offset))
+            }
+            (Place::PowerOn("no_origin_shift"), _) => power_on.no_origin_shift.get(),
+            // A reader does not assume what its dictionary has as a fact.
+            (Place::PowerOn(_), _) => None,
+        };
+        match says {
+            None => Answer::Open,
+            Some(true) => Answer::Settled,
+            Some(false) => Answer::Denied(Fault::ProfileDenies {
+                fact: place.to_string().into(),
+                machine: profile.id().into(),
+            }),
+        }
+    }
+
+    /// The name of an output in a folder: after the source or the program's number, with the
+    /// extension that the shop or the dialect has.
+    pub(crate) fn file_name(&self, to: &Dialect, source: &str, number: Option<u32>) -> String {
+        let emit = self.to.as_deref().map(|profile| &profile.schema.emit);
+        let by_number = emit.and_then(|e| e.file_name.get()) == Some(FileName::ProgramNumber);
+        let stem = match number.filter(|_| by_number) {
+            Some(number) => {
+                let letter = to.program.number.map(String::from).unwrap_or_default();
+                format!("{letter}{number:0digits$}", digits = to.program.number_digits)
+            }
+            None if source == "-" => "program".to_owned(),
+            None => source.rsplit_once('.').map_or(source, |(stem, _)| stem).to_owned(),
+        };
+        let usual = to.extensions.first().map(String::as_str).unwrap_or_default();
+        let extension = emit.and_then(|e| e.extension.value.as_deref()).unwrap_or(usual);
+        let name = if extension.is_empty() { stem } else { format!("{stem}.{extension}") };
+        match emit.and_then(|e| e.upper_case.get()) {
+            Some(true) => name.to_uppercase(),
+            Some(false) | None => name,
+        }
+    }
+
+    /// How the text of the output is formed.
+    pub fn form(&self) -> Form {
+        let layout = self.layout();
+        Form {
+            characters: match layout.characters {
+                None | Some(Set::Utf8) => Characters::All,
+                Some(Set::Capitals | Set::Ascii) => Characters::Ascii,
+                Some(Set::Latin1) => Characters::Latin1,
+            },
+            tool_change: match layout.tool_change {
+                None => ToolChange::Kept,
+                Some(ToolChangeForm::OneBlock) => ToolChange::OneBlock,
+                Some(ToolChangeForm::TwoBlocks) => ToolChange::TwoBlocks,
+            },
+        }
+    }
+
+    /// How programs for the target machine are laid out.
+    pub fn layout(&self) -> Layout {
+        self.to.as_deref().map(Profile::layout).unwrap_or_default()
+    }
+}
+
+/// The dialect of a side, by its name or by its profile.
+///
+/// # Errors
+/// Both name one, and not the same.
+pub(crate) fn agreed(
+    named: Option<&'static Dialect>,
+    profile: Option<&Profile>,
+    side: &str,
+) -> Result<Option<&'static Dialect>, Problem> {
+    match (named, profile) {
+        (Some(dialect), Some(profile)) if dialect.id != profile.dialect.id => Err(Problem::usage(
+            format!("--{side} {}, but the machine {} is a {}", dialect.id, profile.id(), profile.dialect.id),
+            format!("leave --{side} out: the profile names the dialect"),
+        )),
+        (Some(dialect), _) => Ok(Some(dialect)),
+        (None, profile) => Ok(profile.map(|profile| profile.dialect)),
+    }
+}

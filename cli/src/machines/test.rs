@@ -1,0 +1,92 @@
+//! `ncc machines test`: programs written for a machine, and read back.
+//!
+//! The form and the sense of a profile have been checked when it was read. Here a small program is
+//! translated for the machine, verified, and translated once more from the machine to itself.
+
+use std::io::Cursor;
+use std::sync::Arc;
+
+use codespan_reporting::term::termcolor::Buffer;
+use ncc_backends::Layout;
+use ncc_dialects::{Settings, builtin};
+use ncc_ir::canon::AXES;
+use ncc_machines::Profile;
+use ncc_machines::reading::Side;
+
+use super::pair::Machines;
+use crate::job::Job;
+use crate::render::About;
+use crate::render::human::{self, Loudness};
+use crate::translate::translate;
+
+/// What most programs have.
+const SAMPLE: &str = include_str!("sample.ir");
+
+/// What was tested, for people, and whether all of it passed.
+pub(super) fn test(profile: &Profile) -> (String, bool) {
+    let mut text = format!("{}: {}\n", profile.id(), profile.schema.title);
+    let mut passed = true;
+    let mut tell = |what: &str, result: &Result<String, String>| match result {
+        Ok(how) => text.push_str(&format!("  passed  {what}{how}\n")),
+        Err(why) => {
+            passed = false;
+            text.push_str(&format!("  failed  {what}\n"));
+            why.lines().for_each(|line| text.push_str(&format!("          {line}\n")));
+        }
+    };
+    tell("form and sense", &Ok(String::new()));
+    let to = Machines { from: None, to: Some(Arc::new(profile.clone())) };
+    let Some(ir) = builtin("ir") else { return (text, false) };
+    let written = translated(SAMPLE, Settings::new(ir), to.clone());
+    tell(
+        "a sample program, written for it and verified",
+        &written.as_ref().map(|(n, _)| events(*n)).map_err(Clone::clone),
+    );
+    if let Ok((_, written)) = written {
+        let own = Machines { from: to.to.clone(), to: to.to };
+        let again = translated(&written, profile.settings(), own);
+        tell("the same, from the machine to itself", &again.map(|(n, _)| events(n)));
+    }
+    (text, passed)
+}
+
+fn events(n: u64) -> String {
+    format!(": {n} events")
+}
+
+/// Translates a text for the target machine; gives the number of events and the text, or what is
+/// wrong.
+fn translated(text: &str, from: Settings, machines: Machines) -> Result<(u64, String), String> {
+    let Some(to) = &machines.to else { return Err("no machine".to_owned()) };
+    let job = Job {
+        from,
+        to: machines.settings(Side::To, to.dialect),
+        layout: Layout { numbering: machines.numbering(), crlf: false },
+        machines,
+        passes: Vec::new(),
+        fold: None,
+        verify: true,
+        head: false,
+        start: [None; AXES],
+        program_number: None,
+        source_name: "sample".to_owned(),
+        allow: Vec::new(),
+        deny: Vec::new(),
+    };
+    let cannot = |error: std::io::Error| error.to_string();
+    let mut outcome = translate(&job, &mut text.as_bytes()).map_err(cannot)?;
+    if outcome.release.is_err() {
+        let mut source = Cursor::new(text.as_bytes());
+        let mut about = About { job: &job, name: "sample", source: &mut source };
+        let mut told = Buffer::no_color();
+        human::print(&mut told, &mut about, &outcome.diagnostics, Loudness::Quiet).map_err(cannot)?;
+        return Err(String::from_utf8_lossy(told.as_slice()).into_owned());
+    }
+    let events = outcome.verified.map_or(0, |v| v.events);
+    let written = outcome.output.to_vec().map_err(cannot)?;
+    let written = match String::from_utf8(written) {
+        Ok(text) => text,
+        Err(error) => error.into_bytes().iter().map(|b| char::from(*b)).collect(),
+    };
+    Ok((events, written))
+}

@@ -1,0 +1,44 @@
+//! The schema in words, from the types.
+
+use crate::schema::{AxisRow, Emit, MCodeRow, PowerOn, Rates, Spindle, Times, ToolRow, WorkOffsetRow};
+use crate::table::Table;
+
+/// The tables with fixed keys, as `docs/machine-profile.md` has them.
+pub fn tables() -> String {
+    let parts = [
+        table::<PowerOn>(),
+        table::<Rates>(),
+        table::<Times>(),
+        table::<Spindle>(),
+        table::<AxisRow>(),
+        table::<ToolRow>(),
+        table::<WorkOffsetRow>(),
+        table::<MCodeRow>(),
+        table::<Emit>(),
+    ];
+    parts.join("\n")
+}
+
+fn table<T: Table>() -> String {
+    let mut text =
+        format!("### `{}`\n\n{}\n\n| key | takes | what it is |\n|---|---|---|\n", T::HEAD, T::ABOUT.trim());
+    for key in T::KEYS {
+        text.push_str(&format!("| `{}` | {} | {} |\n", key.name, key.takes, key.doc.trim()));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_document_has_every_key_of_the_types() {
+        let document = include_str!("../../docs/machine-profile.md");
+        let tables = tables();
+        assert!(document.contains(&tables), "docs/machine-profile.md differs from:\n{tables}");
+        for key in ["id", "title", "dialect", "typical", "notes"] {
+            assert!(document.contains(&format!("| `{key}` |")), "{key}");
+        }
+    }
+}
