@@ -3,7 +3,7 @@
 use ncc_backends::{Head, Layout, ir::Writer};
 use ncc_dialects::Settings;
 use ncc_frontends::{Batch, ir::Reader};
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, Distance, Plane, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Control, Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
@@ -183,4 +183,12 @@ N10 SELECT_TOOL(1) & CHANGE_TOOL() \"the mill\"
     assert!(m.said && !y.value.literal().unwrap().point && y.distance.known().is_some());
     let span = batch.stmts[1].span;
     assert_eq!(&text[span.start as usize..span.end as usize], "CHANGE_TOOL() \"the mill\"");
+}
+
+#[test]
+fn of_facts_said_twice_the_later_counts() {
+    let text = "ncc-ir 1\nassumed(units mm, distance absolute, units inch)\nassumed(distance incremental, plane ZX)\n";
+    let assumed = read(text.as_bytes(), 1).assumed;
+    assert_eq!((assumed.units, assumed.distance), (Some(Units::Inch), Some(Distance::Incremental)));
+    assert_eq!(assumed.plane, Some(Plane::Zx));
 }
