@@ -68,6 +68,8 @@ pub enum Verb {
     Dialects(Dialects),
     /// How long a program takes on a machine, and when everything in it happens
     Time(Box<crate::time::args::Time>),
+    /// Draw what a program does over time, or the way of its tool, as SVG or HTML
+    Plot(Box<crate::plot::args::Plot>),
     /// List the machines, show a profile, or test one
     Machines(crate::machines::Machines),
     /// List the facts about both machines that a translation depends on, and ask for them

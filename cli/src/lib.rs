@@ -17,6 +17,7 @@ pub mod job;
 pub mod judge;
 pub mod known;
 pub mod machines;
+pub mod plot;
 pub mod problem;
 pub mod render;
 pub mod report;

@@ -22,7 +22,7 @@ use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
-use crate::{arrow, dialects, doctor, explain, machines, report, time, translate};
+use crate::{arrow, dialects, doctor, explain, machines, plot, report, time, translate};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -61,6 +61,10 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
                 Ok(exit) => exit,
                 Err(problem) => fail(&problem, &mut err, false),
             };
+        }
+        Verb::Plot(args) => {
+            let mut err = StandardStream::stderr(choice(args.color));
+            return ended(plot::run(args, &known, &mut err), &mut err);
         }
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),

@@ -51,6 +51,8 @@ const BOTTOM: f64 = 58.0;
 const GAP: f64 = 16.0;
 /// Size of most texts, pixels.
 const SIZE: f64 = 12.0;
+/// From so many points on, curves are hairs.
+const CLOSE: usize = 2500;
 
 type Frame<'a> = ChartContext<'a, SVGBackend<'a>, Cartesian2d<Axis, Axis>>;
 
@@ -285,7 +287,9 @@ fn draw(
                 let line = series.polyline(span.1.min(series_end(series, span.1)));
                 let place = |&(time, value): &(f64, f64)| frame.backend_coord(&(time, scale.at(value)));
                 let class = if name.is_empty() { format!("curve p{i}") } else { format!("curve {name}") };
-                layer.curve(&class, *ink, &[line.iter().map(place).collect()]);
+                // Where a curve goes up and down in every pixel, a hair shows more.
+                let width = if line.len() > CLOSE { ink.width * 0.5 } else { ink.width };
+                layer.curve(&class, Ink { width, ..*ink }, &[line.iter().map(place).collect()]);
                 if !name.is_empty() {
                     let y = top + 14.0 + 18.0 * i as f64;
                     let x = WIDTH - RIGHT + 10.0;
@@ -363,12 +367,15 @@ struct Scale {
 
 impl Scale {
     fn of(panel: &Panel<'_>) -> Scale {
-        let most = (panel.height / 36.0).max(2.0) as usize;
+        let most = (panel.height / 28.0).max(2.0) as usize;
         match &panel.show {
             Show::Curves { curves, powers: true } => {
                 let (least, greatest) = above_zero(curves);
                 let (low, high) = (least / 1.6, greatest * 1.25);
-                let marks = power_marks(low, high, most + 2).into_iter().map(f64::log10).collect();
+                let mut marks: Vec<f64> =
+                    power_marks(low * 1.3, high, most).into_iter().map(f64::log10).collect();
+                // At the bottom lies what is not above 0.
+                marks.push(low.log10());
                 Scale { low: low.log10(), high: high.log10(), marks, step: 1.0, powers: true, tools: vec![] }
             }
             Show::Curves { curves, powers: false } => {
@@ -425,7 +432,8 @@ impl Scale {
             return tool_name(*tool);
         }
         match self.powers {
-            true => number(10f64.powf(mark).round(), 1.0),
+            true if mark <= self.low => number(0.0, 1.0),
+            true => number(10f64.powf(mark), 10f64.powf(mark.floor())),
             false => number(mark, self.step),
         }
     }

@@ -1,15 +1,17 @@
 //! ncc-pictures: what a program does, to look at.
 //!
 //! Functions with their times go into a [`Record`], which keeps what a picture can show and no more.
-//! From it come charts over time ([`charts`]), views of the tool's way ([`view`]) and a report that a
-//! browser shows. Not here: reading programs, timing them, files.
+//! From it come charts over time ([`charts()`]), views of the tool's way ([`view()`]) and a report that a
+//! browser shows ([`report()`]). Not here: reading programs, timing them, files.
 
 mod axis;
 mod charts;
 mod chord;
 mod ink;
+mod listing;
 mod project;
 mod record;
+mod report;
 mod series;
 mod sheet;
 mod ticks;
@@ -17,8 +19,10 @@ mod view;
 mod way;
 
 pub use charts::{Chart, charts, later};
+pub use listing::Listing;
 pub use project::{View, project};
 pub use record::{Hole, Record, Stamps, Stretch, Sums};
+pub use report::{Page, report};
 pub use series::{Bin, Course, Series};
 pub use sheet::Undrawn;
 pub use view::view;

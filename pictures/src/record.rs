@@ -98,7 +98,7 @@ pub struct Record {
     pub name: String,
     /// Speed of the spindle, rev/min; 0 while it stands.
     pub speed: Series,
-    /// Mean rate of a move, mm/min; 0 while nothing moves.
+    /// Rate along the path, mm/min; 0 while nothing moves.
     pub feed: Series,
     /// Positions in the program's coordinates, mm and degrees.
     pub axes: [Series; AXES],
@@ -128,7 +128,7 @@ impl Record {
         Record {
             name: name.to_owned(),
             speed: Series::new(Course::Step),
-            feed: Series::new(Course::Step),
+            feed: Series::new(Course::Line),
             axes: std::array::from_fn(|_| Series::new(Course::Line)),
             moved: [false; AXES],
             tools: Vec::new(),
@@ -168,6 +168,7 @@ impl Record {
             Kind::Dwell(_)
             | Kind::ToolChange
             | Kind::Coolant
+            | Kind::MachineFunction(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd
@@ -221,8 +222,9 @@ impl Record {
 
     fn still(&mut self, timed: &Timed) {
         self.sums.idle += timed.duration;
-        self.feed.push(timed.start, 0.0);
         if timed.duration > 0.0 {
+            self.feed.push(timed.start, 0.0);
+            self.feed.push(timed.end(), 0.0);
             let (at, line) = (place(&timed.act.program_to), timed.act.place.line);
             self.way.stand(at, timed.start, line);
             self.way.add(Leg { stroke: Stroke::Still, to: at, end: timed.end(), lines: [line; 2] });
@@ -258,9 +260,7 @@ impl Record {
         for (i, axis) in self.axes.iter_mut().enumerate().skip(3) {
             axis.push(timed.end(), act.program_to[i] as f64 / ONE as f64);
         }
-        if timed.duration > 0.0 {
-            self.feed.push(timed.start, way.length / timed.duration * 60.0);
-        }
+        self.rate(timed, way.length);
         let (time, length) = match stroke {
             Stroke::Rapid => (&mut self.sums.rapid, &mut self.sums.rapid_way),
             Stroke::Feed | Stroke::Arc | Stroke::Hole | Stroke::Still | Stroke::Unseen => {
@@ -271,6 +271,24 @@ impl Record {
         *length += way.length;
         self.sums.moves += 1;
         self.stamps.push(self.sums.moves, timed.end());
+    }
+
+    /// The rate of a move: its ramps where the model has some, else its mean.
+    fn rate(&mut self, timed: &Timed, length: f64) {
+        let (profile, start, end) = (&timed.profile, timed.start, timed.end());
+        if timed.duration <= 0.0 {
+            return;
+        }
+        let mean = length / timed.duration;
+        let ramps = profile.t_accel > 0.0 || profile.t_decel > 0.0;
+        let (entry, peak, exit) =
+            if ramps { (profile.entry, profile.peak, profile.exit) } else { (mean, mean, mean) };
+        let (top, fall) = if ramps { (start + profile.t_accel, end - profile.t_decel) } else { (start, end) };
+        for (time, rate) in
+            [(start, entry), (top.min(end), peak), (fall.max(top).min(end), peak), (end, exit)]
+        {
+            self.feed.push(time, rate * 60.0);
+        }
     }
 
     /// Spindle and tool: what a move finds is so from its start; what another function sets, from its

@@ -86,6 +86,7 @@ impl Series {
         match (self.course, self.points.as_mut_slice()) {
             (Course::Step, [.., last]) if last.1 == value => {}
             (Course::Step, [.., last]) if last.0 == time => last.1 = value,
+            (Course::Line, [.., last]) if *last == (time, value) => {}
             (Course::Line, [.., before, last]) if before.1 == value && last.1 == value => last.0 = time,
             _ => self.points.push((time, value)),
         }

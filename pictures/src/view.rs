@@ -23,8 +23,10 @@ const RIGHT: f64 = 150.0;
 /// Greatest size of the drawing itself.
 const MOST: (f64, f64) = (900.0, 720.0);
 /// Least width of it: the caption is above.
-const LEAST: f64 = 360.0;
+const LEAST: f64 = 440.0;
 const SIZE: f64 = 12.0;
+/// From so many legs on, lines are hairs.
+const CLOSE: usize = 4000;
 
 /// From drawing coordinates to the page.
 struct Paper {
@@ -164,7 +166,10 @@ fn box_frame(area: &Area<'_>, layer: &mut Layer, paper: &Paper, extent: &Extent)
         if high[i] - low[i] < 1e-9 {
             (vec![low[i]], 1.0)
         } else if most < 2.0 {
-            (if most > 0.6 { vec![low[i], high[i]] } else { vec![low[i]] }, (high[i] - low[i]) / 20.0)
+            // The ends alone; with as many digits as they need, three at most.
+            let whole = |digits: f64| [low[i], high[i]].iter().all(|v| (v * digits).fract().abs() < 1e-6);
+            let digits = [1.0, 10.0, 100.0].into_iter().find(|digits| whole(*digits)).unwrap_or(1000.0);
+            (if most > 0.6 { vec![low[i], high[i]] } else { vec![low[i]] }, 1.0 / digits)
         } else {
             marks(low[i], high[i], (most as usize).min(10))
         }
@@ -213,6 +218,8 @@ fn lines(layer: &mut Layer, record: &Record, view: View, paper: &Paper, one: Opt
         let line = ink::stroke(stroke);
         let line = match one {
             Some(pair) => Ink { dash: line.dash, width: pair.width.min(3.0), ..pair },
+            // Where lines lie close, hairs show more.
+            None if record.way.legs.len() > CLOSE => Ink { width: line.width * 0.4, ..line },
             None => line,
         };
         layer.curve(stroke.name(), line, &pieces(&record.way, stroke, |p| paper.at(project(view, p))));

@@ -172,7 +172,7 @@ pub enum Stage {
     After,
 }
 
-fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {
+pub(crate) fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {
     match text {
         "select" => Ok(ToolChangeOn::Select),
         "change" => Ok(ToolChangeOn::Change),
@@ -180,7 +180,7 @@ fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {
     }
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if seconds.is_finite() && (0.0..1e9).contains(&seconds) => Ok(seconds),
         Ok(_) | Err(_) => Err("write seconds as a decimal, 0 or more".to_owned()),

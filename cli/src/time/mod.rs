@@ -11,7 +11,7 @@ mod blocks;
 mod canon;
 mod columns;
 mod csv;
-mod drive;
+pub(crate) mod drive;
 mod duration;
 mod grid;
 mod parameters;
@@ -48,7 +48,7 @@ use crate::run::{recognise, settings};
 use crate::translate::translate;
 
 /// The machine of a call, as the model sees it.
-struct Shop {
+pub(crate) struct Shop {
     profile: Option<Profile>,
     machine: Machine,
     /// What the model takes for granted of it.
@@ -56,7 +56,7 @@ struct Shop {
 }
 
 impl Shop {
-    fn of(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Shop, Problem> {
+    pub(crate) fn of(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Shop, Problem> {
         let profile = match &args.machine {
             Some(name) => Some(crate::machines::find(name, known, err)?),
             None => None,
@@ -69,7 +69,7 @@ impl Shop {
         Ok(Shop { profile, machine, assumed })
     }
 
-    fn title(&self) -> &str {
+    pub(crate) fn title(&self) -> &str {
         self.profile.as_ref().map_or("", |p| &p.schema.title)
     }
 }
@@ -146,7 +146,7 @@ impl Write for Spool {
 }
 
 /// A program as a translation into itself: so its diagnostics are told.
-fn job(
+pub(crate) fn job(
     args: &Time,
     shop: &Shop,
     known: &Known,
@@ -185,7 +185,7 @@ fn job(
     })
 }
 
-fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
+pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
     Plan {
         job,
         machine: shop.machine.clone(),
@@ -197,7 +197,7 @@ fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
 }
 
 /// Executes a program and tells what was found.
-fn execute(
+pub(crate) fn execute(
     args: &Time,
     plan: &Plan,
     known: &Known,
@@ -245,7 +245,7 @@ fn tell(
 }
 
 /// What a program's timing takes for granted.
-fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
+pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<String> {
     let mut lines = Vec::new();
     let dialect = plan.job.from.dialect;
     match &shop.profile {
@@ -372,7 +372,7 @@ fn stream(
 }
 
 /// The account of a program that does not tell it itself.
-fn say(
+pub(crate) fn say(
     args: &Time,
     shop: &Shop,
     plan: &Plan,

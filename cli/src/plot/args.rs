@@ -1,0 +1,207 @@
+//! The command line of `ncc plot`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use ncc_pictures::{Chart, View};
+use ncc_timeline::{Model, ToolChangeOn};
+
+use crate::args::{Color, Start, pair, start};
+use crate::time::args::{Form, Stage, Time, seconds, tool_change_on};
+
+const EXAMPLES: &str = "\
+Examples:
+  ncc plot part.cn --machine M -o part.svg                      charts over time, as SVG
+  ncc plot part.cn --machine M --chart speed,tool -o part.svg   some of them
+  ncc plot part.cn --view isometric -o way.svg                  the way of the tool
+  ncc plot part.cn --machine M -o part.html                     all of it, with the source, for a browser
+  ncc plot part.cn part.nc --machine M -o both.svg              a program and its port over each other
+
+The HTML file needs nothing else and no network. Of a large program, pictures keep what can be seen:
+the least and greatest value of every moment, and the way to within a pixel of the whole; the legend
+says how much that is.";
+
+/// `ncc plot`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Plot {
+    /// The program, or two to compare; `-` for stdin
+    #[arg(value_name = "FILE", required = true, num_args = 1..=2)]
+    pub files: Vec<PathBuf>,
+    /// Dialect of the program, or `auto` to recognise it; of two programs, `A,B` [default: of one
+    /// program the machine's, else auto]
+    #[arg(long, value_name = "DIALECT", value_delimiter = ',', help_heading = "What is executed")]
+    pub from: Vec<String>,
+    /// Decide a question that the dialect's dictionary leaves open; of one program only
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is executed")]
+    pub from_option: Vec<(String, String)>,
+    /// Where the tool stands before the first block, in program coordinates, mm and degrees:
+    /// `X-9,Y15.588,Z3` [default: program zero]
+    #[arg(
+        long,
+        value_name = "AXES",
+        value_parser = start,
+        allow_hyphen_values = true,
+        help_heading = "What is executed"
+    )]
+    pub start: Option<Start>,
+    /// Block-skip switches that are on, by level; the others are off
+    #[arg(
+        long,
+        value_name = "LEVELS",
+        value_delimiter = ',',
+        value_parser = clap::value_parser!(u8).range(1..=10),
+        help_heading = "What is executed"
+    )]
+    pub skip: Vec<u8>,
+
+    /// The machine: a profile's name or file
+    #[arg(short, long, value_name = "MACHINE", help_heading = "How it is timed")]
+    pub machine: Option<String>,
+    /// How moves are timed: ideal (rates alone), trapezoidal (accelerations, look-ahead),
+    /// jerk-limited [default: ideal]
+    #[arg(
+        long,
+        value_name = "MODEL",
+        default_value = "ideal",
+        hide_default_value = true,
+        help_heading = "How it is timed"
+    )]
+    pub model: Model,
+    /// The function that takes the time of a tool change [default: the machine's]
+    #[arg(long, value_name = "select|change", value_parser = tool_change_on, help_heading = "How it is timed")]
+    pub tool_change_on: Option<ToolChangeOn>,
+    /// Seconds on the clock before the first block
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value = "0",
+        hide_default_value = true,
+        value_parser = seconds,
+        help_heading = "How it is timed"
+    )]
+    pub start_time: f64,
+
+    /// Charts over time, from top to bottom: speed, tool, feed, position [default: all]
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_enum,
+        value_delimiter = ',',
+        hide_possible_values = true,
+        conflicts_with = "view",
+        help_heading = "What is drawn"
+    )]
+    pub chart: Vec<ChartName>,
+    /// The way of the tool instead: plan, isometric
+    #[arg(
+        long,
+        value_name = "plan|isometric",
+        value_enum,
+        hide_possible_values = true,
+        help_heading = "What is drawn"
+    )]
+    pub view: Option<ViewName>,
+    /// Write to this file instead of stdout; its name ends with .svg or .html and says what it is
+    #[arg(short, long, value_name = "FILE", help_heading = "What is drawn")]
+    pub output: Option<PathBuf>,
+
+    /// Say every assumption with its place, not only the account
+    #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
+    pub verbose: bool,
+    /// Say errors only, and show no progress
+    #[arg(short, long, help_heading = "What is reported")]
+    pub quiet: bool,
+    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
+    #[arg(
+        long,
+        value_name = "auto|always|never",
+        value_enum,
+        default_value_t = Color::Auto,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "What is reported"
+    )]
+    pub color: Color,
+}
+
+impl Plot {
+    /// What `ncc time` would be asked of a program; `n` counts them.
+    pub(super) fn timed(&self, n: usize) -> Time {
+        let from = match self.from.as_slice() {
+            // Two programs are rarely of one dialect.
+            [] if self.files.len() > 1 => Some("auto".to_owned()),
+            [] => None,
+            [one] => Some(one.clone()),
+            several => several.get(n).cloned(),
+        };
+        Time {
+            files: Vec::new(),
+            from,
+            from_option: self.from_option.clone(),
+            start: self.start,
+            skip: self.skip.clone(),
+            machine: self.machine.clone(),
+            model: self.model,
+            tool_change_on: self.tool_change_on,
+            start_time: self.start_time,
+            form: Form::Summary,
+            stage: Stage::After,
+            output: None,
+            schema: false,
+            verbose: self.verbose,
+            quiet: self.quiet,
+            color: self.color,
+        }
+    }
+
+    /// The charts that are asked for.
+    pub(super) fn charts(&self) -> Vec<Chart> {
+        match self.chart.as_slice() {
+            [] => Chart::ALL.to_vec(),
+            some => some.iter().map(|name| name.chart()).collect(),
+        }
+    }
+}
+
+/// Charts by their names on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ChartName {
+    /// Speed of the spindle
+    Speed,
+    /// Tool in the spindle
+    Tool,
+    /// Rate of the moves
+    Feed,
+    /// Where the axes are
+    Position,
+}
+
+impl ChartName {
+    fn chart(self) -> Chart {
+        match self {
+            ChartName::Speed => Chart::Speed,
+            ChartName::Tool => Chart::Tool,
+            ChartName::Feed => Chart::Feed,
+            ChartName::Position => Chart::Position,
+        }
+    }
+}
+
+/// Views by their names on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ViewName {
+    /// From above
+    Plan,
+    /// From the right, the front and above
+    Isometric,
+}
+
+impl ViewName {
+    pub(super) fn view(self) -> View {
+        match self {
+            ViewName::Plan => View::Plan,
+            ViewName::Isometric => View::Isometric,
+        }
+    }
+}
