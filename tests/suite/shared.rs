@@ -12,7 +12,7 @@ use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, rendered, stopping, translate};
 
 /// A folder beside the repository; says so if it is absent.
-fn beside(folder: &str) -> Option<PathBuf> {
+pub(crate) fn beside(folder: &str) -> Option<PathBuf> {
     let path = corpus::shared().map(|shared| shared.join(folder)).filter(|p| p.is_dir());
     if path.is_none() {
         println!("skipped: no ../shared/{folder} beside the repository");

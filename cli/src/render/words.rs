@@ -149,7 +149,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "never said in this program".into(),
         ),
         Fault::NotExecuted { what } => (
-            format!("{} cannot be verified", plain(what)),
+            format!("{} cannot be executed", plain(what)),
             "can be written down, but not executed by this version".into(),
         ),
         Fault::LabelUnknown { name } => {

@@ -17,8 +17,8 @@ Examples:
   ncc time part.cn --machine M --as tools -o tools.csv   what each tool does: ERP, setup sheet
   ncc time --schema                                      JSON Schema of payload and ndjson
 
-What a machine does not state takes no time, and the summary says so. Nothing is printed of a
-program that cannot be executed; exit codes are those of `ncc --help`.";
+What a machine does not state is taken for granted, and told. Nothing is printed of a program
+that cannot be executed; exit codes are those of `ncc --help`.";
 
 /// `ncc time`.
 #[derive(Debug, Args)]

@@ -2,7 +2,7 @@
 
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
-use ncc_timeline::AssumedFact;
+use ncc_timeline::{AssumedFact, Fact, Model};
 
 use super::drive::{Course, Plan};
 use super::duration::short;
@@ -55,8 +55,31 @@ pub(crate) fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     lines
 }
 
-/// Of the machine: what its profile does not state.
-pub(crate) fn of_machine(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
+/// Of the machine: what its profile does not state, and neither does the model.
+pub(crate) fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<String> {
+    let moved = &course.moved;
+    let mut lines = in_words(facts, moved);
+    let machine = &plan.machine;
+    let silent: Vec<String> = Axis::ALL
+        .into_iter()
+        .filter(|axis| {
+            axis.is_rotary() && moved[*axis as usize] && machine.axes[*axis as usize].rapid_rate.is_none()
+        })
+        .map(letter)
+        .collect();
+    if plan.model == Model::Ideal && !silent.is_empty() {
+        lines.push(format!("rapids of {} take no time", silent.join(" ")));
+    }
+    if plan.model == Model::Ideal && course.bounds.is_some() {
+        // The upper bound needs more than the model does.
+        let (_, all) = machine.assumed(Model::Trapezoidal);
+        let needed: Vec<AssumedFact> = all.into_iter().filter(|f| f.fact == Fact::Acceleration).collect();
+        lines.extend(in_words(&needed, moved).into_iter().map(|line| format!("for the bound, {line}")));
+    }
+    lines
+}
+
+fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
     let mut lines: Vec<(String, Vec<String>, String)> = Vec::new();
     for fact in facts {
         if fact.axis.is_some_and(|axis| !moved[axis as usize]) {

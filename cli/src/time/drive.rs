@@ -17,6 +17,7 @@ use ncc_ir::num::Nanos;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::world::World;
+use ncc_machines::reading::Told;
 use ncc_timeline::{Act, Clock, Machine, Model, Place, Timed};
 
 use super::args::Stage;
@@ -26,6 +27,7 @@ use super::reach::{Reach, reach};
 use crate::chunks::{Chunk, Chunks};
 use crate::files::Source;
 use crate::job::Job;
+use crate::machines::pair::Answer;
 use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 use crate::verify_run::fixed;
 
@@ -455,7 +457,7 @@ impl<'d> Drive<'d> {
                 self.take(Diagnostic::new(fault, span));
             }
             None => {
-                let what = format!("a cycle whose {name} is a parameter of the control that is not known");
+                let what = format!("an unknown {name}");
                 self.take(Diagnostic::new(Fault::NotExecuted { what: what.into() }, span));
             }
         }
@@ -467,7 +469,14 @@ impl<'d> Drive<'d> {
         }
     }
 
-    fn take(&mut self, diagnostic: Diagnostic) {
+    /// Takes what was found. An assumption that the machine's profile settles is none.
+    fn take(&mut self, mut diagnostic: Diagnostic) {
+        let job = self.plan.job;
+        match job.machines.answer(&diagnostic.fault, Told::Reader, &job.from, &job.to) {
+            Answer::Open => {}
+            Answer::Settled => return,
+            Answer::Denied(denied) => diagnostic.fault = denied,
+        }
         self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
         self.course.diagnostics.push(diagnostic);
     }

@@ -23,11 +23,14 @@ mod tally;
 
 use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::{StandardStream, WriteColor};
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::Settings;
+use ncc_ir::canon::Axis;
 use ncc_machines::Profile;
+use ncc_machines::reading::Side;
 use ncc_timeline::{AssumedFact, Machine};
 
 use self::args::{Form, Stage, Time};
@@ -41,6 +44,7 @@ use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::{Failure, Job, Output};
 use crate::known::Known;
+use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
@@ -163,15 +167,20 @@ pub(crate) fn job(
         Some(dialect) => dialect,
         None => recognise(source, !args.quiet, known, err)?,
     };
-    let from = match own.filter(|profile| profile.dialect.id == dialect.id) {
-        Some(profile) => settings(profile.settings(), &args.from_option)?,
-        None => settings(Settings::new(dialect), &args.from_option)?,
+    // What a profile states of its control holds for programs in that control's language.
+    let machines = match own.filter(|profile| profile.dialect.id == dialect.id) {
+        Some(profile) => {
+            let profile = Arc::new(profile.clone());
+            Machines { from: Some(Arc::clone(&profile)), to: Some(profile) }
+        }
+        None => Machines::default(),
     };
+    let from = settings(machines.settings(Side::From, dialect), &args.from_option)?;
     source.rewind()?;
     Ok(Job {
         to: from.clone(),
         from,
-        machines: crate::machines::pair::Machines::default(),
+        machines,
         layout: Layout { numbering: Numbering::Off, crlf: false },
         passes: Vec::new(),
         fold: None,
@@ -250,6 +259,8 @@ pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<Stri
     let dialect = plan.job.from.dialect;
     match &shop.profile {
         None => lines.push("no machine is named".to_owned()),
+        // Canonical text and the text form are nobody's language.
+        Some(_) if dialect.caps.flat || dialect.can.everything => {}
         Some(profile) if profile.dialect.id != dialect.id => {
             lines.push(format!(
                 "the machine, whose control reads {}, carries it out all the same",
@@ -258,7 +269,7 @@ pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<Stri
         }
         Some(_) => {}
     }
-    lines.extend(assumed::of_machine(&shop.assumed, &course.moved));
+    lines.extend(assumed::of_machine(plan, &shop.assumed, course));
     lines.extend(assumed::of_run(plan, course));
     lines.extend(assumed::of_program(plan.job, &course.diagnostics));
     lines
@@ -405,7 +416,11 @@ fn canonical(
     let shown = source.shown.clone();
     let cannot = |e: io::Error| Problem::file("time", &shown, &e);
     let to = Settings::new(known.dialect("canon")?);
-    let start = first.job.start.map(|at| Some(at.unwrap_or(0)));
+    // Rotary axes that nobody has placed are not named in the text either.
+    let mut start = first.job.start;
+    for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
+        start[axis as usize].get_or_insert(0);
+    }
     let job = Job { to: to.clone(), start, ..first.job.clone() };
     let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;
     if let Err(failure) = outcome.release {

@@ -7,7 +7,7 @@
 use std::io::{self, Write};
 
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::exec::{Exec, Kind};
+use ncc_ir::exec::{Attribute, Exec, Kind};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::Stmt;
 use ncc_timeline::{Machine, Timed};
@@ -74,8 +74,8 @@ pub(crate) struct Payload<'m, W: Write> {
     /// Whether times are told.
     timed: bool,
     any: bool,
-    /// Feed of the cycle in force.
-    cycle_feed: f64,
+    /// Feed in force.
+    feed: f64,
     out: W,
 }
 
@@ -104,7 +104,7 @@ impl<'m, W: Write> Payload<'m, W> {
             }
             out.write_all(b"  \"blocks\": [")?;
         }
-        Ok(Payload { machine, columns: Columns::default(), lines, timed, any: false, cycle_feed: 0.0, out })
+        Ok(Payload { machine, columns: Columns::default(), lines, timed, any: false, feed: 0.0, out })
     }
 
     /// Writes what stands after the blocks.
@@ -165,6 +165,9 @@ impl<W: Write> Sink for Payload<'_, W> {
     fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
         let Some(row) = self.columns.row(timed, self.machine) else { return Ok(()) };
         let act = &timed.act;
+        if let Kind::Attribute(Attribute::FeedRate(feed)) = &act.event.kind {
+            self.feed = units(*feed);
+        }
         let mut block = block(&said.block, &row, &act.program_from, &act.program_to);
         block.cut_offset = act.cut_offset;
         if self.timed {
@@ -191,9 +194,9 @@ impl<W: Write> Sink for Payload<'_, W> {
     fn called(&mut self, stmt: &Stmt, exec: &Exec, gcode: &str) -> io::Result<()> {
         let (name, parameters) = parameters::of(&stmt.op, exec);
         if let Some(feed) = parameters.get("f").and_then(Value::as_f64) {
-            self.cycle_feed = feed;
+            self.feed = feed;
         }
-        let row = self.columns.called(name, self.cycle_feed);
+        let row = self.columns.called(name, self.feed);
         let here = exec.position();
         let mut block = block(gcode, &row, &here, &here);
         block.cut_offset = exec.length_entry();

@@ -216,7 +216,12 @@ impl Sink for Tallier {
 
     fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
         if let Some(remark) = &said.remark {
-            let name: String = remark.trim().chars().take(LONGEST_NAME).collect();
+            let remark = remark.trim();
+            let mut name: String = remark.chars().take(LONGEST_NAME).collect();
+            if name.len() < remark.len() {
+                name.pop();
+                name.push('…');
+            }
             if !name.is_empty() {
                 self.heading = Some((name, timed.act.place.line));
             }

@@ -3,6 +3,7 @@
 mod arrow;
 mod files;
 mod messages;
+mod time;
 mod usage;
 
 use std::io::Write;

@@ -1,0 +1,202 @@
+//! `ncc time` as a process: what it refuses, what goes where, and how much memory it takes.
+
+use std::io::BufWriter;
+
+use super::*;
+
+const MACHINE: [&str; 2] = ["--machine", "romi-discovery-4022"];
+
+fn time(folder: &Path, arguments: &[&str]) -> Done {
+    ncc(folder, &[&["time"], arguments].concat())
+}
+
+fn write(folder: &Path, name: &str, text: &[u8]) {
+    std::fs::write(folder.join(name), text).unwrap();
+}
+
+#[test]
+fn a_summary_goes_to_stdout_and_nothing_to_stderr() {
+    let folder = folder();
+    let done = time(folder.path(), &[&MACHINE[..], &["good.cn"]].concat()).exits(0);
+    assert!(done.out.starts_with("good.cn (mach9) on Romi Discovery 4022"), "{}", done.out);
+    assert!(done.out.contains("model ideal") && done.out.contains("assumed"), "{}", done.out);
+    assert_eq!(done.err, "");
+}
+
+#[test]
+fn other_forms_tell_their_assumptions_on_stderr() {
+    let folder = folder();
+    let done = time(folder.path(), &[&MACHINE[..], &["good.cn", "--as", "csv"]].concat()).exits(0);
+    assert!(done.out.starts_with("n,block,function_name,x1,y1,z1,feed,speed,tool,time,timestamp\r\n"));
+    done.says("over at 0:00:").says("assumed      the tool starts at program zero in X Y Z");
+    let done = time(folder.path(), &[&MACHINE[..], &["good.cn", "--as", "csv", "-q"]].concat()).exits(0);
+    assert_eq!(done.err, "");
+}
+
+#[test]
+fn without_a_machine_it_says_so() {
+    let folder = folder();
+    let done = time(folder.path(), &["--from", "mach9", "good.cn"]).exits(0);
+    assert!(done.out.contains("on no machine") && done.out.contains("no machine is named"), "{}", done.out);
+    assert!(done.out.contains("time of a tool change = 0 s"), "{}", done.out);
+}
+
+#[test]
+fn the_dialect_is_named_or_recognised_or_the_machines() {
+    let folder = folder();
+    let folder = folder.path();
+    write(
+        folder,
+        "fanuc.nc",
+        b"%\nO0001 (PART)\nG21 G17 G90 G94\nT1 M6\nS500 M3\nG0 X1.\nG43 H1 Z50.\nM30\n%\n",
+    );
+    time(folder, &["fanuc.nc"]).exits(0).says("read as fanuc");
+    time(folder, &["fanuc.nc", "-q"]).exits(0);
+    // The machine's control reads another one.
+    time(folder, &[&MACHINE[..], &["fanuc.nc"]].concat()).exits(1).says("fanuc.nc reads like fanuc");
+    let done = time(folder, &[&MACHINE[..], &["fanuc.nc", "--from", "auto"]].concat()).exits(0);
+    assert!(done.out.contains("the machine, whose control reads mach9"), "{}", done.out);
+    time(folder, &["--from", "fanuk", "fanuc.nc"]).exits(2).says("did you mean fanuc?");
+}
+
+#[test]
+fn what_cannot_be_executed_is_refused_at_its_place() {
+    let folder = folder();
+    let folder = folder.path();
+    let cases: [(&str, &[u8], &str, &str); 6] = [
+        ("empty.nc", b"", "fanuc", "NC0108"),
+        ("binary.nc", b"G0 X1\n\0\x01\x02", "fanuc", "NC0105"),
+        ("variables.nc", b"%\nO1\nG21 G90 G17 G94\n#1=5.\nG0 X#1\nM30\n%\n", "fanuc", "variables.nc:4"),
+        ("nofeed.cn", b"G90\nG71\nG17\nG0X0Y0Z0\nG1X10.\nM2\n", "mach9", "nofeed.cn:5"),
+        ("bad.cn", BAD.as_bytes(), "mach9", "NC0107"),
+        ("unit.mpf", b"G17 G90 G710 G94\nL77\nM30\n", "siemens", "NC0217"),
+    ];
+    for (name, text, dialect, says) in cases {
+        write(folder, name, text);
+        for form in ["summary", "csv", "payload", "ndjson", "json", "canon"] {
+            let done = time(folder, &["--from", dialect, "--as", form, name]);
+            assert_eq!(done.code, 1, "{name} {form}: {}", done.err);
+            assert!(done.err.contains(says), "{name} {form}: {}", done.err);
+            assert_eq!(done.out, "", "{name} {form}");
+        }
+        time(folder, &["--from", dialect, "-o", "out", name]).exits(1).says("nothing was written");
+        assert!(!folder.join("out").exists(), "{name}");
+    }
+    // One of several: nothing is printed, all are looked at.
+    let done = time(folder, &["--from", "mach9", "good.cn", "bad.cn", "nofeed.cn"]).exits(1);
+    assert_eq!(done.out, "");
+    done.says("NC0107").says("nofeed.cn:5");
+}
+
+#[test]
+fn wrong_usage() {
+    let folder = folder();
+    let folder = folder.path();
+    time(folder, &[]).exits(2);
+    time(folder, &["good.cn", "bad.cn", "--as", "csv"]).exits(2).says("2 files: --as csv is about one");
+    time(folder, &["good.cn", "--stage", "before"]).exits(2).says("--stage before with --as summary");
+    time(folder, &["good.cn", "--machine", "nobody"]).exits(2).says("romi-discovery-4022");
+    time(folder, &["good.cn", "--model", "real"]).exits(2).says("ideal, trapezoidal, jerk-limited");
+    time(folder, &["good.cn", "--start-time", "-1"]).exits(2);
+    time(folder, &["good.cn", "--skip", "11"]).exits(2);
+    time(folder, &["good.cn", "--from-option", "x=1", "--from", "mach9"]).exits(2).says("has no option `x`");
+    time(folder, &["nothing.cn"]).exits(4).says("there is no such file");
+    time(folder, &["good.cn", "--from", "mach9", "-o", "good.cn"]).exits(2).says("never written over");
+    time(folder, &["good.cn", "--from", "mach9", "-o", "no/such"]).exits(4);
+    assert_eq!(std::fs::read_to_string(folder.join("good.cn")).unwrap(), GOOD);
+}
+
+#[test]
+fn the_schema_needs_no_program() {
+    let folder = folder();
+    let done = time(folder.path(), &["--schema"]).exits(0);
+    assert!(done.out.starts_with("{\n  \"$schema\"") && done.out.contains("prog_name"));
+}
+
+#[test]
+fn stdin_is_a_program_too() {
+    let folder = folder();
+    let arguments = ["time", "-", "--from", "mach9", "--as", "payload", "-q"];
+    let done = ncc_with(folder.path(), &arguments, GOOD.as_bytes()).exits(0);
+    assert!(done.out.contains("\"prog_name\": \"-\""), "{}", done.out);
+}
+
+/// What `--as canon` prints is a canonical program, and takes as long.
+#[test]
+fn canon_with_times_is_read_again() {
+    let folder = folder();
+    let folder = folder.path();
+    time(folder, &[&MACHINE[..], &["good.cn", "--as", "canon", "-o", "good.canon"]].concat()).exits(0);
+    let text = std::fs::read_to_string(folder.join("good.canon")).unwrap();
+    assert!(text.contains("CHANGE_TOOL(1)\nCOMMENT(\"time 7.000000, end 7.000000\")\n"), "{text}");
+    let done = ncc(folder, &["canon", "to", "mach9", "good.canon"]).exits(0);
+    assert!(done.out.contains("G1"), "{}", done.out);
+    let first = time(folder, &[&MACHINE[..], &["good.cn", "--as", "json"]].concat()).exits(0).out;
+    let again = [&MACHINE[..], &["good.canon", "--from", "canon", "--as", "json"]].concat();
+    let again = time(folder, &again).exits(0).out;
+    let total = |text: &str| text.lines().find(|l| l.contains("\"time\"")).map(str::to_owned);
+    assert_eq!(total(&first), total(&again));
+}
+
+#[test]
+fn help() {
+    let folder = folder();
+    let done = time(folder.path(), &["--help"]).exits(0);
+    expect("help-time.txt", &done.out);
+}
+
+/// Peak memory does not grow with a program that streams: one sixteen times as long takes no more.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_does_not_grow_with_the_program() {
+    let folder = folder();
+    let folder = folder.path();
+    for (form, model) in [("summary", "trapezoidal"), ("csv", "ideal"), ("ndjson", "jerk-limited")] {
+        let peaks = [8_000u32, 80_000].map(|blocks| {
+            let source = folder.join("long.nc");
+            let mut file = BufWriter::new(std::fs::File::create(&source).unwrap());
+            writeln!(file, "%\nO1\nG21 G17 G90 G94\nT1 M6\nS9000 M3\nG0 X0. Y0.\nG43 H1 Z1.\nG1 Z-1. F900")
+                .unwrap();
+            for k in 0..blocks {
+                let (x, y) = (k % 400, k / 400 % 50);
+                writeln!(file, "X{x}. Y{y}.{}", (k * 7) % 10).unwrap();
+            }
+            writeln!(file, "G0 Z50.\nM5\nM30\n%").unwrap();
+            file.flush().unwrap();
+            let arguments = [
+                "time",
+                "--from",
+                "fanuc",
+                "-q",
+                "--as",
+                form,
+                "--model",
+                model,
+                "-o",
+                "/dev/null",
+                "long.nc",
+            ];
+            peak(folder, &arguments)
+        });
+        // A page more or less, and what the allocator keeps.
+        assert!(peaks[1] < peaks[0] + 2048, "{form}: {peaks:?} KiB");
+    }
+}
+
+/// High-water mark of a run, in KiB.
+#[cfg(target_os = "linux")]
+fn peak(folder: &Path, arguments: &[&str]) -> u64 {
+    let mut child = command(NCC, folder, arguments).spawn().unwrap();
+    let mut peak = 0;
+    loop {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", child.id())).unwrap_or_default();
+        let mark = status.lines().find(|line| line.starts_with("VmHWM:"));
+        let kib = mark.and_then(|line| line.split_whitespace().nth(1)?.parse().ok());
+        peak = peak.max(kib.unwrap_or(0));
+        if let Some(status) = child.try_wait().unwrap() {
+            assert!(status.success());
+            return peak;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(2));
+    }
+}
