@@ -3,18 +3,20 @@
 //! wait for what followed, at most.
 #![allow(clippy::print_stdout)] // A benchmark tells its figures.
 
-use divan::Bencher;
 use divan::counter::ItemsCount;
+use divan::{Bencher, black_box};
 use ncc_ir::canon::{AXES, Plane, Turn};
 use ncc_ir::exec::{Event, Kind, State};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::source::Span;
 use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place, Timed};
 
-/// Moves of a path.
-const MOVES: usize = 200_000;
-/// Moves between two times that the results are taken away: they would not fit into the cache.
-const BATCH: usize = 256;
+/// Moves of a path. They are driven again and again: as in use, a move is in the cache when it comes.
+const MOVES: usize = 1000;
+/// How often.
+const ROUNDS: usize = 20;
+/// Moves between two times that the results are taken away.
+const BATCH: usize = 64;
 
 /// Paths.
 #[derive(Clone, Copy, Debug)]
@@ -110,12 +112,14 @@ fn acts(path: Path) -> Vec<Act> {
 
 fn run(model: Model, acts: &[Act], out: &mut Vec<Timed>) -> Clock {
     let mut clock = Clock::new(model, machine());
-    for batch in acts.chunks(BATCH) {
-        for act in batch {
-            clock.push(act.clone(), out);
+    for _ in 0..ROUNDS {
+        for batch in acts.chunks(BATCH) {
+            for act in batch {
+                clock.push(act.clone(), out);
+            }
+            black_box(&out);
+            out.clear();
         }
-        divan::black_box(&out);
-        out.clear();
     }
     clock.finish(out);
     clock
@@ -124,20 +128,20 @@ fn run(model: Model, acts: &[Act], out: &mut Vec<Timed>) -> Clock {
 fn measure(bencher: Bencher<'_, '_>, model: Model, path: Path) {
     let acts = acts(path);
     let mut out = Vec::with_capacity(2 * BATCH);
-    bencher.counter(ItemsCount::new(MOVES)).bench_local(|| run(model, &acts, &mut out).now());
+    bencher.counter(ItemsCount::new(MOVES * ROUNDS)).bench_local(|| run(model, &acts, &mut out).now());
 }
 
-#[divan::bench(args = PATHS, sample_count = 20)]
+#[divan::bench(args = PATHS, sample_count = 200)]
 fn ideal(bencher: Bencher<'_, '_>, path: Path) {
     measure(bencher, Model::Ideal, path);
 }
 
-#[divan::bench(args = PATHS, sample_count = 20)]
+#[divan::bench(args = PATHS, sample_count = 200)]
 fn trapezoidal(bencher: Bencher<'_, '_>, path: Path) {
     measure(bencher, Model::Trapezoidal, path);
 }
 
-#[divan::bench(args = PATHS, sample_count = 20)]
+#[divan::bench(args = PATHS, sample_count = 200)]
 fn jerk_limited(bencher: Bencher<'_, '_>, path: Path) {
     measure(bencher, Model::JerkLimited, path);
 }

@@ -152,13 +152,18 @@ impl Clock {
     /// A clock at zero. Where a model with acceleration needs what the machine does not state, it
     /// takes the value of [`Machine::assumed`], whose list the caller tells the user.
     pub fn new(model: Model, machine: Machine) -> Clock {
-        let (planner, machine) = match model {
-            Model::Ideal => (Planner::Ideal, machine),
-            Model::Trapezoidal => (Planner::Trapezoidal(Plan::default()), machine.assumed(model).0),
-            Model::JerkLimited => (Planner::JerkLimited(Smooth::default()), machine.assumed(model).0),
+        let machine = match model {
+            Model::Ideal => machine,
+            Model::Trapezoidal | Model::JerkLimited => machine.assumed(model).0,
+        };
+        let limits = Limits::new(&machine, model == Model::JerkLimited);
+        let planner = match model {
+            Model::Ideal => Planner::Ideal,
+            Model::Trapezoidal => Planner::Trapezoidal(Plan::default()),
+            Model::JerkLimited => Planner::JerkLimited(Smooth::new(limits.softest())),
         };
         Clock {
-            limits: Limits::new(&machine, model == Model::JerkLimited),
+            limits,
             junctions: Junctions::new(
                 machine.path_tolerance.unwrap_or(0.0),
                 machine.exact_stop.unwrap_or(false),

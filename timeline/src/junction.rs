@@ -160,15 +160,13 @@ fn turn(from: &Heading, to: &Heading) -> Turn {
 impl Turn {
     /// Squares of the speed: by the tolerance, and for each mm of the shorter move.
     fn caps(&self, limits: &Limits, tolerance: f64) -> (f64, f64) {
-        // The sine of half the turn is the cosine of θ/2.
-        let squared = self.half_sine_squared;
-        let cosine = squared.sqrt();
-        let sine = self.half_cosine;
-        let unit = self.change.map(|x| x / (2.0 * cosine));
-        let acceleration = limits.acceleration(&unit) / (self.stretch * self.stretch);
-        // 1 / (1 − sin) is (1 + sin) / cos², without the difference of two numbers near 1.
-        let radius = tolerance * sine * (1.0 + sine) / squared;
-        let radius_by_length = sine / (2.0 * cosine);
-        (acceleration * radius, acceleration * radius_by_length)
+        // The sine of half the turn is the cosine of θ/2. The acceleration along the change of direction,
+        // made a unit vector, is 2·cos(θ/2) over the load of the change itself; radius by radius, what
+        // can be is multiplied out: divisions are dear. 1 / (1 − sin) is (1 + sin) / cos², without the
+        // difference of two numbers near 1.
+        let (squared, sine) = (self.half_sine_squared, self.half_cosine);
+        let each = 1.0 / (limits.load(&self.change) * self.stretch * self.stretch);
+        let by_tolerance = 2.0 * tolerance * sine * (1.0 + sine) / squared.sqrt();
+        (by_tolerance * each, sine * each)
     }
 }

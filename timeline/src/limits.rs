@@ -87,6 +87,7 @@ pub(crate) struct Limits {
     rapid_line: f64,
     most_feed: f64,
     block: f64,
+    soft: bool,
 }
 
 impl Limits {
@@ -106,12 +107,23 @@ impl Limits {
             rapid_line: machine.rapid_rate.map_or(f64::INFINITY, |rate| rate / MINUTE),
             most_feed: machine.max_feed.map_or(f64::INFINITY, |rate| rate / MINUTE),
             block: machine.block.unwrap_or(0.0),
+            soft,
         }
     }
 
-    /// The greatest acceleration along a direction of all axes, its length 1.
-    pub(crate) fn acceleration(&self, unit: &[f64; AXES]) -> f64 {
-        1.0 / load(unit, &self.acceleration)
+    /// The greatest softness that a move can have: along no direction is acceleration more than all axes'
+    /// together, or built up more slowly than by the slowest.
+    pub(crate) fn softest(&self) -> f64 {
+        let build_up = self.build_up.iter().fold(0.0, |a: f64, b| a.max(*b));
+        let together = |axes: std::ops::Range<usize>| {
+            self.acceleration[axes].iter().map(|inverse| 1.0 / (inverse * inverse)).sum::<f64>().sqrt()
+        };
+        build_up * together(0..3).max(together(3..AXES))
+    }
+
+    /// How much an acceleration in a direction of all axes loads them: 1 is the most that they bear.
+    pub(crate) fn load(&self, direction: &[f64; AXES]) -> f64 {
+        load(direction, &self.acceleration)
     }
 
     /// A move, if it is one and goes anywhere.
@@ -141,25 +153,25 @@ impl Limits {
             _ => None,
         };
         let turns = (3..AXES).any(|i| way.change[i] != 0.0);
-        let shares = shares(&way, arc, turns);
+        let travel = travel(&way, arc);
         let wanted = match units(act.event.rate) {
             _ if rapid => self.rapid_line,
             rate if rate > 0.0 => self.most_feed.min(rate / MINUTE),
             _ => self.most_feed,
         };
-        let mut speed = wanted.min(1.0 / load(&shares, if rapid { &self.rapid } else { &self.feed }));
+        let mut speed = wanted.min(way.length / load(&travel, if rapid { &self.rapid } else { &self.feed }));
         if let Some([f, s, _]) = arc {
             let inward = 1.0 / self.acceleration[f].max(self.acceleration[s]);
-            speed = speed.min((inward * way.radius).sqrt() / shares[f]);
+            speed = speed.min((inward * way.radius).sqrt() * way.length / travel[f]);
         }
         if self.block > 0.0 {
             // A control that needs so long for a block feeds no faster than blocks come.
             speed = speed.min(way.length / self.block);
         }
-        let acceleration = 1.0 / load(&shares, &self.acceleration);
+        let acceleration = way.length / load(&travel, &self.acceleration);
         // The slowest axis that moves sets the time in which acceleration is built up.
-        let build_up =
-            (0..AXES).filter(|i| shares[*i] > 0.0).fold(0.0, |most: f64, i| most.max(self.build_up[i]));
+        let moving = (0..AXES).filter(|i| self.soft && travel[*i] != 0.0);
+        let build_up = moving.fold(0.0, |most: f64, i| most.max(self.build_up[i]));
         let leg =
             Leg { length: way.length, speed, acceleration, softness: acceleration * build_up, cap: 0.0 };
         let linear = way.change[..3].iter().any(|change| *change != 0.0) || arc.is_some();
@@ -174,33 +186,23 @@ impl Limits {
     }
 }
 
-/// The largest part of its limit that an axis bears; its inverse is the limit along the direction.
-fn load(shares: &[f64; AXES], inverse_limits: &[f64; AXES]) -> f64 {
-    let mut most = 0.0;
-    for (share, inverse) in shares.iter().zip(inverse_limits) {
-        let load = share.abs() * inverse;
-        if load > most {
-            most = load;
-        }
-    }
-    most
+/// The largest part of its limit that an axis bears; its inverse is the limit along a direction.
+fn load(direction: &[f64; AXES], inverse_limits: &[f64; AXES]) -> f64 {
+    // As an expression, without a branch: which axis counts changes from move to move.
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let load = |i: usize| direction[i].abs() * inverse_limits[i];
+    larger(larger(larger(load(0), load(1)), larger(load(2), load(3))), larger(load(4), load(5)))
 }
 
-/// What each axis moves for a unit of length, at most.
-fn shares(way: &Path, arc: Option<[usize; 3]>, turns: bool) -> [f64; AXES] {
-    let each = 1.0 / way.length;
-    let mut shares =
-        [way.change[0].abs() * each, way.change[1].abs() * each, way.change[2].abs() * each, 0.0, 0.0, 0.0];
-    if turns {
-        for (share, change) in shares.iter_mut().zip(&way.change).skip(3) {
-            *share = change.abs() * each;
-        }
+/// What each axis would travel at its fastest in the move: of an arc, what its plane's axes do where it runs
+/// along them.
+fn travel(way: &Path, arc: Option<[usize; 3]>) -> [f64; AXES] {
+    let mut travel = way.change;
+    if let Some([f, s, _]) = arc {
+        let round = way.radius * way.sweep;
+        (travel[f], travel[s]) = (round, round);
     }
-    if let Some([f, s, n]) = arc {
-        let round = way.radius * way.sweep * each;
-        (shares[f], shares[s], shares[n]) = (round, round, way.change[n].abs() * each);
-    }
-    shares
+    travel
 }
 
 fn heading(linear: [f64; 3], rotary: Option<[f64; 3]>) -> Heading {

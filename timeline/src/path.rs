@@ -45,11 +45,13 @@ pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
     let linear = [change[0], change[1], change[2]];
     match &event.kind {
         Kind::Traverse | Kind::Feed => {
-            let length = match norm(linear) {
-                0.0 => change[3].hypot(change[4]).hypot(change[5]),
-                length => length,
+            let (length, heading) = match norm(linear) {
+                0.0 => (change[3].hypot(change[4]).hypot(change[5]), [0.0; 3]),
+                length => {
+                    let each = 1.0 / length;
+                    (length, linear.map(|x| x * each))
+                }
             };
-            let heading = unit(linear);
             Path {
                 length,
                 change,

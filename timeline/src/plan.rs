@@ -118,21 +118,22 @@ fn ramps(planned: &Planned, exit: f64, [from, to]: [f64; 2]) -> Profile {
         return Profile::default();
     }
     let entry = planned.entry;
+    let each = 1.0 / acceleration;
     let top = ((entry + exit + planned.gain) / 2.0).max(entry).max(exit);
     let most = speed * speed;
     if top <= most {
         // Never at a constant speed.
         let peak = top.sqrt();
-        let (up, down) = ((peak - from) / acceleration, (peak - to) / acceleration);
+        let (up, down) = ((peak - from) * each, (peak - to) * each);
         return Profile { entry: from, peak, exit: to, t_accel: up, t_cruise: 0.0, t_decel: down };
     }
-    let rest = length - (2.0 * most - entry - exit) / (2.0 * acceleration);
+    let rest = length - (most - (entry + exit) / 2.0) * each;
     Profile {
         entry: from,
         peak: speed,
         exit: to,
-        t_accel: (speed - from) / acceleration,
+        t_accel: (speed - from) * each,
         t_cruise: rest.max(0.0) / speed,
-        t_decel: (speed - to) / acceleration,
+        t_decel: (speed - to) * each,
     }
 }

@@ -27,6 +27,11 @@ pub(crate) fn gain(from: f64, to: f64, softness: f64) -> f64 {
 pub(crate) fn stop_to_stop(leg: &Leg) -> f64 {
     let Leg { length, acceleration, softness, .. } = *leg;
     let half = acceleration * length;
+    if softness == 0.0 {
+        let Leg { speed, .. } = *leg;
+        let whole = half >= speed * speed;
+        return if whole { length / speed + speed / acceleration } else { 2.0 * half.sqrt() / acceleration };
+    }
     let peak = if half >= 2.0 * softness * softness {
         ((softness * softness + 4.0 * half).sqrt() - softness) / 2.0
     } else {
@@ -57,10 +62,11 @@ fn peak(from: f64, to: f64, whole: f64, [up, down]: [f64; 2]) -> f64 {
         }
         let newton = at - by / (slope(from, at, up) + slope(to, at, down));
         let next = if newton > low && newton < high { newton } else { (low + high) / 2.0 };
-        if (next - at).abs() <= 1e-15 * at {
+        let step = (next - at).abs();
+        at = next;
+        if step <= 1e-10 * at {
             break;
         }
-        at = next;
     }
     // From below: near the speed at an end, the last digit of the peak is much gain. What is left over is
     // spent at the peak.
@@ -204,7 +210,8 @@ fn first_part(v: f64, j: f64, most: f64, x: f64) -> f64 {
             break;
         }
         let next = t - (v * t + j * t * t * t / 6.0 - x) / slope;
-        if (next - t).abs() <= 1e-15 * t {
+        // A step of Newton doubles the digits.
+        if (next - t).abs() <= 1e-9 * t {
             return next.max(0.0);
         }
         t = next;
@@ -221,7 +228,7 @@ fn last_part(v: f64, j: f64, most: f64, x: f64) -> f64 {
             break;
         }
         let next = (t - (v * t - j * t * t * t / 6.0 - x) / slope).min(most);
-        if (next - t).abs() <= 1e-15 * t {
+        if (next - t).abs() <= 1e-9 * t {
             return next;
         }
         t = next;

@@ -6,8 +6,8 @@
 //! cannot be reached from it, or it from the other, by an S-curve along the path between; that is the
 //! two passes of the trapezoidal plan with another law of reach. Nodes known so far are a stack: a
 //! junction that has to be braked for takes those away that lie too near before it. The lowest
-//! node is settled when the path known after it is long enough to stop; then the moves before are
-//! certain.
+//! node is settled when the path known after it is long enough to stop, however soft; then the moves
+//! before are certain.
 //!
 //! Between two nodes the speed goes up, along and down. Where it would be over the limit of a move or a
 //! junction on the way, the lowest such limit is held there, and both sides are looked at again.
@@ -56,12 +56,17 @@ pub(crate) struct Smooth {
     sources: Vec<Source>,
     /// Gain of all legs.
     gains: f64,
-    /// Greatest softness since the last stop.
-    softness: f64,
+    /// The greatest softness that a move can have.
+    softest: f64,
     curves: Vec<Curve>,
 }
 
 impl Smooth {
+    /// For moves of at most such softness.
+    pub(crate) fn new(softest: f64) -> Smooth {
+        Smooth { softest, ..Smooth::default() }
+    }
+
     /// Takes a leg; gives the profiles of those that are certain now.
     pub(crate) fn push(&mut self, leg: Leg, out: &mut impl FnMut(Profile)) {
         let number = self.first + self.legs.len() as u64;
@@ -73,7 +78,6 @@ impl Smooth {
         }
         self.legs.push_back(leg);
         self.gains += leg.gain();
-        self.softness = self.softness.max(leg.softness);
         for source in &mut self.sources {
             source.softness = source.softness.max(leg.softness);
         }
@@ -81,7 +85,8 @@ impl Smooth {
             node.softness = node.softness.max(leg.softness);
         }
         while let Some(next) = self.nodes.get(1).copied() {
-            if gain(0.0, next.speed, self.softness) > self.gains - next.at {
+            // What comes may be softer than what is known.
+            if gain(0.0, next.speed, self.softest) > self.gains - next.at {
                 break;
             }
             self.release(out);
@@ -102,9 +107,10 @@ impl Smooth {
                 self.release(out);
             }
         }
-        let curves = std::mem::take(&mut self.curves);
-        *self = Smooth { curves, legs: std::mem::take(&mut self.legs), ..Smooth::default() };
         self.legs.clear();
+        self.nodes.clear();
+        self.sources.clear();
+        (self.first, self.gains) = (0, 0.0);
     }
 
     /// A junction with a cap, after all legs so far.

@@ -144,7 +144,8 @@ fn judge(blocks: &[Block], grbl: &Grbl) -> Result<(), String> {
     let theirs = grbl.plan(blocks);
     for (ours, theirs) in ours.timed.iter().zip(&theirs) {
         let entry = theirs.entry_squared.sqrt();
-        if !((ours.profile.entry - entry).abs() <= 1e-6 * entry + 1e-3) {
+        let apart = (ours.profile.entry - entry).abs();
+        if apart.is_nan() || apart > 1e-6 * entry + 1e-3 {
             return Err(format!("block {}: entry {} and {entry}", ours.n, ours.profile.entry));
         }
     }
