@@ -20,13 +20,12 @@ pub struct Listing {
 }
 
 impl Listing {
-    /// Reads a source: all of a short one; of a long one the lines where the legs of a record begin and
-    /// end. Text that is not UTF-8 is taken for Latin-1.
+    /// Reads a source: all of a short one; of a long one the lines where the legs of a record end. Text that is not UTF-8 is taken for Latin-1.
     ///
     /// # Errors
     /// It cannot be read.
     pub fn read(record: &Record, from: &mut dyn BufRead) -> io::Result<Listing> {
-        let wanted: HashSet<u32> = record.way.legs.iter().flat_map(|leg| leg.lines).collect();
+        let wanted: HashSet<u32> = record.way.legs.iter().map(|leg| leg.lines[1]).collect();
         let mut listing = Listing::default();
         while let Some(line) = next(from)? {
             listing.total += 1;

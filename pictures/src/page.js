@@ -124,7 +124,7 @@
         element.style.top = `${i * ROW}px`;
         const name = document.createElement("b");
         name.textContent = row.gap ? "\u22ee" : row.line;
-        element.append(name, row.gap ? `${row.gap} lines` : row.text);
+        element.append(name, row.gap ? `${row.gap} ${row.gap > 1 ? "lines" : "line"}` : row.text);
         const on = !row.gap && state.lines && row.line >= state.lines[0] && row.line <= state.lines[1];
         if (on) element.classList.add("on");
         if (!row.gap) element.onclick = () => chooseLine(row.line);
@@ -221,7 +221,7 @@
       if (low > high) [low, high] = [0, 0];
       const most = Math.max(2, panel.tall / 28);
       if (panel.title.startsWith("Feed") && high > 20 * least) {
-        panel.title = "Feed (log)";
+        panel.title = "Feed (mm/min, log)";
         const floor = Math.log10(least / 1.6);
         panel.at = (v) => (v > 0 ? Math.max(floor, Math.log10(v)) : floor);
         [panel.low, panel.high] = [floor, Math.log10(high * 1.25)];
@@ -382,7 +382,7 @@
           const name = pair ? `${p.name}\n` : "";
           return `${name}${tool ? tool[0] + "  " : ""}S ${of(p.speed, 1)}  F ${of(p.feed, 1)}\n${axes}\n${lineText(i, legAt(p.way, time))}`;
         });
-        showTip(event, [clock(time, 0.001, end), ...shown].join("\n"));
+        showTip(event, [clock(time, 0.001, end) + (end < 180 ? " s" : ""), ...shown].join("\n"));
       },
     });
 
@@ -411,8 +411,10 @@
         if (left > right) [left, right, low, high] = [0, 0, 0, 0];
         const [wide, tall] = [Math.max(right - left, 1e-3), Math.max(high - low, 1e-3)];
         view.middle = [(left + right) / 2, (low + high) / 2];
-        const room = name === "plan" ? 84 : 48;
-        view.scale = Math.min((canvas.clientWidth - room) / wide, (canvas.clientHeight - room) / tall, 200);
+        // Room for the numbers of the grid, or for the directions in the lower corner.
+        const [beside, below] = name === "plan" ? [84, 84] : [48, 120];
+        view.scale = Math.min((canvas.clientWidth - beside) / wide, (canvas.clientHeight - below) / tall, 200);
+        if (name !== "plan") view.middle[1] -= 36 / view.scale;
       };
       view.at = (x, y) => [
         canvas.clientWidth / 2 + (x - view.middle[0]) * view.scale,
@@ -460,7 +462,7 @@
           const at = placeAt(way, time, programs[program].begin);
           const place = at.map((v, i) => `${"XYZ"[i]} ${number(v, 0.001)}`).join("  ");
           const name = pair ? `${programs[program].name}\n` : "";
-          showTip(event, `${name}${NAMES[way.kinds[leg]]}, ${clock(time, 0.001, end)}\n${place}\n${lineText(program, leg)}`);
+          showTip(event, `${name}${NAMES[way.kinds[leg]]}, ${clock(time, 0.001, end)}${end < 180 ? " s" : ""}\n${place}\n${lineText(program, leg)}`);
         },
       });
       return view;
@@ -474,7 +476,7 @@
         for (const kind of "rfah") {
           const own = data.inks.strokes[kind];
           styles.line(context, !pair && program.way.kinds.length > 4000 ? { ...own, width: own.width * 0.5 } : pair ? { ...own, color: data.inks.pair[n].color, width: Math.min(3, data.inks.pair[n].width) } : own);
-          strokeLegs(view, context, n, (i) => program.way.kinds[i] === kind);
+          strokeLegs(view, context, n, (i) => program.way.kinds[i] === kind && !program.way.again[i]);
         }
         context.setLineDash([]);
         context.lineWidth = 1.2;

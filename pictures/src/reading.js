@@ -17,7 +17,7 @@ const ncc = (() => {
   }
 
   function readWay(way) {
-    return {
+    const read = {
       start: way.start,
       off: way.off,
       kinds: way.kinds,
@@ -28,6 +28,19 @@ const ncc = (() => {
       first: sums(way.first, 1),
       last: sums(way.last, 1),
     };
+    return { ...read, again: again(read) };
+  }
+
+  /** Which rapids go where one has gone before: two dashed lines over each other look like a whole one. */
+  function again(way) {
+    const seen = new Set();
+    return Uint8Array.from(way.kinds, (kind, i) => {
+      if (kind !== "r") return 0;
+      const ends = [pointOf(way, i - 1).join(), pointOf(way, i).join()].sort().join();
+      if (seen.has(ends)) return 1;
+      seen.add(ends);
+      return 0;
+    });
   }
 
   function readProgram(program) {

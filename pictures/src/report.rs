@@ -12,7 +12,7 @@ use crate::ink::{self, Ink};
 use crate::listing::Listing;
 use crate::record::Record;
 use crate::series::Series;
-use crate::ticks::{clock, duration, number};
+use crate::ticks::{clock, duration, in_seconds, number};
 use crate::way::Stroke;
 
 const STYLE: &str = include_str!("report.css");
@@ -102,7 +102,11 @@ fn summary(page: &Page, named: bool, html: &mut String) {
     };
     let way = |mm: f64| format!("{} mm", number(mm, 1.0));
     let mut rows: Vec<(String, String)> = page.facts.clone();
-    rows.push(("Time".to_owned(), format!("{} ({})", duration(all), clock(all.round(), 1.0, f64::INFINITY))));
+    let time = match in_seconds(all) {
+        true => format!("{} ({})", duration(all), clock(all.round(), 1.0, f64::INFINITY)),
+        false => duration(all),
+    };
+    rows.push(("Time".to_owned(), time));
     rows.push(("Cutting".to_owned(), format!("{}, {}", part(sums.cutting), way(sums.cutting_way))));
     rows.push(("Rapid".to_owned(), format!("{}, {}", part(sums.rapid), way(sums.rapid_way))));
     rows.push(("Other".to_owned(), part(sums.idle)));
@@ -133,7 +137,8 @@ fn summary(page: &Page, named: bool, html: &mut String) {
     }
     html.push_str("</table>\n");
     if !page.assumed.is_empty() {
-        html.push_str("<details open><summary>Assumed</summary><ul>\n");
+        let open = if named { "" } else { " open" };
+        let _ = writeln!(html, "<details{open}><summary>Assumed</summary><ul>");
         for line in &page.assumed {
             let _ = writeln!(html, "<li>{}</li>", escape(line));
         }

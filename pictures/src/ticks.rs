@@ -117,6 +117,6 @@ mod tests {
         assert_eq!(clock(15.0, 15.0, 131.5), "15");
         assert_eq!(clock(3723.0, 60.0, 7300.0), "1:02:03");
         assert_eq!(duration(131.52501), "131.525 s");
-        assert_eq!(duration(7299.7), "2:02:10");
+        assert_eq!(duration(7299.7), "2:01:40");
     }
 }

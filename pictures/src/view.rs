@@ -1,5 +1,6 @@
 //! The way of the tool from above and in isometric view, one scale for all axes.
 
+use std::collections::HashSet;
 use std::fmt::Write;
 
 use plotters::chart::ChartBuilder;
@@ -217,7 +218,10 @@ fn lines(layer: &mut Layer, record: &Record, view: View, paper: &Paper, one: Opt
     for stroke in Stroke::DRAWN {
         let line = ink::stroke(stroke);
         let line = match one {
-            Some(pair) => Ink { dash: line.dash, width: pair.width.min(3.0), ..pair },
+            Some(pair) => {
+                let width = pair.width.min(if stroke == Stroke::Rapid { 1.6 } else { 3.0 });
+                Ink { dash: line.dash, width, ..pair }
+            }
             // Where lines lie close, hairs show more.
             None if record.way.legs.len() > CLOSE => Ink { width: line.width * 0.4, ..line },
             None => line,
@@ -231,15 +235,19 @@ fn pieces(way: &Way, stroke: Stroke, place: impl Fn([f64; 3]) -> (f64, f64)) -> 
     let mut pieces: Vec<Vec<(i32, i32)>> = Vec::new();
     let Some(mut from) = way.start.map(|start| units(place(start))) else { return pieces };
     let mut open = false;
+    let mut seen = HashSet::new();
     for leg in &way.legs {
         let to = units(place(leg.to));
-        if leg.stroke == stroke {
+        // Two dashed lines over each other look like a whole one.
+        let again =
+            stroke == Stroke::Rapid && leg.stroke == stroke && !seen.insert((from.min(to), from.max(to)));
+        if leg.stroke == stroke && !again {
             match pieces.last_mut() {
                 Some(piece) if open => piece.push(to),
                 Some(_) | None => pieces.push(vec![from, to]),
             }
         }
-        open = leg.stroke == stroke;
+        open = leg.stroke == stroke && !again;
         from = to;
     }
     pieces

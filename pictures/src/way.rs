@@ -1,16 +1,17 @@
 //! The way of the tool, in memory that does not grow with the program.
 //!
 //! A leg is a straight piece of it, in the program's coordinates. Once there are more of them than
-//! [`MOST`], legs that one line replaces within half a pixel become one, and legs that lie wholly
-//! where others of their kind have drawn already are no longer drawn. What a pixel is follows from the
-//! extent so far, so a picture of the whole is true to one of its own.
+//! [`MOST`], legs that one line replaces within half a pixel become one, and if that is not enough,
+//! legs that lie wholly where others of their kind have drawn already, to half a pixel, are no longer
+//! drawn. What a pixel is follows from the extent so far; only where even that leaves too many does it
+//! grow, and [`Way::off`] says so.
 
 use crate::project::{View, project};
 
 /// Legs that are kept at most.
-pub const MOST: usize = 1 << 16;
+pub const MOST: usize = 1 << 17;
 /// Pixels of the longer side of a picture.
-const PIXELS: f64 = 1600.0;
+const PIXELS: f64 = 1000.0;
 /// Legs that are simplified in one go.
 const RUN: usize = 1024;
 
@@ -167,8 +168,9 @@ impl Way {
             self.legs = simplify(self.start, &self.legs, self.settled, self.pixel / 4.0);
             self.off = self.pixel / 2.0;
             if self.legs.len() > most {
-                self.legs = hide(self.start, &self.legs, self.extent, self.pixel.max(shown));
-                self.off = self.pixel / 2.0 + self.pixel.max(shown);
+                let cell = self.pixel.max(shown) / 2.0;
+                self.legs = hide(self.start, &self.legs, self.extent, cell);
+                self.off = self.pixel / 2.0 + cell;
             }
             self.settled = self.legs.len();
             if self.legs.len() <= most {

@@ -2,7 +2,9 @@
 
 mod arrow;
 mod files;
+mod machines;
 mod messages;
+mod plot;
 mod time;
 mod usage;
 
