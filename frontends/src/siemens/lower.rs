@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use ncc_dialects::{Quantity, Role, Settings};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Units};
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Op, Procedure, Stmt, Text};
+use ncc_ir::program::{Coord, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::again::Again;
@@ -26,7 +26,7 @@ use crate::Batch;
 use crate::word::Source;
 use crate::word::block::{Value, Word};
 use crate::word::facts::Know;
-use crate::word::fast::{Fast, plain_move};
+use crate::word::fast::{self, Fast, FeedWord};
 use crate::word::lower::decode;
 use crate::word::number::unit_of;
 
@@ -142,31 +142,32 @@ impl Lower {
         }
     }
 
-    /// Lowers a plain move; `false` if it is not one, and then nothing was done.
+    /// Lowers the line that begins at `at` of `text`, if it is a plain move of at most `longest`
+    /// bytes; gives where its end is. `None`, and then nothing was done, if it is not one.
     #[inline]
-    pub(super) fn fast_move(&mut self, words: &[Word], out: &mut Batch) -> bool {
-        let Some(fast) = self.fast else {
-            return false;
+    pub(super) fn fast_line(
+        &mut self,
+        text: &[u8],
+        at: usize,
+        base: u32,
+        longest: usize,
+        out: &mut Batch,
+    ) -> Option<usize> {
+        let fast = self.fast.as_ref()?;
+        let stmts = match &mut self.sub {
+            Some(procedure) => &mut procedure.body,
+            None => &mut out.stmts,
         };
-        if !plain_move(fast, words, self.target(out)) {
-            return false;
-        }
+        let end = fast::line(fast, text, at, base, longest, stmts)?;
         let absolute = fast.distance == Fact::Known(Distance::Absolute);
-        for word in words {
-            let Some(axis) = self.stand.axes.get_mut(usize::from(word.letter.wrapping_sub(b'X'))) else {
-                continue;
-            };
-            *axis = match word.value {
-                Value::Number(digits) if absolute => Some(ncc_ir::num::Num {
-                    mantissa: digits.mantissa,
-                    scale: digits.scale,
-                    point: digits.point,
-                    unit: fast.unit,
-                }),
-                Value::Number(_) | Value::None => None,
-            };
+        if let Some(Op::StraightFeed(to) | Op::StraightTraverse(to)) = stmts.last().map(|stmt| &stmt.op) {
+            for (stand, word) in self.stand.axes.iter_mut().zip(&to.to.axes) {
+                if let Some(Coord { value: ncc_ir::expr::Expr::Num(num), .. }) = word {
+                    *stand = if absolute { Some(*num) } else { None };
+                }
+            }
         }
-        true
+        Some(end)
     }
 
     /// Finds out whether plain moves can go the short way from here.
@@ -204,16 +205,41 @@ impl Lower {
             || state.cycle != InForce::None
             || self.ended
             || !self.again.is_empty()
+            // The block after skipped ones ends their stretch.
+            || self.stretch.is_some()
         {
             return None;
         }
+        let said = matches!(state.motion, Know::Said(_));
         Some(Fast {
             unit: unit_of(state.units.fact()),
             distance: state.distance.fact(),
             feed,
             number: b'N',
             bare: true,
+            again: said.then(|| fast::code_again(dialect, feed)).flatten(),
+            feed_word: self.settled_feed(),
         })
+    }
+
+    /// What a feed word needs, while it would change no more than the feed.
+    fn settled_feed(&self) -> Option<FeedWord> {
+        let (dialect, state) = (self.settings.dialect, &self.state);
+        let row = dialect.address.iter().find(|row| row.role == Role::Feed)?;
+        let open = self.assume && state.feed_mode == Know::Unsaid;
+        if !row.sure || open || state.feed != Know::Said(()) {
+            return None;
+        }
+        let basic = if self.settings.get("feed_unit") == "inch" { Units::Inch } else { Units::Mm };
+        let unit = match (state.scaled.value(), state.scaled) {
+            (Some(true), _) => unit_of(state.units.fact()),
+            // Where the units in force are other ones, it is told that the feed is not in them.
+            (Some(false), _) | (None, Know::Unsaid) if state.units.value() == Some(basic) => {
+                unit_of(Fact::Known(basic))
+            }
+            (Some(false) | None, _) => return None,
+        };
+        Some(FeedWord { letter: row.letter as u8, unit, bare: true })
     }
 
     /// Lowers a block that the recogniser has read; its number, if any, is its first word.

@@ -1,9 +1,10 @@
 //! The reader of a Sinumerik's text: lines, units, what is main program and what is subprogram, and
 //! the end.
 //!
-//! A line goes to the recogniser of plain blocks first, which the word-address dialects have as
-//! well, and to the grammar if it is not one. The first program of a text is the main one; a unit of
-//! type SPF that follows is a subprogram. Without headers the whole text is the main program.
+//! A plain move goes from the line straight to its statement. Any other line goes to the recogniser
+//! of plain blocks, which the word-address dialects have as well, and to the grammar if it is not
+//! one. The first program of a text is the main one; a unit of type SPF that follows is a subprogram.
+//! Without headers the whole text is the main program.
 //!
 //! Refused by name: a second main program, units that are no programs, and subprograms that only a
 //! path could call.
@@ -107,21 +108,19 @@ impl Reader {
             let short = !self.slow;
             #[cfg(not(test))]
             let short = true;
-            if short
-                && !self.passing
-                && !self.lower.ended
+            let open = short && !self.passing && !self.lower.ended;
+            if open && let Some(end) = self.lower.fast_line(text, at, base, self.longest, out) {
+                at = end + 1;
+                continue;
+            }
+            if open
                 && let Some(end) = plain::read(text, at, base, &mut self.words)
                 && end - at <= self.longest
                 && !negative_number(&self.words, src)
+                && self.plain(src, out)
             {
-                if self.lower.fast_move(&self.words, out) {
-                    at = end + 1;
-                    continue;
-                }
-                if self.plain(src, out) {
-                    at = end + 1;
-                    continue;
-                }
+                at = end + 1;
+                continue;
             }
             let end = memchr::memchr(b'\n', &text[at..]).map_or(text.len(), |len| at + len);
             self.line(at, end, src, out);

@@ -1,20 +1,23 @@
-//! The short way for plain moves: a block of at most a block number, X, Y and Z while every fact
-//! that it depends on is settled. Nearly every block of a long program is one.
+//! The short way for plain moves: from a line straight to its statements, without the words and
+//! the block between. Taken by a block of at most a block number, the code of the motion that is in
+//! force, X, Y and Z, and a feed, while every fact that it depends on is settled. Nearly every
+//! block of a long program is one.
 //!
 //! It gives what the long way gives; a test holds both to the same result. Whatever is not settled,
-//! or not plain, is left to the long way.
+//! not plain, or would change more than the position and the feed, is left to the long way.
 
-use ncc_dialects::Quantity;
-use ncc_ir::canon::{Axis, Distance, Fact, Motion};
+use ncc_dialects::{Bare, CodeRow, Dialect, Meaning, NumberRules, Quantity};
+use ncc_ir::canon::{Axis, Distance, Fact, Motion, Units};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Stmt};
 use ncc_ir::source::Span;
 
-use super::block::{Value, Word};
+use super::block::Digits;
 use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::number::unit_of;
+use super::plain;
 use crate::Batch;
 
 /// What a plain move needs.
@@ -22,9 +25,23 @@ use crate::Batch;
 pub(crate) struct Fast {
     pub(crate) unit: Unit,
     pub(crate) distance: Fact<Distance>,
+    /// Whether the motion in force is at feed.
     pub(crate) feed: bool,
     /// Letter of the block number.
     pub(crate) number: u8,
+    /// Whether a number means the same with and without a point.
+    pub(crate) bare: bool,
+    /// Number of the G code that says the motion in force once more, and changes nothing else.
+    pub(crate) again: Option<u8>,
+    /// What a feed word needs, if it would change no more than the feed.
+    pub(crate) feed_word: Option<FeedWord>,
+}
+
+/// What a feed word needs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FeedWord {
+    pub(crate) letter: u8,
+    pub(crate) unit: Unit,
     /// Whether a number means the same with and without a point.
     pub(crate) bare: bool,
 }
@@ -55,85 +72,263 @@ impl Lower {
         if !axes || open || no_feed || state.after_cycle || state.cycle != InForce::None || self.ended {
             return None;
         }
+        let said = matches!(state.motion, Know::Said(_));
         Some(Fast {
             unit: unit_of(state.units.fact()),
             distance: state.distance.fact(),
             feed,
             number: self.settings.dialect.block.number.map_or(0, |c| c as u8),
             bare: false,
+            again: said.then(|| code_again(self.settings.dialect, feed)).flatten(),
+            feed_word: self.settled_feed(),
         })
     }
 
-    /// Lowers a plain move; `false` if it is not one, and then nothing was done.
-    #[inline]
-    pub(super) fn fast_move(&mut self, words: &[Word], out: &mut Batch) -> bool {
-        match self.fast {
-            Some(fast) => plain_move(fast, words, self.target(out)),
-            None => false,
+    /// What a feed word needs, while it would change no more than the feed.
+    fn settled_feed(&self) -> Option<FeedWord> {
+        let state = &self.state;
+        let row = self.letters.get(usize::from(self.roles.feed.wrapping_sub(b'A'))).copied().flatten()?;
+        let open = self.assume && state.feed_mode == Know::Unsaid;
+        if !row.sure || open || state.feed != Know::Said(()) || state.cycle_feed.is_some() {
+            return None;
         }
+        let rules = &self.rules[Quantity::Feed as usize];
+        let bare = counts_units(rules, state.units.fact());
+        Some(FeedWord { letter: self.roles.feed, unit: unit_of(state.units.fact()), bare })
+    }
+
+    /// Lowers the line that begins at `at` of `text`, if it is a plain move of at most `longest`
+    /// bytes; gives where its end is. `None`, and then nothing was done, if it is not one.
+    #[inline]
+    pub(super) fn fast_line(
+        &mut self,
+        text: &[u8],
+        at: usize,
+        base: u32,
+        longest: usize,
+        out: &mut Batch,
+    ) -> Option<usize> {
+        let fast = self.fast.as_ref()?;
+        let stmts = match &mut self.sub {
+            Some(procedure) => &mut procedure.body,
+            None => &mut out.stmts,
+        };
+        line(fast, text, at, base, longest, stmts)
     }
 }
 
-/// Lowers a plain move into `stmts`; `false` if it is not one, and then nothing was done.
+/// The number of the G code that says a straight motion, if its row is confirmed.
+pub(crate) fn code_again(dialect: &Dialect, feed: bool) -> Option<u8> {
+    let meaning = if feed { Meaning::StraightFeed } else { Meaning::StraightTraverse };
+    let says = |row: &CodeRow| row.means == Some(meaning) && row.sure;
+    [0, 1].into_iter().find(|&code| dialect.code_row(b'G', 10 * u32::from(code)).is_some_and(says))
+}
+
+/// Whether a feed without a point surely counts whole units.
+fn counts_units(rules: &NumberRules, units: Fact<Units>) -> bool {
+    match rules.bare {
+        Bare::Units => true,
+        Bare::UnitsUnsure => false,
+        Bare::Increments => match (rules.increment_inch, units) {
+            (Some(inch), Fact::Known(Units::Inch)) => inch == 0,
+            (Some(inch), Fact::Entry) => inch == 0 && rules.increment == 0,
+            (Some(_) | None, _) => rules.increment == 0,
+        },
+    }
+}
+
+/// Lowers the line that begins at `from` of `text` into `stmts`, if it is a plain move of at most
+/// `longest` bytes; gives the index of its `\n`, or the end of the text. `None` if it is not one,
+/// and then nothing was done.
 #[inline]
-pub(crate) fn plain_move(fast: Fast, words: &[Word], stmts: &mut Vec<Stmt>) -> bool {
-    let Some((first, last)) = words.first().zip(words.last()) else {
-        return false;
-    };
-    let span = Span::new(first.span.start, last.span.end);
-    let mut number = None;
-    let mut axes = words;
-    if first.letter == fast.number {
-        let Value::Number(digits) = first.value else {
-            return false;
-        };
-        if digits.point || digits.mantissa < 0 {
-            return false;
-        }
-        let Ok(n) = u32::try_from(digits.mantissa) else {
-            return false;
-        };
-        number = Some(n);
-        axes = &words[1..];
-    }
-    if axes.is_empty() || axes.len() > 3 {
-        return false;
-    }
-    let mut seen = 0u8;
-    for word in axes {
-        let place = word.letter.wrapping_sub(b'X');
-        let Value::Number(digits) = word.value else {
-            return false;
-        };
-        let plain =
-            digits.point && digits.scale <= 8 || (fast.bare || digits.mantissa == 0) && digits.scale == 0;
-        let large = digits.mantissa.unsigned_abs() >= 10_000_000;
-        if place > 2 || !plain || large || seen >> place & 1 == 1 {
-            return false;
-        }
-        seen |= 1 << place;
-    }
+pub(crate) fn line(
+    fast: &Fast,
+    text: &[u8],
+    from: usize,
+    base: u32,
+    longest: usize,
+    stmts: &mut Vec<Stmt>,
+) -> Option<usize> {
     // A statement is large: it goes to its place empty, and is filled there.
     let empty = Move::default();
     let op = if fast.feed { Op::StraightFeed(empty) } else { Op::StraightTraverse(empty) };
-    stmts.push(Stmt { span, number, skip: None, joined: false, comment: None, op });
-    let Some(Op::StraightFeed(Move { to, .. }) | Op::StraightTraverse(Move { to, .. })) =
-        stmts.last_mut().map(|stmt| &mut stmt.op)
-    else {
-        return false;
+    let span = Span::default();
+    stmts.push(Stmt { span, number: None, skip: None, joined: false, comment: None, op });
+    let mut feed = None;
+    let filled = stmts.last_mut().and_then(|stmt| fill(fast, text, from, base, stmt, &mut feed));
+    let Some(end) = filled.filter(|end| end - from <= longest) else {
+        stmts.pop();
+        return None;
     };
-    for word in axes {
-        if let Value::Number(digits) = word.value {
-            to.axes[usize::from(word.letter - b'X')] = Some(Coord {
-                value: Expr::Num(Num {
-                    mantissa: digits.mantissa,
-                    scale: digits.scale,
-                    point: digits.point,
-                    unit: fast.unit,
-                }),
-                distance: fast.distance,
-            });
-        }
+    if let Some((num, span)) = feed {
+        say_feed(num, span, stmts);
     }
-    true
+    Some(end)
+}
+
+/// Puts a feed before the move that was pushed last, into its block.
+#[cold]
+fn say_feed(num: Num, span: Span, stmts: &mut Vec<Stmt>) {
+    let Some(to) = stmts.last_mut() else { return };
+    to.joined = true;
+    let (number, op) = (to.number.take(), Op::SetFeedRate(Expr::Num(num)));
+    let at = stmts.len() - 1;
+    stmts.insert(at, Stmt { span, number, skip: None, joined: false, comment: None, op });
+}
+
+/// Fills a straight move from a line; gives where the line's end is, if it is a plain move.
+#[inline(always)]
+fn fill(
+    fast: &Fast,
+    text: &[u8],
+    from: usize,
+    base: u32,
+    stmt: &mut Stmt,
+    feed: &mut Option<(Num, Span)>,
+) -> Option<usize> {
+    let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &mut stmt.op else {
+        return None;
+    };
+    // Words that have been met: a bit for each axis, the code, the feed, the block number.
+    let (code_bit, feed_bit, number_bit) = (8u8, 16u8, 32u8);
+    let mut seen = 0u8;
+    let (mut first, mut last) = (from, from);
+    let mut at = from;
+    let end = loop {
+        let beyond;
+        let here = match text.get(at..).and_then(<[u8]>::first_chunk::<WINDOW>) {
+            Some(here) => here,
+            None => {
+                beyond = last_window(text, at);
+                &beyond
+            }
+        };
+        let byte = here[0];
+        let letter = byte & 0xDF;
+        let place = letter.wrapping_sub(b'X');
+        if place <= 2 {
+            let (digits, len) = value(here, text, at)?;
+            if seen >> place & 1 == 1 || !is_plain(digits, fast.bare) {
+                return None;
+            }
+            if seen == 0 {
+                first = at;
+            }
+            seen |= 1 << place;
+            let value = Expr::Num(literal(digits, fast.unit));
+            to.to.axes[usize::from(place)] = Some(Coord { value, distance: fast.distance });
+            last = at + len;
+        } else if byte == b'\n' {
+            break at;
+        } else if byte <= b' ' {
+            // Seldom: a single blank after a word is passed over with it.
+            match blank(here)? {
+                Blank::Space => at += 1,
+                Blank::End => break at + 1,
+            }
+            continue;
+        } else {
+            // All of them begin with a digit: a sign would mean something else, or nothing.
+            let (digits, len) = value(here, text, at).filter(|_| here[1].is_ascii_digit())?;
+            if letter == fast.number {
+                if seen != 0 || digits.point {
+                    return None;
+                }
+                seen |= number_bit;
+                stmt.number = Some(u32::try_from(digits.mantissa).ok()?);
+                first = at;
+            } else if letter == b'G' {
+                let again = fast.again.map(i64::from);
+                if seen & code_bit != 0 || digits.point || again != Some(digits.mantissa) {
+                    return None;
+                }
+                if seen == 0 {
+                    first = at;
+                }
+                seen |= code_bit;
+                to.said = true;
+            } else {
+                let word = fast.feed_word.filter(|word| word.letter == letter)?;
+                if seen & feed_bit != 0 || !is_plain(digits, word.bare) {
+                    return None;
+                }
+                if seen == 0 {
+                    first = at;
+                }
+                seen |= feed_bit;
+                let span = Span::new(base + at as u32, base + (at + len) as u32);
+                *feed = Some((literal(digits, word.unit), span));
+            }
+            last = at + len;
+        }
+        // Without a branch: whether a blank or the line's end follows is hard to guess.
+        at = last + usize::from(text.get(last) == Some(&b' '));
+    };
+    stmt.span = Span::new(base + first as u32, base + last as u32);
+    // Without an axis there is no move.
+    (seen & 7 != 0).then_some(end)
+}
+
+/// Bytes of a word that are looked at together: its letter, a sign, and eight of its number.
+const WINDOW: usize = 10;
+
+/// The last bytes of a text, and after its end, as if its last line ended there.
+#[cold]
+fn last_window(text: &[u8], at: usize) -> [u8; WINDOW] {
+    let mut window = [b'\n'; WINDOW];
+    let rest = text.get(at..).unwrap_or_default();
+    window.iter_mut().zip(rest).for_each(|(to, byte)| *to = *byte);
+    window
+}
+
+/// What is between words.
+enum Blank {
+    /// A blank.
+    Space,
+    /// A line's end of two bytes.
+    End,
+}
+
+#[cold]
+#[inline(never)]
+fn blank(here: &[u8; WINDOW]) -> Option<Blank> {
+    match here {
+        [b' ' | b'\t', ..] => Some(Blank::Space),
+        [b'\r', b'\n', ..] => Some(Blank::End),
+        _ => None,
+    }
+}
+
+/// The number of the word at `at`, of which `here` is the window, and the length of the word.
+#[inline(always)]
+fn value(here: &[u8; WINDOW], text: &[u8], at: usize) -> Option<(Digits, usize)> {
+    let negative = here[1] == b'-';
+    let number = if negative { &here[2..] } else { &here[1..9] };
+    match number.first_chunk::<8>().and_then(|eight| plain::short(*eight)) {
+        Some((digits, len)) => {
+            let mantissa = if negative { -digits.mantissa } else { digits.mantissa };
+            Some((Digits { mantissa, ..digits }, 1 + usize::from(negative) + len))
+        }
+        None => long_value(text, at),
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn long_value(text: &[u8], at: usize) -> Option<(Digits, usize)> {
+    let (digits, end) = plain::number(text, at + 1)?;
+    Some((digits, end - at))
+}
+
+/// Whether a number is in range, and needs no rule of the dictionary to be understood.
+#[inline(always)]
+fn is_plain(digits: Digits, bare: bool) -> bool {
+    let understood = digits.point || bare || digits.mantissa == 0;
+    understood && digits.scale <= 8 && digits.mantissa.unsigned_abs() < 10_000_000
+}
+
+#[inline(always)]
+fn literal(digits: Digits, unit: Unit) -> Num {
+    let Digits { mantissa, scale, point } = digits;
+    Num { mantissa, scale, point, unit }
 }

@@ -1,9 +1,10 @@
 //! The reader of the word-address family: all dialects of letters and numbers, told apart by their
 //! dictionaries alone.
 //!
-//! A line goes to the recogniser of plain blocks first (`plain`), and to the lexer (`token`) and
-//! the grammar (`block.lalrpop`) if it is not one. Its words are then lowered to statements
-//! (`lower` and its neighbours) with what the program has said so far (`facts`).
+//! A plain move goes from the line straight to its statement (`fast`). Any other line goes to the
+//! recogniser of plain blocks (`plain`), and to the lexer (`token`) and the grammar
+//! (`block.lalrpop`) if it is not one. Its words are then lowered to statements (`lower` and its
+//! neighbours) with what the program has said so far (`facts`).
 //!
 //! Reading never fails: a block with a fault gives diagnostics and no statements, and reading goes
 //! on at the next one. What a dictionary does not have is refused, never skipped.
@@ -101,14 +102,16 @@ impl Reader {
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
-            if !self.frame.closed
-                && !self.lower.ended
+            let open = !self.frame.closed && !self.lower.ended;
+            if open && let Some(end) = self.lower.fast_line(text, at, base, self.longest, out) {
+                at = end + 1;
+                continue;
+            }
+            if open
                 && let Some(end) = plain::read(text, at, base, &mut self.block.words)
                 && end - at <= self.longest
             {
-                if !self.lower.fast_move(&self.block.words, out) {
-                    self.plain_block(at, end, src, out);
-                }
+                self.plain_block(at, end, src, out);
                 at = end + 1;
                 continue;
             }

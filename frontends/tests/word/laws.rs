@@ -31,6 +31,29 @@ fn line() -> impl Strategy<Value = String> {
     (lead, prop::collection::vec(word(), 0..6), tail).prop_map(|(l, w, t)| format!("{l}{}{t}", w.concat()))
 }
 
+/// Nearly a plain move: what the short way takes, and what is only a sign away from it.
+fn move_line() -> impl Strategy<Value = String> {
+    let number = prop_oneof![
+        6 => "-?[0-9]{1,4}\\.[0-9]{0,4}",
+        2 => "-?[0-9]{1,4}",
+        1 => Just("0".to_owned()),
+        1 => "-?[0-9]{0,9}\\.?[0-9]{0,9}",
+    ];
+    let axis = (prop::sample::select(vec!["X", "Y", "Z", "x", "A"]), number.clone());
+    let word = prop_oneof![
+        8 => axis.prop_map(|(l, n)| format!("{l}{n}")),
+        2 => number.prop_map(|n| format!("F{n}")),
+        2 => prop::sample::select(vec!["G0", "G1", "G01", "g1", "G1.", "G00", "G-0", "G2", "G90", "G80"])
+            .prop_map(String::from),
+        1 => prop::sample::select(vec!["N5", "N-0", "N1.", "M8", "S5", "F0", "G20", "G94"]).prop_map(String::from),
+    ];
+    let lead = prop::sample::select(vec!["", "", "", "N10 ", " N20", "n3", "/", "/N4 "]);
+    let blank = prop::sample::select(vec!["", " ", "\t"]);
+    let tail = prop::sample::select(vec!["", "", "", " ", "\r", "\r ", "(C)"]);
+    (lead, prop::collection::vec(word, 1..6), blank, tail)
+        .prop_map(|(l, w, b, t)| format!("{l}{}{t}", w.join(b)))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -55,7 +78,10 @@ proptest! {
     }
 
     #[test]
-    fn the_short_way_and_the_long_way_agree(lines in prop::collection::vec(line(), 1..20), assume: bool) {
+    fn the_short_way_and_the_long_way_agree(
+        lines in prop::collection::vec(prop_oneof![1 => line(), 3 => move_line()], 1..20),
+        assume: bool,
+    ) {
         for id in ["mach9", "fanuc"] {
             let text = format!("{}{}\nX1. Y2.\nN5 Z-3.\nM30\n", head(id), lines.join("\n"));
             let (mut short, mut long) = (Batch::default(), Batch::default());
@@ -117,5 +143,52 @@ fn the_recogniser_takes_what_it_is_for() {
         ["X1.(A)\n", "/X1.\n", "GXY\n", "\n", "X+1.\n", "X1.2.3\n", "X1.\rY2.\n", "X1234567890123456789\n"]
     {
         assert!(plain::read(other.as_bytes(), 0, 0, &mut words).is_none(), "{other}");
+    }
+}
+
+#[test]
+fn the_short_way_takes_what_it_is_for() {
+    let head = "G21 G17 G90 G94 G98 G54\nT1 M6\nG43 H1 Z5. G0 X0. Y0. F100.\nG1 X1.\n";
+    let taken = |line: &str| {
+        let mut reader = Reader::new(settings("fanuc"), true);
+        let mut out = Batch::default();
+        reader.read(head.as_bytes(), 0, &mut out);
+        let before = out.stmts.clone();
+        let end = reader.lower.fast_line(line.as_bytes(), 0, 0, 60, &mut out);
+        assert_eq!(end.is_none(), out.stmts == before, "{line}");
+        end
+    };
+    for (line, end) in [
+        ("X1. Y-2.5 Z.003\n", 15),
+        ("n120X-2345.678\r\nX2.", 15),
+        ("N9 G1 X1. Y2. F250.\n", 19),
+        ("N9 G01X1.F250\n", 13),
+        ("F30. Z0 G1", 10),
+    ] {
+        assert_eq!(taken(line), Some(end), "{line}");
+    }
+    for line in [
+        "G0 X1.\n",
+        "G1\n",
+        "F100.\n",
+        "X1\n",
+        "X1. X2.\n",
+        "G1 G1 X1.\n",
+        "X1. N5\n",
+        "X1. F-5.\n",
+        "X1. F1. F2.\n",
+        "X1. M8\n",
+        "X1.(C)\n",
+        "\n",
+        "",
+        "X1.\rY2.\n",
+        "X99999999.\n",
+        "G1. X1.\n",
+        "N-0 X1.\n",
+        "N1. X1.\n",
+        "X1. Y2. Z3. X1. Y2. Z3. X1. Y2. Z3. X1. Y2. Z3. X1. Y2. Z3. X1.\n",
+        "X1.                                                          \n",
+    ] {
+        assert_eq!(taken(line), None, "{line}");
     }
 }
