@@ -251,6 +251,15 @@ pub enum DialectsWhat {
         /// Its name, as `ncc dialects` lists it
         id: String,
     },
+    /// Show that every word of a dictionary reads back to the meaning it was written for
+    Test {
+        /// Names of dialects, or files of dictionaries
+        #[arg(value_name = "FILE|ID", required = true)]
+        what: Vec<PathBuf>,
+        /// Say failures and the summary only
+        #[arg(short, long)]
+        quiet: bool,
+    },
     /// Print the form of a dictionary: every table and field
     Schema,
 }

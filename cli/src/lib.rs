@@ -6,6 +6,7 @@
 pub mod args;
 pub mod arrow;
 mod chunks;
+pub mod dialect_test;
 pub mod dialects;
 mod difference;
 pub mod doctor;

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
@@ -22,7 +22,7 @@ use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
-use crate::{arrow, dialects, doctor, explain, machines, plot, report, time, translate};
+use crate::{arrow, dialect_test, dialects, doctor, explain, machines, plot, report, time, translate};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -51,6 +51,9 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
                 known.dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
             }
             Some(DialectsWhat::Schema) => print(dialects::SCHEMA),
+            Some(DialectsWhat::Test { what, quiet }) => {
+                return ended(dialect_test::run(known, what, *quiet, &mut err), &mut err);
+            }
         },
         Verb::Machines(args) => return ended(machines::run(args, &known, &mut err), &mut err),
         Verb::Doctor(args) => return ended(doctor::run(args, &known, &mut err), &mut err),

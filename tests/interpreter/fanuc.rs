@@ -1,4 +1,6 @@
-//! Fanuc programs of the corpus' scope, from `reference/fanuc.md` alone.
+//! Fanuc programs of the corpus' scope, from `reference/fanuc.md` alone; and those of a Haas, which
+//! differ as its section on close relatives says: the feed's increments, P in seconds where it has a
+//! point, L for repetition, five digits, work offsets G110 to G129.
 
 use super::{Halt, Hole, Machine, Setup, Spindle, What, characters};
 
@@ -7,6 +9,18 @@ use super::{Halt, Hole, Machine, Setup, Spindle, What, characters};
 /// # Errors
 /// The program is wrong, out of scope, or says something that the notes leave open.
 pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    run_on(text, setup, false)
+}
+
+/// Runs the first program of a text on a Haas.
+///
+/// # Errors
+/// As of [`run`].
+pub fn run_haas(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    run_on(text, setup, true)
+}
+
+fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
     let programs = programs(&characters(text));
     let modes = setup.power_on;
     let mut control = Control {
@@ -18,6 +32,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         initial_known: false,
         return_initial: modes.return_initial,
         depth: 0,
+        haas,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
     if !control.program(main, &programs)? {
@@ -94,6 +109,7 @@ struct Control {
     initial_known: bool,
     return_initial: bool,
     depth: u32,
+    haas: bool,
 }
 
 /// A word: its letter, its number and whether that has a decimal point.
@@ -202,6 +218,7 @@ impl Control {
                 43 => length = Some(43),
                 49 => length = Some(49),
                 g @ 54..=59 => self.m.use_offset(g - 53),
+                g @ 110..=129 if self.haas => self.m.use_offset(g - 103),
                 90 => self.m.absolute = true,
                 91 => self.m.absolute = false,
                 98 => self.return_initial = true,
@@ -211,7 +228,12 @@ impl Control {
         }
 
         if let Some((feed, point)) = number(&words, 'F') {
-            let step = if self.m.inch && !point { 0.01 } else { 1.0 };
+            let step = match (point, self.haas, self.m.inch) {
+                (true, ..) | (false, false, false) => 1.0,
+                (false, false, true) => 0.01,
+                (false, true, false) => 0.001,
+                (false, true, true) => 0.0001,
+            };
             self.m.feed = Some(feed * step * if self.m.inch { 25.4 } else { 1.0 });
         }
         if let Some((speed, _)) = number(&words, 'S') {
@@ -222,6 +244,8 @@ impl Control {
         }
         match m {
             Some(6) => self.m.change_tool()?,
+            Some(16) if self.haas => self.m.change_tool()?,
+            Some(7) if self.haas => return self.m.halt("M07: shower coolant"),
             Some(3) => self.m.turn(Spindle::Clockwise),
             Some(4) => self.m.turn(Spindle::Counterclockwise),
             Some(7) => self.m.cool(self.m.coolant.0, true),
@@ -254,8 +278,10 @@ impl Control {
 
         if dwell {
             let seconds = match (number(&words, 'X'), number(&words, 'P')) {
+                (Some(_), None) if self.haas => return self.m.halt("G04 X"),
                 (Some((x, true)), None) => x,
                 (Some((x, false)), None) => x * 0.001,
+                (None, Some((p, true))) if self.haas => p,
                 (None, Some((p, _))) => p * 0.001,
                 _ => return self.m.halt("G04 needs X or P"),
             };
@@ -339,11 +365,12 @@ impl Control {
 
     /// A block while a cycle is in force: a hole if it has X, Y, Z, R or another axis.
     fn hole(&mut self, cycle: u32, words: &[Word]) -> Result<(), Halt> {
-        if number(words, 'L').is_some() && number(words, 'M').is_none() {
-            return self.m.halt("repetition by L, as on older series");
+        let (repeat, other) = if self.haas { ('L', 'K') } else { ('K', 'L') };
+        if number(words, other).is_some() && number(words, 'M').is_none() {
+            return self.m.halt(format!("{other} in a cycle"));
         }
-        // K0 stores the data and makes no hole.
-        let times = number(words, 'K').map_or(1, |(k, _)| k as u32);
+        // K0, on a Haas L0, stores the data and makes no hole.
+        let times = number(words, repeat).map_or(1, |(k, _)| k as u32);
         let mut axes = self.axis_words(words);
         let r = self.length(words, 'R');
         if axes.iter().all(Option::is_none) && r.is_none() {
@@ -363,8 +390,10 @@ impl Control {
             self.kept.q = Some(q.abs());
         }
         // The P of a call is a program number.
-        if let Some((p, _)) = number(words, 'P').filter(|_| number(words, 'M').is_none_or(|m| m.0 != 98.0)) {
-            self.kept.p = Some(p * 0.001);
+        if let Some((p, point)) =
+            number(words, 'P').filter(|_| number(words, 'M').is_none_or(|m| m.0 != 98.0))
+        {
+            self.kept.p = Some(if self.haas && point { p } else { p * 0.001 });
         }
         let (Some((r, r_inc)), Some((z, z_inc))) = (self.kept.r, self.kept.z) else {
             return self.m.halt("a cycle without Z and R");
@@ -399,7 +428,7 @@ impl Control {
         let p = p as u32;
         let (times, name) = match number(words, 'L') {
             Some((l, _)) => (l as u32, p),
-            None if p > 9999 => (p / 10000, p % 10000),
+            None if p > 9999 && !self.haas => (p / 10000, p % 10000),
             None => (1, p),
         };
         let Some(program) = all.iter().skip(1).find(|program| program.number == name) else {

@@ -43,7 +43,7 @@ pub(crate) fn class(emitted: &Emitted, mutant: &Mutant) -> Result<&'static str, 
         (Change::Sibling(_), Is::Name) if old.starts_with(b"STRAIGHT_") => "a move that goes nowhere",
         (Change::Swapped, _) => "order of blocks without an event between",
         (Change::Sign, _) if !old.iter().any(|b| (b'1'..=b'9').contains(b)) => "minus zero",
-        (_, Is::Letter(b'O')) if dialect == "fanuc" => "the program's number",
+        (_, Is::Letter(b'O')) if matches!(dialect, "fanuc" | "haas") => "the program's number",
         (Change::Sibling(_), Is::Letter(b'M')) => "a code that ends the program alike",
         (Change::Sibling(_), Is::Letter(b'G') | Is::Name) => "a setting that nothing after it depends on",
         (Change::Deleted, Is::Letter(b'G' | b'M')) => {
@@ -138,7 +138,7 @@ fn behind_the_end(dialect: &str, text: &[u8], place: usize) -> bool {
                 && !String::from_utf8_lossy(&text[place..]).starts_with("%_N_")
         }
         // What follows there are subprograms, up to the percent sign.
-        "fanuc" => {
+        "fanuc" | "haas" => {
             let rest = String::from_utf8_lossy(&text[place..]).into_owned();
             rest.trim_start().starts_with('%') && before.contains('\n')
         }

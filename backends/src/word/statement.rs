@@ -260,7 +260,8 @@ impl Writer {
 
     /// The number of a subprogram, as its name says it.
     pub(crate) fn program_number(&self, name: &str) -> Result<u32, Fault> {
-        let number = name.parse::<u32>().ok().filter(|n| (1..=9999).contains(n));
+        let digits = self.dialect.program.number_digits.clamp(1, 8) as u32;
+        let number = name.parse::<u32>().ok().filter(|n| (1..10u32.pow(digits)).contains(n));
         number.ok_or_else(|| cannot(format!("a subprogram called {name}")))
     }
 }

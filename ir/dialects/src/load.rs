@@ -20,6 +20,7 @@ use crate::schema::Dialect;
 const BUILTIN: &[(&str, &str)] = &[
     ("mach9", include_str!("../data/mach9.toml")),
     ("fanuc", include_str!("../data/fanuc.toml")),
+    ("haas", include_str!("../data/haas.toml")),
     ("siemens", include_str!("../data/siemens.toml")),
     ("canon", include_str!("../data/canon.toml")),
     ("ir", include_str!("../data/ir.toml")),

@@ -1,0 +1,331 @@
+//! G and M codes, the canned cycles and patterns that they call up, and their letters.
+
+use ncc_dialects::{CodeRow, CycleRow, Dialect, Family, Meaning, NameMeaning, PatternRow, Quantity};
+use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::cycle::Approach;
+
+use super::Row;
+use super::proof::{Bench, Said, Tried, in_place, refusal};
+use super::words::with_procedure;
+
+/// The rows of the codes.
+pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
+    let d = bench.dialect;
+    for row in &d.code {
+        if let Some(name) = &row.refuse {
+            let texts = [(row.code.clone(), ""), (format!("{} X1. Y1. Z1.", row.code), "")];
+            rows.push(refusal(bench, "code", &row.code, &texts, name, row.sure));
+            continue;
+        }
+        let Some(meaning) = row.means else { continue };
+        match meaning {
+            Meaning::StartCycle => {}
+            Meaning::Pattern => {}
+            Meaning::Dwell => dwells(bench, row, rows),
+            _ => {
+                for said in said(d, meaning, &row.code) {
+                    rows.push(code(bench, row, meaning, &said).row("code", row.code.clone(), row.sure));
+                }
+            }
+        }
+    }
+    for row in &d.cycle {
+        cycle(bench, row, rows);
+    }
+    for row in &d.pattern {
+        pattern(bench, row, rows);
+    }
+}
+
+/// A code by the statement that it is written for; read only, if another word is written.
+fn code(bench: &Bench, row: &CodeRow, meaning: Meaning, said: &Said) -> Tried {
+    let d = bench.dialect;
+    let named = d.name_for(NameMeaning::Code(meaning)).map(|n| n.name.as_str());
+    let written = match meaning {
+        // Each has a name of its own.
+        Meaning::NoEffect => Some(row.code.as_str()),
+        _ => d.code_for(meaning).map(|first| first.code.as_str()).or(named),
+    };
+    match written {
+        Some(code) if code == row.code => must_show(bench.both_ways(said), &row.code),
+        Some(other) => {
+            let put = |text: String| in_place(&text, other, &row.code).unwrap_or(text);
+            must_show(bench.reads(said, &said.say, put), &row.code).read_only()
+        }
+        None => Tried::failure("no row is written for this meaning: none has `write`"),
+    }
+}
+
+/// The row's word must stand in what was written, else nothing was shown of it.
+pub(super) fn must_show(mut tried: Tried, word: &str) -> Tried {
+    let shown = tried.written.iter().any(|line| in_place(line, word, "").is_some());
+    if tried.failed.is_none() && !shown {
+        tried.failed = Some(format!("{word} is not written: another word is taken"));
+    }
+    tried
+}
+
+/// Statements of a meaning.
+pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
+    let one = |text: &str| vec![Said::new(text)];
+    match meaning {
+        Meaning::StraightTraverse => one("said STRAIGHT_TRAVERSE(X 12.345mm, Y -6.7mm)"),
+        Meaning::StraightFeed => one("said STRAIGHT_FEED(X 12.345mm, Y -6.7mm)"),
+        Meaning::ArcFeed(turn) => {
+            let turn = match turn {
+                Turn::Clockwise => "clockwise",
+                Turn::Counterclockwise => "counterclockwise",
+            };
+            ["XY", "ZX", "YZ"].map(|plane| arc(d, plane, turn)).into()
+        }
+        Meaning::UseLengthUnits(units) => vec![match units {
+            Units::Mm => Said::new("USE_LENGTH_UNITS(mm)")
+                .after("USE_LENGTH_UNITS(inch)\nsaid STRAIGHT_TRAVERSE(X 2in, Y 2in)"),
+            Units::Inch => Said::new("USE_LENGTH_UNITS(inch)"),
+        }],
+        Meaning::SetDistanceMode(distance) => vec![match distance {
+            Distance::Absolute => Said::new("SET_DISTANCE_MODE(absolute)\nsaid STRAIGHT_TRAVERSE(X 1mm)")
+                .after("SET_DISTANCE_MODE(incremental)\nsaid STRAIGHT_TRAVERSE(X inc 2mm)"),
+            Distance::Incremental => {
+                Said::new("SET_DISTANCE_MODE(incremental)\nsaid STRAIGHT_TRAVERSE(X inc 2mm)")
+            }
+        }],
+        Meaning::SelectPlane(plane) => vec![match plane {
+            Plane::Xy => {
+                Said::new("SELECT_PLANE(XY)").after("SELECT_PLANE(ZX)\nsaid STRAIGHT_TRAVERSE(X 1mm)")
+            }
+            Plane::Zx => Said::new("SELECT_PLANE(ZX)"),
+            Plane::Yz => Said::new("SELECT_PLANE(YZ)"),
+        }],
+        Meaning::SetFeedMode(mode) => one(match mode {
+            FeedMode::PerMinute => "SET_FEED_MODE(per-minute)",
+            FeedMode::PerRevolution => "SET_FEED_MODE(per-revolution)",
+            FeedMode::InverseTime => "SET_FEED_MODE(inverse-time)",
+        }),
+        Meaning::SetReturnLevel(level) => one(match level {
+            ReturnLevel::Initial => "SET_RETURN_LEVEL(initial)",
+            ReturnLevel::Retract => "SET_RETURN_LEVEL(retract)",
+        }),
+        Meaning::SetOriginOffsets(n) => one(&format!("SET_ORIGIN_OFFSETS({n})")),
+        Meaning::ClearFrame(slot) => one(&format!("CLEAR_FRAME({})", format!("{slot:?}").to_lowercase())),
+        Meaning::UseMachineCoordinates => one("USE_MACHINE_COORDINATES() & said STRAIGHT_TRAVERSE(Z 0mm)"),
+        Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
+        Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),
+        Meaning::CancelToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(0)"),
+        Meaning::EndCycle => match d.cycle.iter().find(|row| writes(d, row)) {
+            Some(row) => {
+                let start = cycle_text(d, row, &Values::default());
+                vec![Said::new("END_CYCLE()").after(format!("{start}\nHOLE(X 10mm, Y 20mm)"))]
+            }
+            None => one("END_CYCLE()"),
+        },
+        Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
+        Meaning::StartSpindleClockwise => one("START_SPINDLE_CLOCKWISE()"),
+        Meaning::StartSpindleCounterclockwise => one("START_SPINDLE_COUNTERCLOCKWISE()"),
+        Meaning::StopSpindleTurning => one("STOP_SPINDLE_TURNING()"),
+        Meaning::ChangeTool => one(match d.caps.tool_edges {
+            Some(true) => "SELECT_TOOL(5) & CHANGE_TOOL() & USE_TOOL_EDGE(1)",
+            Some(false) | None => "SELECT_TOOL(5) & CHANGE_TOOL()",
+        }),
+        Meaning::FloodOn => one("FLOOD_ON()"),
+        Meaning::MistOn => one("MIST_ON()"),
+        Meaning::CoolantOff => one("COOLANT_OFF()"),
+        Meaning::ProgramStop => one("PROGRAM_STOP()"),
+        Meaning::OptionalProgramStop => one("OPTIONAL_PROGRAM_STOP()"),
+        Meaning::ProgramEnd => one("PROGRAM_END()"),
+        Meaning::Call => {
+            let digits = u32::try_from(d.program.number_digits.clamp(1, 8)).unwrap_or(4);
+            let highest = 10u32.pow(digits) - 1;
+            let calls = [
+                (7, "CALL(7)".to_owned()),
+                (7, "CALL(7, times 3)".to_owned()),
+                (highest, format!("CALL({highest})")),
+            ];
+            calls.map(|(number, say)| with_procedure(number, Said::new(say))).into()
+        }
+        // The subprogram's own end is compared with it.
+        Meaning::Return => vec![with_procedure(7, Said::new("CALL(7)"))],
+        Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),
+    }
+}
+
+/// A quarter of a circle with both words of its centre, in a plane.
+pub(super) fn arc(d: &Dialect, plane: &str, turn: &str) -> Said {
+    // From (3, 4) about (9, 12) to (19, 12), radius 10.
+    let (first, second, words) = match plane {
+        "XY" => ('X', 'Y', ('I', 'J')),
+        "ZX" => ('Z', 'X', ('K', 'I')),
+        _ => ('Y', 'Z', ('J', 'K')),
+    };
+    let (from, centre) = match d.arc.centre_absolute {
+        true => ("zero", (9, 12)),
+        false => ("start", (6, 8)),
+    };
+    let mut ends = [(first, 19), (second, 12)];
+    let mut centres = [(words.0, centre.0), (words.1, centre.1)];
+    ends.sort_unstable();
+    centres.sort_unstable();
+    let say = format!(
+        "said ARC_FEED({plane}, {turn}, {} {}mm, {} {}mm, centre({from}, {} {}mm, {} {}mm))",
+        ends[0].0, ends[0].1, ends[1].0, ends[1].1, centres[0].0, centres[0].1, centres[1].0, centres[1].1
+    );
+    let place = format!("said STRAIGHT_TRAVERSE({first} 3mm, {second} 4mm)");
+    // A length offset may have to be taken up again along the axis that moves.
+    let place = if plane == "XY" { place } else { format!("SELECT_PLANE({plane})\n{place}") };
+    Said::new(say).after(place)
+}
+
+fn dwells(bench: &Bench, row: &CodeRow, rows: &mut Vec<Row>) {
+    let said = Said::new("DWELL(1.5s)");
+    for (at, word) in row.dwell.iter().enumerate() {
+        let name = format!("{} {}", row.code, word.letter);
+        if at == 0 {
+            rows.push(code(bench, row, Meaning::Dwell, &said).row("code", name, row.sure));
+            continue;
+        }
+        let first = row.dwell[0].letter;
+        // One and a half seconds in the word's own form.
+        let value = if word.quantity == Quantity::Milliseconds { "1500" } else { "1.5" };
+        let put = |text: String| {
+            let code_at = text.find(&row.code).unwrap_or(0);
+            let (head, rest) = text.split_at(code_at);
+            let at = rest.find(first).unwrap_or(0);
+            let end =
+                at + 1 + rest[at + 1..].bytes().take_while(|b| b.is_ascii_digit() || *b == b'.').count();
+            format!("{head}{}{}{value}{}", &rest[..at], word.letter, &rest[end..])
+        };
+        rows.push(bench.reads(&said, &said.say, put).read_only().row("code", name, row.sure));
+    }
+    if row.dwell.is_empty() {
+        rows.push(Tried::failure("a dwell needs a word: `dwell`").row("code", row.code.clone(), row.sure));
+    }
+}
+
+/// Values of a cycle's words, in mm and seconds.
+#[derive(Clone, Debug)]
+struct Values {
+    retract: &'static str,
+    depth: &'static str,
+    dwell: &'static str,
+    peck: &'static str,
+}
+
+impl Default for Values {
+    fn default() -> Values {
+        Values { retract: "3", depth: "-12", dwell: "0.5", peck: "5" }
+    }
+}
+
+/// A cycle's call in the text form.
+fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
+    let dwell = format!("dwell {}s", values.dwell);
+    let own: Vec<String> = match row.kind.as_str() {
+        "drill-peck" => vec![format!("peck {}mm, clearance parameter", values.peck)],
+        "drill-break" => vec![format!("peck {}mm, lift parameter", values.peck)],
+        _ => Vec::new(),
+    };
+    let own: Vec<String> = own.into_iter().chain(row.dwell.map(|_| dwell)).collect();
+    let own = if own.is_empty() { String::new() } else { format!("({})", own.join(", ")) };
+    let level = match d.cycles.return_level.map(ReturnLevel::from) {
+        Some(ReturnLevel::Retract) => "retract",
+        Some(ReturnLevel::Initial) | None => "initial",
+    };
+    let approach = match Approach::from(d.cycles.approach) {
+        Approach::PlaneFirst => "plane-first",
+        Approach::RaiseFirst => "raise-first",
+    };
+    format!(
+        "START_CYCLE({}{own}, XY, retract {}mm, depth {}mm, return {level}, {approach}, feed 120mm)",
+        row.kind, values.retract, values.depth
+    )
+}
+
+/// Whether a cycle is the one that is written for its kind.
+fn writes(d: &Dialect, row: &CycleRow) -> bool {
+    let same = |c: &&CycleRow| c.kind == row.kind && c.dwell.is_some() == row.dwell.is_some();
+    let code = d.code.iter().find(|c| c.code == row.code);
+    code.is_some_and(|c| c.write)
+        && d.cycle.iter().find(same).is_some_and(|first| std::ptr::eq(first, row))
+        && d.family == Family::Word
+}
+
+fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
+    let d = bench.dialect;
+    let code = d.code.iter().find(|c| c.code == row.code);
+    let sure = row.sure && code.is_some_and(|c| c.sure);
+    let usual = Values::default();
+    let mut tries = vec![
+        (row.code.clone(), usual.clone()),
+        (format!("{} {}", row.code, row.depth), Values { depth: "-7.891", ..usual.clone() }),
+        (format!("{} {}", row.code, row.retract), Values { retract: "-2.345", ..usual.clone() }),
+    ];
+    if let Some(word) = row.dwell {
+        tries.push((format!("{} {}", row.code, word.letter), Values { dwell: "0.123", ..usual.clone() }));
+    }
+    if let Some(letter) = row.peck {
+        tries.push((format!("{} {letter}", row.code), Values { peck: "1.234", ..usual.clone() }));
+    }
+    let primary = d
+        .cycle
+        .iter()
+        .find(|c| c.kind == row.kind && c.dwell.is_some() == row.dwell.is_some() && writes(d, c));
+    for (name, values) in tries {
+        let say = format!("{}\nHOLE(X 10mm, Y 20mm)", cycle_text(d, row, &values));
+        let said = Said { after: "END_CYCLE()".to_owned(), ..Said::new(say) };
+        let tried = match primary {
+            Some(first) if first.code == row.code => must_show(bench.both_ways(&said), &row.code),
+            Some(first) => {
+                let put = |text: String| in_place(&text, &first.code, &row.code).unwrap_or(text);
+                must_show(bench.reads(&said, &said.say, put), &row.code).read_only()
+            }
+            None => Tried::failure("no row is written for this cycle: none has `write`"),
+        };
+        rows.push(tried.row("cycle", name, sure));
+    }
+    if let (Some(letter), true) = (d.cycles.repeat, primary.is_some_and(|p| p.code == row.code)) {
+        // Written with one hole, and read with the word behind it.
+        let start = cycle_text(d, row, &usual);
+        let hole = "\nHOLE(X 10mm, Y 20mm)";
+        let one = Said { after: "END_CYCLE()".to_owned(), ..Said::new(format!("{start}{hole}")) };
+        for times in [0, 3] {
+            let put = |text: String| {
+                let line = |l: &str| match in_place(l, &row.code, "") {
+                    Some(_) => format!("{l} {letter}{times}\n"),
+                    None => format!("{l}\n"),
+                };
+                text.lines().map(line).collect::<String>()
+            };
+            let tried = bench.reads(&one, &format!("{start}{}", hole.repeat(times)), put).read_only();
+            rows.push(tried.row("cycle", format!("{} {letter}{times}", row.code), sure));
+        }
+    }
+}
+
+fn pattern(bench: &Bench, row: &PatternRow, rows: &mut Vec<Row>) {
+    let d = bench.dialect;
+    let Some(cycle) = d.cycle.iter().find(|row| writes(d, row)) else {
+        rows.push(Tried::failure("there is no cycle to make its holes").row("pattern", row.code(), true));
+        return;
+    };
+    let start = cycle_text(d, cycle, &Values::default());
+    let patterns: Vec<String> = match row {
+        PatternRow::Circle { .. } => vec![
+            "CIRCLE_PATTERN(centre here, first (18mm, 0mm), step 30deg, count 12)".to_owned(),
+            "CIRCLE_PATTERN(centre here, first (0mm, -12.5mm), step -22.5deg, count 3)".to_owned(),
+        ],
+        PatternRow::Grid { serpentine, .. } => {
+            let order = if *serpentine { ", serpentine" } else { "" };
+            vec![
+                format!("RECTANGULAR_LAYOUT(columns (X, 15mm, 2), rows (Y, 20mm, 2){order})"),
+                format!("RECTANGULAR_LAYOUT(columns (X, -7.5mm, 2), rows (Y, 2.25mm, 2){order})"),
+            ]
+        }
+    };
+    let code = d.code.iter().find(|c| c.code == row.code());
+    for say in patterns {
+        let before = format!("said STRAIGHT_TRAVERSE(X 0mm, Y 0mm)\n{start}");
+        let said = Said { before, after: "END_CYCLE()".to_owned(), ..Said::new(say) };
+        let tried = must_show(bench.both_ways(&said), row.code());
+        rows.push(tried.row("pattern", row.code(), code.is_some_and(|c| c.sure)));
+    }
+}

@@ -1,0 +1,113 @@
+//! Dictionaries of a shop, and the test of dictionaries.
+
+use super::*;
+
+const SHOP: &str = "\
+id = \"shop\"
+title = \"Our Fanuc\"
+base = \"fanuc\"
+
+[[code]]
+code = \"M24\"
+means = \"FLOOD_ON\"
+write = false
+source = \"the builder's list\"
+";
+
+const PROGRAM: &str = "%\nO0012\nG21 G90 G54\nM24\nG0 X1. Y0. Z5.\nM30\n%\n";
+
+fn shop() -> tempfile::TempDir {
+    let folder = folder();
+    std::fs::write(folder.path().join("shop.toml"), SHOP).unwrap();
+    std::fs::write(folder.path().join("part.nc"), PROGRAM).unwrap();
+    folder
+}
+
+#[test]
+fn a_shops_dialect_is_a_name_like_any_other() {
+    let folder = shop();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    for line in [
+        "shop to canon part.nc --dialect shop.toml",
+        "--dialect shop.toml shop to canon part.nc",
+        "shop:canon part.nc --dialect=shop.toml",
+        "translate --from shop --to canon part.nc --dialect shop.toml",
+        "auto to canon part.nc --dialect shop.toml",
+    ] {
+        assert!(run(line).exits(0).out.contains("FLOOD_ON()"), "{line}");
+    }
+    // Written are the words of the base.
+    let back = run("shop to shop part.nc --dialect shop.toml --no-head").exits(0).out;
+    assert!(back.contains("\nM08\n"), "{back}");
+    assert!(run("fanuc to canon part.nc").exits(1).err.contains("`M24` is unknown"));
+    assert!(run("dialects --dialect shop.toml").exits(0).out.contains("shop     Our Fanuc"));
+    let shown = run("dialects show shop --dialect shop.toml").exits(0).out;
+    assert!(shown.contains("builds on: fanuc") && shown.contains("the builder's list"), "{shown}");
+    assert!(run("shop to canon part.nc").exits(2).err.contains("there is no dialect `shop`"));
+}
+
+#[test]
+fn auto_takes_the_plainer_dialect_where_both_fit() {
+    let folder = shop();
+    std::fs::write(folder.path().join("part.nc"), PROGRAM.replace("M24", "M8")).unwrap();
+    let done = ncc(folder.path(), &["auto", "to", "canon", "part.nc", "--dialect", "shop.toml"]).exits(0);
+    assert!(done.err.contains("read as fanuc: "), "{}", done.err);
+}
+
+#[test]
+fn what_is_wrong_with_a_dictionary_is_told_at_its_place() {
+    let folder = shop();
+    for (from, to, place, says) in [
+        ("FLOOD_ON", "FLOD_ON", "shop.toml:7:9", "no meaning: FLOD_ON"),
+        ("id = \"shop\"", "id = \"fanuc\"", "shop.toml:1:6", "fanuc is built in"),
+        ("id = \"shop\"", "id = \"dialects\"", "shop.toml:1:1", "`dialects` is no name of a dialect"),
+        ("base = \"fanuc\"", "base = \"shop\"", "shop.toml:3:8", "cannot build on itself: shop, on shop"),
+        ("write = false", "writes = false", "shop.toml:8:1", "unknown field `writes`"),
+        ("means", "cycle", "shop.toml:7:1", "unknown field `cycle`"),
+    ] {
+        std::fs::write(folder.path().join("shop.toml"), SHOP.replace(from, to)).unwrap();
+        let done = ncc(folder.path(), &["shop", "to", "canon", "part.nc", "--dialect", "shop.toml"]).exits(2);
+        assert!(done.err.contains(place) && done.err.contains(says), "{place} {says}\n{}", done.err);
+        let line = ["shop", "to", "canon", "part.nc", "--dialect", "shop.toml", "--format", "json"];
+        let done = ncc(folder.path(), &line).exits(2);
+        assert!(done.err.starts_with("{\"severity\":\"error\"") && done.err.contains(place), "{}", done.err);
+    }
+    let done = ncc(folder.path(), &["dialects", "--dialect", "none.toml"]).exits(4);
+    assert!(done.err.contains("none.toml"), "{}", done.err);
+}
+
+#[test]
+fn a_fault_of_the_base_is_shown_in_the_base() {
+    let folder = shop();
+    let text = format!("{SHOP}\n[[cycle]]\ncode = \"G81\"\nremove = true\n");
+    std::fs::write(folder.path().join("shop.toml"), text).unwrap();
+    let done = ncc(folder.path(), &["dialects", "--dialect", "shop.toml"]).exits(2);
+    let says = ["row G81: has no [[cycle]] row", "fanuc (built in):", "shop.toml:3:8", "this base is meant"];
+    assert!(says.iter().all(|s| done.err.contains(s)), "{}", done.err);
+}
+
+#[test]
+fn dictionaries_are_tested() {
+    let folder = shop();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    let done = run("dialects test shop.toml").exits(0).out;
+    assert!(done.contains("ok      code      M24") && done.contains(", 0 failed"), "{done}");
+    let both = run("dialects test -q haas shop.toml").exits(0).out;
+    let heads: Vec<&str> = both.lines().filter(|l| l.contains(": ") && !l.starts_with("builds")).collect();
+    assert!(heads[0].starts_with("haas: ") && both.contains("\nshop: Our Fanuc\n"), "{both}");
+    std::fs::write(folder.path().join("shop.toml"), format!("{SHOP}\n[number.length]\npoint = \"never\"\n"))
+        .unwrap();
+    let failed = run("dialects test -q shop.toml").exits(1).out;
+    assert!(failed.contains("failed  number    length 100 mm"), "{failed}");
+    std::fs::write(folder.path().join("shop.toml"), SHOP.replace("FLOOD_ON", "FLOD_ON")).unwrap();
+    run("dialects test shop.toml").exits(1);
+    run("dialects test nothing").exits(2);
+    run("dialects test nothing.toml").exits(4);
+}
+
+#[test]
+fn the_form_of_a_dictionary_is_printed() {
+    let folder = folder();
+    let page = ncc(folder.path(), &["dialects", "schema"]).exits(0).out;
+    assert!(page.starts_with("# Dictionaries\n") && page.contains("| `packed_call_digits`* |"));
+}
