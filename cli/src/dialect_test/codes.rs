@@ -120,19 +120,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             None => one("END_CYCLE()"),
         },
         Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
-        Meaning::StartSpindleClockwise => one("START_SPINDLE_CLOCKWISE()"),
-        Meaning::StartSpindleCounterclockwise => one("START_SPINDLE_COUNTERCLOCKWISE()"),
-        Meaning::StopSpindleTurning => one("STOP_SPINDLE_TURNING()"),
         Meaning::ChangeTool => one(match d.caps.tool_edges {
             Some(true) => "SELECT_TOOL(5) & CHANGE_TOOL() & USE_TOOL_EDGE(1)",
             Some(false) | None => "SELECT_TOOL(5) & CHANGE_TOOL()",
         }),
-        Meaning::FloodOn => one("FLOOD_ON()"),
-        Meaning::MistOn => one("MIST_ON()"),
-        Meaning::CoolantOff => one("COOLANT_OFF()"),
-        Meaning::ProgramStop => one("PROGRAM_STOP()"),
-        Meaning::OptionalProgramStop => one("OPTIONAL_PROGRAM_STOP()"),
-        Meaning::ProgramEnd => one("PROGRAM_END()"),
         Meaning::Call => {
             let digits = u32::try_from(d.program.number_digits.clamp(1, 8)).unwrap_or(4);
             let highest = 10u32.pow(digits) - 1;
@@ -146,6 +137,14 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         // The subprogram's own end is compared with it.
         Meaning::Return => vec![with_procedure(7, Said::new("CALL(7)"))],
         Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),
+        // Spindle, coolant, stops: what is said by its name alone.
+        function => {
+            let text = function.to_string();
+            vec![Said::new(match text.split_once(' ') {
+                None => format!("{text}()"),
+                Some((name, of)) => format!("{name}(\"{of}\")"),
+            })]
+        }
     }
 }
 

@@ -172,6 +172,10 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evide
             evidence.con(number, "letters without numbers".to_owned());
         }
         let word = String::from_utf8_lossy(&code[from..at]).into_owned();
+        let numbers_program = from == 0 && dialect.program.number == Some(char::from(letter));
+        if numbers_program && code[at..].iter().any(u8::is_ascii_alphabetic) {
+            evidence.con(number, format!("words behind `{}`", word.trim()));
+        }
         word_of(dialect, number, letter, value, &word, from == 0, evidence);
     }
 }
