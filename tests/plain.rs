@@ -1,6 +1,8 @@
 //! Events in their plainest form, so that the second interpreter's, the compiler's and those of a
 //! book can be laid side by side. Millimetres, degrees, seconds, machine coordinates.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
 use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle as Turning, Turn, Units};
 use ncc_ir::exec::{Event, Kind};
 use ncc_ir::num::Nanos;
@@ -41,6 +43,8 @@ pub enum Happening {
     Dwell(f64),
     ToolChange,
     Coolant,
+    /// Its name, hashed.
+    MachineFunction(u64),
     Stop,
     OptionalStop,
     End,
@@ -178,6 +182,11 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::Dwell(seconds) => Happening::Dwell(mm(*seconds)),
             Kind::ToolChange => Happening::ToolChange,
             Kind::Coolant => Happening::Coolant,
+            Kind::MachineFunction(name) => {
+                let mut hasher = DefaultHasher::new();
+                name.hash(&mut hasher);
+                Happening::MachineFunction(hasher.finish())
+            }
             Kind::ProgramStop => Happening::Stop,
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
@@ -293,7 +302,6 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
     let run = match dialect {
         "mach9" => interpreter::mach9::run(text, setup),
         "fanuc" => interpreter::fanuc::run(text, setup),
-        "haas" => interpreter::fanuc::run_haas(text, setup),
         "canon" => interpreter::canon::run(text, setup),
         "ir" => interpreter::ir::run(text, setup),
         "siemens" => interpreter::siemens::run(text, setup),

@@ -35,6 +35,7 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         }
         Kind::Dwell(seconds) => format!("a dwell of {} s", number(*seconds)),
         Kind::ToolChange => format!("a change to tool {}", event.state.tool),
+        Kind::MachineFunction(name) => format!("the machine function {name}"),
         Kind::Coolant => "a switch of the coolant".to_owned(),
         Kind::ProgramStop => "a stop".to_owned(),
         Kind::OptionalProgramStop => "an optional stop".to_owned(),

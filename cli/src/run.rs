@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
-use codespan_reporting::term::termcolor::{ColorChoice, StandardStream, WriteColor};
+use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, SettingError, Settings};
 use ncc_ir::passes::PASSES;
@@ -170,7 +170,12 @@ fn translated(
         Some(name) if name != Path::new("-") => Destination::File(name.clone()),
         Some(_) | None => Destination::Stdout,
     };
-    let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, err)?;
+    let machines = {
+        // For a reader of JSON, the problem alone says where.
+        let mut nowhere = Buffer::no_color();
+        let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
+        Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, told)?
+    };
     let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
     let to = agreed(to, machines.to.as_deref(), "to")?;
     let to = to.ok_or_else(|| Problem::usage("translate into what?", "name a dialect: --to fanuc"))?;

@@ -6,8 +6,9 @@
 //!
 //! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
 
-/// Beside the way: remarks, spindle, coolant, pauses. Without axis words, lengths or a feed; what is
-/// in force for the moves that follow, where the axes stand and which tool is meant stay as they are.
+/// Beside the way: remarks, spindle, coolant, functions of the machine, pauses. Without axis words,
+/// lengths or a feed; what is in force for the moves that follow, where the axes stand and which tool
+/// is meant stay as they are.
 macro_rules! miscellaneous {
     () => {
         $crate::program::Op::Comment(_)
@@ -18,6 +19,7 @@ macro_rules! miscellaneous {
             | $crate::program::Op::StartSpindleClockwise
             | $crate::program::Op::StartSpindleCounterclockwise
             | $crate::program::Op::StopSpindleTurning
+            | $crate::program::Op::MachineFunction(_)
             | $crate::program::Op::FloodOn
             | $crate::program::Op::MistOn
             | $crate::program::Op::CoolantOff

@@ -354,6 +354,9 @@ pub enum Op {
     StartSpindleCounterclockwise,
     /// `STOP_SPINDLE_TURNING`
     StopSpindleTurning,
+    /// `MACHINE_FUNCTION`: switches something of the machine that no dialect has a word for, by a name
+    /// that means the same on every machine. No axis moves, no tool changes.
+    MachineFunction(Text),
     /// `FLOOD_ON`
     FloodOn,
     /// `MIST_ON`
@@ -442,6 +445,7 @@ impl Op {
             Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
             Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
             Op::StopSpindleTurning => "STOP_SPINDLE_TURNING",
+            Op::MachineFunction(_) => "MACHINE_FUNCTION",
             Op::FloodOn => "FLOOD_ON",
             Op::MistOn => "MIST_ON",
             Op::CoolantOff => "COOLANT_OFF",

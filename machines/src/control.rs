@@ -4,11 +4,11 @@
 //! written are rows of the dictionary too. A derived dictionary is made once for each use of a
 //! profile and lives as long as the process.
 
-use ncc_dialects::{Dialect, PowerOnFact, Quantity, Settings};
+use ncc_dialects::{CodeRow, Dialect, Meaning, PowerOnFact, Quantity, Settings};
 
 use crate::fact::Fact;
 use crate::profile::Profile;
-use crate::schema::{BlockNumbers, Characters, LineEnds, ToolChangeForm};
+use crate::schema::{BlockNumbers, Characters, LineEnds, MCodeRow, ToolChangeForm};
 
 /// How programs for the machine are laid out, as far as the shop has said.
 #[derive(Clone, Debug, Default)]
@@ -52,6 +52,9 @@ impl Profile {
         put(&mut facts.work_offset, &said.work_offset, |n| u16::try_from(n).ok());
         put(&mut facts.length_offset, &said.length_offset, Some);
         put(&mut facts.no_origin_shift, &said.no_origin_shift, Some);
+        for row in &self.schema.m_code {
+            machine_function(row.get_ref(), &mut dialect);
+        }
         let emit = &self.schema.emit;
         if let Some(blanks) = emit.blanks.value {
             dialect.block.blanks = blanks;
@@ -87,6 +90,32 @@ impl Profile {
             footer: emit.footer.value.clone().unwrap_or_default(),
         }
     }
+}
+
+/// Puts an M code of the machine in.
+fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
+    let (Some(code), Some(function)) = (&row.code.value, &row.function.value) else { return };
+    // The profile has been checked: it is a code that the dialect does not have.
+    let Some(tenths) = code.get(1..).and_then(|n| n.parse::<usize>().ok()).map(|n| n * 10) else { return };
+    let Ok(at) = u16::try_from(dialect.code.len()) else { return };
+    if dialect.index.m.len() <= tenths {
+        dialect.index.m.resize(tenths + 1, None);
+    }
+    dialect.index.m[tenths] = Some(at);
+    dialect.code.push(CodeRow {
+        code: code.clone(),
+        upto: None,
+        // A derived dictionary lives as long as the process.
+        means: Some(Meaning::MachineFunction(Box::leak(function.clone().into_boxed_str()))),
+        refuse: None,
+        group: String::new(),
+        words: String::new(),
+        feed_stays: false,
+        dwell: Vec::new(),
+        write: true,
+        sure: true,
+        source: "the machine's profile".to_owned(),
+    });
 }
 
 /// Puts a stated fact in, as one that always holds.

@@ -7,7 +7,8 @@ use ncc_ir::canon::{AXES, Axis};
 use ncc_timeline::{AxisFacts, Machine, ToolChangeOn};
 
 use crate::check::check;
-use crate::schema::{ChangeOn, Schema};
+use crate::fact::Fact;
+use crate::schema::{ChangeOn, MCodeRow, Schema};
 use crate::table::{Stated, Table};
 use crate::wrong::{ProfileError, Wrong};
 
@@ -59,6 +60,43 @@ impl Profile {
     /// Its name on the command line.
     pub fn id(&self) -> &str {
         self.schema.id.get_ref()
+    }
+
+    /// A profile that states nothing but its dialect.
+    pub fn empty(dialect: &'static Dialect) -> Profile {
+        let text = |text: &str| toml::Spanned::new(0..0, text.to_owned());
+        let schema = Schema {
+            id: text(&dialect.id),
+            title: String::new(),
+            dialect: text(&dialect.id),
+            typical: false,
+            notes: String::new(),
+            sources: Default::default(),
+            options: Default::default(),
+            confirmed: Default::default(),
+            power_on: Default::default(),
+            rates: Default::default(),
+            times: Default::default(),
+            spindle: Default::default(),
+            axis: Vec::new(),
+            tool: Vec::new(),
+            work_offset: Vec::new(),
+            m_code: Vec::new(),
+            emit: Default::default(),
+            map: None,
+        };
+        Profile { schema, dialect }
+    }
+
+    /// Adds an M code and its function, unless the profile or its dialect has the code.
+    pub fn add_code(&mut self, code: &str, function: &str) {
+        let rows = self.schema.m_code.iter().map(toml::Spanned::get_ref);
+        if rows.clone().any(|row| row.code.value.as_deref() == Some(code) && row.function.value.is_some()) {
+            return;
+        }
+        let text = |text: &str| Fact { value: Some(text.to_owned()), ..Fact::default() };
+        let row = MCodeRow { code: text(code), function: text(function), ..MCodeRow::default() };
+        self.schema.m_code.push(toml::Spanned::new(0..0, row));
     }
 
     /// What models of the timeline know of the machine.

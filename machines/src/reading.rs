@@ -36,6 +36,10 @@ pub enum Place {
     Option(String),
     /// A key of `[confirmed]`.
     Confirmed(String),
+    /// A row of `[[m_code]]`: what a code does.
+    Code(String),
+    /// A row of `[[m_code]]`: which code does something, by its name.
+    Function(String),
 }
 
 impl fmt::Display for Place {
@@ -44,6 +48,11 @@ impl fmt::Display for Place {
             Place::PowerOn(key) => write!(f, "power_on.{key}"),
             Place::Option(key) => write!(f, "options.{}", quoted(key)),
             Place::Confirmed(key) => write!(f, "confirmed.{}", quoted(key)),
+            Place::Code(code) => write!(f, "m_code {code}"),
+            Place::Function(name) => match name.strip_prefix(UNNAMED) {
+                Some(number) => write!(f, "m_code for M{number}"),
+                None => write!(f, "m_code for {name}"),
+            },
         }
     }
 }
@@ -53,6 +62,9 @@ pub fn quoted(key: &str) -> String {
     let bare = !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-');
     if bare { key.to_owned() } else { format!("{key:?}") }
 }
+
+/// What stands before the number of an M code in the name of a function that nobody has named yet.
+pub const UNNAMED: &str = "as-m";
 
 /// Option of a dialect: clearance of its peck cycle.
 const PECK_CLEARANCE: &str = "peck_clearance";
@@ -69,6 +81,10 @@ pub const BARE_NUMBERS: &str = "numbers-without-point";
 /// Key of the reading that edge 1 of a tool is the length entry of its number.
 pub const EDGE_IS_ENTRY: &str = "edge-1-is-length-entry";
 
+/// Key of the reading that positions under a cycle are reached in rapid, and that the motion before a
+/// cycle is in force again after it.
+pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
+
 /// What follows the name of a pattern whose order of holes is the one that is written.
 const ORDER: &str = "-order";
 
@@ -81,7 +97,8 @@ const AUTOMATIC: &str = "-automatic";
 /// Machine data of which another value would change where a tool's length counts.
 const LENGTH_CONST: &str = "SD-42940-TOOL_LENGTH_CONST";
 
-/// The fact that an assumption rests on; `None` for what is no assumption.
+/// The fact that an assumption rests on, or that is missing where an M code is refused; `None` for
+/// anything else.
 pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Option<(Side, Place)> {
     let side = match told {
         Told::Reader => Side::From,
@@ -90,6 +107,12 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
     let has_option = |name: &str| from.option.iter().any(|o| o.name == name);
     let edges = |dialect: &Dialect| dialect.letter_for(Role::ToolEdge).is_some();
     Some(match fault {
+        // Where the motion at power-on is a fact, it is the one around a cycle that is meant.
+        Fault::AssumedMode { fact: ModeName::Motion, .. }
+            if from.power_on.motion.as_ref().is_some_and(|row| row.always) =>
+        {
+            (side, Place::Confirmed(MOTION_AT_CYCLES.to_owned()))
+        }
         Fault::AssumedMode { fact, .. } => (side, Place::PowerOn(power_on_key(*fact))),
         Fault::AssumedWorkOffset { .. } => (side, Place::PowerOn("work_offset")),
         Fault::AssumedOption { option, .. } => (side, Place::Option(option.to_string())),
@@ -102,6 +125,8 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
             "lift of chip-breaking drilling" => (Side::From, Place::Option(BREAK_LIFT.to_owned())),
             other => (side, Place::Confirmed(slug(other))),
         },
+        Fault::UnknownCode { code } if is_m_code(code) => (Side::From, Place::Code(code.to_string())),
+        Fault::CannotSay { what } => (Side::To, Place::Function(what.strip_prefix(FUNCTION)?.to_owned())),
         Fault::AssumedNoEffect { code } => (side, Place::Confirmed(code.to_string())),
         Fault::AssumedRow { code, .. } => (side, Place::Confirmed(row_key(code))),
         // Where the target wants the offset with a Z word, it is still the source that takes it up so.
@@ -113,6 +138,13 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         }
         _ => return None,
     })
+}
+
+/// What a writer says before the name of a function of the machine that it has no code for.
+const FUNCTION: &str = "the machine function ";
+
+fn is_m_code(code: &str) -> bool {
+    code.strip_prefix('M').is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// The key of `[power_on]` for a fact.
@@ -155,7 +187,7 @@ fn slug(words: &str) -> String {
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
-    if [OFFSET_WITH_Z, BARE_NUMBERS, EDGE_IS_ENTRY, LENGTH_CONST].contains(&key) {
+    if [OFFSET_WITH_Z, BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, LENGTH_CONST].contains(&key) {
         return true;
     }
     let call = |name: &str| dialect.call_row(name).is_some();

@@ -305,7 +305,7 @@ table! {
     /// An M code that this machine has and its dialect has not. It is carried from one machine to
     /// another where both name the same function.
     MCodeRow "[[m_code]]" {
-        /// The code as it is written.
+        /// The code as it is written; a row without it says nothing.
         code: String = "`M` and a number";
         /// Its function, the same word on every machine: `chip-conveyor-on`.
         function: String = "small letters, digits and hyphens";
@@ -322,9 +322,9 @@ table! {
         /// Block numbers.
         block_numbers: BlockNumbers = "`off`, `keep`, `new`";
         /// The first of new block numbers.
-        first_number: u32 = "a whole number";
+        first_number: u32 = "a whole number up to 99999";
         /// The step of new block numbers.
-        number_step: u32 = "a whole number above 0";
+        number_step: u32 = "a whole number from 1 to 99999";
         /// Digits after the point of lengths in mm: at most those that the control has. What is finer is rounded, and told.
         decimals: u32 = "a whole number";
         /// The same, of lengths in inches.
@@ -334,9 +334,9 @@ table! {
         /// Characters.
         characters: Characters = "`capitals`, `ascii`, `latin1`, `utf8`";
         /// Lines of comment at the beginning, after the one that ncc writes.
-        header: Vec<String> = "a list of texts";
+        header: Vec<String> = "a list of texts of one line each";
         /// Lines of comment before the end of the program.
-        footer: Vec<String> = "a list of texts";
+        footer: Vec<String> = "a list of texts of one line each";
         /// Whether a tool is selected and changed in one block or in two.
         tool_change: ToolChangeForm = "`one-block`, `two-blocks`";
         /// What a file is named by, where `-o` names a folder.

@@ -4,12 +4,12 @@
 #![allow(clippy::print_stdout)]
 
 mod cycles;
-mod dialects;
-mod dictionary_form;
+mod doctor;
 mod expected;
 mod faults;
 mod fold;
 mod laws;
+mod machines;
 mod pages;
 mod pairs;
 mod passes;

@@ -49,6 +49,7 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
         }
         Kind::ToolChange
         | Kind::Coolant
+        | Kind::MachineFunction(_)
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd => stop(m),

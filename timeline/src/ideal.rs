@@ -38,6 +38,7 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
         Kind::Attribute(Attribute::StopSpindle) => known(machine.spindle_stop),
         Kind::ToolChange
         | Kind::Coolant
+        | Kind::MachineFunction(_)
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd

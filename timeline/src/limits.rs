@@ -134,6 +134,7 @@ impl Limits {
             Kind::Dwell(_)
             | Kind::ToolChange
             | Kind::Coolant
+            | Kind::MachineFunction(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

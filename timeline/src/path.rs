@@ -94,6 +94,7 @@ pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
         Kind::Dwell(_)
         | Kind::ToolChange
         | Kind::Coolant
+        | Kind::MachineFunction(_)
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd

@@ -252,7 +252,7 @@ impl Writer {
                     whole(tool, out);
                 }
             }
-            Op::Message(text) => {
+            Op::Message(text) | Op::MachineFunction(text) => {
                 self.open(s, out);
                 if quote(text, out) {
                     diags.push(Diagnostic::new(Fault::CommentReformatted, s.span));

@@ -45,6 +45,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::StartSpindleClockwise
         | Op::StartSpindleCounterclockwise
         | Op::StopSpindleTurning
+        | Op::MachineFunction(_)
         | Op::FloodOn
         | Op::MistOn
         | Op::CoolantOff
@@ -72,7 +73,9 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
 
 fn arguments(op: &Op, out: &mut Vec<u8>) {
     match op {
-        Op::Comment(text) | Op::NoEffect(text) | Op::Message(text) => text_argument(text, out),
+        Op::Comment(text) | Op::NoEffect(text) | Op::Message(text) | Op::MachineFunction(text) => {
+            text_argument(text, out);
+        }
         Op::UseLengthUnits(u) => put(units(*u), out),
         Op::SetDistanceMode(d) => put(distance(*d), out),
         Op::SelectPlane(p) => put(plane(*p), out),

@@ -274,6 +274,7 @@ impl Writer {
         if !basic {
             return self.words.feed_rate(feed, span, sink);
         }
+        self.words.rely("feed_unit", span, sink);
         // The digits are those of the other unit; the letter's rules are the same.
         let unit = if in_force == Units::Inch { Unit::Inch } else { Unit::Mm };
         self.words.feed_rate(&Expr::Num(Num { unit, ..*n }), span, sink)

@@ -44,6 +44,7 @@ impl Writer {
             | Op::SelectTool(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
+            | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn
             | Op::ProgramStop

@@ -27,6 +27,7 @@ impl Writer {
         let comes_with_tool = first && !said && self.standing.edge_waits;
         self.standing.edge_waits = false;
         if comes_with_tool {
+            self.words.rely("edge_after_change", span, sink);
             return Ok(());
         }
         self.edge_word(edge, span, sink)

@@ -44,6 +44,8 @@ pub(crate) enum Rank {
     CoolantOff,
     Stop,
     Call,
+    /// Nothing stands in one block with it.
+    Alone,
 }
 
 /// What a statement takes of a block.

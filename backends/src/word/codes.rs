@@ -114,6 +114,8 @@ pub(crate) struct Codes {
     pub spindle_counterclockwise: Option<Code>,
     pub spindle_stop: Option<Code>,
     pub change_tool: Option<Code>,
+    /// Functions of the machine, by name.
+    pub machine_functions: Vec<(&'static str, Code)>,
     pub flood: Option<Code>,
     pub mist: Option<Code>,
     pub coolant_off: Option<Code>,
@@ -298,6 +300,16 @@ impl Codes {
             spindle_counterclockwise: code(Meaning::StartSpindleCounterclockwise),
             spindle_stop: code(Meaning::StopSpindleTurning),
             change_tool: code(Meaning::ChangeTool),
+            machine_functions: dialect
+                .code
+                .iter()
+                .filter_map(|row| match row.means {
+                    Some(meaning @ Meaning::MachineFunction(name)) if row.write => {
+                        Some((name, find.row(&row.code, meaning)?))
+                    }
+                    _ => None,
+                })
+                .collect(),
             flood: code(Meaning::FloodOn),
             mist: code(Meaning::MistOn),
             coolant_off: code(Meaning::CoolantOff),

@@ -416,12 +416,18 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let row = self.codes.circle.ok_or_else(|| cannot("a bolt circle"))?;
-        if centre.is_none() && self.options.circle_about_zero {
-            let zero = self.stands(Axis::X)? == 0 && self.stands(Axis::Y)? == 0;
-            if !zero {
-                return Err(cannot("a bolt circle about where the tool stands"));
+        if centre.is_none() {
+            let at = [self.tracker.position[Axis::X as usize], self.tracker.position[Axis::Y as usize]];
+            if self.options.circle_about_zero {
+                let zero = self.stands(Axis::X)? == 0 && self.stands(Axis::Y)? == 0;
+                if !zero {
+                    return Err(cannot("a bolt circle about where the tool stands"));
+                }
+            } else if at != [Some(0); 2] {
+                self.rely("g24_centre", span, sink);
             }
         }
+        self.rely("g24_direction", span, sink);
         let mut inserted = Inserted::default();
         self.need_distance(first.iter().chain(centre.into_iter().flatten()), &mut inserted)?;
         let mut words = Vec::with_capacity(6);
@@ -455,6 +461,9 @@ impl Writer {
         let along = |row: &Row, axis: Option<Axis>| axis.is_some_and(|a| row.along == Along::Axis(a));
         if !along(columns, x) || !along(rows, y) || !order {
             return Err(cannot("a grid in this order"));
+        }
+        if columns.count > 2 || rows.count > 2 {
+            self.rely("g25_xy", span, sink);
         }
         let mut words = Vec::with_capacity(4);
         for (letter, line) in row.pitch.iter().zip([columns, rows]) {

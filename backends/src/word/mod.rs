@@ -68,6 +68,9 @@ struct Options {
 pub struct Writer {
     pub(crate) dialect: &'static Dialect,
     options: Options,
+    settings: Settings,
+    /// Options that nobody chose and the text relies on, as far as told.
+    told_options: Vec<&'static str>,
     numbering: Numbering,
     pub(crate) eol: &'static [u8],
     pub(crate) codes: Codes,
@@ -123,6 +126,7 @@ impl Writer {
         Writer {
             dialect,
             told_unsure: Vec::new(),
+            told_options: Vec::new(),
             told_no_length: false,
             options: Options {
                 corrector_counts: settings.get("o_word") != "ignore",
@@ -136,6 +140,7 @@ impl Writer {
             },
             eol: if layout.crlf { b"\r\n" } else { b"\n" },
             codes: Codes::new(dialect),
+            settings,
             comments: Comments::new(&dialect.comment),
             block: Block::new(rules.blanks, rules.g_codes, rules.m_codes),
             force: InForce::default(),
@@ -304,6 +309,16 @@ impl Writer {
                 let text = String::from_utf8_lossy(code.text()).into();
                 sink.report(Fault::AssumedRow { code: text, meaning: meaning.to_string().into() }, span);
             }
+        }
+    }
+
+    /// Reports, once, that what is written rests on an option that nobody chose.
+    pub(crate) fn rely(&mut self, option: &'static str, span: Span, sink: &mut Sink) {
+        let open = self.dialect.option.iter().any(|o| o.name == option) && !self.settings.is_chosen(option);
+        if open && !self.told_options.contains(&option) {
+            self.told_options.push(option);
+            let value = self.settings.get(option).into();
+            sink.report(Fault::AssumedOption { option: option.into(), value }, span);
         }
     }
 

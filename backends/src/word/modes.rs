@@ -62,6 +62,7 @@ impl Setting {
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
+            | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn
             | Op::CoolantOff

@@ -70,6 +70,7 @@ impl Writer {
             Op::StopSpindleTurning => {
                 self.m_code(Rank::SpindleOff, codes.spindle_stop, "a spindle stop", sink)
             }
+            Op::MachineFunction(name) => self.machine_function(name, sink),
             Op::FloodOn => self.m_code(Rank::Coolant, codes.flood, "flood coolant", sink),
             Op::MistOn => self.m_code(Rank::Coolant, codes.mist, "mist coolant", sink),
             Op::CoolantOff => self.m_code(Rank::CoolantOff, codes.coolant_off, "coolant off", sink),
@@ -141,6 +142,20 @@ impl Writer {
         Ok(())
     }
 
+    /// A function of the machine, in a block of its own: what comes before and after it must not be a
+    /// matter of the machine.
+    fn machine_function(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
+        let code = self.codes.machine_functions.iter().find(|(n, _)| *n == name).map(|(_, code)| *code);
+        let code = code.ok_or_else(|| cannot(format!("the machine function {name}")))?;
+        if !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        self.admit(&Need::new(Rank::Alone).code(Some(code)), sink)?;
+        self.block.code(Part::Tail, &code);
+        Ok(())
+    }
+
     pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
         let value = self.value(&letter, feed, span, sink)?;
@@ -173,6 +188,7 @@ impl Writer {
         let letter = self.codes.corrector.filter(|_| self.options.corrector_counts);
         let letter = letter.ok_or_else(|| cannot("a length offset"))?;
         let value = self.value(&letter, entry, span, sink)?;
+        self.rely("o_word", span, sink);
         let sure = self.dialect.address_row(letter.letter).is_none_or(|row| row.zero_sure);
         if none && !sure && !std::mem::replace(&mut self.told_no_length, true) {
             let code = format!("{}0", letter.letter as char).into();

@@ -8,6 +8,7 @@
 mod question;
 mod stub;
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -16,12 +17,13 @@ use clap::Args;
 use codespan_reporting::term::termcolor::StandardStream;
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::Settings;
-use ncc_ir::diag::Gravity;
-use ncc_machines::reading::Side;
+use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_machines::Profile;
+use ncc_machines::reading::{Place, Side, UNNAMED};
 
 use crate::args::{Start, pair, start};
 use crate::files;
-use crate::job::{Job, Outcome};
+use crate::job::{Job, Rest};
 use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
 use crate::problem::{Exit, Problem};
@@ -100,7 +102,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
         Some(dialect) => dialect,
         None => recognise(&mut source, true, known, err)?,
     };
-    let job = Job {
+    let mut job = Job {
         from: settings(machines.settings(Side::From, from), &args.from_option)?,
         to: settings(machines.settings(Side::To, to), &args.to_option)?,
         machines,
@@ -117,19 +119,48 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     };
     source.rewind()?;
     let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
-    let outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
+    let mut outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
+    let exit = if outcome.release.is_ok() { Exit::Done } else { Exit::Refused };
+    let codes = outcome.rests.iter().filter_map(|rest| match &rest.place {
+        Place::Code(code) => Some(code.clone()),
+        _ => None,
+    });
+    let codes: BTreeSet<String> = codes.collect();
+    let unknown = outcome.rests.iter().filter(|rest| matches!(rest.place, Place::Code(_)));
+    let unknown: Vec<(Rest, Diagnostic)> =
+        unknown.map(|rest| (rest.clone(), outcome.diagnostics[rest.diagnostic].clone())).collect();
+    if !codes.is_empty() {
+        // What else there is to ask shows once these codes stand for something.
+        let mut profile = job.machines.from.as_deref().cloned().unwrap_or_else(|| Profile::empty(from));
+        codes.iter().for_each(|code| profile.add_code(code, &stand_in(code)));
+        job.from = settings(profile.settings(), &args.from_option)?;
+        source.rewind()?;
+        outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
+        for (rest, diagnostic) in unknown {
+            outcome.rests.push(Rest { diagnostic: outcome.diagnostics.len(), ..rest });
+            outcome.diagnostics.push(diagnostic);
+        }
+    }
     let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
     // Messages that cannot be written change nothing about what was found.
-    let _ = human::print(err, &mut about, &outcome.diagnostics, Loudness::Quiet);
+    let asked_for: BTreeSet<usize> = outcome.rests.iter().map(|rest| rest.diagnostic).collect();
+    let others = outcome.diagnostics.iter().enumerate().filter(|(at, _)| !asked_for.contains(at));
+    let others: Vec<Diagnostic> = others.map(|(_, diagnostic)| diagnostic.clone()).collect();
+    let _ = human::print(err, &mut about, &others, Loudness::Quiet);
     let asked = questions(&mut about, &outcome).map_err(cannot_read)?;
-    let text = told(&about, &outcome, &asked);
+    let text = told(&about, &others, &asked);
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
     for (side, path) in [(Side::From, &args.write_from), (Side::To, &args.write_to)] {
         let Some(path) = path else { continue };
         let text = stub::profile(side, &about, &asked, &stem(path));
         files::to_file(path, &mut |out| out.write_all(text.as_bytes()))?;
     }
-    Ok(if outcome.release.is_ok() { Exit::Done } else { Exit::Refused })
+    Ok(exit)
+}
+
+/// A name for what a code does, as long as nobody has said it.
+fn stand_in(code: &str) -> String {
+    format!("{UNNAMED}{}", code.trim_start_matches('M'))
 }
 
 /// The name of a profile after its file.
@@ -138,7 +169,7 @@ fn stem(path: &Path) -> String {
 }
 
 /// The questions, grouped by machine.
-fn told(about: &About, outcome: &Outcome, asked: &[Question]) -> String {
+fn told(about: &About, others: &[Diagnostic], asked: &[Question]) -> String {
     let (from, to): (&Settings, &Settings) = (&about.job.from, &about.job.to);
     let mut text = format!("{}: {} to {}, ", about.name, from.dialect.id, to.dialect.id);
     text.push_str(&match asked.len() {
@@ -163,8 +194,7 @@ fn told(about: &About, outcome: &Outcome, asked: &[Question]) -> String {
             let _ = writeln!(text, "  {:wide$}  {}", "", question.takes);
         }
     }
-    let errors = outcome.diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Error).count();
-    if errors > 0 {
+    if others.iter().any(|d| d.fault.gravity() == Gravity::Error) {
         text.push_str("\nThe program is refused, so there may be more questions behind what stops it.\n");
     }
     let open = asked.iter().any(|q| q.side == Side::From).then_some("--write-from FILE");

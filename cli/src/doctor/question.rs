@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ncc_dialects::Dialect;
-use ncc_machines::reading::{Place, Side};
+use ncc_machines::reading::{Place, Side, UNNAMED};
 use ncc_machines::schema::PowerOn;
 use ncc_machines::table::Table;
 
@@ -64,7 +64,11 @@ pub(super) fn questions(about: &mut About, outcome: &Outcome) -> io::Result<Vec<
         let question = found.entry((rest.side, rest.place.clone())).or_insert_with(|| Question {
             side: rest.side,
             place: rest.place.clone(),
-            taken: phrase(&diagnostic.fault, at),
+            taken: match &rest.place {
+                Place::Code(code) => format!("what {code} does is not known"),
+                Place::Function(name) => format!("no code for {}", function(name)),
+                Place::PowerOn(_) | Place::Option(_) | Place::Confirmed(_) => phrase(&diagnostic.fault, at),
+            },
             takes: takes(&rest.place, dialect),
             lines: Vec::new(),
             more: 0,
@@ -79,6 +83,14 @@ pub(super) fn questions(about: &mut About, outcome: &Outcome) -> io::Result<Vec<
     let mut questions: Vec<Question> = found.into_values().collect();
     questions.sort_by_key(|q| (q.side, q.lines.first().copied()));
     Ok(questions)
+}
+
+/// The name of a function, or of the code that nobody has named.
+fn function(name: &str) -> String {
+    match name.strip_prefix(UNNAMED) {
+        Some(number) => format!("what M{number} does on the other machine"),
+        None => name.to_owned(),
+    }
 }
 
 /// What a place of a profile takes, in words.
@@ -96,5 +108,9 @@ fn takes(place: &Place, dialect: &Dialect) -> String {
             format!("{} possible: {values}", row.doc)
         }),
         Place::Confirmed(_) => "is it so on this machine? possible: true, false".to_owned(),
+        Place::Code(_) => "a name for its function, in small letters; the same in the profile of the other \
+                           machine. It must move no axis and change no tool."
+            .to_owned(),
+        Place::Function(_) => "the code, and the name as the profile of the other machine has it".to_owned(),
     }
 }

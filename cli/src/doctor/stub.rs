@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ncc_machines::reading::{Place, Side, quoted};
+use ncc_machines::reading::{Place, Side, UNNAMED, quoted};
 
 use super::question::Question;
 use crate::render::About;
@@ -43,12 +43,25 @@ pub(super) fn profile(side: Side, about: &About, asked: &[Question], id: &str) -
             let key = match &question.place {
                 Place::PowerOn(key) => (*key).to_owned(),
                 Place::Option(key) | Place::Confirmed(key) => quoted(key),
+                Place::Code(_) | Place::Function(_) => continue,
             };
             let (lines, taken, takes) = (question.lines(), &question.taken, &question.takes);
             comment(&mut text, &format!("{lines}: taken for granted: {taken}"));
             comment(&mut text, takes);
             let _ = writeln!(text, "{key} = \"\"");
         }
+    }
+    for question in own() {
+        let (code, function) = match &question.place {
+            Place::Code(code) => (code.as_str(), ""),
+            Place::Function(name) if name.starts_with(UNNAMED) => ("", ""),
+            Place::Function(name) => ("", name.as_str()),
+            Place::PowerOn(_) | Place::Option(_) | Place::Confirmed(_) => continue,
+        };
+        let _ = writeln!(text, "\n[[m_code]]");
+        comment(&mut text, &format!("{}: {}", question.lines(), question.taken));
+        comment(&mut text, &question.takes);
+        let _ = writeln!(text, "code = {code:?}\nfunction = {function:?}");
     }
     text
 }

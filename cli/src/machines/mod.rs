@@ -83,9 +83,10 @@ pub fn find(name: &str, known: &Known, err: &mut dyn WriteColor) -> Result<Profi
     Profile::parse(&text, &|id| known.get(id)).map_err(|wrong| {
         // If stderr cannot be written, the exit code has to say it all.
         let _ = print(name, &text, &wrong, err);
+        let first = wrong.first().map(|error| place(&text, error.span.start)).unwrap_or_default();
         Problem {
             exit: Exit::Usage,
-            message: format!("the profile {name} cannot be used: {}", count(wrong.len(), "error")),
+            message: format!("the profile {name} cannot be used: {}{first}", count(wrong.len(), "error")),
             help: Vec::new(),
         }
     })
@@ -116,6 +117,14 @@ pub fn print(
         term::emit_to_write_style(err, &Config::default(), &file, &boxed)?;
     }
     Ok(())
+}
+
+/// Where the first error is.
+fn place(text: &str, at: usize) -> String {
+    let before = text.get(..at).unwrap_or_default();
+    let line = before.matches('\n').count() + 1;
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    format!(", first in line {line}, column {column}")
 }
 
 /// `1 error`, `2 errors`.

@@ -110,6 +110,8 @@ impl Machines {
             (Place::PowerOn("no_origin_shift"), _) => power_on.no_origin_shift.get(),
             // A reader does not assume what its dictionary has as a fact.
             (Place::PowerOn(_), _) => None,
+            // A code that a profile has is in its dictionary.
+            (Place::Code(_) | Place::Function(_), _) => None,
         };
         match says {
             None => Answer::Open,

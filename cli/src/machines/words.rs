@@ -15,7 +15,9 @@ pub(super) fn message(wrong: &Wrong) -> String {
     match wrong {
         Wrong::Form { message } => {
             let first = message.lines().next().unwrap_or("it is no profile");
-            first.to_owned()
+            first
+                .replace("expected f64", "expected a number")
+                .replace("expected u32", "expected a whole number")
         }
         Wrong::UnknownDialect { name } => format!("there is no dialect `{name}`"),
         Wrong::UnknownOption { option, .. } => format!("the dialect has no option `{option}`"),

@@ -63,6 +63,7 @@ impl Columns {
             Kind::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Kind::ProgramEnd => "PROGRAM_END",
             Kind::Message(_) => "MESSAGE",
+            Kind::MachineFunction(_) => "MACHINE_FUNCTION",
             Kind::Attribute(Attribute::SelectTool(selected)) => {
                 tool = *selected;
                 "SELECT_TOOL"

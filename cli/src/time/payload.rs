@@ -182,6 +182,7 @@ impl<W: Write> Sink for Payload<'_, W> {
             | Kind::Feed
             | Kind::ToolChange
             | Kind::Coolant
+            | Kind::MachineFunction(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

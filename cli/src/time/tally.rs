@@ -294,6 +294,7 @@ impl Step {
                 Attribute::StartSpindle(_) | Attribute::StopSpindle | Attribute::SpindleSpeed(_),
             ) => Sort::Spindle,
             Kind::Coolant
+            | Kind::MachineFunction(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

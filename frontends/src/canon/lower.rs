@@ -163,6 +163,7 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
         )?),
         "COMMENT" => Op::Comment(args.text()?),
         "MESSAGE" => Op::Message(args.text()?),
+        "MACHINE_FUNCTION" => Op::MachineFunction(args.text()?),
         "CLEAR_ORIGIN_SHIFT" => Op::ClearFrame(FrameSlot::Shift),
         "STOP_CUTTER_RADIUS_COMPENSATION" => Op::StopCutterRadiusCompensation,
         "START_SPINDLE_CLOCKWISE" => Op::StartSpindleClockwise,

@@ -11,6 +11,7 @@
 //! USE_TOOL_LENGTH_OFFSET(n)                        ours: entry of the length table, 0 for none
 //! STOP_CUTTER_RADIUS_COMPENSATION()
 //! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
+//! MACHINE_FUNCTION("name")                        ours: what no dialect has a word for
 //! FLOOD_ON()  MIST_ON()  COOLANT_OFF()             ours: both at once
 //! STRAIGHT_TRAVERSE(x, y, z [, a, b, c])  STRAIGHT_FEED(x, y, z [, a, b, c])
 //! ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point [, a, b, c])
@@ -167,6 +168,7 @@ impl State {
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
+            | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn
             | Op::CoolantOff

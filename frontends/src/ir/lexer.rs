@@ -69,6 +69,7 @@ pub(crate) enum Worded {
     Comment,
     NoEffect,
     Message,
+    MachineFunction,
 }
 
 /// A function of an expression.
@@ -177,6 +178,7 @@ pub(crate) enum Token {
     #[token("COMMENT", |_| Worded::Comment)]
     #[token("NO_EFFECT", |_| Worded::NoEffect)]
     #[token("MESSAGE", |_| Worded::Message)]
+    #[token("MACHINE_FUNCTION", |_| Worded::MachineFunction)]
     Worded(Worded),
     #[token("USE_LENGTH_UNITS")]
     UseLengthUnits,

@@ -75,6 +75,13 @@ impl Lower {
             let op = match meaning {
                 Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
                 Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
+                Meaning::MachineFunction(_) if words.has_any(b"XYZABC") => {
+                    // Whether it comes before or after the move is a matter of the machine.
+                    let name = "function of the machine in a block with axis words";
+                    self.not_supported(code.name, name, code.span, out);
+                    continue;
+                }
+                Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
                 _ => continue,

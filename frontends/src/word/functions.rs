@@ -150,6 +150,15 @@ impl Lower {
             Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
             Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
             Meaning::StopSpindleTurning => Op::StopSpindleTurning,
+            Meaning::MachineFunction(name) => {
+                if b"XYZABC".iter().any(|letter| words.get(*letter).is_some()) {
+                    // Whether it comes before or after the move is a matter of the machine.
+                    let name = "function of the machine in a block with axis words".into();
+                    let code_text = code.row.code.as_str().into();
+                    return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                }
+                Op::MachineFunction(name.into())
+            }
             Meaning::FloodOn => Op::FloodOn,
             Meaning::MistOn => Op::MistOn,
             Meaning::CoolantOff => Op::CoolantOff,

@@ -222,7 +222,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::ChangeTool => RANK_WORDS,
         Meaning::StartSpindleClockwise | Meaning::StartSpindleCounterclockwise => 11,
         Meaning::FloodOn | Meaning::MistOn => 12,
-        Meaning::Dwell => 13,
+        Meaning::Dwell | Meaning::MachineFunction(_) => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
         Meaning::UseMachineCoordinates => 15,
         Meaning::EndCycle => RANK_MOTION,

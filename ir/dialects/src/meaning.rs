@@ -5,12 +5,11 @@ use std::str::FromStr;
 
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::program::FrameSlot;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 /// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
 /// blank: `SELECT_PLANE XY`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
-#[serde(try_from = "String")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The names are those of `ncc_ir::program::Op`.
 pub enum Meaning {
     StraightTraverse,
@@ -40,6 +39,8 @@ pub enum Meaning {
     StartSpindleCounterclockwise,
     StopSpindleTurning,
     ChangeTool,
+    /// A function of the machine that no dialect has a word for, by its name.
+    MachineFunction(&'static str),
     FloodOn,
     MistOn,
     CoolantOff,
@@ -50,11 +51,9 @@ pub enum Meaning {
     Return,
 }
 
-impl TryFrom<String> for Meaning {
-    type Error = String;
-
-    fn try_from(text: String) -> Result<Meaning, String> {
-        text.parse()
+impl<'de> Deserialize<'de> for Meaning {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Meaning, D::Error> {
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
     }
 }
 
@@ -95,6 +94,7 @@ impl fmt::Display for Meaning {
             Meaning::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
             Meaning::StopSpindleTurning => "STOP_SPINDLE_TURNING",
             Meaning::ChangeTool => "CHANGE_TOOL",
+            Meaning::MachineFunction(name) => return write!(f, "MACHINE_FUNCTION {name}"),
             Meaning::FloodOn => "FLOOD_ON",
             Meaning::MistOn => "MIST_ON",
             Meaning::CoolantOff => "COOLANT_OFF",
@@ -146,6 +146,10 @@ impl FromStr for Meaning {
             ("START_SPINDLE_COUNTERCLOCKWISE", "") => Meaning::StartSpindleCounterclockwise,
             ("STOP_SPINDLE_TURNING", "") => Meaning::StopSpindleTurning,
             ("CHANGE_TOOL", "") => Meaning::ChangeTool,
+            // A dictionary lives as long as the process.
+            ("MACHINE_FUNCTION", name) if !name.is_empty() => {
+                Meaning::MachineFunction(Box::leak(name.to_owned().into_boxed_str()))
+            }
             ("FLOOD_ON", "") => Meaning::FloodOn,
             ("MIST_ON", "") => Meaning::MistOn,
             ("COOLANT_OFF", "") => Meaning::CoolantOff,

@@ -46,6 +46,8 @@ pub enum Kind {
     ToolChange,
     /// Coolant was switched.
     Coolant,
+    /// Something of the machine was switched that no dialect has a word for.
+    MachineFunction(Text),
     /// Stop.
     ProgramStop,
     /// Stop, if the operator wants it.

@@ -575,6 +575,7 @@ impl Exec {
                 self.state.spindle = Spindle::Stopped;
                 self.tell(Attribute::StopSpindle, span, out)?;
             }
+            Op::MachineFunction(name) => self.emit(Kind::MachineFunction(name.clone()), span, out)?,
             Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
             Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
             Op::CoolantOff => self.coolant(false, false, span, out)?,

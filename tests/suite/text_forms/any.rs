@@ -306,6 +306,7 @@ fn simple() -> BoxedStrategy<Op> {
         text().prop_map(Op::Comment),
         text().prop_map(Op::NoEffect),
         text().prop_map(Op::Message),
+        text().prop_map(Op::MachineFunction),
         name().prop_map(Op::Goto),
         name().prop_map(Op::Label),
         (var(), expr()).prop_map(|(v, e)| Op::Assign(v, e)),

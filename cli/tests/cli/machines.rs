@@ -1,0 +1,164 @@
+//! Machines and the doctor: profiles in, facts out, and the loop from one to the other.
+
+use super::*;
+
+const SHOP: &str = "id = \"shop\"\ntitle = \"A shop's machine\"\ndialect = \"fanuc\"\n";
+
+fn with_profile(text: &str) -> tempfile::TempDir {
+    let folder = folder();
+    std::fs::write(folder.path().join("shop.toml"), text).unwrap();
+    folder
+}
+
+#[test]
+fn machines_are_listed_shown_and_tested() {
+    let folder = folder();
+    let done = ncc(folder.path(), &["machines"]).exits(0);
+    expect("machines.txt", &done.out);
+    let ids: Vec<&str> = done.out.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    for id in &ids {
+        expect(&format!("machine-{id}.txt"), &ncc(folder.path(), &["machines", "show", id]).exits(0).out);
+    }
+    let mut arguments = vec!["machines", "test"];
+    arguments.extend(ids);
+    let tested = ncc(folder.path(), &arguments).exits(0).out;
+    assert!(!tested.contains("failed") && tested.matches("passed").count() == 12, "{tested}");
+    let schema = ncc(folder.path(), &["machines", "schema"]).exits(0).out;
+    assert!(schema.contains("### `[[axis]]`"));
+}
+
+#[test]
+fn a_profile_names_the_dialect() {
+    let folder = with_profile(SHOP);
+    let plain = ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn"]).exits(0).out;
+    let machines = ["--machine-from", "romi-discovery-4022", "--machine-to", "shop.toml"];
+    let by_machine = ncc(folder.path(), &[&["translate", "good.cn"], &machines[..]].concat()).exits(0).out;
+    assert_eq!(plain, by_machine, "an empty profile changes nothing");
+    for (arguments, says) in [
+        (&["--from", "fanuc", "--machine-from", "romi-discovery-4022", "--to", "fanuc"][..], "is a mach9"),
+        (&["--from", "mach9", "--machine-to", "shop.toml", "--to", "siemens"], "is a fanuc"),
+        (&["--from", "mach9", "--machine-to", "nobody"], "there is no machine `nobody`"),
+        (&["--machine-to", "shop.toml"], "--from"),
+    ] {
+        ncc(folder.path(), &[&["translate", "good.cn"], arguments].concat()).exits(2).says(says);
+    }
+    ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "--machine-to", "none.toml"]).exits(4);
+}
+
+#[test]
+fn a_faulty_profile_is_wrong_usage_and_points_into_the_file() {
+    let folder = with_profile(&format!("{SHOP}[times]\ntoolchange = 5\n"));
+    let arguments = ["translate", "good.cn", "--from", "mach9", "--machine-to", "shop.toml"];
+    let done = ncc(folder.path(), &arguments).exits(2).says("shop.toml:5:1").says("NC0701");
+    assert_eq!(done.out, "");
+    let done = ncc(folder.path(), &[&arguments[..], &["--format", "json"]].concat()).exits(2);
+    assert!(done.err.starts_with('{') && done.err.contains("line 5, column 1"), "{}", done.err);
+    ncc(folder.path(), &["machines", "test", "shop.toml", "fanuc-vmc"]).exits(1).says("NC0701");
+}
+
+#[test]
+fn files_in_a_folder_are_named_as_the_shop_wants() {
+    let emit = "[emit]\nfile_name = \"program-number\"\nextension = \"nc\"\nupper_case = true\nline_ends = \"crlf\"\nblock_numbers = \"new\"\nfirst_number = 5\nnumber_step = 5\n";
+    let folder = with_profile(&format!("{SHOP}{emit}"));
+    std::fs::create_dir(folder.path().join("out")).unwrap();
+    let arguments = [
+        "mach9",
+        "to",
+        "fanuc",
+        "good.cn",
+        "--machine-to",
+        "shop.toml",
+        "--program-number",
+        "17",
+        "-o",
+        "out",
+    ];
+    ncc(folder.path(), &arguments).exits(0);
+    let text = std::fs::read_to_string(folder.path().join("out/O0017.NC")).unwrap();
+    assert!(text.contains("\r\nN5 G21"), "{text}");
+    let plainly = [&arguments[..], &["--eol", "lf", "--number", "off"]].concat();
+    ncc(folder.path(), &plainly).exits(0);
+    let text = std::fs::read_to_string(folder.path().join("out/O0017.NC")).unwrap();
+    assert!(text.contains("\nG21") && !text.contains('\r'), "the command line goes before: {text}");
+    ncc(folder.path(), &["mach9", "to", "fanuc", "good.cn", "-o", "out"]).exits(0);
+    assert!(folder.path().join("out/good.nc").exists());
+    // The source is not written over under its own name.
+    ncc(folder.path(), &["mach9", "to", "mach9", "good.cn", "-o", "."]).exits(2);
+}
+
+/// The doctor asks, somebody fills in, and the translation assumes nothing any more.
+#[test]
+fn what_the_doctor_asks_for_is_no_assumption_once_it_is_stated() {
+    let folder = folder();
+    let asks = ["doctor", "good.cn", "--from", "mach9", "--to", "fanuc"];
+    let done = ncc(folder.path(), &asks).exits(0);
+    expect("doctor.txt", &done.out);
+    let writes = [&asks[..], &["--write-from", "a.toml", "--write-to", "b.toml"]].concat();
+    ncc(folder.path(), &writes).exits(0);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    expect("doctor-from.toml", &read("a.toml"));
+    expect("doctor-to.toml", &read("b.toml"));
+    ncc(folder.path(), &writes).exits(2).says("there already");
+
+    let translates = ["translate", "good.cn", "--machine-from", "a.toml", "--machine-to", "b.toml"];
+    let empty = ncc(folder.path(), &translates).exits(0).says("  assumed ");
+    assert!(empty.out.contains("ASSUMED"), "{}", empty.out);
+
+    for name in ["a.toml", "b.toml"] {
+        let mut text = read(name);
+        for (key, value) in [
+            ("o_word", "\"offset\""),
+            ("work_offset", "1"),
+            ("length_offset", "0"),
+            ("no_origin_shift", "true"),
+            ("length-offset-with-next-z", "true"),
+        ] {
+            text = text.replace(&format!("\n{key} = \"\""), &format!("\n{key} = {value}"));
+        }
+        assert!(!text.contains("= \"\"\n[") && text.matches("= \"\"").count() == 1, "only the title: {text}");
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let stated = ncc(folder.path(), &translates).exits(0);
+    assert!(
+        !stated.out.contains("ASSUMED") && !stated.err.contains("assumed"),
+        "{}{}",
+        stated.out,
+        stated.err
+    );
+    let asks = ["doctor", "good.cn", "--machine-from", "a.toml", "--machine-to", "b.toml"];
+    assert!(ncc(folder.path(), &asks).exits(0).out.contains("depends on no fact that is not stated"));
+}
+
+#[test]
+fn the_doctor_asks_for_m_codes_on_both_sides() {
+    let folder = folder();
+    std::fs::write(folder.path().join("m.cn"), GOOD.replace("G0X0.", "M21\nG0X0.")).unwrap();
+    let asks = [
+        "doctor",
+        "m.cn",
+        "--from",
+        "mach9",
+        "--to",
+        "fanuc",
+        "--write-from",
+        "a.toml",
+        "--write-to",
+        "b.toml",
+    ];
+    let done = ncc(folder.path(), &asks).exits(1);
+    assert!(
+        done.out.contains("what M21 does is not known") && done.out.contains("m_code for M21"),
+        "{}",
+        done.out
+    );
+    let translates = ["translate", "m.cn", "--machine-from", "a.toml", "--machine-to", "b.toml"];
+    ncc(folder.path(), &translates).exits(1).says("NC0201");
+    for (name, code) in [("a.toml", "M21"), ("b.toml", "M70")] {
+        let path = folder.path().join(name);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let text = text.replace("\ncode = \"\"", &format!("\ncode = \"{code}\""));
+        std::fs::write(path, text.replace("\nfunction = \"\"", "\nfunction = \"air-on\"")).unwrap();
+    }
+    let done = ncc(folder.path(), &translates).exits(0);
+    assert!(done.out.contains("\nM70\n"), "{}", done.out);
+}
