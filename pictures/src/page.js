@@ -563,7 +563,10 @@
         for (const x of xs) line(context, view.at(x, 0)[0], 0, view.at(x, 0)[0], tall);
         for (const y of ys) line(context, 0, view.at(0, y)[1], wide, view.at(0, y)[1]);
         context.textAlign = "center";
-        for (const x of xs) if (view.at(x, 0)[0] > 60) context.fillText(number(x, step), view.at(x, 0)[0], tall - 9);
+        for (const x of xs) {
+          const [at] = view.at(x, 0);
+          if (at > 60 && at < wide - 20) context.fillText(number(x, step), at, tall - 9);
+        }
         context.textAlign = "left";
         for (const y of ys) if (view.at(0, y)[1] < tall - 24) context.fillText(number(y, step), 4, view.at(0, y)[1]);
         context.fillText("mm", 4, tall - 9);

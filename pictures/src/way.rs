@@ -79,6 +79,9 @@ pub struct Way {
     /// How far a line that is drawn may be from the full way, mm; 0 if it is the full way.
     pub off: f64,
     pixel: f64,
+    /// What simplified lines may be off, mm.
+    spent: f64,
+    /// Legs that are simplified to this pixel already.
     settled: usize,
 }
 
@@ -151,8 +154,8 @@ impl Way {
 
     /// The way is over.
     pub fn finish(&mut self) {
-        if self.legs.len() > MOST / 2 {
-            self.reduce(MOST / 2);
+        if self.legs.len() > MOST / 4 * 3 {
+            self.reduce(MOST / 4 * 3);
         }
     }
 
@@ -160,25 +163,31 @@ impl Way {
     fn reduce(&mut self, most: usize) {
         let shown = (self.extent.longest() / PIXELS).max(1e-6);
         if self.pixel == 0.0 {
-            self.pixel = shown;
+            self.grow(shown);
         }
         loop {
-            // Each doubling adds a quarter of the new pixel to what the earlier ones had added, so that
-            // they sum up to less than half a pixel.
             self.legs = simplify(self.start, &self.legs, self.settled, self.pixel / 4.0);
-            self.off = self.pixel / 2.0;
+            self.off = self.spent;
             if self.legs.len() > most {
                 let cell = self.pixel.max(shown) / 2.0;
                 self.legs = hide(self.start, &self.legs, self.extent, cell);
-                self.off = self.pixel / 2.0 + cell;
+                self.off = self.spent + cell;
             }
             self.settled = self.legs.len();
             if self.legs.len() <= most {
                 return;
             }
-            self.pixel *= 2.0;
-            self.settled = 0;
+            // To the pixel that would be chosen now, else by as little as helps.
+            self.grow(shown.clamp(self.pixel * 1.25, self.pixel * 2.0));
         }
+    }
+
+    /// Takes a larger pixel. Lines that are simplified once more may leave the way by what they had left
+    /// it before and a quarter of the new pixel.
+    fn grow(&mut self, pixel: f64) {
+        self.pixel = pixel;
+        self.spent += pixel / 4.0;
+        self.settled = 0;
     }
 }
 
