@@ -302,6 +302,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
     let run = match dialect {
         "mach9" => interpreter::mach9::run(text, setup),
         "fanuc" => interpreter::fanuc::run(text, setup),
+        "haas" => interpreter::fanuc::run_haas(text, setup),
         "canon" => interpreter::canon::run(text, setup),
         "ir" => interpreter::ir::run(text, setup),
         "siemens" => interpreter::siemens::run(text, setup),

@@ -131,6 +131,23 @@ fn circles() {
 }
 
 #[test]
+fn an_arc_goes_the_way_that_it_turns() {
+    // A quarter one way is three quarters the other way.
+    let r = 20.0;
+    for plane in [Plane::Xy, Plane::Zx, Plane::Yz] {
+        let (f, s, _) = plane.axes();
+        for (turn, quarters) in [(Turn::Counterclockwise, 1.0), (Turn::Clockwise, 3.0)] {
+            let (mut from, mut to) = ([0.0; 3], [0.0; 3]);
+            (from[f as usize], to[s as usize]) = (r, r);
+            let mut way = Way::new();
+            way.rapid(&from).dwell(1.0).turn(3e3, turn, plane, [0.0, 0.0], &to);
+            let got = run(TRAPEZOIDAL, &plain(), &way.acts).timed[2].duration;
+            same(got, line(quarters * PI / 2.0 * r, 50.0, 1000.0, 0.0, 0.0), 1e-9);
+        }
+    }
+}
+
+#[test]
 fn the_weaker_axis_of_the_plane_counts_on_an_arc_and_a_helix_is_as_curved_as_it_is() {
     let mut m = plain();
     m.axes[2].acceleration = Some(250.0);
