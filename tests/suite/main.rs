@@ -4,6 +4,8 @@
 #![allow(clippy::print_stdout)]
 
 mod cycles;
+mod dialects;
+mod dictionary_form;
 mod doctor;
 mod expected;
 mod faults;
