@@ -39,15 +39,17 @@
       return [context, wide, tall];
     }
 
-    let waiting = false;
-    function redraw() {
-      if (waiting) return;
-      waiting = true;
-      requestAnimationFrame(() => {
-        waiting = false;
-        drawCharts();
-        views.forEach(drawView);
-      });
+    const waiting = new Set();
+    /** Draws again what changes: the charts, one view, or all. */
+    function redraw(...which) {
+      if (!waiting.size) {
+        requestAnimationFrame(() => {
+          const now = [...waiting];
+          waiting.clear();
+          for (const one of now) one === charts ? drawCharts() : drawView(one);
+        });
+      }
+      for (const one of which.length ? which : [charts, ...views]) waiting.add(one);
     }
 
     // Choosing ------------------------------------------------------------------------------------
@@ -355,7 +357,7 @@
       });
     }
 
-    zoom(charts, {
+    zoom(charts, () => charts, {
       at: (event, factor) => {
         const time = timeAt(event.offsetX);
         const [a, b] = state.span.map((v) => time + (v - time) * factor);
@@ -388,6 +390,11 @@
 
     // Views ---------------------------------------------------------------------------------------
 
+    const kinds = programs.map(({ way }) => {
+      const of = { r: [], f: [], a: [], h: [] };
+      for (let i = 0; i < way.kinds.length; i++) if (!way.again[i]) of[way.kinds[i]]?.push(i);
+      return of;
+    });
     const views = ["plan", "isometric"].map((name) => {
       const canvas = document.getElementById(name);
       const points = programs.map(({ way }) => {
@@ -441,7 +448,7 @@
         best.time = best.leg < 0 ? null : from + best.part * (way.ends[best.leg] - from);
         return best;
       };
-      zoom(canvas, {
+      zoom(canvas, () => view, {
         at: (event, factor) => {
           const [x, y] = view.back(event.offsetX, event.offsetY);
           view.scale = Math.min(1e6, Math.max(1e-4, view.scale / factor));
@@ -476,7 +483,7 @@
         for (const kind of "rfah") {
           const own = data.inks.strokes[kind];
           styles.line(context, !pair && program.way.kinds.length > 4000 ? { ...own, width: own.width * 0.5 } : pair ? { ...own, color: data.inks.pair[n].color, width: Math.min(3, data.inks.pair[n].width) } : own);
-          strokeLegs(view, context, n, (i) => program.way.kinds[i] === kind && !program.way.again[i]);
+          strokeLegs(view, context, n, kinds[n][kind]);
         }
         context.setLineDash([]);
         context.lineWidth = 1.2;
@@ -492,11 +499,10 @@
       });
       const { way } = programs[state.shown];
       if (state.legs.length) {
-        const chosen = new Set(state.legs);
         context.setLineDash([]);
         context.lineWidth = 7;
         context.strokeStyle = "rgba(255, 196, 0, 0.55)";
-        strokeLegs(view, context, state.shown, (i) => chosen.has(i) && "rfah".includes(way.kinds[i]));
+        strokeLegs(view, context, state.shown, state.legs.filter((i) => "rfah".includes(way.kinds[i])));
       }
       for (const program of programs) {
         if (!program.way.start) continue;
@@ -517,20 +523,43 @@
       }
     }
 
-    function strokeLegs(view, context, n, wanted) {
-      const { way } = programs[n];
+    /** Draws legs. Those out of sight, and steps too small to see, are left out; a path is stroked in
+     *  parts, as a long one takes far more than its share of time. */
+    function strokeLegs(view, context, n, legs) {
       const list = view.points[n];
-      let open = false;
+      const [left, low] = view.at(0, 0);
+      const { scale } = view;
+      const [wide, tall] = [view.canvas.clientWidth, view.canvas.clientHeight];
+      const least = legs.length > 5000 ? 0.8 : 0;
+      let before = -2;
+      let [x, y, parts, last] = [0, 0, 0, false];
+      context.lineJoin = "bevel";
       context.beginPath();
-      for (let i = 0; i < way.kinds.length; i++) {
-        if (!wanted(i)) {
-          open = false;
+      for (const leg of legs) {
+        const [x0, y0] = [left + list[2 * leg] * scale, low - list[2 * leg + 1] * scale];
+        const [x1, y1] = [left + list[2 * leg + 2] * scale, low - list[2 * leg + 3] * scale];
+        const out = (x0 < -9 && x1 < -9) || (y0 < -9 && y1 < -9) || (x0 > wide + 9 && x1 > wide + 9) || (y0 > tall + 9 && y1 > tall + 9);
+        if (out) continue;
+        if (before !== leg - 1) {
+          if (last) context.lineTo(...last);
+          context.moveTo(x0, y0);
+          [x, y] = [x0, y0];
+        }
+        before = leg;
+        if (Math.abs(x1 - x) + Math.abs(y1 - y) < least) {
+          last = [x1, y1];
           continue;
         }
-        if (!open) context.moveTo(...view.at(list[2 * i], list[2 * i + 1]));
-        context.lineTo(...view.at(list[2 * i + 2], list[2 * i + 3]));
-        open = true;
+        last = false;
+        context.lineTo(x1, y1);
+        [x, y] = [x1, y1];
+        if (++parts % 256 === 0) {
+          context.stroke();
+          context.beginPath();
+          context.moveTo(x1, y1);
+        }
       }
+      if (last) context.lineTo(...last);
       context.stroke();
     }
 
@@ -590,13 +619,13 @@
 
     // Wheel, drag, click --------------------------------------------------------------------------
 
-    function zoom(element, on) {
+    function zoom(element, drawn, on) {
       let last = null;
       let moved = 0;
       element.addEventListener("wheel", (event) => {
         event.preventDefault();
         on.at(event, Math.exp(Math.max(-0.5, Math.min(0.5, event.deltaY * 0.002))));
-        redraw();
+        redraw(drawn());
       }, { passive: false });
       element.addEventListener("pointerdown", (event) => {
         last = [event.clientX, event.clientY];
@@ -611,7 +640,7 @@
         if (moved < 4) return;
         tip.hidden = true;
         on.by(dx, dy);
-        redraw();
+        redraw(drawn());
       });
       element.addEventListener("pointerup", (event) => {
         if (last && moved < 4) on.click(event);
@@ -621,7 +650,7 @@
       element.addEventListener("pointerleave", () => hide());
       element.addEventListener("dblclick", () => {
         on.all();
-        redraw();
+        redraw(drawn());
       });
     }
 
