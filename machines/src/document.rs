@@ -37,6 +37,10 @@ mod tests {
         let document = include_str!("../../docs/machine-profile.md");
         let tables = tables();
         assert!(document.contains(&tables), "docs/machine-profile.md differs from:\n{tables}");
+        use crate::reading::{BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, OFFSET_WITH_Z};
+        for key in [BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, OFFSET_WITH_Z] {
+            assert!(document.contains(&format!("| `{key}` |")), "{key}");
+        }
         for key in ["id", "title", "dialect", "typical", "notes"] {
             assert!(document.contains(&format!("| `{key}` |")), "{key}");
         }

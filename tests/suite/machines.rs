@@ -126,7 +126,8 @@ fn the_shop_writes_as_it_wants() {
 fn an_unknown_m_code_is_carried_only_through_both_maps() {
     let codes = |dialect: &str, code: &str| {
         let known = if dialect == "mach9" { KNOWN } else { "" };
-        profile(dialect, &format!("{known}[[m_code]]\ncode = \"{code}\"\nfunction = \"conveyor-on\"\n"))
+        let row = |code: &str, name: &str| format!("[[m_code]]\ncode = {code:?}\nfunction = {name:?}\n");
+        profile(dialect, &format!("{known}{}{}", row("M95", "air-on"), row(code, "conveyor-on")))
     };
     let part = PART.replace("G0X0.", "M21\nG0X0.");
     let (text, stops, _) = with(&codes("mach9", "M21"), &codes("fanuc", "M70"), &part);

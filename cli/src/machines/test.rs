@@ -43,11 +43,31 @@ pub(super) fn test(profile: &Profile) -> (String, bool) {
         &written.as_ref().map(|(n, _)| events(*n)).map_err(Clone::clone),
     );
     if let Ok((_, written)) = written {
-        let own = Machines { from: to.to.clone(), to: to.to };
+        let own = Machines { from: to.to.clone(), to: to.to.clone() };
         let again = translated(&written, profile.settings(), own);
         tell("the same, from the machine to itself", &again.map(|(n, _)| events(n)));
     }
+    let codes: Vec<(&str, &str)> = functions(profile).collect();
+    if !codes.is_empty() {
+        let wanted: String = codes.iter().map(|(_, name)| format!("MACHINE_FUNCTION({name:?})\n")).collect();
+        let sample = SAMPLE.replace("SET_SPINDLE_SPEED", &format!("{wanted}SET_SPINDLE_SPEED"));
+        let written = translated(&sample, Settings::new(ir), to);
+        let each = written.and_then(|(n, text)| {
+            let stands = |code: &str| text.lines().any(|line| line.split(' ').next_back() == Some(code));
+            match codes.iter().find(|(code, _)| !stands(code)) {
+                Some((code, name)) => Err(format!("{name} is not written as {code}")),
+                None => Ok(events(n)),
+            }
+        });
+        tell(&format!("its {} M codes, written and read back", codes.len()), &each);
+    }
     (text, passed)
+}
+
+/// The M codes of the machine with their functions.
+fn functions(profile: &Profile) -> impl Iterator<Item = (&str, &str)> {
+    let rows = profile.schema.m_code.iter().map(|row| row.get_ref());
+    rows.filter_map(|row| Some((row.code.value.as_deref()?, row.function.value.as_deref()?)))
 }
 
 fn events(n: u64) -> String {

@@ -23,6 +23,10 @@ fn machines_are_listed_shown_and_tested() {
     arguments.extend(ids);
     let tested = ncc(folder.path(), &arguments).exits(0).out;
     assert!(!tested.contains("failed") && tested.matches("passed").count() == 12, "{tested}");
+    let codes = "[[m_code]]\ncode = \"M70\"\nfunction = \"air-on\"\n[[m_code]]\ncode = \"M71\"\nfunction = \"air-off\"\n";
+    std::fs::write(folder.path().join("shop.toml"), format!("{SHOP}{codes}")).unwrap();
+    let tested = ncc(folder.path(), &["machines", "test", "shop.toml"]).exits(0).out;
+    assert!(tested.contains("passed  its 2 M codes, written and read back: 26 events"), "{tested}");
     let schema = ncc(folder.path(), &["machines", "schema"]).exits(0).out;
     assert!(schema.contains("### `[[axis]]`"));
 }
