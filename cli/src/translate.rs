@@ -96,7 +96,7 @@ struct Line<'j> {
 impl<'j> Line<'j> {
     fn new(job: &'j Job) -> Line<'j> {
         let mut legaliser =
-            Legaliser::new(&job.to.dialect.caps, legal_decimals(job), parameter(job, PECK_CLEARANCE));
+            Legaliser::new(&job.to.caps(), legal_decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
@@ -490,7 +490,7 @@ fn without(assumed: &Modes, stated: &Modes) -> Modes {
 
 /// The target as the passes see it.
 fn target(job: &Job) -> Target {
-    let caps = job.to.dialect.caps.clone();
+    let caps = job.to.caps();
     Target {
         caps,
         decimals: legal_decimals(job),

@@ -5,6 +5,7 @@
 
 use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel};
 use crate::expr::Expr;
+use crate::num::Nanos;
 use crate::program::{Coord, Point};
 
 /// A hole-making cycle, complete: a back-end needs no earlier block to write it.
@@ -23,7 +24,7 @@ pub struct Cycle {
     /// The plane to which it goes after each hole, absolute, if the cycle states one; then
     /// `return_level` does not count.
     pub return_plane: Option<Coord>,
-    /// What the tool does first if it stands below the retract plane.
+    /// The tool's way to each hole.
     pub approach: Approach,
     /// Feed into the hole, if the cycle's own block says it. It is re-stated at every hole.
     pub feed: Option<Expr>,
@@ -97,13 +98,29 @@ pub enum Clearance {
     Parameter,
 }
 
-/// The way to the first hole if the tool stands below the retract plane.
+/// The way to a hole, from where the tool stands to the retract plane over it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Approach {
     /// In the plane first, at the present level (Fanuc).
     PlaneFirst,
-    /// Up to the retract plane first (NIST RS274/NGC).
+    /// From below, up to the retract plane first; from above, in the plane first (NIST RS274/NGC).
     RaiseFirst,
+    /// To the retract plane first, from below and from above, then in the plane.
+    RetractFirst,
+}
+
+impl Approach {
+    /// All of them.
+    pub const ALL: [Approach; 3] = [Approach::PlaneFirst, Approach::RaiseFirst, Approach::RetractFirst];
+
+    /// Whether a tool that stands at a level goes to the retract plane before it goes aside.
+    pub const fn retracts(self, level: Nanos, retract: Nanos) -> bool {
+        match self {
+            Approach::PlaneFirst => false,
+            Approach::RaiseFirst => level < retract,
+            Approach::RetractFirst => level != retract,
+        }
+    }
 }
 
 /// Names used by the text form and by dictionaries.

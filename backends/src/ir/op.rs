@@ -397,6 +397,7 @@ fn cycle(c: &Cycle, out: &mut Vec<u8>) {
         match c.approach {
             Approach::RaiseFirst => ", raise-first",
             Approach::PlaneFirst => ", plane-first",
+            Approach::RetractFirst => ", retract-first",
         },
         out,
     );

@@ -232,6 +232,7 @@ fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
     let approach = match Approach::from(d.cycles.approach) {
         Approach::PlaneFirst => "plane-first",
         Approach::RaiseFirst => "raise-first",
+        Approach::RetractFirst => "retract-first",
     };
     format!(
         "START_CYCLE({}{own}, XY, retract {}mm, depth {}mm, return {level}, {approach}, feed 120mm)",

@@ -365,6 +365,8 @@ pub(crate) enum Token {
     RaiseFirst,
     #[token("plane-first")]
     PlaneFirst,
+    #[token("retract-first")]
+    RetractFirst,
     #[token("feed")]
     Feed,
     #[token("here")]

@@ -251,7 +251,7 @@ impl Lower {
             depth: absolute(depth),
             return_level: Fact::Entry,
             return_plane: Some(absolute(return_plane)),
-            approach: self.settings.dialect.cycles.approach.into(),
+            approach: self.settings.approach(),
             feed,
         })
     }

@@ -2,7 +2,7 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{CycleRow, Quantity};
+use ncc_dialects::{CYCLE_APPROACH, CycleRow, Quantity};
 use ncc_ir::canon::{Distance, Fact};
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
 use ncc_ir::diag::Fault;
@@ -197,7 +197,7 @@ impl Lower {
             depth: active.depth.clone(),
             return_level,
             return_plane: None,
-            approach: self.settings.dialect.cycles.approach.into(),
+            approach: self.settings.approach(),
             feed: active.feed.map(Expr::Num),
         };
         self.push(block, Op::StartCycle(Box::new(cycle)), out);
@@ -215,6 +215,8 @@ impl Lower {
     ) {
         let times = self.repeat(words, src, out);
         let to = self.point(Some(row.depth as u8), block, words, src, out);
+        // How the tool comes to a hole elsewhere is open in some dictionaries: it is told.
+        self.option(CYCLE_APPROACH, block, out);
         for turn in 0..times {
             if self.now.failed {
                 return;

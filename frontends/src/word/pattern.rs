@@ -3,7 +3,7 @@
 //! What the sources leave open is a dictionary option, and reported where it decides. The
 //! positions are not made here: a pattern stays a pattern.
 
-use ncc_dialects::{PatternRow, Quantity};
+use ncc_dialects::{CYCLE_APPROACH, PatternRow, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::cycle::{Along, First, Pattern, Row};
 use ncc_ir::diag::Fault;
@@ -86,6 +86,8 @@ impl Lower {
         } else {
             None
         };
+        // The first hole is not where the tool stands: the way to it is open in some dictionaries.
+        self.option(CYCLE_APPROACH, code.span, out);
         let count = count?;
         if count > 1 && self.option("g24_direction", code.span, out) == "cw" {
             turn = turn.map(|t| Num { mantissa: -t.mantissa, ..t });

@@ -226,6 +226,7 @@ fn options_that_decide_are_reported_unless_chosen() {
     let circle = [
         "AssumedOption { option: 'o_word', value: 'offset' } at 'O1'",
         "AssumedOption { option: 'g24_centre', value: 'current' } at 'G24'",
+        "AssumedOption { option: 'cycle_approach', value: 'plane' } at 'G24'",
         "AssumedOption { option: 'g24_direction', value: 'ccw' } at 'G24'",
     ];
     assert_eq!(options(&source("G25X1.Y1.I2J2")), circle);
@@ -234,9 +235,13 @@ fn options_that_decide_are_reported_unless_chosen() {
     assert_eq!(options(&source("G25X1.Y1.I3J2")), with_grid);
 
     let mut settings = settings("mach9");
-    for (option, value) in
-        [("o_word", "offset"), ("g24_centre", "zero"), ("g24_direction", "cw"), ("g25_xy", "extent")]
-    {
+    for (option, value) in [
+        ("o_word", "offset"),
+        ("g24_centre", "zero"),
+        ("g24_direction", "cw"),
+        ("g25_xy", "extent"),
+        ("cycle_approach", "retract"),
+    ] {
         settings.choose(option, value).unwrap();
     }
     let text = source("G25X30.Y10.I4J2");

@@ -21,6 +21,7 @@ fn the_case_study_reads_without_a_fault() {
             "AssumedOption { option: 'o_word', value: 'offset' } at 'O1'",
             "AssumedOffsetWithZ at 'O1'",
             "AssumedOption { option: 'g24_centre', value: 'current' } at 'G24'",
+            "AssumedOption { option: 'cycle_approach', value: 'plane' } at 'G24'",
             "AssumedOption { option: 'g24_direction', value: 'ccw' } at 'G24'"
         ]
     );

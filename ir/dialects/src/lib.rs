@@ -22,4 +22,4 @@ pub use load::{builtin, builtin_text, builtins, load, parse, renew};
 pub use meaning::Meaning;
 pub use names::*;
 pub use schema::*;
-pub use settings::{SettingError, Settings};
+pub use settings::{CYCLE_APPROACH, SettingError, Settings};

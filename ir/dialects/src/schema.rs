@@ -326,7 +326,7 @@ pub struct CycleRules {
     pub hole_on_definition: bool,
     /// Where the tool goes, if that is fixed; else the modal return level decides.
     pub return_level: Option<ReturnLevelName>,
-    /// What is done first below the retract plane.
+    /// The way to a hole; the option `cycle_approach` of a dictionary may choose another one.
     pub approach: ApproachName,
     /// Whether Z and R stay in force from one cycle code to the next.
     pub retained: bool,
@@ -541,7 +541,7 @@ names! {
     /// A [`ReturnLevel`] in a data file.
     ReturnLevelName => ReturnLevel { Initial, Retract }
     /// An [`Approach`] in a data file.
-    ApproachName => Approach { PlaneFirst, RaiseFirst }
+    ApproachName => Approach { PlaneFirst, RaiseFirst, RetractFirst }
     /// A motion in a data file.
     MotionName => ncc_ir::canon::Motion { Traverse, Feed }
 }

@@ -2,7 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use ncc_ir::caps::Caps;
+use ncc_ir::cycle::Approach;
+
 use crate::schema::Dialect;
+
+/// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
+/// [`Approach::RetractFirst`], any other one the dictionary's own way.
+pub const CYCLE_APPROACH: &str = "cycle_approach";
 
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
@@ -57,6 +64,23 @@ impl Settings {
             Some(value) => value,
             None => self.dialect.option.iter().find(|o| o.name == option).map_or("", |o| &o.default),
         }
+    }
+
+    /// The way of the tool to the holes of a cycle.
+    pub fn approach(&self) -> Approach {
+        match self.get(CYCLE_APPROACH) {
+            "retract" => Approach::RetractFirst,
+            _ => self.dialect.cycles.approach.into(),
+        }
+    }
+
+    /// What the dialect can say, as its options are.
+    pub fn caps(&self) -> Caps {
+        let mut caps = self.dialect.caps.clone();
+        if let Some(approach) = &mut caps.approach {
+            *approach = self.approach();
+        }
+        caps
     }
 
     /// Whether the user chose it, so that relying on it is no assumption of ours.

@@ -215,7 +215,7 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let normal = cycle.plane.axes().2 as usize;
         self.heading = super::Heading::None;
-        if self.position[normal] < cycle.retract && cycle.approach == Approach::RaiseFirst {
+        if cycle.approach.retracts(self.position[normal], cycle.retract) {
             self.go_to_level(normal, cycle.retract, false, span, out)?;
         }
         let level = self.position[normal];

@@ -1,15 +1,16 @@
-//! `approach`: the way to the first hole if the tool stands below the retract plane.
+//! `approach`: the way to the first hole if the tool does not stand at the retract plane.
 //!
-//! Controls differ: some go up to the plane first, others over the hole first. Where the target's
-//! way is not the program's, the first leg is written as a rapid of its own, after which both ways
-//! are one. What cannot be mended so is left to `expand-cycles`.
+//! Controls differ: some go to the plane first, others over the hole first, others the one from below
+//! and the other from above. Where the target's way is not the program's, the first leg is written as
+//! a rapid of its own, after which both ways are one. What cannot be mended so is left to
+//! `expand-cycles`.
 
-use super::expand_cycles::{is_above, level, sayable};
+use super::expand_cycles::{is_one_way, level, sayable};
 use super::walk::Walk;
 use super::write::{at, only, traverse};
 use super::{Target, each_body};
 use crate::canon::ReturnLevel;
-use crate::cycle::{Approach, Cycle, Pattern};
+use crate::cycle::{Cycle, Pattern};
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::{flow, moves};
 use crate::program::{Op, Point, Program, Stmt};
@@ -78,21 +79,22 @@ fn first_leg(
     target: &Target,
 ) -> Option<Leg> {
     let in_force = walk.at.cycle.as_ref()?;
+    let way = target.caps.approach?;
     let mut other = cycle.clone();
-    other.approach = match cycle.approach {
-        Approach::PlaneFirst => Approach::RaiseFirst,
-        Approach::RaiseFirst => Approach::PlaneFirst,
-    };
-    if is_above(walk, in_force) {
+    other.approach = way;
+    if is_one_way(walk, in_force, way) {
         return Some((None, None, other));
     }
     // A rapid would end the cycle that is in force, and change a level to return to.
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
     // A stated plane is one and the same wherever the tool stood; the next hole is made from there.
-    let above = in_force.return_plane.zip(in_force.retract).is_some_and(|(plane, r)| plane >= r);
+    let one = in_force
+        .return_plane
+        .zip(in_force.retract)
+        .is_some_and(|(plane, r)| cycle.approach.retracts(plane, r) == way.retracts(plane, r));
     let stays = match cycle.return_plane {
         None => returns == Some(ReturnLevel::Retract),
-        Some(_) => above,
+        Some(_) => one,
     };
     if chained || !stays {
         return None;
@@ -105,15 +107,16 @@ fn first_leg(
     let now = walk.at.position[normal as usize]?;
     let retract = level(walk, &cycle.retract, in_force.retract, normal).ok()?;
     let depth = level(walk, &cycle.depth, in_force.depth, normal).ok()?;
-    in_force.retract.filter(|r| now < *r)?;
+    // After the rapid both ways must be one: at the retract plane they are.
+    let first = cycle.approach.retracts(now, in_force.retract?);
     other.retract = retract.clone();
     // A cycle without a hole makes no move.
     let (at_hole, to) = first_hole(body, i)?;
-    match cycle.approach {
+    match first {
         // The rapid changes the level to return to, which a further cycle would inherit.
-        Approach::RaiseFirst if is_last(body, i) => Some((Some(only(normal, retract)), None, other)),
-        Approach::RaiseFirst => None,
-        Approach::PlaneFirst => {
+        true if is_last(body, i) => Some((Some(only(normal, retract)), None, other)),
+        true => None,
+        false => {
             other.depth = depth;
             let mut words = to?.clone();
             words.axes[normal as usize] = None;

@@ -2,8 +2,9 @@
 //!
 //! A hole, in the order of its moves:
 //! 1. to the position in the plane, at the level where the tool stands, then by rapid to the
-//!    retract plane R; if the tool stands below R and the cycle is [`Approach::RaiseFirst`], up to R
-//!    first (NIST RS274/NGC 3.8.1), else in the plane first (Fanuc 15i-M);
+//!    retract plane R (Fanuc 15i-M); if the tool stands below R and the cycle is
+//!    [`Approach::RaiseFirst`], up to R first (NIST RS274/NGC 3.8.1); if it is
+//!    [`Approach::RetractFirst`], to R first from above too;
 //! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
 //!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
 //! 3. out by rapid to R or to the level where the tool stood when the cycle was called up;
@@ -319,23 +320,27 @@ fn must_expand(
     diags: &mut Vec<Diagnostic>,
 ) -> bool {
     let cycle = &in_force.cycle;
-    let same_way = target.caps.approach.is_none_or(|a| a == cycle.approach) || is_above(walk, in_force);
+    let same_way = target.caps.approach.is_none_or(|way| is_one_way(walk, in_force, way));
     !sayable(walk, cycle, target, span, diags) || !same_way
 }
 
-/// Whether the tool surely stands at the retract plane or above it before every hole, so that both
-/// ways to a hole are one.
-pub(super) fn is_above(walk: &Walk, in_force: &InForce) -> bool {
+/// Whether the cycle's way to every hole is surely this one, from the levels where the tool stands.
+pub(super) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool {
     let cycle = &in_force.cycle;
+    if cycle.approach == way {
+        return true;
+    }
     let Some(plane) = walk.at.plane(cycle.plane) else { return false };
     let Some(retract) = in_force.retract else { return false };
-    let above = |level: Option<Nanos>| level.is_some_and(|level| level >= retract);
+    let one = |level: Option<Nanos>| {
+        level.is_some_and(|level| cycle.approach.retracts(level, retract) == way.retracts(level, retract))
+    };
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
     if cycle.return_plane.is_some() {
-        return above(walk.at.position[plane.axes().2 as usize]) && above(in_force.return_plane);
+        return one(walk.at.position[plane.axes().2 as usize]) && one(in_force.return_plane);
     }
-    above(walk.at.position[plane.axes().2 as usize])
-        && (returns == Some(ReturnLevel::Retract) || above(in_force.initial))
+    one(walk.at.position[plane.axes().2 as usize])
+        && (returns == Some(ReturnLevel::Retract) || one(in_force.initial))
 }
 
 /// A level of a cycle as an absolute word.
@@ -409,12 +414,12 @@ pub(super) fn hole(
             *coord = at(nanos, axis, walk.unit());
         }
     }
-    let raise = cycle.approach == Approach::RaiseFirst
-        && match (now, in_force.retract) {
-            (Some(now), Some(retract)) => now < retract,
-            _ if goes_aside => return Err(unknown),
-            _ => true,
-        };
+    let raise = match (cycle.approach, now.zip(in_force.retract)) {
+        (Approach::PlaneFirst, _) => false,
+        (way, Some((now, retract))) => way.retracts(now, retract),
+        (Approach::RaiseFirst, None) if goes_aside => return Err(unknown),
+        (Approach::RaiseFirst | Approach::RetractFirst, None) => true,
+    };
     let to_retract = now.is_none() || now != in_force.retract || walk.waiting;
     if raise {
         moves.push((false, traverse(retract.clone())));

@@ -15,6 +15,7 @@ pub(super) struct Cycle {
     back_initial: Option<bool>,
     back_plane: Option<f64>,
     raise_first: bool,
+    retract_first: bool,
     feed: Option<f64>,
     /// 17, 18, 19.
     plane: u32,
@@ -71,7 +72,7 @@ impl Control {
             self.program(at)[2]
         });
         let (mut retract, mut depth, mut back_initial, mut back_plane) = (None, None, None, None);
-        let (mut raise_first, mut feed) = (false, None);
+        let (mut raise_first, mut retract_first, mut feed) = (false, false, None);
         for part in &parts[2..] {
             let level = |from: Option<f64>, rest: &[Token]| match rest {
                 [Token::Number(v, u)] => Some(self.base(*v, u)),
@@ -88,7 +89,7 @@ impl Control {
                 [Token::Name(n), Token::Name(v)] if n == "return" => {
                     back_initial = (v != "entry").then(|| v == "initial");
                 }
-                [Token::Name(n)] => raise_first = n == "raise-first",
+                [Token::Name(n)] => (raise_first, retract_first) = (n == "raise-first", n == "retract-first"),
                 [Token::Name(n), Token::Number(v, u)] if n == "feed" => feed = Some(self.base(*v, u)),
                 _ => return self.m.halt("another word in a cycle"),
             }
@@ -102,8 +103,18 @@ impl Control {
         if depth > retract {
             return self.m.halt("the bottom lies above the retract plane");
         }
-        self.cycle =
-            Some(Cycle { hole, retract, depth, initial, back_initial, back_plane, raise_first, feed, plane });
+        self.cycle = Some(Cycle {
+            hole,
+            retract,
+            depth,
+            initial,
+            back_initial,
+            back_plane,
+            raise_first,
+            retract_first,
+            feed,
+            plane,
+        });
         Ok(())
     }
 
@@ -140,7 +151,7 @@ impl Control {
             return self.m.halt("a hole out of XY");
         }
         let (r, z) = (cycle.retract, cycle.depth);
-        if cycle.raise_first && self.here()[2] < r {
+        if cycle.retract_first || cycle.raise_first && self.here()[2] < r {
             self.rapid(r);
         }
         let mut to = self.here();

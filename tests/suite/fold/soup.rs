@@ -108,7 +108,9 @@ fn targets() -> Vec<Target> {
     raises.caps.pattern_angle = false;
     raises.caps.circle_polar = Some(false);
     raises.caps.list_pattern = 0;
-    vec![all, planes, raises]
+    let mut retracts = raises.clone();
+    retracts.caps.approach = Some(Approach::RetractFirst);
+    vec![all, planes, raises, retracts]
 }
 
 #[test]

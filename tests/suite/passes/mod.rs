@@ -2,7 +2,7 @@
 //!
 //! `passes/<pass>/<case>.ir` holds the program, `---`, what the pass makes of it, and if it reports
 //! anything another `---` and the reports. Lines `#! …` before the program say what the pass is told:
-//! `target ID` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
+//! `target ID OPTION=VALUE` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
 //! (where the axes stand), `clearance 1.0` and `lift 0.5` (the parameters of peck drilling and of chip
 //! breaking, mm), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
 //! `legaliser` the passes are picked by the target.
@@ -48,7 +48,15 @@ fn told(text: &str) -> Result<Told, String> {
     for line in text.lines().filter_map(|l| l.strip_prefix("#! ")) {
         let (what, value) = line.split_once(' ').ok_or("a directive has a value")?;
         match what {
-            "target" => told.target.caps = builtin(value).ok_or("no such dialect")?.caps.clone(),
+            "target" => {
+                let (id, chosen) = value.split_once(' ').unwrap_or((value, ""));
+                let mut settings = Settings::new(builtin(id).ok_or("no such dialect")?);
+                for choice in chosen.split(' ').filter(|choice| !choice.is_empty()) {
+                    let (option, value) = choice.split_once('=').ok_or("an option is written NAME=VALUE")?;
+                    settings.choose(option, value).map_err(|e| format!("{e:?}"))?;
+                }
+                told.target.caps = settings.caps();
+            }
             "clearance" => told.target.peck_clearance = Some(length(value)?),
             "lift" => told.target.break_lift = Some(length(value)?),
             "start" => {

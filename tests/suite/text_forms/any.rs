@@ -169,7 +169,7 @@ fn cycle() -> BoxedStrategy<Cycle> {
         ),
         (of(expr()), of(expr())).prop_map(|(dwell, feed_out)| CycleKind::Bore { dwell, feed_out }),
     ];
-    let approach = select(vec![Approach::PlaneFirst, Approach::RaiseFirst]);
+    let approach = select(Approach::ALL.to_vec());
     (kind, fact(planes()), coord(), coord(), fact(levels()), of(coord()), approach, of(expr()))
         .prop_map(|(kind, plane, retract, depth, return_level, return_plane, approach, feed)| Cycle {
             kind,
