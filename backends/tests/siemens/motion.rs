@@ -148,6 +148,8 @@ fn an_edge_that_comes_with_the_tool_is_not_written() {
     change.push(edge("1", false));
     let stmts = blocks(vec![change, vec![rapid("Z5.")]]);
     assert_eq!(clean(&stmts), "T1 M6\nG0 Z5\n");
+    let edge_comes = Fault::AssumedOption { option: "edge_after_change".into(), value: "1".into() };
+    assert_eq!(told(&stmts).1, [edge_comes], "it rests on the option");
     let mut change = tool("1");
     change.push(edge("2", true));
     assert_eq!(clean(&blocks(vec![change])), "T1 M6 D2\n");
@@ -212,6 +214,8 @@ fn a_metric_feed_among_inches_has_its_own_code_of_units() {
     ]);
     let expected = "G700 G17 G90 G40 G94\nG54\nG70 G1 X1 F125\nG1 X2\nG700 G1 X3 F9.5\n";
     assert_eq!(clean(&stmts), expected);
+    let basic = Fault::AssumedOption { option: "feed_unit".into(), value: "mm".into() };
+    assert_eq!(told(&stmts).1, [basic], "it rests on the option");
 }
 
 #[test]

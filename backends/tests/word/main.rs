@@ -46,10 +46,10 @@ pub(crate) fn text(dialect: &str, stmts: &[Stmt]) -> (String, Vec<Diagnostic>) {
 }
 
 /// The text of statements that must come through without a word, but for what rests on a row of the
-/// dictionary that nobody confirms.
+/// dictionary that nobody confirms, or on an option that nobody chose.
 pub(crate) fn clean(dialect: &str, stmts: &[Stmt]) -> String {
     let (text, mut diags) = text(dialect, stmts);
-    diags.retain(|d| !matches!(d.fault, Fault::AssumedRow { .. }));
+    diags.retain(|d| !matches!(d.fault, Fault::AssumedRow { .. } | Fault::AssumedOption { .. }));
     assert_eq!(diags, [], "{text}");
     text
 }

@@ -86,7 +86,8 @@ fn the_same_program_stays_itself_on_its_own_control() {
         String::from_utf8(out).expect("text"),
         ";FURAÇÃO 3mm :\nG99\nG71\nG66\nG0Z0\nT1M6\nO1S1263M3\nG0X0.Y108.\nZ5.\nG1Z-1.F505\nM2\n"
     );
-    assert_eq!(diags, []);
+    let o_word = Fault::AssumedOption { option: "o_word".into(), value: "offset".into() };
+    assert_eq!(faults(&diags), [&o_word]);
     assert_eq!(w.stated(), Modes::default());
 }
 
@@ -236,11 +237,40 @@ fn a_row_that_nobody_confirms_is_told_once() {
         .into_iter()
         .map(|fault| match fault {
             Fault::AssumedRow { code, .. } => &**code,
+            Fault::AssumedOption { option, .. } => &**option,
             other => panic!("{other:?}"),
         })
         .collect();
-    assert_eq!(codes, ["M8", "M9", "O0"]);
+    assert_eq!(codes, ["M8", "M9", "o_word", "O0"]);
     assert_eq!(text("fanuc", &stmts).1, []);
+}
+
+#[test]
+fn an_option_that_decides_is_told_once_and_only_if_nobody_chose_it() {
+    let offset = || Op::UseToolLengthOffset(count("3"));
+    let stmts = lines(vec![offset(), rapid("X0."), offset()]);
+    let o_word = Fault::AssumedOption { option: "o_word".into(), value: "offset".into() };
+    assert_eq!(faults(&text("mach9", &stmts).1), [&o_word]);
+    let mut chosen = Settings::new(builtin("mach9").expect("built in"));
+    chosen.choose("o_word", "offset").expect("an option");
+    assert_eq!(text_with(Writer::new(chosen, layout()), &stmts).1, []);
+}
+
+#[test]
+fn a_function_of_the_machine_stands_alone_and_has_its_own_code() {
+    let function = |name: &str| Op::MachineFunction(name.into());
+    let row = |code: &str, name: &str| {
+        format!("[[code]]\ncode = {code:?}\nmeans = \"MACHINE_FUNCTION {name}\"\nsource = \"shop\"\n")
+    };
+    let (air, conveyor) = (row("M70", "air-on"), row("M71", "conveyor-on"));
+    let text = format!("id = \"shop\"\ntitle = \"\"\nbase = \"fanuc\"\n{air}{conveyor}");
+    let dialect = ncc_dialects::load(&[&text]).expect("a dictionary").remove(0);
+    let settings = Settings::new(Box::leak(Box::new(dialect)));
+    let block = blocks(vec![vec![Op::FloodOn, function("conveyor-on"), Op::MistOn, rapid_on("X1.")]]);
+    let (out, told) = text_with(Writer::new(settings, layout()), &block);
+    assert_eq!(out, "M08\nM71\nG00 X1. M07\n");
+    assert!(faults(&told).iter().all(|fault| **fault == Fault::BlockSplit), "{told:?}");
+    refused("fanuc", &lines(vec![function("air-on")]));
 }
 
 #[test]
