@@ -3,6 +3,8 @@
 //! A world is an explicit argument, never ambient. Verification makes several, distinct and
 //! non-round, so that a lost work offset or a swapped length entry shows in machine coordinates.
 
+use std::collections::BTreeMap;
+
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use crate::num::{Nanos, ONE};
 
@@ -19,6 +21,18 @@ pub struct World {
     pub peck_clearance: Nanos,
     /// The control's own lift of the chip-breaking cycle, in millimetres.
     pub break_lift: Nanos,
+    /// What is known of its tables; the rest is the world's own.
+    pub tables: Tables,
+}
+
+/// Tables of one machine, as far as somebody has stated them. Generated worlds have none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tables {
+    /// Zero of work offsets (1 is the first), in machine coordinates, axis by axis.
+    pub work_offsets: BTreeMap<u16, [Option<Nanos>; AXES]>,
+    /// Lengths of tools, in nanos of a millimetre: entries of the length table, and edge 1 of the tool
+    /// with that number. 0 is no tool.
+    pub lengths: BTreeMap<u32, Nanos>,
 }
 
 impl World {
@@ -47,7 +61,14 @@ impl World {
             length_offset: fixed.length_offset.or(Some(pick(91, 92))),
             no_origin_shift: fixed.no_origin_shift.or(Some(false)),
         };
-        let mut world = World { seed, power_on, start: [0; AXES], peck_clearance: 0, break_lift: 0 };
+        let mut world = World {
+            seed,
+            power_on,
+            start: [0; AXES],
+            peck_clearance: 0,
+            break_lift: 0,
+            tables: Tables::default(),
+        };
         world.start = std::array::from_fn(|axis| world.odd(50_000 + axis as u32, 400));
         world.peck_clearance = ONE / 2 + world.odd(60_000, 1).abs() / 2;
         world.break_lift = ONE / 2 + world.odd(60_001, 1).abs() / 2;
@@ -61,27 +82,40 @@ impl World {
 
     /// Zero of a work offset (1 is the first), in machine coordinates.
     pub fn work_offset(&self, number: u16) -> [Nanos; AXES] {
-        if self.seed == 0 {
-            return [0; AXES];
-        }
-        std::array::from_fn(|axis| self.odd(u32::from(number) * 8 + axis as u32, 190))
+        let stated = self.tables.work_offsets.get(&number);
+        std::array::from_fn(|axis| match stated.and_then(|offset| offset[axis]) {
+            Some(stated) => stated,
+            None if self.seed == 0 => 0,
+            None => self.odd(u32::from(number) * 8 + axis as u32, 190),
+        })
     }
 
     /// Length of an entry of the tool-length table, in millimetres; entry 0 is none.
     pub fn tool_length(&self, entry: u32) -> Nanos {
-        if self.seed == 0 || entry == 0 { 0 } else { 40 * ONE + self.odd(entry * 8 + 7, 35) }
+        match self.tables.lengths.get(&entry) {
+            _ if entry == 0 => 0,
+            Some(stated) => *stated,
+            None => self.own_length(entry),
+        }
     }
 
     /// Length of an edge of a tool, in millimetres; -1 is the tool that was in the spindle at the
     /// start. Edge 1 is the table's entry with the tool's number.
     pub fn edge_length(&self, tool: i64, edge: u32) -> Nanos {
-        let entry = u32::try_from(tool).unwrap_or(97);
+        let known = u32::try_from(tool);
+        let entry = known.unwrap_or(97);
         match edge {
             0 => 0,
-            1 if entry != 0 => self.tool_length(entry),
+            1 if entry != 0 && known.is_ok() => self.tool_length(entry),
+            1 if entry != 0 => self.own_length(entry),
             _ if self.seed == 0 => 0,
             _ => 40 * ONE + self.odd(100_000 + (entry.wrapping_mul(10).wrapping_add(edge)) * 8, 35),
         }
+    }
+
+    /// A length that no table states.
+    fn own_length(&self, entry: u32) -> Nanos {
+        if self.seed == 0 { 0 } else { 40 * ONE + self.odd(entry * 8 + 7, 35) }
     }
 
     /// A value between -range and range mm that looks like no other: to six decimals, so that no

@@ -102,8 +102,15 @@ fn from_zero(value: f64) -> bool {
     value >= 0.0
 }
 
-fn any(_: f64) -> bool {
-    true
+/// What no machine exceeds, mm or degrees: positions stay far from the ends of what can be reckoned with.
+const FARTHEST: f64 = 1_000_000.0;
+
+fn within(value: f64) -> bool {
+    value.abs() <= FARTHEST
+}
+
+fn length(value: f64) -> bool {
+    from_zero(value) && within(value)
 }
 
 fn numbers(schema: &Schema, found: &mut Found) {
@@ -127,13 +134,13 @@ fn numbers(schema: &Schema, found: &mut Found) {
         found.number::<AxisRow>(&axis.jerk, "jerk", above_zero);
     }
     for tool in schema.tool.iter().map(toml::Spanned::get_ref) {
-        found.number::<ToolRow>(&tool.length, "length", from_zero);
+        found.number::<ToolRow>(&tool.length, "length", length);
         found.number::<ToolRow>(&tool.diameter, "diameter", from_zero);
     }
     for offset in schema.work_offset.iter().map(toml::Spanned::get_ref) {
         let all = [&offset.x, &offset.y, &offset.z, &offset.a, &offset.b, &offset.c];
         for (key, value) in ["x", "y", "z", "a", "b", "c"].into_iter().zip(all) {
-            found.number::<WorkOffsetRow>(value, key, any);
+            found.number::<WorkOffsetRow>(value, key, within);
         }
     }
     for code in schema.m_code.iter().map(toml::Spanned::get_ref) {

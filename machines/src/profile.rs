@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use ncc_dialects::Dialect;
 use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::world::Tables;
 use ncc_timeline::{AxisFacts, Machine, ToolChangeOn};
 
 use crate::check::check;
@@ -133,6 +135,24 @@ impl Profile {
             m_function: s.times.m_function.get(),
             block: s.times.block.get(),
         }
+    }
+
+    /// Its tables of work offsets and of tools' lengths, as far as it states them.
+    pub fn tables(&self) -> Tables {
+        // A millionth of a millimetre is finer than any control's table.
+        let nanos = |mm: f64| (mm * 1e6).round() as Nanos * (ONE / 1_000_000);
+        let mut tables = Tables::default();
+        for row in self.schema.work_offset.iter().map(toml::Spanned::get_ref) {
+            let Some(number) = row.number.get().and_then(|n| u16::try_from(n).ok()) else { continue };
+            let axes = [&row.x, &row.y, &row.z, &row.a, &row.b, &row.c];
+            tables.work_offsets.insert(number, axes.map(|axis| axis.get().map(nanos)));
+        }
+        for row in self.schema.tool.iter().map(toml::Spanned::get_ref) {
+            if let (Some(number), Some(length)) = (row.number.get(), row.length.get()) {
+                tables.lengths.insert(number, nanos(length));
+            }
+        }
+        tables
     }
 
     /// Every table with fixed keys, in the order of the schema; of those that may stand several

@@ -272,8 +272,8 @@ table! {
         number: u32 = "a whole number";
         /// Its name.
         name: String = "text";
-        /// Its length, mm.
-        length: f64 = "a number from 0";
+        /// Its length, mm: what the entry of the length table with the tool's number has, and edge 1 on a control whose tools have edges.
+        length: f64 = "a number from 0 to 1000000";
         /// Its diameter, mm.
         diameter: f64 = "a number from 0";
         /// Its place in the magazine.
@@ -287,17 +287,17 @@ table! {
         /// Its number; 1 is G54.
         number: u32 = "a whole number above 0";
         /// Along X, mm.
-        x: f64 = "a number";
+        x: f64 = "a number from -1000000 to 1000000";
         /// Along Y, mm.
-        y: f64 = "a number";
+        y: f64 = "a number from -1000000 to 1000000";
         /// Along Z, mm.
-        z: f64 = "a number";
+        z: f64 = "a number from -1000000 to 1000000";
         /// About X, degrees.
-        a: f64 = "a number";
+        a: f64 = "a number from -1000000 to 1000000";
         /// About Y, degrees.
-        b: f64 = "a number";
+        b: f64 = "a number from -1000000 to 1000000";
         /// About Z, degrees.
-        c: f64 = "a number";
+        c: f64 = "a number from -1000000 to 1000000";
     }
 }
 

@@ -20,6 +20,7 @@ mod second;
 mod shared;
 mod siemens_second;
 mod structure;
+mod tables;
 mod text_forms;
 mod tidy;
 mod time;

@@ -4,10 +4,11 @@ use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_timeline::{AssumedFact, Fact, Model};
 
-use super::drive::{Course, Plan};
+use super::drive::{Course, Length, Plan};
 use super::duration::short;
 use crate::head::assumption;
 use crate::job::Job;
+use crate::render::words;
 
 /// Of the program and its control: what the front-end took for granted.
 pub(crate) fn of_program(job: &Job, diagnostics: &[Diagnostic]) -> Vec<String> {
@@ -46,13 +47,62 @@ pub(crate) fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     if course.stops {
         lines.push("stops for the operator take no time".to_owned());
     }
-    if course.offsets {
-        lines.push("all work offsets are one".to_owned());
-    }
-    if course.lengths {
-        lines.push("all tools are of one length".to_owned());
-    }
+    lines.extend(of_offsets(plan, course));
+    lines.extend(of_lengths(plan, course));
     lines
+}
+
+/// Of the table of work offsets. Where a program keeps to one of them and to its own coordinates, nothing
+/// depends on it.
+fn of_offsets(plan: &Plan, course: &Course) -> Vec<String> {
+    if course.offsets.len() < 2 && !course.in_machine {
+        return Vec::new();
+    }
+    let table = &plan.tables.work_offsets;
+    if !course.offsets.iter().any(|number| table.contains_key(number)) {
+        let zero = if course.in_machine { "machine zero" } else { "one" };
+        return vec![match course.offsets.first() {
+            Some(only) if course.offsets.len() == 1 => format!("{} is {zero}", offset(plan, *only)),
+            Some(_) | None => format!("all work offsets are {zero}"),
+        }];
+    }
+    let silent = |number: &u16| -> Vec<String> {
+        let stated = table.get(number).copied().unwrap_or_default();
+        let open = |axis: &Axis| {
+            (!axis.is_rotary() || course.moved[*axis as usize]) && stated[*axis as usize].is_none()
+        };
+        Axis::ALL.into_iter().filter(open).map(letter).collect()
+    };
+    let open = course.offsets.iter().map(|number| (*number, silent(number)));
+    open.filter(|(_, axes)| !axes.is_empty())
+        .map(|(number, axes)| format!("{} = 0 in {}", offset(plan, number), axes.join(" ")))
+        .collect()
+}
+
+fn offset(plan: &Plan, number: u16) -> String {
+    words::work_offset(number, [plan.job.from.dialect, plan.job.to.dialect])
+}
+
+/// Of the table of lengths.
+fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
+    let is_stated = |length: &Length| match length {
+        Length::Entry(entry) => plan.tables.lengths.contains_key(entry),
+        Length::Edge(..) => false,
+    };
+    let used: Vec<&Length> = course.lengths.iter().filter(|length| **length != Length::Entry(0)).collect();
+    if used.is_empty() {
+        return Vec::new();
+    }
+    if !used.iter().any(|length| is_stated(length)) {
+        return vec!["all tools are of one length".to_owned()];
+    }
+    let open = used.into_iter().filter(|length| !is_stated(length));
+    open.map(|length| match length {
+        Length::Entry(entry) => format!("length of tool {entry} = 0 mm"),
+        Length::Edge(tool, edge) if *tool < 0 => format!("length of edge {edge} at the start = 0 mm"),
+        Length::Edge(tool, edge) => format!("length of edge {edge} of tool {tool} = 0 mm"),
+    })
+    .collect()
 }
 
 /// Of the machine: what its profile does not state, and neither does the model.

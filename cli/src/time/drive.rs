@@ -1,10 +1,11 @@
-//! From the text to functions with their times: read, execute in the plain world, run the clock.
+//! From the text to functions with their times: read, execute in a world of the machine's tables, run
+//! the clock.
 //!
 //! A program streams through in pieces until its first call, label or loop, as in a translation; its
 //! rest is kept whole and run from there. What comes out goes to a [`Sink`], function by function.
 //! Not here: what is made of them, and where it is written.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeSet, VecDeque};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
@@ -16,7 +17,7 @@ use ncc_ir::exec::{Event, Exec, Kind, Runner};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::world::World;
+use ncc_ir::world::{Tables, World};
 use ncc_machines::reading::Told;
 use ncc_timeline::{Act, Clock, Machine, Model, Place, Timed};
 
@@ -40,6 +41,8 @@ pub(crate) struct Plan<'p> {
     pub(crate) job: &'p Job,
     /// The machine.
     pub(crate) machine: Machine,
+    /// Its tables of offsets and lengths, as far as they are stated.
+    pub(crate) tables: Tables,
     /// The model.
     pub(crate) model: Model,
     /// Block-skip switches that are on: bit n is level n.
@@ -93,6 +96,15 @@ pub(crate) trait Sink {
     }
 }
 
+/// Whose length is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Length {
+    /// An entry of the length table, which is edge 1 of the tool with its number too; 0 is none.
+    Entry(u32),
+    /// An edge of a tool; -1 is a tool that nobody named.
+    Edge(i64, u32),
+}
+
 /// What became of a program.
 pub(crate) struct Course {
     /// What was found.
@@ -103,10 +115,12 @@ pub(crate) struct Course {
     pub(crate) skip_levels: u16,
     /// Whether the program stops for the operator.
     pub(crate) stops: bool,
-    /// Whether it changes from one work offset to another.
-    pub(crate) offsets: bool,
-    /// Whether it takes up lengths of tools.
-    pub(crate) lengths: bool,
+    /// Work offsets in force while it moves.
+    pub(crate) offsets: BTreeSet<u16>,
+    /// Lengths in force while it moves.
+    pub(crate) lengths: BTreeSet<Length>,
+    /// Whether it moves in machine coordinates.
+    pub(crate) in_machine: bool,
     /// Axes that move.
     pub(crate) moved: [bool; AXES],
     /// Seconds at least and at most, where the sink wants them.
@@ -168,9 +182,12 @@ struct Drive<'d> {
     batch: Batch,
     blocks: Blocks,
     exec: Exec,
+    world: World,
     stood: bool,
-    /// Work offset that the program named last.
-    work_offset: Option<u16>,
+    /// Whether there has been a move.
+    moved: bool,
+    /// Work offset and length that were noted last.
+    depends: Option<(u16, Length)>,
     /// Where the axes stood before the next function, machine coordinates.
     last: [Nanos; AXES],
     clock: Clock,
@@ -188,7 +205,8 @@ struct Drive<'d> {
 
 impl<'d> Drive<'d> {
     fn new(plan: &'d Plan<'d>, sink: &'d mut dyn Sink) -> Drive<'d> {
-        let mut exec = Exec::new(&world(plan.job), plan.skip);
+        let world = world(plan);
+        let mut exec = Exec::new(&world, plan.skip);
         exec.narrate();
         // Cycles that are not made have no time, so that nothing has.
         let model = if plan.stage == Stage::Before { Model::Ideal } else { plan.model };
@@ -204,8 +222,10 @@ impl<'d> Drive<'d> {
             blocks: Blocks::new(),
             last: exec.machine(),
             exec,
+            world,
             stood: false,
-            work_offset: None,
+            moved: false,
+            depends: None,
             clock: Clock::new(model, plan.machine.clone()),
             beside: (wants_bounds && model == Model::Ideal)
                 .then(|| Clock::new(Model::Trapezoidal, plan.machine.clone())),
@@ -218,8 +238,9 @@ impl<'d> Drive<'d> {
                 refused: false,
                 skip_levels: 0,
                 stops: false,
-                offsets: false,
-                lengths: false,
+                offsets: BTreeSet::new(),
+                lengths: BTreeSet::new(),
+                in_machine: false,
                 moved: [false; AXES],
                 bounds: None,
                 blocks: 0,
@@ -302,6 +323,15 @@ impl<'d> Drive<'d> {
         }
     }
 
+    /// Puts the tool, which has not moved yet, where it starts in the work offset that has just come into
+    /// force: its start is one in the program's coordinates.
+    fn start_in(&mut self, before: u16) {
+        let [was, is] = [before, self.exec.offset_in_force()].map(|offset| self.world.work_offset(offset));
+        let here = self.exec.machine();
+        self.exec.be_at(std::array::from_fn(|axis| here[axis] + is[axis] - was[axis]));
+        self.last = self.exec.machine();
+    }
+
     /// Executes a statement and passes on what it makes.
     fn statement(&mut self, stmt: &Stmt, text: &[u8]) -> io::Result<Result<(), Diagnostic>> {
         let skipped = stmt.skip.is_some_and(|level| self.plan.skip >> level & 1 == 1);
@@ -311,8 +341,12 @@ impl<'d> Drive<'d> {
         if self.plan.stage == Stage::Before && self.is_call(&stmt.op) {
             return self.call(stmt, text);
         }
+        let before = self.exec.offset_in_force();
         if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
             return Ok(Err(refusal));
+        }
+        if !self.moved && self.exec.offset_in_force() != before {
+            self.start_in(before);
         }
         if self.events.is_empty() {
             return Ok(Ok(()));
@@ -324,9 +358,7 @@ impl<'d> Drive<'d> {
         let mut events = std::mem::take(&mut self.events);
         for event in events.drain(..) {
             let act = Act::of(event, self.last, &self.exec, place);
-            for (moved, (from, to)) in self.course.moved.iter_mut().zip(act.from.iter().zip(&act.event.end)) {
-                *moved |= from != to;
-            }
+            self.moves(&act);
             self.last = act.event.end;
             let arc = self.wants_reach && matches!(act.event.kind, Kind::Arc { .. });
             let reach = if arc { reach(&act, &self.exec).map(Box::new) } else { None };
@@ -339,6 +371,27 @@ impl<'d> Drive<'d> {
         }
         self.events = events;
         self.deliver().map(Ok)
+    }
+
+    /// Notes what a move depends on: whether it goes anywhere too.
+    fn moves(&mut self, act: &Act) {
+        if !matches!(act.event.kind, Kind::Traverse | Kind::Feed | Kind::Arc { .. }) {
+            return;
+        }
+        self.moved = true;
+        for (moved, (from, to)) in self.course.moved.iter_mut().zip(act.from.iter().zip(&act.event.end)) {
+            *moved |= from != to;
+        }
+        let length = match self.exec.length_edge() {
+            Some((tool, edge)) => Length::Edge(tool, edge),
+            None => Length::Entry(self.exec.length_entry().unwrap_or(0)),
+        };
+        let depends = (self.exec.offset_in_force(), length);
+        if self.depends != Some(depends) {
+            self.depends = Some(depends);
+            self.course.offsets.insert(depends.0);
+            self.course.lengths.insert(depends.1);
+        }
     }
 
     /// Where a statement stands.
@@ -366,6 +419,7 @@ impl<'d> Drive<'d> {
         let (_, said) = self.place(stmt.span, text);
         let holes = matches!(stmt.op, Op::Hole(_) | Op::Pattern(_) | Op::Position(_));
         if holes {
+            self.moved = true;
             self.sink.called(stmt, &self.exec, &said.block)?;
         }
         if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
@@ -416,14 +470,7 @@ impl<'d> Drive<'d> {
             self.course.blocks += u64::from(!stmt.joined && says);
             match &stmt.op {
                 Op::ProgramStop | Op::OptionalProgramStop => self.course.stops = true,
-                Op::SetOriginOffsets(number) => {
-                    self.course.offsets |= self.work_offset.is_some_and(|other| other != *number);
-                    self.work_offset = Some(*number);
-                }
-                Op::UseToolLengthOffset(entry) => {
-                    self.course.lengths |= entry.literal().is_none_or(|n| n.mantissa != 0);
-                }
-                Op::UseToolEdge { .. } => self.course.lengths = true,
+                Op::UseMachineCoordinates => self.course.in_machine = true,
                 Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
                 _ => {}
             }
@@ -482,8 +529,10 @@ impl<'d> Drive<'d> {
     }
 }
 
-/// The plain world: no offsets, no lengths, the dictionary's state at power-on.
-fn world(job: &Job) -> World {
+/// The plain world: the machine's tables, zero where it states nothing, the dictionary's state at
+/// power-on.
+fn world(plan: &Plan) -> World {
+    let job = plan.job;
     let fixed = fixed(job.from.dialect);
     let value = |option| parameter(job, option).and_then(|value| value.nanos(false)).unwrap_or(0);
     World {
@@ -492,5 +541,6 @@ fn world(job: &Job) -> World {
         start: [0; AXES],
         peck_clearance: value(PECK_CLEARANCE),
         break_lift: value(BREAK_LIFT),
+        tables: plan.tables.clone(),
     }
 }

@@ -198,6 +198,7 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
     Plan {
         job,
         machine: shop.machine.clone(),
+        tables: shop.profile.as_ref().map(Profile::tables).unwrap_or_default(),
         model: args.model,
         skip: args.skip.iter().fold(0, |skip, level| skip | 1 << level),
         start_time: args.start_time,

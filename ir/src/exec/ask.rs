@@ -24,6 +24,20 @@ impl Exec {
         }
     }
 
+    /// Tool and edge whose length is in force, where that is no entry of the tool-length table; the tool
+    /// is -1 where none was named.
+    pub fn length_edge(&self) -> Option<(i64, u32)> {
+        match self.waiting.unwrap_or(self.modes.length) {
+            Length::Entry(_) => None,
+            Length::Edge(tool, edge) => Some((tool, edge)),
+        }
+    }
+
+    /// Work offset in force, whoever named it; 1 is the first.
+    pub fn offset_in_force(&self) -> u16 {
+        self.modes.work_offset
+    }
+
     /// Position in the coordinates that the program speaks in, nanos of a millimetre or degree.
     pub fn position(&self) -> [Nanos; AXES] {
         self.position
