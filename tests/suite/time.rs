@@ -160,6 +160,7 @@ const SESSIONS: &[(&str, &[&str], &[&str])] = &[
     ("skip-on.csv", &["--machine", "fanuc-vmc", "--as", "csv", "--skip", "1,2"], &["fanuc/skip.nc"]),
     ("arcs-zx.json", &["--from", "fanuc", "--as", "payload"], &["fanuc/arcs-zx.nc"]),
     ("inch.txt", &["--machine", "fanuc-vmc"], &["fanuc/inch.nc"]),
+    ("rotary.txt", &["--machine", "fanuc-vmc"], &["fanuc/rotary.nc"]),
     ("rotary.ndjson", &["--machine", "fanuc-vmc", "--as", "ndjson"], &["fanuc/rotary.nc"]),
     ("pecks.csv", &["--machine", "fanuc-vmc", "--as", "csv"], &["fanuc/g83.nc"]),
     ("repeat.csv", &["--machine", "sinumerik-vmc", "--as", "csv"], &["siemens/repeat.mpf"]),

@@ -119,9 +119,19 @@ impl Machine {
         let mut filling = Filling { told: Vec::new() };
         match model {
             Model::Ideal => {
-                let by_axes = Axis::ALL.iter().any(|axis| machine.axes[*axis as usize].rapid_rate.is_some());
+                let by_axes = Axis::ALL
+                    .iter()
+                    .any(|axis| !axis.is_rotary() && machine.axes[*axis as usize].rapid_rate.is_some());
                 if !by_axes {
                     filling.fill(&mut machine.rapid_rate, Fact::RapidRate, None, RAPID_RATE[0]);
+                }
+                for axis in Axis::ALL {
+                    let kind = usize::from(axis.is_rotary());
+                    let facts = &mut machine.axes[axis as usize];
+                    // The rate along the line says nothing of a rotary axis.
+                    if machine.rapid_rate.is_none() || axis.is_rotary() {
+                        filling.fill(&mut facts.rapid_rate, Fact::RapidRate, Some(axis), RAPID_RATE[kind]);
+                    }
                 }
             }
             Model::Trapezoidal | Model::JerkLimited => {

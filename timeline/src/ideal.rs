@@ -20,7 +20,9 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
     match &act.event.kind {
         Kind::Traverse => {
             let path = path(&act.event, &act.from);
-            rapid(path.length, &path.change, machine)
+            // The rate along the line says nothing of rotary axes.
+            let linear = path.change[..3].iter().any(|change| *change != 0.0);
+            rapid(if linear { path.length } else { 0.0 }, &path.change, machine)
         }
         Kind::Feed | Kind::Arc { .. } => {
             let rate = units(act.event.rate);

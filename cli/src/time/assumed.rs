@@ -110,16 +110,6 @@ pub(crate) fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) ->
     let moved = &course.moved;
     let mut lines = in_words(facts, moved);
     let machine = &plan.machine;
-    let silent: Vec<String> = Axis::ALL
-        .into_iter()
-        .filter(|axis| {
-            axis.is_rotary() && moved[*axis as usize] && machine.axes[*axis as usize].rapid_rate.is_none()
-        })
-        .map(letter)
-        .collect();
-    if plan.model == Model::Ideal && !silent.is_empty() {
-        lines.push(format!("rapids of {} take no time", silent.join(" ")));
-    }
     if plan.model == Model::Ideal && course.bounds.is_some() {
         // The upper bound needs more than the model does.
         let (_, all) = machine.assumed(Model::Trapezoidal);
