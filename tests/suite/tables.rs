@@ -51,6 +51,16 @@ fn program(path: &Path) -> Result<(), String> {
         return Err(format!("by hand {by_hand:?}\n    not {figures:?}"));
     }
 
+    // As canonical functions, which have no words for moves in machine coordinates.
+    if !text.contains("SUPA") {
+        let canon = String::from_utf8(run("canon")?).map_err(|e| e.to_string())?;
+        let end = canon.rsplit_once(", end ").and_then(|(_, end)| end.split('"').next()?.parse::<f64>().ok());
+        let total: f64 = by_hand.iter().sum();
+        if end.is_none_or(|end| (end - total).abs() > 1e-6) {
+            return Err(format!("as canon it ends at {end:?}, not {total}"));
+        }
+    }
+
     let json: serde_json::Value = serde_json::from_slice(&run("json")?).map_err(|e| e.to_string())?;
     let lines = json["programs"][0]["assumed"].as_array().ok_or("no assumptions")?;
     let of_others = |line: &&str| line.starts_with("for the bound") || line.starts_with("the tool starts");
