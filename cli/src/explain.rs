@@ -49,7 +49,10 @@ mod tests {
             assert!(codes.contains(code), "NC{code:04} has no page");
         }
         for code in &codes {
-            assert!(Fault::CODES.contains(code) || Wrong::CODES.contains(code), "NC{code:04} is no code any more");
+            assert!(
+                Fault::CODES.contains(code) || Wrong::CODES.contains(code),
+                "NC{code:04} is no code any more"
+            );
         }
     }
 

@@ -133,6 +133,14 @@ impl Profile {
             path_tolerance: s.rates.path_tolerance.get(),
             exact_stop: s.rates.exact_stop.get(),
             m_function: s.times.m_function.get(),
+            functions: s
+                .m_code
+                .iter()
+                .filter_map(|row| {
+                    let row = row.get_ref();
+                    Some((row.function.value.clone()?, row.seconds.get()?))
+                })
+                .collect(),
             block: s.times.block.get(),
         }
     }

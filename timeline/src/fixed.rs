@@ -47,9 +47,9 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
         Kind::ToolChange if machine.tool_change_on == ToolChangeOn::Change => {
             stop(known(machine.tool_change) + m)
         }
+        Kind::MachineFunction(name) => stop(machine.function(name).unwrap_or(m)),
         Kind::ToolChange
         | Kind::Coolant
-        | Kind::MachineFunction(_)
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd => stop(m),

@@ -38,9 +38,9 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
         }
         Kind::Attribute(Attribute::StartSpindle(_)) => known(machine.spindle_start),
         Kind::Attribute(Attribute::StopSpindle) => known(machine.spindle_stop),
+        Kind::MachineFunction(name) => known(machine.function(name)),
         Kind::ToolChange
         | Kind::Coolant
-        | Kind::MachineFunction(_)
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
         | Kind::ProgramEnd

@@ -33,6 +33,8 @@ pub struct Machine {
     pub exact_stop: Option<bool>,
     /// Seconds that an M function takes besides what it does.
     pub m_function: Option<f64>,
+    /// Functions of the machine's own by name, with the seconds that each takes.
+    pub functions: Vec<(String, f64)>,
     /// Least seconds of a block with a move: what the control needs to prepare the next one.
     pub block: Option<f64>,
 }
@@ -60,4 +62,11 @@ pub enum ToolChangeOn {
     Change,
     /// `SELECT_TOOL`, as in the case study's table.
     Select,
+}
+
+impl Machine {
+    /// Seconds of a function of the machine's own, if they are stated.
+    pub(crate) fn function(&self, name: &str) -> Option<f64> {
+        self.functions.iter().find(|(function, _)| function == name).map(|(_, seconds)| *seconds)
+    }
 }

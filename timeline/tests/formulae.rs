@@ -2,8 +2,8 @@
 
 mod shop;
 
-use ncc_ir::canon::{Plane, Turn};
-use ncc_timeline::{Machine, Model};
+use ncc_ir::canon::{Axis, Plane, Turn};
+use ncc_timeline::{Fact, Machine, Model};
 use shop::{Way, machine, run, same, seconds};
 use std::f64::consts::{PI, TAU};
 
@@ -254,6 +254,27 @@ fn rotary_axes() {
     // From a line to a rotary move alone is a stop.
     let way = Way::new().feed(6e3, &[50.0]).feed(6e2, &[50.0, 0.0, 0.0, 10.0]).clone();
     assert_eq!(run(TRAPEZOIDAL, &m, &way.acts).timed[1].profile.entry, 0.0);
+}
+
+/// Without acceleration too: the rate along the line is no rate of a rotary axis, and an axis of which
+/// nothing is stated has a working value, which is told.
+#[test]
+fn rotary_axes_without_acceleration() {
+    let alone = |m: &Machine| seconds(Model::Ideal, m, Way::new().rapid(&[0.0, 0.0, 0.0, 90.0]));
+    let mut m = Machine { rapid_rate: Some(15_000.0), ..Machine::default() };
+    m.axes[3].rapid_rate = Some(600.0);
+    same(alone(&m), 9.0, 1e-12);
+    m.axes[3].rapid_rate = None;
+    let (filled, told) = m.assumed(Model::Ideal);
+    same(alone(&filled), 90.0 / 7_200.0 * 60.0, 1e-12);
+    assert!(told.iter().any(|f| f.axis == Some(Axis::A) && f.value == 7_200.0));
+    assert!(!told.iter().any(|f| f.fact == Fact::RapidRate && f.axis == Some(Axis::X)));
+    // Some linear axes stated, others not: these have a working value as well.
+    let mut m = Machine::default();
+    m.axes[0].rapid_rate = Some(6_000.0);
+    let (filled, told) = m.assumed(Model::Ideal);
+    assert_eq!((filled.rapid_rate, filled.axes[2].rapid_rate), (None, Some(30_000.0)));
+    assert!(told.iter().any(|f| f.fact == Fact::RapidRate && f.axis == Some(Axis::Z)));
 }
 
 #[test]

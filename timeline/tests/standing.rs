@@ -67,7 +67,9 @@ fn fixed_times() {
         .say(Kind::Attribute(Attribute::SelectTool(1)))
         .say(Kind::ProgramEnd)
         .say(Kind::TextEnd);
-    let want = [1.5, 5.1, 2.1, 2.1, 0.1, 0.1, 0.0, 0.1, 0.0];
+    m.functions = vec![("clamp".to_owned(), 0.7)];
+    way.say(Kind::MachineFunction("clamp".into())).say(Kind::MachineFunction("unclamp".into()));
+    let want = [1.5, 5.1, 2.1, 2.1, 0.1, 0.1, 0.0, 0.1, 0.0, 0.7, 0.1];
     for (got, want) in durations(&m, &way).iter().zip(want) {
         same(*got, want, 1e-12);
     }

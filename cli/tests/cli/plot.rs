@@ -47,6 +47,28 @@ fn the_name_of_the_file_says_what_it_is() {
 }
 
 #[test]
+fn a_tool_that_stands_still_has_no_way() {
+    let folder = folder();
+    let folder = folder.path();
+    std::fs::write(folder.join("turn.nc"), "G21 G90 G17 G94\nG54\nG00 A90.\nM30\n").unwrap();
+    for view in ["plan", "isometric"] {
+        let arguments = ["turn.nc", "--from", "fanuc", "--view", view, "-o", "way.svg"];
+        plot(folder, &arguments).exits(1).says("stand still").says("without --view");
+        assert!(!folder.join("way.svg").exists());
+    }
+    plot(folder, &["turn.nc", "--from", "fanuc", "-o", "charts.svg"]).exits(0);
+}
+
+/// What the digits do not show has no sign.
+#[test]
+fn no_difference_is_not_negative() {
+    let folder = folder();
+    let arguments = ["good.cn", "good.cn", "--from", "mach9", "-q"];
+    let done = plot(folder.path(), &arguments).exits(0);
+    assert!(done.out.contains("difference 0.000 s"), "{}", done.out);
+}
+
+#[test]
 fn what_contradicts_itself_is_wrong_usage() {
     let folder = folder();
     let folder = folder.path();
@@ -83,7 +105,7 @@ fn a_port_and_its_source_lie_over_each_other() {
     let call = ["good.cn", "good.nc", "--from", "mach9,fanuc", "--machine", "romi-discovery-4022", "-q"];
     let both = plot(folder, &call).exits(0);
     // Both take the same time, to the last digit.
-    assert!(both.out.contains("difference +0.000 s"), "{}", both.out);
+    assert!(both.out.contains("difference 0.000 s"), "{}", both.out);
     assert_eq!(both.out.matches("class=\"curve p1\"").count(), 5);
 }
 

@@ -82,10 +82,52 @@ fn what_cannot_be_executed_is_refused_at_its_place() {
         time(folder, &["--from", dialect, "-o", "out", name]).exits(1).says("nothing was written");
         assert!(!folder.join("out").exists(), "{name}");
     }
-    // One of several: nothing is printed, all are looked at.
-    let done = time(folder, &["--from", "mach9", "good.cn", "bad.cn", "nofeed.cn"]).exits(1);
+}
+
+/// Of several programs those that can be executed are told, those that are missing named.
+#[test]
+fn one_of_several_that_is_wrong_hides_no_other() {
+    let folder = folder();
+    let folder = folder.path();
+    write(folder, "prose.txt", b"hello world\n");
+    let done = time(folder, &["--from", "mach9", "good.cn", "bad.cn"])
+        .exits(1)
+        .says("NC0107")
+        .says("bad.cn: not timed\n");
+    let total: Vec<&str> = done.out.lines().rev().take(3).collect();
+    assert!(total[0].starts_with("  1 of 2 programs  0:00:"), "{}", done.out);
+    assert!(total[1].starts_with("  bad.cn ") && total[1].ends_with(" not timed"), "{}", done.out);
+    assert!(total[2].starts_with("  good.cn ") && total[2].contains(" 0:00:"), "{}", done.out);
+    // The highest exit code counts, wherever the file stands.
+    let files = ["gone.cn", "bad.cn", "prose.txt", "good.cn", "--as", "json", "-o", "out.json"];
+    time(folder, &files).exits(4).says("gone.cn").says("NC0107").says("the dialect of prose.txt");
+    let out = std::fs::read_to_string(folder.join("out.json")).unwrap();
+    let out: String = out.split_whitespace().collect();
+    assert!(out.contains(r#""not_timed":["gone.cn","bad.cn","prose.txt"]"#), "{out}");
+    // If there is no other, there is nothing to print.
+    let done = time(folder, &["--from", "mach9", "bad.cn", "gone.cn"]).exits(4);
     assert_eq!(done.out, "");
-    done.says("NC0107").says("nofeed.cn:5");
+    time(folder, &["-", "-"]).exits(2).says("stdin can be read only once");
+}
+
+/// Figures of a kind of machine, or marked in a profile, are no facts.
+#[test]
+fn what_a_profile_marks_as_assumed_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    let done = time(folder, &["--from", "mach9", "good.cn", "--machine", "fanuc-vmc"]).exits(0);
+    assert!(done.out.contains("typical figures, of no machine in particular"), "{}", done.out);
+    write(
+        folder,
+        "own.toml",
+        b"id = \"own\"\ntitle = \"own\"\ndialect = \"mach9\"\n\
+          [times]\ntool_change = { value = 4, assumed = true }\nspindle_start = 2\n\
+          [[axis]]\nletter = \"X\"\nrapid = { value = 9000, assumed = true }\n\
+          [[axis]]\nletter = \"Z\"\nrapid = { value = 9000, assumed = true }\n",
+    );
+    let done = time(folder, &["good.cn", "--machine", "own.toml"]).exits(0);
+    let line = "marked so in the machine's profile: tool_change, rapid of X Z\n";
+    assert!(done.out.contains(line), "{}", done.out);
 }
 
 #[test]
@@ -97,7 +139,8 @@ fn wrong_usage() {
     time(folder, &["good.cn", "--stage", "before"]).exits(2).says("--stage before with --as summary");
     time(folder, &["good.cn", "--machine", "nobody"]).exits(2).says("romi-discovery-4022");
     time(folder, &["good.cn", "--model", "real"]).exits(2).says("ideal, trapezoidal, jerk-limited");
-    time(folder, &["good.cn", "--start-time", "-1"]).exits(2);
+    time(folder, &["good.cn", "--start-time", "-1"]).exits(2).says("0 or more");
+    time(folder, &["good.cn", "--start", "X"]).exits(2).says("no axis with a decimal");
     time(folder, &["good.cn", "--skip", "11"]).exits(2);
     time(folder, &["good.cn", "--from-option", "x=1", "--from", "mach9"]).exits(2).says("has no option `x`");
     time(folder, &["nothing.cn"]).exits(4).says("there is no such file");
