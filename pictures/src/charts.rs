@@ -116,8 +116,14 @@ fn heading(area: &Area<'_>, layer: &mut Layer, records: &[&Record], caption: &st
         at += 60.0 + about_wide(&text, SIZE);
     }
     let later = (b.end - b.begin) - (a.end - a.begin);
-    let sign = if later < 0.0 { '\u{2212}' } else { '+' };
-    let text = format!("difference {sign}{}", duration(later.abs()));
+    let long = duration(later.abs());
+    // What is not seen in the digits has no sign.
+    let sign = match later {
+        _ if long == duration(0.0) => "",
+        ..0.0 => "\u{2212}",
+        _ => "+",
+    };
+    let text = format!("difference {sign}{long}");
     write(area, &text, (at, 66.0), style(SIZE, BLACK, Anchor::Left))
 }
 

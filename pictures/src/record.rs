@@ -268,9 +268,18 @@ impl Record {
             }
         };
         *time += timed.duration;
-        *length += way.length;
+        // Degrees are no way of the tool.
+        if way.sweep > 0.0 || way.change[..3].iter().any(|change| *change != 0.0) {
+            *length += way.length;
+        }
         self.sums.moves += 1;
         self.stamps.push(self.sums.moves, timed.end());
+    }
+
+    /// Whether the tool never leaves its place.
+    pub fn stands_still(&self) -> bool {
+        let extent = &self.way.extent;
+        extent.is_empty() || extent.low == extent.high
     }
 
     /// The rate of a move: its ramps where the model has some, else its mean.

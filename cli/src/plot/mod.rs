@@ -85,6 +85,13 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut StandardStream) -> Resul
             page.listing = listing(&page.record, source)?;
         }
     }
+    if args.view.is_some() && pages.iter().all(|page| page.record.stands_still()) {
+        return Err(Problem {
+            exit: Exit::Refused,
+            message: "X, Y and Z stand still: the tool has no way that could be drawn".to_owned(),
+            help: vec!["without --view there are charts over time".to_owned()],
+        });
+    }
     let picture = draw(args, form, &pages, &caption).map_err(|undrawn| Problem {
         exit: Exit::Refused,
         message: undrawn.to_string(),

@@ -121,6 +121,15 @@ fn an_isometric_view_shows_depth() {
 }
 
 #[test]
+fn degrees_are_no_way() {
+    let mut made = Made::new();
+    made.turn(90.0, 3.0);
+    let record = made.finish();
+    assert_eq!((record.sums.rapid, record.sums.rapid_way, record.stands_still()), (3.0, 0.0, true));
+    assert!(!part().stands_still());
+}
+
+#[test]
 fn pictures_of_little_are_pictures_still() {
     let nothing = || {
         let mut record = Record::new("");

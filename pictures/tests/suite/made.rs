@@ -28,6 +28,10 @@ impl Made {
         for (axis, value) in to.into_iter().enumerate() {
             end[axis] = (value * ONE as f64).round() as Nanos;
         }
+        self.go(kind, end, seconds);
+    }
+
+    fn go(&mut self, kind: Kind, end: [Nanos; AXES], seconds: f64) {
         let span = Span::new(self.line * 10, self.line * 10 + 5);
         let event = Event { kind, end, rate: 0, state: self.state, inch: false, span };
         let place = Place { line: self.line, span };
@@ -46,6 +50,13 @@ impl Made {
 
     pub(crate) fn rapid(&mut self, to: [f64; 3], seconds: f64) {
         self.event(Kind::Traverse, to, seconds);
+    }
+
+    /// A rapid of the first rotary axis alone, degrees.
+    pub(crate) fn turn(&mut self, to: f64, seconds: f64) {
+        let mut end = self.at;
+        end[3] = (to * ONE as f64).round() as Nanos;
+        self.go(Kind::Traverse, end, seconds);
     }
 
     pub(crate) fn feed(&mut self, to: [f64; 3], seconds: f64) {
