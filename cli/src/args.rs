@@ -351,7 +351,9 @@ pub(crate) fn start(text: &str) -> Result<Start, String> {
         let axis = chars.next().map(|c| c.to_ascii_uppercase());
         let axis = axis.and_then(|c| u8::try_from(c).ok()).and_then(Axis::from_letter);
         let axis = axis.ok_or_else(|| format!("`{word}` does not begin with one of X Y Z A B C"))?;
-        let value = decimal(chars.as_str()).ok_or_else(|| format!("`{}` is no decimal", chars.as_str()))?;
+        let value = decimal(chars.as_str()).ok_or_else(|| {
+            format!("`{word}` is no axis with a decimal, such as {}15.588", axis.letter() as char)
+        })?;
         if start[axis as usize].replace(value).is_some() {
             return Err(format!("{} stands twice", axis.letter() as char));
         }

@@ -89,7 +89,11 @@ impl Known {
                 Some(dialect) => format!("did you mean {}? there are: {}", dialect.id, self.ids()),
                 None => format!("there are: {}", self.ids()),
             };
-            Problem::usage(format!("there is no dialect `{id}`"), help)
+            let mut problem = Problem::usage(format!("there is no dialect `{id}`"), help);
+            if std::path::Path::new(id).is_file() {
+                problem.help.push(format!("for the dictionary in {id}: --dialect {id}, and the name in it"));
+            }
+            problem
         })
     }
 

@@ -20,6 +20,13 @@ pub enum Exit {
     File = 4,
 }
 
+impl Exit {
+    /// That of two files of one command: the higher one.
+    pub(crate) fn and(self, other: Exit) -> Exit {
+        if other as u8 > self as u8 { other } else { self }
+    }
+}
+
 /// A command that cannot be done, told before or beside any diagnostics of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Problem {

@@ -78,6 +78,7 @@ pub struct Plot {
         default_value = "0",
         hide_default_value = true,
         value_parser = seconds,
+        allow_hyphen_values = true,
         help_heading = "How it is timed"
     )]
     pub start_time: f64,

@@ -18,7 +18,8 @@ Examples:
   ncc time --schema                                      JSON Schema of payload and ndjson
 
 What a machine does not state is taken for granted, and told. Nothing is printed of a program
-that cannot be executed; exit codes are those of `ncc --help`.";
+that cannot be executed; of several the others are told all the same, and those that are missing
+are named. Exit codes are those of `ncc --help`; of several programs the highest.";
 
 /// `ncc time`.
 #[derive(Debug, Args)]
@@ -76,6 +77,7 @@ pub struct Time {
         default_value = "0",
         hide_default_value = true,
         value_parser = seconds,
+        allow_hyphen_values = true,
         help_heading = "How it is timed"
     )]
     pub start_time: f64,

@@ -2,6 +2,7 @@
 
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_machines::Profile;
 use ncc_timeline::{AssumedFact, Fact, Model};
 
 use super::drive::{Course, Length, Plan};
@@ -103,6 +104,38 @@ fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
         Length::Edge(tool, edge) => format!("length of edge {edge} of tool {tool} = 0 mm"),
     })
     .collect()
+}
+
+/// Of the machine: what its profile states, but marks as assumed.
+pub(crate) fn of_profile(profile: &Profile) -> Vec<String> {
+    if profile.schema.typical {
+        return vec![
+            "rates, accelerations and times are typical figures, of no machine in particular".to_owned(),
+        ];
+    }
+    let mut marked: Vec<(&'static str, Vec<String>)> = Vec::new();
+    let of_time = ["[rates]", "[times]", "[spindle]", "[[axis]]"];
+    for row in profile.rows().into_iter().filter(|row| of_time.contains(&row.head)) {
+        let axis = row.facts.iter().find(|fact| fact.key == "letter").and_then(|fact| fact.value.clone());
+        for fact in row.facts.iter().filter(|fact| fact.assumed && fact.value.is_some()) {
+            match marked.iter_mut().find(|(key, axes)| *key == fact.key && axis.is_some() && !axes.is_empty())
+            {
+                Some((_, axes)) => axes.extend(axis.clone()),
+                None => marked.push((fact.key, axis.clone().into_iter().collect())),
+            }
+        }
+    }
+    let word = |(key, axes): &(&str, Vec<String>)| match axes.as_slice() {
+        [] => (*key).to_owned(),
+        axes => format!("{key} of {}", axes.join(" ")),
+    };
+    match marked.as_slice() {
+        [] => Vec::new(),
+        marked => {
+            let words: Vec<String> = marked.iter().map(word).collect();
+            vec![format!("marked so in the machine's profile: {}", words.join(", "))]
+        }
+    }
 }
 
 /// Of the machine: what its profile does not state, and neither does the model.

@@ -88,28 +88,84 @@ pub(crate) fn run(args: &Time, known: &Known, err: &mut StandardStream) -> Resul
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
     }
-    check(args)?;
+    check(args, known)?;
     let shop = Shop::of(args, known, err)?;
-    let mut sources = args.files.iter().map(|path| files::open(path)).collect::<Result<Vec<_>, _>>()?;
+    let mut lost = Lost { names: Vec::new(), exit: Exit::Done };
+    let mut sources = Vec::new();
+    for path in &args.files {
+        match files::open(path) {
+            Ok(source) => sources.push(source),
+            Err(problem) => lost.take(args, path.display().to_string(), problem, err)?,
+        }
+    }
     let destination = destination(args, &sources)?;
     let mut spool = Spool { output: Output::new() };
-    let exit = match args.form {
+    match args.form {
         Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
-            summaries(args, &shop, known, &mut sources, &mut spool, err)?
+            let report = summaries(args, &shop, known, &mut sources, &mut lost, err)?;
+            if !report.programs.is_empty() {
+                write_report(args, &report, &mut spool)
+                    .map_err(|e| Problem::file("write", "the summary", &e))?;
+                destination.release(&mut spool.output)?;
+            }
+            Ok(lost.exit)
         }
-        Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => match sources.first_mut() {
-            Some(source) => stream(args, &shop, known, source, &mut spool, err)?,
-            None => Exit::Usage,
-        },
-    };
-    if exit == Exit::Done {
-        destination.release(&mut spool.output)?;
+        Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
+            let exit = match sources.first_mut() {
+                Some(source) => stream(args, &shop, known, source, &mut spool, err)?,
+                None => Exit::Usage,
+            };
+            if exit == Exit::Done {
+                destination.release(&mut spool.output)?;
+            }
+            Ok(exit)
+        }
     }
-    Ok(exit)
+}
+
+/// Programs that could not be executed.
+struct Lost {
+    /// Their names.
+    names: Vec<String>,
+    /// The exit code.
+    exit: Exit,
+}
+
+impl Lost {
+    /// One of which its diagnostics have been told.
+    fn refused(&mut self, name: String) {
+        self.names.push(name);
+        self.exit = self.exit.and(Exit::Refused);
+    }
+
+    /// One that could not be read. A single one is the command's own problem; of several, the others
+    /// go on.
+    fn take(
+        &mut self,
+        args: &Time,
+        name: String,
+        problem: Problem,
+        err: &mut StandardStream,
+    ) -> Result<(), Problem> {
+        if args.files.len() < 2 {
+            return Err(problem);
+        }
+        // The exit code says so too.
+        let _ = problem.print(err, false);
+        self.names.push(name);
+        self.exit = self.exit.and(problem.exit);
+        Ok(())
+    }
 }
 
 /// What options mean together.
-fn check(args: &Time) -> Result<(), Problem> {
+fn check(args: &Time, known: &Known) -> Result<(), Problem> {
+    if let Some(id) = args.from.as_deref().filter(|id| *id != "auto") {
+        known.dialect(id)?;
+    }
+    if args.files.iter().filter(|file| *file == Path::new("-")).count() > 1 {
+        return Err(Problem::usage("stdin can be read only once", "name a file"));
+    }
     if args.files.len() > 1 && !args.form.takes_several() {
         return Err(Problem::usage(
             format!("{} files: --as {} is about one", args.files.len(), args.form.name()),
@@ -242,7 +298,9 @@ fn tell(
     let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
     human::print(err, &mut about, &course.diagnostics, loudness)?;
     if course.refused && !args.quiet {
-        writeln!(err, "{shown}: not timed; nothing was written")?;
+        let others = args.files.len() > 1 && args.form.takes_several();
+        let rest = if others { "" } else { "; nothing was written" };
+        writeln!(err, "{shown}: not timed{rest}")?;
         let dialect = plan.job.from.dialect;
         if let Guess::Sure(other, reasons) = guess(&mut source.file, known.all())?
             && other.id != dialect.id
@@ -270,6 +328,9 @@ pub(crate) fn assumptions(shop: &Shop, plan: &Plan, course: &Course) -> Vec<Stri
         }
         Some(_) => {}
     }
+    if let Some(profile) = &shop.profile {
+        lines.extend(assumed::of_profile(profile));
+    }
     lines.extend(assumed::of_machine(plan, &shop.assumed, course));
     lines.extend(assumed::of_run(plan, course));
     lines.extend(assumed::of_program(plan.job, &course.diagnostics));
@@ -282,9 +343,9 @@ fn summaries(
     shop: &Shop,
     known: &Known,
     sources: &mut [Source],
-    spool: &mut Spool,
+    lost: &mut Lost,
     err: &mut StandardStream,
-) -> Result<Exit, Problem> {
+) -> Result<Report, Problem> {
     let mut report = Report {
         ncc_time: 1,
         ncc_version: env!("CARGO_PKG_VERSION"),
@@ -292,16 +353,22 @@ fn summaries(
         machine: shop.profile.as_ref().map(|p| p.id().to_owned()),
         machine_name: shop.title().to_owned(),
         programs: Vec::new(),
+        not_timed: Vec::new(),
         total: Tally::default(),
     };
-    let mut exit = Exit::Done;
     for source in sources {
-        let job = job(args, shop, known, source, err)?;
+        let job = match job(args, shop, known, source, err) {
+            Ok(job) => job,
+            Err(problem) => {
+                lost.take(args, source.name.clone(), problem, err)?;
+                continue;
+            }
+        };
         let plan = plan(args, shop, &job);
         let mut tallier = Tallier::new(&shop.machine);
         let course = execute(args, &plan, known, source, &mut tallier, err)?;
         if course.refused {
-            exit = Exit::Refused;
+            lost.refused(source.name.clone());
             continue;
         }
         let mut timing = Timing {
@@ -320,19 +387,20 @@ fn summaries(
         report.total.join(&timing.total);
         report.programs.push(timing);
     }
-    if exit == Exit::Done {
-        report.total = report.total.rounded();
-        let written = match args.form {
-            Form::Json => report.json(spool),
-            Form::Markdown => spool.write_all(report.markdown(args.model).as_bytes()),
-            Form::Tools => report.tool_list(spool),
-            Form::Summary | Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
-                spool.write_all(report.plain(args.model).as_bytes())
-            }
-        };
-        written.map_err(|e| Problem::file("write", "the summary", &e))?;
+    report.total = report.total.rounded();
+    report.not_timed = lost.names.clone();
+    Ok(report)
+}
+
+fn write_report(args: &Time, report: &Report, spool: &mut Spool) -> io::Result<()> {
+    match args.form {
+        Form::Json => report.json(spool),
+        Form::Markdown => spool.write_all(report.markdown(args.model).as_bytes()),
+        Form::Tools => report.tool_list(spool),
+        Form::Summary | Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
+            spool.write_all(report.plain(args.model).as_bytes())
+        }
     }
-    Ok(exit)
 }
 
 /// A program of which every function is told.

@@ -27,6 +27,8 @@ pub(crate) struct Report {
     pub(crate) machine_name: String,
     /// Each program.
     pub(crate) programs: Vec<Timing>,
+    /// Names of those that could not be executed; they are not in the total.
+    pub(crate) not_timed: Vec<String>,
     /// All of them together.
     pub(crate) total: Tally,
 }
@@ -107,7 +109,7 @@ impl Report {
                 let _ = writeln!(out, "  {head:<8}{line}");
             }
         }
-        if self.programs.len() > 1 {
+        if self.several() {
             out.push('\n');
             self.all().plain(&mut out);
         }
@@ -141,7 +143,7 @@ impl Report {
             }
             out.push('\n');
         }
-        if self.programs.len() > 1 {
+        if self.several() {
             let _ = writeln!(out, "# All programs\n");
             self.all().markdown(&mut out);
         } else {
@@ -225,6 +227,11 @@ impl Report {
         }
     }
 
+    /// Whether the call is about several programs.
+    fn several(&self) -> bool {
+        self.programs.len() + self.not_timed.len() > 1
+    }
+
     /// One row a program, and all together.
     fn all(&self) -> Grid {
         let row = |name: &str, t: &Tally| {
@@ -236,8 +243,19 @@ impl Report {
             .concat()
         };
         let mut rows: Vec<Vec<String>> = self.programs.iter().map(|p| row(&p.prog_name, &p.total)).collect();
-        rows.push(row(&format!("{} programs", self.programs.len()), &self.total));
         let head = vec!["program", "time", "cutting", "rapid", "idle", "holes", "cut mm", "rapid mm"];
+        rows.extend(self.not_timed.iter().map(|name| {
+            let mut cells = vec![name.clone(), "not timed".to_owned()];
+            cells.resize(head.len(), String::new());
+            cells
+        }));
+        let all = self.programs.len() + self.not_timed.len();
+        let count = if self.not_timed.is_empty() {
+            format!("{all} programs")
+        } else {
+            format!("{} of {all} programs", self.programs.len())
+        };
+        rows.push(row(&count, &self.total));
         Grid { head, rows, left: 1 }
     }
 }
