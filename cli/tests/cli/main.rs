@@ -6,6 +6,7 @@ mod files;
 mod machines;
 mod messages;
 mod plot;
+mod readme;
 mod time;
 mod usage;
 
