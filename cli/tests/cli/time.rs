@@ -110,6 +110,24 @@ fn one_of_several_that_is_wrong_hides_no_other() {
     time(folder, &["-", "-"]).exits(2).says("stdin can be read only once");
 }
 
+/// The rate along the line is none of rotary axes.
+#[test]
+fn a_rotary_axis_has_its_own_rate() {
+    let folder = folder();
+    let folder = folder.path();
+    write(folder, "turn.nc", b"G21 G90 G17 G94\nG54\nG00 A90.\nX10. A180.\nM30\n");
+    write(
+        folder,
+        "own.toml",
+        b"id = \"own\"\ntitle = \"own\"\ndialect = \"fanuc\"\n[rates]\nrapid = 600\n\
+          [[axis]]\nletter = \"A\"\nrapid = 5400\n",
+    );
+    let done = time(folder, &["turn.nc", "--machine", "own.toml", "--as", "csv", "-q"]).exits(0);
+    let row = |n: usize| done.out.lines().nth(n).unwrap_or_default().to_owned();
+    assert_eq!(row(1), "1,G00 A90.,STRAIGHT_TRAVERSE,0.0000,0.0000,0.0000,5400,0,0,1.000000,1.000000");
+    assert!(row(2).ends_with(",600,0,0,1.000000,2.000000"), "{}", row(2));
+}
+
 /// Figures of a kind of machine, or marked in a profile, are no facts.
 #[test]
 fn what_a_profile_marks_as_assumed_is_told() {
