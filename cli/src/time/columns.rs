@@ -110,5 +110,7 @@ fn rapid_rate(length: f64, change: &[f64; AXES], machine: &Machine) -> f64 {
         let time = change.abs() / axis.rapid_rate?;
         (time > 0.0).then(|| length / time)
     });
-    axes.fold(machine.rapid_rate, |least, rate| Some(least.map_or(rate, |l| l.min(rate)))).unwrap_or(0.0)
+    // The rate along the line says nothing of rotary axes.
+    let line = machine.rapid_rate.filter(|_| change[..3].iter().any(|change| *change != 0.0));
+    axes.fold(line, |least, rate| Some(least.map_or(rate, |l| l.min(rate)))).unwrap_or(0.0)
 }

@@ -11,6 +11,7 @@ use ncc_timeline::{Machine, Timed};
 use super::columns::Columns;
 use super::drive::{Said, Sink};
 use super::duration::short;
+use super::payload::micro;
 
 /// The columns.
 pub(crate) const HEADER: [&str; 11] =
@@ -55,8 +56,9 @@ impl<W: Write> Sink for Csv<'_, W> {
             &short(row.feed, 3),
             &short(row.speed, 3),
             &row.tool.to_string(),
-            &format!("{:.6}", timed.duration),
-            &format!("{:.6}", timed.end()),
+            // As in the payload: rounded half away from zero.
+            &format!("{:.6}", micro(timed.duration)),
+            &format!("{:.6}", micro(timed.end())),
         ])?;
         Ok(())
     }
