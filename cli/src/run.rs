@@ -59,14 +59,14 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Doctor(args) => return ended(doctor::run(args, &known, &mut err), &mut err),
         Verb::Passes => print(&passes()),
         Verb::Time(args) => {
-            let mut err = StandardStream::stderr(choice(args.color));
+            let mut err = StandardStream::stderr(choice(args.telling.color));
             return match time::run(args, &known, &mut err) {
                 Ok(exit) => exit,
                 Err(problem) => fail(&problem, &mut err, false),
             };
         }
         Verb::Plot(args) => {
-            let mut err = StandardStream::stderr(choice(args.color));
+            let mut err = StandardStream::stderr(choice(args.telling.color));
             return ended(plot::run(args, &known, &mut err), &mut err);
         }
         Verb::Explain(args) => match explain::page(&args.code) {

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use ncc_pictures::{Chart, View};
-use ncc_timeline::{Model, ToolChangeOn};
 
-use crate::args::{Color, Start, pair, start};
-use crate::time::args::{Form, Stage, Time, seconds, tool_change_on};
+use crate::args::pair;
+use crate::time::args::{Form, Stage, Time};
+use crate::time::setting::{Setting, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -35,53 +35,9 @@ pub struct Plot {
     /// Decide a question that the dialect's dictionary leaves open; of one program only
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is executed")]
     pub from_option: Vec<(String, String)>,
-    /// Where the tool stands before the first block, in program coordinates, mm and degrees:
-    /// `X-9,Y15.588,Z3` [default: program zero]
-    #[arg(
-        long,
-        value_name = "AXES",
-        value_parser = start,
-        allow_hyphen_values = true,
-        help_heading = "What is executed"
-    )]
-    pub start: Option<Start>,
-    /// Block-skip switches that are on, by level; the others are off
-    #[arg(
-        long,
-        value_name = "LEVELS",
-        value_delimiter = ',',
-        value_parser = clap::value_parser!(u8).range(1..=10),
-        help_heading = "What is executed"
-    )]
-    pub skip: Vec<u8>,
-
-    /// The machine: a profile's name or file
-    #[arg(short, long, value_name = "MACHINE", help_heading = "How it is timed")]
-    pub machine: Option<String>,
-    /// How moves are timed: ideal (rates alone), trapezoidal (accelerations, look-ahead),
-    /// jerk-limited [default: ideal]
-    #[arg(
-        long,
-        value_name = "MODEL",
-        default_value = "ideal",
-        hide_default_value = true,
-        help_heading = "How it is timed"
-    )]
-    pub model: Model,
-    /// The function that takes the time of a tool change [default: the machine's]
-    #[arg(long, value_name = "select|change", value_parser = tool_change_on, help_heading = "How it is timed")]
-    pub tool_change_on: Option<ToolChangeOn>,
-    /// Seconds on the clock before the first block
-    #[arg(
-        long,
-        value_name = "SECONDS",
-        default_value = "0",
-        hide_default_value = true,
-        value_parser = seconds,
-        allow_hyphen_values = true,
-        help_heading = "How it is timed"
-    )]
-    pub start_time: f64,
+    /// How it is executed and timed.
+    #[command(flatten)]
+    pub setting: Setting,
 
     /// Charts over time, from top to bottom: speed, tool, feed, position [default: all]
     #[arg(
@@ -107,23 +63,9 @@ pub struct Plot {
     #[arg(short, long, value_name = "FILE", help_heading = "What is drawn")]
     pub output: Option<PathBuf>,
 
-    /// Say every assumption with its place, not only the account
-    #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
-    pub verbose: bool,
-    /// Say errors only, and show no progress
-    #[arg(short, long, help_heading = "What is reported")]
-    pub quiet: bool,
-    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
-    #[arg(
-        long,
-        value_name = "auto|always|never",
-        value_enum,
-        default_value_t = Color::Auto,
-        hide_possible_values = true,
-        hide_default_value = true,
-        help_heading = "What is reported"
-    )]
-    pub color: Color,
+    /// What is told.
+    #[command(flatten)]
+    pub telling: Telling,
 }
 
 impl Plot {
@@ -140,19 +82,12 @@ impl Plot {
             files: Vec::new(),
             from,
             from_option: self.from_option.clone(),
-            start: self.start,
-            skip: self.skip.clone(),
-            machine: self.machine.clone(),
-            model: self.model,
-            tool_change_on: self.tool_change_on,
-            start_time: self.start_time,
+            setting: self.setting.clone(),
             form: Form::Summary,
             stage: Stage::After,
             output: None,
             schema: false,
-            verbose: self.verbose,
-            quiet: self.quiet,
-            color: self.color,
+            telling: self.telling,
         }
     }
 

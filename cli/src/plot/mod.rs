@@ -62,19 +62,19 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut StandardStream) -> Resul
         if course.refused {
             return Ok(Exit::Refused);
         }
-        if !args.quiet {
+        if !args.telling.quiet {
             let _ = time::say(&asked, &shop, &plan, &course, &source.shown, err);
         }
         let mut record = recorder.0;
         record.finish();
         let on = if shop.title().is_empty() { "no machine" } else { shop.title() };
-        caption = format!("{on} \u{b7} model {}", args.model.name());
+        caption = format!("{on} \u{b7} model {}", args.setting.model.name());
         pages.push(Page {
             record,
             facts: vec![
                 ("Dialect".to_owned(), job.from.dialect.id.clone()),
                 ("Machine".to_owned(), on.to_owned()),
-                ("Model".to_owned(), args.model.name().to_owned()),
+                ("Model".to_owned(), args.setting.model.name().to_owned()),
             ],
             assumed: time::assumptions(&shop, &plan, &course),
             listing: Listing::default(),

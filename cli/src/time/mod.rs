@@ -18,6 +18,7 @@ mod parameters;
 mod payload;
 mod progress;
 mod reach;
+pub mod setting;
 mod summary;
 mod tally;
 
@@ -61,15 +62,15 @@ pub(crate) struct Shop {
 
 impl Shop {
     pub(crate) fn of(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Shop, Problem> {
-        let profile = match &args.machine {
+        let profile = match &args.setting.machine {
             Some(name) => Some(crate::machines::find(name, known, err)?),
             None => None,
         };
         let mut machine = profile.as_ref().map(Profile::machine).unwrap_or_default();
-        if let Some(on) = args.tool_change_on {
+        if let Some(on) = args.setting.tool_change_on {
             machine.tool_change_on = on;
         }
-        let (machine, assumed) = machine.assumed(args.model);
+        let (machine, assumed) = machine.assumed(args.setting.model);
         Ok(Shop { profile, machine, assumed })
     }
 
@@ -221,7 +222,7 @@ pub(crate) fn job(
     };
     let dialect = match named {
         Some(dialect) => dialect,
-        None => recognise(source, !args.quiet, known, err)?,
+        None => recognise(source, !args.telling.quiet, known, err)?,
     };
     // What a profile states of its control holds for programs in that control's language.
     let machines = match own.filter(|profile| profile.dialect.id == dialect.id) {
@@ -242,7 +243,7 @@ pub(crate) fn job(
         fold: None,
         verify: true,
         head: true,
-        start: args.start.unwrap_or_default(),
+        start: args.setting.start.unwrap_or_default(),
         program_number: None,
         source_name: source.name.clone(),
         allow: Vec::new(),
@@ -255,9 +256,9 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         job,
         machine: shop.machine.clone(),
         tables: shop.profile.as_ref().map(Profile::tables).unwrap_or_default(),
-        model: args.model,
-        skip: args.skip.iter().fold(0, |skip, level| skip | 1 << level),
-        start_time: args.start_time,
+        model: args.setting.model,
+        skip: args.setting.skip.iter().fold(0, |skip, level| skip | 1 << level),
+        start_time: args.setting.start_time,
         stage: args.stage,
     }
 }
@@ -273,7 +274,7 @@ pub(crate) fn execute(
 ) -> Result<Course, Problem> {
     let bytes = source.file.metadata().map_or(0, |m| m.len());
     let course = {
-        let mut progress = Progress::new(&source.name, bytes, !args.quiet);
+        let mut progress = Progress::new(&source.name, bytes, !args.telling.quiet);
         drive(plan, source, sink, &mut progress).map_err(|e| Problem::file("time", &source.shown, &e))?
     };
     // Messages that cannot be written change nothing about what was done.
@@ -289,7 +290,7 @@ fn tell(
     course: &Course,
     err: &mut StandardStream,
 ) -> io::Result<()> {
-    let loudness = match (args.quiet, args.verbose) {
+    let loudness = match (args.telling.quiet, args.telling.verbose) {
         (true, _) => Loudness::Quiet,
         (false, true) => Loudness::Verbose,
         (false, false) => Loudness::Usual,
@@ -297,7 +298,7 @@ fn tell(
     let shown = source.shown.clone();
     let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
     human::print(err, &mut about, &course.diagnostics, loudness)?;
-    if course.refused && !args.quiet {
+    if course.refused && !args.telling.quiet {
         let others = args.files.len() > 1 && args.form.takes_several();
         let rest = if others { "" } else { "; nothing was written" };
         writeln!(err, "{shown}: not timed{rest}")?;
@@ -349,7 +350,7 @@ fn summaries(
     let mut report = Report {
         ncc_time: 1,
         ncc_version: env!("CARGO_PKG_VERSION"),
-        model: args.model.name(),
+        model: args.setting.model.name(),
         machine: shop.profile.as_ref().map(|p| p.id().to_owned()),
         machine_name: shop.title().to_owned(),
         programs: Vec::new(),
@@ -395,10 +396,10 @@ fn summaries(
 fn write_report(args: &Time, report: &Report, spool: &mut Spool) -> io::Result<()> {
     match args.form {
         Form::Json => report.json(spool),
-        Form::Markdown => spool.write_all(report.markdown(args.model).as_bytes()),
+        Form::Markdown => spool.write_all(report.markdown(args.setting.model).as_bytes()),
         Form::Tools => report.tool_list(spool),
         Form::Summary | Form::Csv | Form::Payload | Form::Ndjson | Form::Canon => {
-            spool.write_all(report.plain(args.model).as_bytes())
+            spool.write_all(report.plain(args.setting.model).as_bytes())
         }
     }
 }
@@ -445,7 +446,7 @@ fn stream(
     if course.refused {
         return Ok(Exit::Refused);
     }
-    if !args.quiet {
+    if !args.telling.quiet {
         let _ = say(args, shop, &plan, &course, &source.shown, err);
     }
     Ok(Exit::Done)
@@ -463,7 +464,7 @@ pub(crate) fn say(
     let on = if shop.title().is_empty() { "no machine" } else { shop.title() };
     let end = duration::hms(course.end);
     match args.stage {
-        Stage::After => writeln!(err, "{shown}: over at {end} on {on}, model {}", args.model.name())?,
+        Stage::After => writeln!(err, "{shown}: over at {end} on {on}, model {}", args.setting.model.name())?,
         Stage::Before => writeln!(err, "{shown}: before processing, without times")?,
     }
     for (i, line) in assumptions(shop, plan, course).iter().enumerate() {
