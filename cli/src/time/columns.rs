@@ -111,6 +111,7 @@ fn rapid_rate(length: f64, change: &[f64; AXES], machine: &Machine) -> f64 {
         (time > 0.0).then(|| length / time)
     });
     // The rate along the line says nothing of rotary axes.
-    let line = machine.rapid_rate.filter(|_| change[..3].iter().any(|change| *change != 0.0));
+    let moves = |axes: &[f64]| axes.iter().any(|change| *change != 0.0);
+    let line = machine.rapid_rate.filter(|_| moves(&change[..3]) || !moves(&change[3..]));
     axes.fold(line, |least, rate| Some(least.map_or(rate, |l| l.min(rate)))).unwrap_or(0.0)
 }
