@@ -1,5 +1,5 @@
 //! What a table of a profile has: its keys, what each takes, what it means. The types of the schema
-//! are made with [`table!`], so that the written schema and the list of facts follow from them.
+//! are made with `table!`, so that the written schema and the list of facts follow from them.
 
 use std::ops::Range;
 
