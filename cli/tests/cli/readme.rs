@@ -3,11 +3,8 @@
 use super::*;
 
 /// Commands of the README whose whole output it shows.
-const SHOWN: [&[&str]; 3] = [
-    &["dialects"],
-    &["machines"],
-    &["time", "corpus/mach9/teste.cn", "--machine", "romi-discovery-4022"],
-];
+const SHOWN: [&[&str]; 3] =
+    [&["dialects"], &["machines"], &["time", "corpus/mach9/teste.cn", "--machine", "romi-discovery-4022"]];
 
 #[test]
 fn the_readme_shows_what_is_printed() {
