@@ -313,7 +313,7 @@ pub(crate) fn recognise(
     source: &mut Source,
     say: bool,
     known: &Known,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<&'static Dialect, Problem> {
     let found = guess(&mut source.file, known.all()).map_err(|e| Problem::file("read", &source.shown, &e))?;
     match found {

@@ -8,7 +8,7 @@ pub mod args;
 use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use codespan_reporting::term::termcolor::StandardStream;
+use codespan_reporting::term::termcolor::WriteColor;
 use ncc_pictures::{Listing, Page, Record, Undrawn, charts, report, view};
 use ncc_timeline::Timed;
 
@@ -42,7 +42,7 @@ impl Sink for Recorder {
 /// # Errors
 /// Wrong usage, a file that cannot be read or written, or a picture that cannot be drawn. What is
 /// wrong with a program is told on `err`.
-pub(crate) fn run(args: &Plot, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
+pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
     let mut sources = args.files.iter().map(|path| files::open(path)).collect::<Result<Vec<_>, _>>()?;
     let name = args.output.as_ref().filter(|name| *name != Path::new("-"));

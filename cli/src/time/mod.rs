@@ -26,7 +26,7 @@ use std::io::{self, BufReader, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use codespan_reporting::term::termcolor::{StandardStream, WriteColor};
+use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::Settings;
 use ncc_ir::canon::Axis;
@@ -84,7 +84,7 @@ impl Shop {
 /// # Errors
 /// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on
 /// `err`.
-pub(crate) fn run(args: &Time, known: &Known, err: &mut StandardStream) -> Result<Exit, Problem> {
+pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     if args.schema {
         files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
         return Ok(Exit::Done);
@@ -146,7 +146,7 @@ impl Lost {
         args: &Time,
         name: String,
         problem: Problem,
-        err: &mut StandardStream,
+        err: &mut dyn WriteColor,
     ) -> Result<(), Problem> {
         if args.files.len() < 2 {
             return Err(problem);
@@ -212,7 +212,7 @@ pub(crate) fn job(
     shop: &Shop,
     known: &Known,
     source: &mut Source,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<Job, Problem> {
     let own = shop.profile.as_ref();
     let named = match (args.from.as_deref(), own) {
@@ -270,7 +270,7 @@ pub(crate) fn execute(
     known: &Known,
     source: &mut Source,
     sink: &mut dyn Sink,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<Course, Problem> {
     let bytes = source.file.metadata().map_or(0, |m| m.len());
     let course = {
@@ -288,7 +288,7 @@ fn tell(
     known: &Known,
     source: &mut Source,
     course: &Course,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> io::Result<()> {
     let loudness = match (args.telling.quiet, args.telling.verbose) {
         (true, _) => Loudness::Quiet,
@@ -345,7 +345,7 @@ fn summaries(
     known: &Known,
     sources: &mut [Source],
     lost: &mut Lost,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<Report, Problem> {
     let mut report = Report {
         ncc_time: 1,
@@ -411,7 +411,7 @@ fn stream(
     known: &Known,
     source: &mut Source,
     spool: &mut Spool,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
     let job = job(args, shop, known, source, err)?;
     let name = source.name.clone();
@@ -480,7 +480,7 @@ fn canonical(
     first: &Plan,
     source: &mut Source,
     out: &mut dyn Write,
-    err: &mut StandardStream,
+    err: &mut dyn WriteColor,
 ) -> Result<Result<Course, Failure>, Problem> {
     let known = Known::built_in();
     let shown = source.shown.clone();
