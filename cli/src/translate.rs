@@ -16,6 +16,7 @@ use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
+use ncc_ir::valid::unknown_calls;
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
@@ -216,6 +217,11 @@ impl<'j> Line<'j> {
         let mut procedures = vec![Procedure { body, ..Procedure::default() }];
         procedures.append(&mut self.batch.procedures);
         let source = Program { name: self.batch.name.clone(), assumed, procedures };
+        let unknown = unknown_calls(&source);
+        if !unknown.is_empty() {
+            self.take(unknown, Told::Reader);
+            return Ok(());
+        }
         let mut program = source.clone();
         if let Some(main) = program.procedures.first_mut() {
             self.state_given(&mut main.body);

@@ -22,5 +22,6 @@ pub mod program;
 pub mod round;
 pub mod source;
 pub mod track;
+pub mod valid;
 pub mod verify;
 pub mod world;
