@@ -293,8 +293,9 @@ impl Exec {
 
     fn dwell(&mut self, seconds: Option<Nanos>, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         match seconds {
+            // Of no seconds it is none.
+            Some(0) | None => Ok(()),
             Some(seconds) => self.emit(Kind::Dwell(seconds), span, out),
-            None => Ok(()),
         }
     }
 }

@@ -451,7 +451,7 @@ pub(super) fn hole(
         | CycleKind::DrillBreak { dwell, .. }
         | CycleKind::Bore { dwell, .. } => dwell.as_ref(),
     };
-    if let Some(dwell) = dwell {
+    if let Some(dwell) = dwell.filter(|dwell| lasts(dwell)) {
         moves.push((false, Op::Dwell(dwell.clone())));
     }
 
@@ -534,13 +534,13 @@ fn pecks(
     while bottom > depth {
         moves.push((joined, cut(go(bottom))));
         joined = false;
-        if let Some(pause) = pause {
+        if let Some(pause) = pause.as_ref().filter(|pause| lasts(pause)) {
             moves.push((false, Op::Dwell(pause.clone())));
         }
         match &between {
             Between::Out { clearance, settle } => {
                 moves.push((false, traverse(up.clone())));
-                if let Some(settle) = settle {
+                if let Some(settle) = settle.filter(|settle| lasts(settle)) {
                     moves.push((false, Op::Dwell((*settle).clone())));
                 }
                 moves.push((false, traverse(go(bottom.saturating_add(*clearance)))));
@@ -553,4 +553,9 @@ fn pecks(
         bottom = bottom.saturating_sub(peck);
     }
     Ok(())
+}
+
+/// Whether a cycle's dwell is one: of no seconds it is none.
+fn lasts(seconds: &Expr) -> bool {
+    seconds.literal().is_none_or(|n| !n.is_zero())
 }
