@@ -12,6 +12,8 @@ use ncc_ir::diag::Verdict;
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::passes::Pass;
 
+use crate::setting::Telling;
+
 /// `ncc` and its verbs.
 #[derive(Debug, Parser)]
 #[command(
@@ -30,6 +32,20 @@ pub struct Cli {
     /// A dictionary of your own; its name can then be used as any dialect's [may be repeated]
     #[arg(long, global = true, value_name = "FILE")]
     pub dialect: Vec<PathBuf>,
+    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
+    #[arg(
+        long,
+        global = true,
+        value_name = "auto|always|never",
+        value_enum,
+        default_value_t = Color::Auto,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "What is reported",
+        // After what the verbs ask of their own.
+        display_order = 1000
+    )]
+    pub color: Color,
     /// What to do.
     #[command(subcommand)]
     pub verb: Verb,
@@ -205,12 +221,9 @@ pub struct Translate {
     /// Write everything that is known of the translation to this file, as JSON
     #[arg(long, value_name = "FILE", help_heading = "What is reported")]
     pub report: Option<PathBuf>,
-    /// Say every verdict with its place, not only the summary
-    #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
-    pub verbose: bool,
-    /// Say errors only
-    #[arg(short, long, help_heading = "What is reported")]
-    pub quiet: bool,
+    /// How much is told.
+    #[command(flatten)]
+    pub telling: Telling,
     /// Messages for people, or as JSON, one object a line [default: human]
     #[arg(
         long,
@@ -222,17 +235,6 @@ pub struct Translate {
         help_heading = "What is reported"
     )]
     pub format: Format,
-    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
-    #[arg(
-        long,
-        value_name = "auto|always|never",
-        value_enum,
-        default_value_t = Color::Auto,
-        hide_possible_values = true,
-        hide_default_value = true,
-        help_heading = "What is reported"
-    )]
-    pub color: Color,
 }
 
 /// `ncc dialects`.

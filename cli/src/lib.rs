@@ -24,6 +24,7 @@ pub mod render;
 pub mod report;
 pub mod rewrite;
 pub mod run;
+pub mod setting;
 pub mod sugar;
 pub mod time;
 pub mod translate;

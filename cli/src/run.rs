@@ -43,8 +43,9 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Ok(cli) => cli,
         Err(error) => return clap_says(&error, &arguments, &known, &mut err),
     };
+    let mut err = StandardStream::stderr(choice(cli.color));
     let done = match &cli.verb {
-        Verb::Translate(args) => return translate_verb(args, arrow, &known),
+        Verb::Translate(args) => return translate_verb(args, arrow, &known, &mut err),
         Verb::Dialects(args) => match &args.what {
             None => print(&dialects::list(known.all())),
             Some(DialectsWhat::Show { id }) => {
@@ -58,17 +59,8 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Machines(args) => return ended(machines::run(args, &known, &mut err), &mut err),
         Verb::Doctor(args) => return ended(doctor::run(args, &known, &mut err), &mut err),
         Verb::Passes => print(&passes()),
-        Verb::Time(args) => {
-            let mut err = StandardStream::stderr(choice(args.telling.color));
-            return match time::run(args, &known, &mut err) {
-                Ok(exit) => exit,
-                Err(problem) => fail(&problem, &mut err, false),
-            };
-        }
-        Verb::Plot(args) => {
-            let mut err = StandardStream::stderr(choice(args.telling.color));
-            return ended(plot::run(args, &known, &mut err), &mut err);
-        }
+        Verb::Time(args) => return ended(time::run(args, &known, &mut err), &mut err),
+        Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),
             None => Err(Problem::usage(
@@ -136,13 +128,14 @@ fn clap_says(error: &clap::Error, arguments: &[OsString], known: &Known, err: &m
     if error.use_stderr() { Exit::Usage } else { Exit::Done }
 }
 
-fn translate_verb(args: &Translate, arrow: Option<&'static Dialect>, known: &Known) -> Exit {
-    let mut err = StandardStream::stderr(choice(args.color));
+fn translate_verb(
+    args: &Translate,
+    arrow: Option<&'static Dialect>,
+    known: &Known,
+    err: &mut StandardStream,
+) -> Exit {
     let as_json = args.format == Format::Json;
-    match translated(args, arrow, known, &mut err) {
-        Ok(exit) => exit,
-        Err(problem) => fail(&problem, &mut err, as_json),
-    }
+    translated(args, arrow, known, err).unwrap_or_else(|problem| fail(&problem, err, as_json))
 }
 
 fn translated(
@@ -198,7 +191,7 @@ fn translated(
     }
     let from = match named {
         Some(dialect) => dialect,
-        None => recognise(&mut source, !args.quiet && args.format == Format::Human, known, err)?,
+        None => recognise(&mut source, !args.telling.quiet && args.format == Format::Human, known, err)?,
     };
     let crlf = match args.eol.unwrap_or(machines.eol()) {
         Eol::Lf => false,
@@ -240,10 +233,10 @@ fn translated(
     }
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, &mut about, &outcome, err);
-    if outcome.release == Err(Failure::Refused) && !args.quiet && args.format == Format::Human {
+    if outcome.release == Err(Failure::Refused) && !args.telling.quiet && args.format == Format::Human {
         let _ = doubt_dialect(&mut source, &job, known, err);
     }
-    if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.quiet) {
+    if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.telling.quiet) {
         let _ = say_where(to, &job, &source.shown, args.format, err);
     }
     Ok(match outcome.release {
@@ -254,11 +247,7 @@ fn translated(
 }
 
 fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn WriteColor) -> io::Result<()> {
-    let loudness = match (args.quiet, args.verbose) {
-        (true, _) => Loudness::Quiet,
-        (false, true) => Loudness::Verbose,
-        (false, false) => Loudness::Usual,
-    };
+    let loudness = args.telling.loudness();
     match args.format {
         Format::Json => {
             let mut out = crate::problem::as_write(err);

@@ -30,6 +30,7 @@ use crate::problem::{Exit, Problem};
 use crate::render::About;
 use crate::render::human::{self, Loudness};
 use crate::run::{recognise, settings};
+use crate::setting::Telling;
 use crate::translate;
 use question::{Question, questions};
 
@@ -75,6 +76,10 @@ pub struct Doctor {
     /// Write a profile of the target's machine with the questions; a new file
     #[arg(long, value_name = "FILE")]
     pub write_to: Option<PathBuf>,
+
+    /// How much is told.
+    #[command(flatten)]
+    pub telling: Telling,
 }
 
 /// Runs it. Exit code 0 if the program can be translated, whatever is asked.
@@ -100,7 +105,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     let mut source = files::open(&args.file)?;
     let from = match named {
         Some(dialect) => dialect,
-        None => recognise(&mut source, true, known, err)?,
+        None => recognise(&mut source, !args.telling.quiet, known, err)?,
     };
     let mut job = Job {
         from: settings(machines.settings(Side::From, from), &args.from_option)?,
@@ -146,7 +151,10 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     let asked_for: BTreeSet<usize> = outcome.rests.iter().map(|rest| rest.diagnostic).collect();
     let others = outcome.diagnostics.iter().enumerate().filter(|(at, _)| !asked_for.contains(at));
     let others: Vec<Diagnostic> = others.map(|(_, diagnostic)| diagnostic.clone()).collect();
-    let _ = human::print(err, &mut about, &others, Loudness::Quiet);
+    let _ = match args.telling.verbose {
+        true => human::print(err, &mut about, &outcome.diagnostics, Loudness::Verbose),
+        false => human::print(err, &mut about, &others, Loudness::Quiet),
+    };
     let asked = questions(&mut about, &outcome).map_err(cannot_read)?;
     let text = told(&about, &others, &asked);
     files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;

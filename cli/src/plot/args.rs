@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 use ncc_pictures::{Chart, View};
 
 use crate::args::pair;
+use crate::setting::{Setting, Telling};
 use crate::time::args::{Form, Stage, Time};
-use crate::time::setting::{Setting, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -63,7 +63,7 @@ pub struct Plot {
     #[arg(short, long, value_name = "FILE", help_heading = "What is drawn")]
     pub output: Option<PathBuf>,
 
-    /// What is told.
+    /// How much is told.
     #[command(flatten)]
     pub telling: Telling,
 }

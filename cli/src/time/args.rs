@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::setting::{Setting, Telling};
 use crate::args::pair;
+use crate::setting::{Setting, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -66,7 +66,7 @@ pub struct Time {
     #[arg(long, help_heading = "How the result looks")]
     pub schema: bool,
 
-    /// What is told.
+    /// How much is told.
     #[command(flatten)]
     pub telling: Telling,
 }

@@ -18,7 +18,6 @@ mod parameters;
 mod payload;
 mod progress;
 mod reach;
-pub mod setting;
 mod summary;
 mod tally;
 
@@ -290,11 +289,7 @@ fn tell(
     course: &Course,
     err: &mut dyn WriteColor,
 ) -> io::Result<()> {
-    let loudness = match (args.telling.quiet, args.telling.verbose) {
-        (true, _) => Loudness::Quiet,
-        (false, true) => Loudness::Verbose,
-        (false, false) => Loudness::Usual,
-    };
+    let loudness = args.telling.loudness();
     let shown = source.shown.clone();
     let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
     human::print(err, &mut about, &course.diagnostics, loudness)?;

@@ -42,6 +42,39 @@ fn an_error_shows_the_place_and_the_mend() {
 }
 
 #[test]
+fn every_verb_takes_a_colour() {
+    let folder = folder();
+    for line in [
+        "explain NC9999",
+        "dialects show nope",
+        "dialects test nope.toml",
+        "machines show nope",
+        "doctor none.cn --to fanuc",
+        "time none.cn --machine nope",
+        "plot none.cn --machine nope",
+        "mach9 to nope good.cn",
+    ] {
+        for (colour, shown) in [("always", true), ("never", false)] {
+            let words: Vec<&str> = line.split(' ').chain(["--color", colour]).collect();
+            let done = ncc(folder.path(), &words);
+            assert_eq!(done.err.contains("\x1b["), shown, "{words:?}: {}", done.err);
+            let before: Vec<&str> = ["--color", colour].into_iter().chain(line.split(' ')).collect();
+            assert_eq!(ncc(folder.path(), &before).err, done.err, "{before:?}");
+        }
+    }
+}
+
+#[test]
+fn the_doctor_is_quiet_or_verbose() {
+    let folder = folder();
+    let usual = ncc(folder.path(), &["doctor", "good.cn", "--to", "fanuc"]).exits(0).says("read as mach9");
+    let quiet = ncc(folder.path(), &["doctor", "good.cn", "--to", "fanuc", "-q"]).exits(0);
+    assert_eq!((quiet.err.as_str(), &quiet.out), ("", &usual.out));
+    let verbose = ncc(folder.path(), &["doctor", "good.cn", "--to", "fanuc", "-v"]).exits(0).says("[NC0");
+    assert!(!usual.err.contains("[NC0") && verbose.out == usual.out, "{}{}", usual.err, verbose.err);
+}
+
+#[test]
 fn json_is_one_object_a_line() {
     let folder = folder();
     let done = ncc(folder.path(), &["mach9", "to", "fanuc", "bad.cn", "--format", "json"]).exits(1);

@@ -1,10 +1,11 @@
-//! What `ncc time` and `ncc plot` are asked alike: how a program is executed and timed, and what is
-//! told of it.
+//! What several verbs are asked alike: how a program is executed and timed, and how much is told of it.
+//! The colour of messages is asked of all verbs at once, in `args`.
 
 use clap::Args;
 use ncc_timeline::{Model, ToolChangeOn};
 
-use crate::args::{Color, Start, start};
+use crate::args::{Start, start};
+use crate::render::human::Loudness;
 
 /// How a program is executed and timed.
 #[derive(Clone, Debug, Args)]
@@ -58,26 +59,26 @@ pub struct Setting {
     pub start_time: f64,
 }
 
-/// What is told, and how.
+/// How much is told.
 #[derive(Clone, Copy, Debug, Args)]
 pub struct Telling {
-    /// Say every assumption with its place, not only the account
+    /// Say everything with its place, assumptions too, not only the summary
     #[arg(short, long, conflicts_with = "quiet", help_heading = "What is reported")]
     pub verbose: bool,
     /// Say errors only, and show no progress
     #[arg(short, long, help_heading = "What is reported")]
     pub quiet: bool,
-    /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
-    #[arg(
-        long,
-        value_name = "auto|always|never",
-        value_enum,
-        default_value_t = Color::Auto,
-        hide_possible_values = true,
-        hide_default_value = true,
-        help_heading = "What is reported"
-    )]
-    pub color: Color,
+}
+
+impl Telling {
+    /// Which diagnostics are told.
+    pub fn loudness(self) -> Loudness {
+        match (self.quiet, self.verbose) {
+            (true, _) => Loudness::Quiet,
+            (false, true) => Loudness::Verbose,
+            (false, false) => Loudness::Usual,
+        }
+    }
 }
 
 fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {
