@@ -86,6 +86,8 @@ pub enum Verb {
     Time(Box<crate::time::args::Time>),
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
+    /// Print what a program does, one line an event, for git's own diff
+    GitTextconv(crate::review::textconv::Textconv),
     /// List the machines, show a profile, or test one
     Machines(crate::machines::Machines),
     /// List the facts about both machines that a translation depends on, and ask for them

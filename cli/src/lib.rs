@@ -22,6 +22,7 @@ pub mod plot;
 pub mod problem;
 pub mod render;
 pub mod report;
+pub mod review;
 pub mod rewrite;
 pub mod run;
 pub mod setting;

@@ -22,7 +22,9 @@ use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
-use crate::{arrow, dialect_test, dialects, doctor, explain, machines, plot, report, time, translate};
+use crate::{
+    arrow, dialect_test, dialects, doctor, explain, machines, plot, report, review, time, translate,
+};
 
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
@@ -61,6 +63,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Passes => print(&passes()),
         Verb::Time(args) => return ended(time::run(args, &known, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
+        Verb::GitTextconv(args) => return ended(review::textconv::run(args, &known, &mut err), &mut err),
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),
             None => Err(Problem::usage(

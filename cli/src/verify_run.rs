@@ -410,7 +410,7 @@ impl Verifier {
 }
 
 /// Levels of block skip that occur.
-fn levels(stmts: &[Stmt]) -> u16 {
+pub(crate) fn levels(stmts: &[Stmt]) -> u16 {
     let mut found = 0;
     for stmt in stmts {
         found |= stmt.skip.map_or(0, |level| 1u16 << level.min(MOST_LEVELS));

@@ -65,6 +65,8 @@ pub struct Exec {
     quiet: bool,
     /// Whether functions are told that make no events.
     narrating: bool,
+    /// Whether straight moves that go nowhere make events.
+    every_move: bool,
     counted: u64,
 }
 
@@ -134,6 +136,7 @@ impl Exec {
             muted: false,
             quiet: false,
             narrating: false,
+            every_move: false,
             counted: 0,
         };
         exec.reframe(world.start);
@@ -280,6 +283,13 @@ impl Exec {
         self.narrating = true;
     }
 
+    /// Makes events of all straight moves, those of cycles that go nowhere too: so that a program makes
+    /// the same events in every world, whatever its offsets are. Who asks for this drops those that go
+    /// nowhere in all of them.
+    pub fn every_move(&mut self) {
+        self.every_move = true;
+    }
+
     /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
     pub fn set_peck_clearance(&mut self, clearance: Nanos) {
         self.world.peck_clearance = clearance;
@@ -406,7 +416,8 @@ impl Exec {
     #[inline]
     fn emit_move(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let end = self.machine();
-        if same_point(&end, &self.last) {
+        // Without a feed, only a cutting move that goes somewhere is a fault.
+        if same_point(&end, &self.last) && !(self.every_move && !(feed && self.feed == 0)) {
             return Ok(());
         }
         let kind = if feed { Kind::Feed } else { Kind::Traverse };

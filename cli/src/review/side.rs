@@ -1,0 +1,237 @@
+//! A program named on the command line as `PATH` or `DIALECT:PATH`, for verbs that hold two programs
+//! side by side.
+//!
+//! [`open`] finds the dialect as `translate` does: by name, by the machine's profile, or by the text
+//! itself. A side is a [`Job`] that translates the program into its own dialect, because that is what
+//! execution and the rendering of diagnostics ask for. Not here: executing (`stream`), comparing.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_backends::{Layout, Numbering};
+use ncc_dialects::Dialect;
+use ncc_machines::Profile;
+use ncc_machines::reading::Side as Whose;
+
+use crate::args::Start;
+use crate::files::{self, Source};
+use crate::guess::{Guess, guess};
+use crate::job::Job;
+use crate::known::Known;
+use crate::machines::pair::{Machines, agreed};
+use crate::problem::Problem;
+use crate::run::{recognise, settings};
+use crate::sugar::is_name;
+
+/// What a command says of one side.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Asked<'a> {
+    /// `PATH` or `DIALECT:PATH`; the path `-` is stdin.
+    pub(crate) operand: &'a str,
+    /// A dialect that counts where the operand has none; `auto` is none.
+    pub(crate) from: Option<&'a str>,
+    /// A machine's profile, by name or file; it names the dialect too.
+    pub(crate) machine: Option<&'a str>,
+    /// Choices where the dictionary leaves a question open.
+    pub(crate) options: &'a [(String, String)],
+    /// Where the tool stands before the first block.
+    pub(crate) start: Option<Start>,
+}
+
+/// A program, ready to be executed.
+#[derive(Debug)]
+pub(crate) struct Side {
+    /// Its text.
+    pub(crate) source: Source,
+    /// Its dialect, options and machine; as a translation into itself.
+    pub(crate) job: Job,
+}
+
+impl Side {
+    /// Its dialect.
+    pub(crate) fn dialect(&self) -> &'static Dialect {
+        self.job.from.dialect
+    }
+}
+
+/// An operand taken apart: the dialect, if it names one, and the path. What stands before the colon
+/// is a dialect if there is one of that name; `./mach9:a.cn` is always a file.
+///
+/// # Errors
+/// It looks like a dialect, there is none of that name, and no such file either.
+pub(crate) fn operand<'o>(
+    text: &'o str,
+    known: &Known,
+) -> Result<(Option<&'static Dialect>, &'o Path), Problem> {
+    let Some((id, path)) = text.split_once(':').filter(|(id, path)| is_name(id) && !path.is_empty()) else {
+        return Ok((None, Path::new(text)));
+    };
+    match known.get(id) {
+        Some(dialect) => Ok((Some(dialect), Path::new(path))),
+        None if id == "auto" => Ok((None, Path::new(path))),
+        None if Path::new(text).exists() => Ok((None, Path::new(text))),
+        None => known.dialect(id).map(|dialect| (Some(dialect), Path::new(path))),
+    }
+}
+
+/// Opens both sides of a comparison.
+///
+/// A dialect that nobody names is recognised, and told on `err` where `say` is set. A text in which
+/// too little speaks for any dialect is read as the other side is, if nothing speaks against that.
+///
+/// # Errors
+/// Wrong usage, a file that cannot be read, or a dialect that cannot be told for certain.
+#[allow(dead_code)] // For verbs of two programs.
+pub(crate) fn open(
+    asked: [&Asked; 2],
+    say: bool,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<[Side; 2], Problem> {
+    let [a, b] = asked;
+    let mut first = Opened::of(a, known, err)?;
+    let mut second = Opened::of(b, known, err)?;
+    if first.stdin && second.stdin {
+        return Err(Problem::usage("stdin can be read only once", "name a file for one side"));
+    }
+    first.settle(second.named, say, known, err)?;
+    second.settle(first.named, say, known, err)?;
+    // The second side may have been recognised after the first was in doubt.
+    first.settle(second.named, say, known, err)?;
+    Ok([first.finish(a, say, known, err)?, second.finish(b, say, known, err)?])
+}
+
+/// Opens one program.
+///
+/// # Errors
+/// As of [`open`].
+pub(crate) fn open_one(
+    asked: &Asked,
+    say: bool,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Side, Problem> {
+    let mut opened = Opened::of(asked, known, err)?;
+    opened.settle(None, say, known, err)?;
+    opened.finish(asked, say, known, err)
+}
+
+/// A side of which the dialect may not be known yet.
+struct Opened {
+    source: Source,
+    named: Option<&'static Dialect>,
+    profile: Option<Arc<Profile>>,
+    #[allow(dead_code)] // As above.
+    stdin: bool,
+}
+
+impl Opened {
+    fn of(asked: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Opened, Problem> {
+        let (named, path) = operand(asked.operand, known)?;
+        let path: PathBuf = path.to_owned();
+        let from = asked.from.filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
+        let profile = asked.machine.map(|name| crate::machines::find(name, known, err)).transpose()?;
+        let named = match named {
+            Some(dialect) => agreed(Some(dialect), profile.as_ref(), "from")?,
+            // What holds for both sides gives way to a profile of one.
+            None => profile.as_ref().map(|profile| profile.dialect).or(from),
+        };
+        let source = files::open(&path)?;
+        Ok(Opened { source, named, profile: profile.map(Arc::new), stdin: path == Path::new("-") })
+    }
+
+    /// Finds the dialect, if the text or the other side tells it.
+    fn settle(
+        &mut self,
+        other: Option<&'static Dialect>,
+        say: bool,
+        known: &Known,
+        err: &mut dyn WriteColor,
+    ) -> Result<(), Problem> {
+        if self.named.is_some() {
+            return Ok(());
+        }
+        let shown = self.source.shown.clone();
+        let found =
+            guess(&mut self.source.file, known.all()).map_err(|e| Problem::file("read", &shown, &e))?;
+        let (dialect, why) = match found {
+            Guess::Sure(dialect, reasons) => (dialect, reasons.join(", ")),
+            Guess::Unsure(fits) => {
+                let fits = |d: &Dialect| {
+                    fits.is_empty() || fits.iter().any(|(f, con)| f.id == d.id && con.is_empty())
+                };
+                match other.filter(|d| fits(d)) {
+                    Some(dialect) => (dialect, "as the other side; nothing speaks against it".to_owned()),
+                    None => return Ok(()),
+                }
+            }
+        };
+        self.named = Some(dialect);
+        if say {
+            let _ = writeln!(err, "{shown}: read as {}: {why}", dialect.id);
+        }
+        Ok(())
+    }
+
+    fn finish(
+        mut self,
+        asked: &Asked,
+        say: bool,
+        known: &Known,
+        err: &mut dyn WriteColor,
+    ) -> Result<Side, Problem> {
+        let dialect = match self.named {
+            Some(dialect) => dialect,
+            None => recognise(&mut self.source, say, known, err)?,
+        };
+        // What a profile states of its control holds for programs in that control's language.
+        let machines = match self.profile.filter(|profile| profile.dialect.id == dialect.id) {
+            Some(profile) => Machines { from: Some(Arc::clone(&profile)), to: Some(profile) },
+            None => Machines::default(),
+        };
+        let from = settings(machines.settings(Whose::From, dialect), asked.options)?;
+        self.source.rewind()?;
+        let job = Job {
+            to: from.clone(),
+            from,
+            machines,
+            layout: Layout { numbering: Numbering::Off, crlf: false },
+            passes: Vec::new(),
+            fold: None,
+            verify: true,
+            head: true,
+            start: asked.start.unwrap_or_default(),
+            program_number: None,
+            source_name: self.source.name.clone(),
+            allow: Vec::new(),
+            deny: Vec::new(),
+        };
+        Ok(Side { source: self.source, job })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dialect_stands_before_a_colon() {
+        let known = Known::built_in();
+        let taken = |text| operand(text, &known).map(|(d, p)| (d.map(|d| d.id.as_str()), p.to_owned()));
+        for (text, dialect, path) in [
+            ("mach9:a.cn", Some("mach9"), "a.cn"),
+            ("fanuc:C:\\a.nc", Some("fanuc"), "C:\\a.nc"),
+            ("C:\\a.nc", None, "C:\\a.nc"),
+            ("./mach9:a.cn", None, "./mach9:a.cn"),
+            ("auto:a.cn", None, "a.cn"),
+            ("fanuc:-", Some("fanuc"), "-"),
+            ("a.cn", None, "a.cn"),
+            (":a", None, ":a"),
+            ("mach9:", None, "mach9:"),
+        ] {
+            assert_eq!(taken(text), Ok((dialect, PathBuf::from(path))), "{text}");
+        }
+        assert!(taken("nosuch:a.cn").is_err());
+    }
+}

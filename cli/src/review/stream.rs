@@ -1,0 +1,298 @@
+//! Executing a whole program of any dialect in several worlds at once: statement by statement, each
+//! handed out with what it makes in every world.
+//!
+//! [`stream`] is what `verify` and `diff` have in common with the timing of programs: pieces of the
+//! source, the reader, facts that the dialect takes for granted, controls that execute. A program
+//! streams in constant memory until its first call, label or loop; its rest is kept whole and run from
+//! there. What is done with the events is the caller's matter; nothing is compared or told here.
+//!
+//! ```text
+//! let worlds = worlds(&side.job, clearances(&side.job));
+//! let controls = worlds.iter().map(|world| Exec::new(world, skip)).collect();
+//! let course = stream(&side.job, &mut side.source.file, controls, &mut |made| { …; ControlFlow::Continue(()) })?;
+//! if course.refused { /* course.diagnostics say why, at their places */ }
+//! ```
+
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom};
+use std::ops::ControlFlow;
+
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::exec::{Event, Exec, Runner};
+use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::source::Span;
+use ncc_ir::world::World;
+use ncc_machines::reading::Told;
+
+use crate::chunks::{Chunk, Chunks};
+use crate::job::Job;
+use crate::machines::pair::Answer;
+use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use crate::verify_run::{WORLDS, fixed, levels};
+
+/// After so many errors, reading more of the program would help nobody.
+const ENOUGH_ERRORS: usize = 200;
+
+/// A control in a world, and what the last statement made in it.
+#[derive(Clone, Debug)]
+pub(crate) struct Control {
+    /// The control.
+    pub(crate) exec: Exec,
+    /// Events of the last statement.
+    pub(crate) events: Vec<Event>,
+}
+
+/// What is handed out.
+#[derive(Clone, Copy)]
+pub(crate) enum Stage<'s> {
+    /// Nothing has been executed; the tools stand where they start.
+    Start,
+    /// A statement that made events in one world at least.
+    Stmt(&'s Stmt),
+    /// The text is over.
+    End,
+}
+
+/// What one statement made.
+pub(crate) struct Made<'m> {
+    /// How far the program is.
+    pub(crate) stage: Stage<'m>,
+    /// The controls, in the order in which they were given, after it.
+    pub(crate) controls: &'m [Control],
+}
+
+/// What became of a program.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Course {
+    /// What was found, in the order in which it was found.
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// Whether the program has errors; then it was not executed to its end.
+    pub(crate) refused: bool,
+    /// Levels of block skip that occur: bit n is level n.
+    pub(crate) skip_levels: u16,
+    /// Blocks that say something.
+    pub(crate) blocks: u64,
+    /// SHA-256 of the source's bytes; only of a source that was read to its end.
+    pub(crate) sha256: [u8; 32],
+}
+
+/// The control's own parameters of cycles, where options or a profile state them: clearance of peck
+/// drilling and lift of chip-breaking drilling, in nanos of a millimetre.
+pub(crate) fn clearances(job: &Job) -> [Option<Nanos>; 2] {
+    [PECK_CLEARANCE, BREAK_LIFT].map(|option| parameter(job, option).and_then(|value| value.nanos(false)))
+}
+
+/// The worlds in which a program is judged. The first is plain: offsets and lengths are nothing and
+/// the tool stands at program zero, so that its coordinates are those of the program. The others are
+/// generated, as for a verification. `clearances` are those of the side itself or, where it states
+/// none, of the other side.
+pub(crate) fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
+    let fixed = fixed(job.from.dialect);
+    let plain = World {
+        seed: 0,
+        power_on: Modes { no_origin_shift: Some(true), ..fixed },
+        start: [0; AXES],
+        peck_clearance: ONE,
+        break_lift: ONE,
+        // No tables, nothing renamed.
+        ..World::generate(0, &fixed)
+    };
+    let mut worlds = vec![plain];
+    worlds.extend((1..=WORLDS).map(|seed| World::generate(seed, &fixed)));
+    for world in &mut worlds {
+        let [clearance, lift] = clearances;
+        world.peck_clearance = clearance.unwrap_or(world.peck_clearance);
+        world.break_lift = lift.unwrap_or(world.break_lift);
+    }
+    worlds
+}
+
+/// Executes a program from its beginning in all the controls at once. `take` gets the start, every
+/// statement that makes something, and at last the end of the text; it may break off.
+///
+/// The controls should be fresh. What the program relies on and never says is taken for granted of
+/// each, as its dialect has it, and is among the diagnostics.
+///
+/// # Errors
+/// Reading the source.
+pub(crate) fn stream(
+    job: &Job,
+    file: &mut File,
+    controls: Vec<Exec>,
+    take: &mut dyn FnMut(Made) -> ControlFlow<()>,
+) -> io::Result<Course> {
+    file.seek(SeekFrom::Start(0))?;
+    let mut run = Run {
+        job,
+        reader: Reader::new(job.from.clone(), true),
+        batch: Batch::default(),
+        controls: controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect(),
+        stood: false,
+        course: Course::default(),
+        errors: 0,
+        take,
+        broken_off: false,
+    };
+    let mut chunks = Chunks::new(file);
+    loop {
+        match chunks.next()? {
+            Chunk::Lines(base, range) => run.piece(chunks.text(range), base),
+            Chunk::TooLong(start, end) => run.reader.too_long(Span::new(start, end), &mut run.batch),
+            Chunk::End => break,
+        }
+        if run.errors >= ENOUGH_ERRORS || run.broken_off {
+            break;
+        }
+    }
+    run.course.sha256 = chunks.finish().0;
+    run.reader.finish(&mut run.batch);
+    run.take_diagnostics();
+    if run.batch.whole && run.errors == 0 {
+        run.whole();
+    } else {
+        let stmts = std::mem::take(&mut run.batch.stmts);
+        run.statements(&stmts);
+    }
+    Ok(run.end())
+}
+
+struct Run<'r> {
+    job: &'r Job,
+    reader: Reader,
+    batch: Batch,
+    controls: Vec<Control>,
+    /// Whether the tools have been put where they start.
+    stood: bool,
+    course: Course,
+    errors: usize,
+    take: &'r mut dyn FnMut(Made) -> ControlFlow<()>,
+    broken_off: bool,
+}
+
+impl Run<'_> {
+    fn piece(&mut self, text: &[u8], base: u32) {
+        self.reader.read(text, base, &mut self.batch);
+        self.take_diagnostics();
+        if !self.batch.whole {
+            let mut stmts = std::mem::take(&mut self.batch.stmts);
+            self.statements(&stmts);
+            stmts.clear();
+            self.batch.stmts = stmts;
+        }
+    }
+
+    fn statements(&mut self, stmts: &[Stmt]) {
+        self.look(stmts);
+        if self.errors > 0 {
+            return;
+        }
+        self.assume();
+        for stmt in stmts {
+            if self.broken_off {
+                return;
+            }
+            if let Err(refusal) = self.statement(stmt) {
+                self.take_diagnostic(refusal);
+                return;
+            }
+        }
+    }
+
+    /// The rest of a program, kept whole.
+    fn whole(&mut self) {
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        let program = Program { procedures, ..Program::default() };
+        for procedure in &program.procedures {
+            self.look(&procedure.body);
+        }
+        self.assume();
+        let mut runner = Runner::new(&program);
+        while !self.broken_off {
+            // All controls go the same way: jumps depend on nothing that differs between them.
+            let Some(control) = self.controls.first() else { return };
+            let done = match runner.next(&control.exec) {
+                Ok(Some(stmt)) => self.statement(stmt),
+                Ok(None) => return,
+                Err(refusal) => Err(refusal),
+            };
+            if let Err(refusal) = done {
+                self.take_diagnostic(refusal);
+                return;
+            }
+        }
+    }
+
+    /// Takes facts for granted that the program relies on, and puts the tool where it starts: at
+    /// program zero in the plain world, and where the world has it in the others.
+    fn assume(&mut self) {
+        let stood = std::mem::replace(&mut self.stood, true);
+        for control in &mut self.controls {
+            control.exec.assume(&self.batch.assumed);
+            if !stood {
+                control.exec.stand_at(&self.job.start);
+            }
+        }
+        if !stood {
+            self.hand_out(Stage::Start);
+        }
+    }
+
+    #[inline]
+    fn statement(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let mut silent = true;
+        for control in &mut self.controls {
+            control.events.clear();
+            control.exec.step(stmt, &mut control.events)?;
+            silent &= control.events.is_empty();
+        }
+        if !silent {
+            self.hand_out(Stage::Stmt(stmt));
+        }
+        Ok(())
+    }
+
+    fn hand_out(&mut self, stage: Stage) {
+        self.broken_off = (self.take)(Made { stage, controls: &self.controls }).is_break();
+    }
+
+    fn end(mut self) -> Course {
+        self.course.refused = self.errors > 0;
+        if self.errors == 0 && !self.broken_off {
+            for control in &mut self.controls {
+                control.events.clear();
+                control.exec.end_of_text(&mut control.events);
+            }
+            self.hand_out(Stage::End);
+        }
+        self.course
+    }
+
+    /// Looks through statements for what is to be known of the whole.
+    fn look(&mut self, stmts: &[Stmt]) {
+        self.course.skip_levels |= levels(stmts);
+        let says = |s: &&Stmt| !s.joined && !matches!(s.op, Op::Blank | Op::Comment(_));
+        self.course.blocks += stmts.iter().filter(says).count() as u64;
+    }
+
+    fn take_diagnostics(&mut self) {
+        for diagnostic in std::mem::take(&mut self.batch.diagnostics) {
+            self.take_diagnostic(diagnostic);
+        }
+    }
+
+    /// Takes what was found. An assumption that the machine's profile settles is none.
+    fn take_diagnostic(&mut self, mut diagnostic: Diagnostic) {
+        match self.job.machines.answer(&diagnostic.fault, Told::Reader, &self.job.from, &self.job.to) {
+            Answer::Open => {}
+            Answer::Settled => return,
+            Answer::Denied(denied) => diagnostic.fault = denied,
+        }
+        self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
+        self.course.diagnostics.push(diagnostic);
+    }
+}

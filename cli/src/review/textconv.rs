@@ -1,0 +1,126 @@
+//! `ncc git-textconv`: what a program does, one line an event, for git's own diff.
+//!
+//! Lines name no places of the text, so that a block which is put in changes no line but its own. A
+//! program that cannot be executed is printed as it is, and that is said. Exit code 0 always: git takes
+//! anything else for a broken driver.
+
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::ops::ControlFlow;
+
+use clap::Args;
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_ir::canon::Spindle;
+use ncc_ir::program::Text;
+use ncc_review::record::{Batch, Style};
+
+use super::feed::{Settings, records};
+use super::side::{Asked, open_one};
+use super::stream::clearances;
+use super::words::{coolant, event, number, spindle};
+use crate::args::pair;
+use crate::files;
+use crate::job::Output;
+use crate::known::Known;
+use crate::problem::{Exit, Problem};
+
+/// `ncc git-textconv`.
+#[derive(Debug, Args)]
+pub struct Textconv {
+    /// The program, as `PATH` or `DIALECT:PATH`
+    #[arg(value_name = "FILE")]
+    pub file: String,
+    /// Its dialect, where it is not named with the file [default: recognised]
+    #[arg(long, value_name = "DIALECT")]
+    pub from: Option<String>,
+    /// Decide a question that the dialect's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    pub from_option: Vec<(String, String)>,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// Wrong usage, or a file that cannot be read.
+pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let asked = Asked {
+        operand: &args.file,
+        from: args.from.as_deref(),
+        options: &args.from_option,
+        ..Asked::default()
+    };
+    let mut output = Output::new();
+    let cannot = |e: &io::Error| Problem::file("read", &args.file, e);
+    let why = match open_one(&asked, false, known, err) {
+        Ok(mut side) => match listed(&mut side, &mut output).map_err(|e| cannot(&e))? {
+            true => None,
+            false => Some(format!("{} cannot be executed as {}", side.source.shown, side.dialect().id)),
+        },
+        // What cannot be recognised is text.
+        Err(problem) if problem.exit == Exit::Usage && args.from.is_none() => Some(problem.message),
+        Err(problem) => return Err(problem),
+    };
+    match why {
+        None => files::to_stdout(&mut |out| output.write_to(out))?,
+        Some(why) => {
+            let _ = writeln!(err, "{why}; shown as it is");
+            let (_, path) = super::side::operand(&args.file, known)?;
+            let mut source = files::open(path)?;
+            source.file.seek(SeekFrom::Start(0)).map_err(|e| cannot(&e))?;
+            let mut text = Vec::new();
+            source.file.read_to_end(&mut text).map_err(|e| cannot(&e))?;
+            files::to_stdout(&mut |out| out.write_all(&text))?;
+        }
+    }
+    Ok(Exit::Done)
+}
+
+/// Writes the events; whether the program could be executed.
+fn listed(side: &mut super::side::Side, output: &mut Output) -> io::Result<bool> {
+    let settings = Settings { clearances: clearances(&side.job), ..Settings::default() };
+    let mut styles: Vec<Style> = Vec::new();
+    let mut texts: Vec<Text> = Vec::new();
+    let mut last: Option<Style> = None;
+    let mut written = Ok(());
+    let course = records(side, settings, &mut |batch: Batch| {
+        styles.extend(batch.styles);
+        texts.extend(batch.texts);
+        let mut piece = BufWriter::new(Vec::new());
+        for record in &batch.records {
+            let Some(style) = styles.get(record.style as usize).filter(|_| record.world == 0) else {
+                continue;
+            };
+            written = state(&mut piece, last.as_ref(), style)
+                .and_then(|()| writeln!(piece, "{}", event(record, style, &texts)));
+            last = Some(*style);
+            if written.is_err() {
+                return ControlFlow::Break(());
+            }
+        }
+        written = piece.into_inner().map_err(io::IntoInnerError::into_error).and_then(|p| output.push(&p));
+        if written.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    written?;
+    Ok(!course.refused)
+}
+
+/// What is switched and set before an event.
+fn state(out: &mut dyn Write, last: Option<&Style>, now: &Style) -> io::Result<()> {
+    let (is, was) = (&now.state, last.map(|last| &last.state));
+    let speed = |s: &ncc_review::record::Still| match s.spindle {
+        Spindle::Stopped => (s.spindle, 0),
+        Spindle::Clockwise | Spindle::Counterclockwise => (s.spindle, s.speed),
+    };
+    if was.map_or((Spindle::Stopped, 0), speed) != speed(is) {
+        match is.spindle {
+            Spindle::Stopped => writeln!(out, "spindle off")?,
+            turning => writeln!(out, "spindle {} {}", spindle(turning), number(is.speed))?,
+        }
+    }
+    if was.map_or((false, false), |s| (s.flood, s.mist)) != (is.flood, is.mist) {
+        writeln!(out, "coolant {}", coolant(is.flood, is.mist))?;
+    }
+    if last.is_none_or(|last| (last.offset, last.length) != (now.offset, now.length)) {
+        writeln!(out, "work offset {}, length {}", now.offset, super::words::length(&now.length))?;
+    }
+    Ok(())
+}
