@@ -13,7 +13,8 @@ pub mod word;
 use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::program::{Procedure, ProgramName, Stmt};
+use ncc_ir::num::Num;
+use ncc_ir::program::{Op, Procedure, ProgramName, Stmt};
 use ncc_ir::source::Span;
 
 /// What reading a piece of text gave. The vectors are drained by the caller between pieces and
@@ -33,6 +34,28 @@ pub struct Batch {
     pub whole: bool,
     /// What was found.
     pub diagnostics: Vec<Diagnostic>,
+    /// Numbers without a point that count increments; only after [`Reader::watch`].
+    pub bare: Vec<BareNumber>,
+}
+
+/// A number that stands without a decimal point where the dialect's rule makes that another value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BareNumber {
+    /// Its word.
+    pub span: Span,
+    /// The value by the dialect's rule.
+    pub read: Num,
+    /// What the same digits are with a point after them.
+    pub with_point: Num,
+}
+
+/// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after
+/// [`Reader::watch`].
+pub const REFUSED: &str = "";
+
+/// A statement for a block that was refused.
+pub(crate) fn refused(span: Span) -> Stmt {
+    Stmt::new(span, Op::NoEffect(REFUSED.into()))
 }
 
 impl Batch {
@@ -64,6 +87,18 @@ impl Reader {
             Family::Canon => Reader::Canon(Box::new(canon::Reader::new(settings, assume))),
             Family::Sinumerik => Reader::Siemens(Box::new(siemens::Reader::new(settings, assume))),
             Family::Ir => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
+        }
+    }
+
+    /// For somebody who looks at a program without executing all of it: a refused block leaves a
+    /// statement without effect ([`REFUSED`]) at its place, a missing feed is left to the execution, and
+    /// numbers without a point are noted in [`Batch::bare`]. Of the families of words alone; texts of
+    /// the others are refused as ever.
+    pub fn watch(&mut self) {
+        match self {
+            Reader::Word(reader) => reader.watch(),
+            Reader::Siemens(reader) => reader.watch(),
+            Reader::Canon(_) | Reader::Ir(_) => {}
         }
     }
 

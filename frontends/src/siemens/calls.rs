@@ -222,7 +222,7 @@ impl Lower {
             let name = "cycle that its subprogram leaves in force or ends";
             return self.not_supported("MCALL", name, at, out);
         }
-        if self.state.feed == Know::Unsaid && !self.entry.own_feed() {
+        if self.state.feed == Know::Unsaid && !self.entry.own_feed() && !self.watch {
             self.fault(Fault::NoFeed, at, out);
         }
     }

@@ -290,7 +290,7 @@ impl Lower {
 
     /// A move at feed relies on a feed.
     pub(super) fn rely_on_feed(&mut self, at: Span, out: &mut Batch) {
-        if self.state.feed == Know::Unsaid {
+        if self.state.feed == Know::Unsaid && !self.watch {
             self.fault(Fault::NoFeed, at, out);
         }
     }

@@ -22,13 +22,13 @@ use super::again::Again;
 use super::facts::{InForce, Motion, Only, Stand, State};
 use super::sort::Words;
 use super::tree::{Block, BlockNumber, Called, Expr, Item, Statement};
-use crate::Batch;
 use crate::word::Source;
 use crate::word::block::{Value, Word};
 use crate::word::facts::Know;
 use crate::word::fast::{self, Fast, FeedWord};
 use crate::word::lower::decode;
 use crate::word::number::unit_of;
+use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]
@@ -36,6 +36,8 @@ pub(super) struct Lower {
     pub(super) settings: Settings,
     /// Whether what the program never says is taken for granted and reported.
     pub(super) assume: bool,
+    /// Whether refused blocks are noted.
+    pub(super) watch: bool,
     pub(super) state: State,
     pub(super) only_units: Only<Units>,
     pub(super) only_scaled: Only<bool>,
@@ -121,6 +123,7 @@ impl Lower {
         Lower {
             settings,
             assume,
+            watch: false,
             state: State::default(),
             only_units: Only::default(),
             only_scaled: Only::default(),
@@ -480,6 +483,9 @@ impl Lower {
         if self.now.failed {
             let mark = self.now.mark;
             self.target(out).truncate(mark);
+            if self.watch {
+                self.target(out).push(refused(head.span));
+            }
             return self.forgive();
         }
         // The blank that is written between mark and text is no part of the text.

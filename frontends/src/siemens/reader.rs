@@ -20,10 +20,10 @@ use super::lower::Lower;
 use super::parse;
 use super::tree::{Block, Statement};
 use super::unit::{self, Header, Kind, Line};
-use crate::Batch;
 use crate::word::Source;
 use crate::word::block::{Value, Word};
 use crate::word::plain;
+use crate::{Batch, refused};
 
 /// Longest block of a dictionary that sets no limit, in bytes.
 const LONGEST: usize = 60_000;
@@ -92,6 +92,11 @@ impl Reader {
         self.slow = true;
     }
 
+    /// As of [`crate::Reader::watch`].
+    pub(crate) fn watch(&mut self) {
+        self.lower.watch = true;
+    }
+
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         if self.is_binary {
@@ -137,6 +142,9 @@ impl Reader {
         out.report(Fault::BlockTooLong { limit }, span);
         self.faulty = true;
         self.end = self.end.max(span.end);
+        if self.lower.watch {
+            self.lower.target(out).push(refused(span));
+        }
         self.lower.forgive();
         self.lower.refresh();
     }
@@ -255,6 +263,9 @@ impl Reader {
     fn fault(&mut self, fault: Fault, at: Span, out: &mut Batch) {
         out.report(fault, at);
         self.faulty = true;
+        if self.lower.watch {
+            self.lower.target(out).push(refused(at));
+        }
         self.lower.forgive();
         self.lower.refresh();
     }

@@ -20,7 +20,7 @@ use super::facts::{InForce, Know, State};
 use super::fast::Fast;
 use super::number::UnitsSeen;
 use super::sort::{Code, Roles, Words};
-use crate::Batch;
+use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
 #[derive(Debug)]
@@ -28,6 +28,8 @@ pub(super) struct Lower {
     pub(super) settings: Settings,
     /// Whether what the program never says is taken for granted and reported.
     pub(super) assume: bool,
+    /// Whether refused blocks and numbers without a point are noted.
+    pub(super) watch: bool,
     /// Number rules by quantity.
     pub(super) rules: [NumberRules; 8],
     /// Whether a number without a point counts whole units where the dictionary says increments.
@@ -114,6 +116,7 @@ impl Lower {
             reported: Reported { codes: vec![false; dialect.code.len()], ..Reported::default() },
             settings,
             assume,
+            watch: false,
             state: State::default(),
             units_seen: UnitsSeen::default(),
             sub: None,
@@ -274,6 +277,9 @@ impl Lower {
         if self.now.failed {
             let mark = self.now.mark;
             self.target(out).truncate(mark);
+            if self.watch {
+                self.target(out).push(refused(block.span));
+            }
             self.forgive();
             return;
         }

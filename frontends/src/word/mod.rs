@@ -33,7 +33,7 @@ use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;
 use ncc_ir::source::Span;
 
-use crate::Batch;
+use crate::{Batch, refused};
 use block::Block;
 use frame::Frame;
 use lower::Lower;
@@ -90,6 +90,11 @@ impl Reader {
         }
     }
 
+    /// As of [`crate::Reader::watch`].
+    pub(crate) fn watch(&mut self) {
+        self.lower.watch = true;
+    }
+
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         if self.frame.is_binary {
@@ -131,6 +136,9 @@ impl Reader {
         out.report(Fault::BlockTooLong { limit }, span);
         self.frame.faulty = true;
         self.frame.end = self.frame.end.max(span.end);
+        if self.lower.watch {
+            self.lower.target(out).push(refused(span));
+        }
         self.lower.forgive();
         self.lower.refresh();
     }

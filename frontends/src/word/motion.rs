@@ -124,7 +124,7 @@ impl Lower {
         if let Some(feed) = self.state.cycle_feed.take() {
             self.push(block, Op::SetFeedRate(Expr::Num(feed)), out);
         }
-        if self.state.feed == Know::Unsaid {
+        if self.state.feed == Know::Unsaid && !self.watch {
             self.fault(Fault::NoFeed, block, out);
         }
     }

@@ -12,7 +12,7 @@ use ncc_ir::source::Span;
 use super::Source;
 use super::block::{Digits, Value, Word};
 use super::lower::Lower;
-use crate::Batch;
+use crate::{BareNumber, Batch};
 
 /// Units of a program as far as they matter to numbers whose unit is open.
 #[derive(Clone, Copy, Debug, Default)]
@@ -82,6 +82,10 @@ impl Lower {
                         Some(_) | None => rules.increment,
                     };
                     if shift > 0 {
+                        if self.watch && !self.calculator {
+                            let read = Num { scale: shift, point: true, ..num };
+                            out.bare.push(BareNumber { span: word.span, read, with_point: num });
+                        }
                         if !self.calculator {
                             num.scale = shift;
                             num.point = true;

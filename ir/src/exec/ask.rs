@@ -3,8 +3,8 @@
 //! For those who tell what happens (tables, time). Nothing here changes anything.
 
 use super::holes::InForce;
-use super::{Exec, Length};
-use crate::canon::{AXES, Plane};
+use super::{Exec, Length, State};
+use crate::canon::{AXES, Distance, Motion, Plane};
 use crate::expr::Expr;
 use crate::num::Nanos;
 use crate::program::Coord;
@@ -58,6 +58,31 @@ impl Exec {
     /// coordinates.
     pub fn cycle_levels(&self) -> Option<(Plane, Nanos, Nanos)> {
         self.cycle.as_ref().map(InForce::levels)
+    }
+
+    /// Feed in force, mm/min in nanos; 0 where none was said.
+    pub fn feed(&self) -> Nanos {
+        self.feed
+    }
+
+    /// What is on.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// From where words without a distance of their own are measured.
+    pub fn distance(&self) -> Distance {
+        self.modes.distance
+    }
+
+    /// Motion that axis words alone do.
+    pub fn motion(&self) -> Motion {
+        self.modes.motion
+    }
+
+    /// Whether frames are chained between the program and its work offset.
+    pub fn has_frames(&self) -> bool {
+        self.chain.is_some()
     }
 
     /// Plane of arcs and hole positions in force.

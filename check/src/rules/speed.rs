@@ -1,0 +1,22 @@
+//! NC0803: spindle speeds above the machine's highest.
+
+use ncc_ir::num::Nanos;
+use ncc_ir::source::Span;
+
+use crate::finding::What;
+use crate::limits::Unchecked;
+use crate::watch::Checker;
+
+/// A speed is said.
+pub(crate) fn said(checker: &mut Checker, speed: Nanos, at: Span) {
+    match checker.limits.max_speed {
+        Some(limit) if speed > limit => {
+            checker.find(What::SpeedRange { speed, limit }, at);
+        }
+        Some(_) => {}
+        None if checker.limits.machine => {
+            checker.unchecked.insert(Unchecked::MaxSpeed);
+        }
+        None => {}
+    }
+}
