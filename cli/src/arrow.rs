@@ -9,6 +9,8 @@ use std::io;
 
 use ncc_dialects::Dialect;
 
+use crate::known::Known;
+
 /// Why an arrow cannot be honoured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doubt {
@@ -38,17 +40,17 @@ impl Doubt {
 ///
 /// # Errors
 /// The doubt, if it is not certain that a shell has just made or emptied that file for us.
-pub fn target(dialects: &[&'static Dialect]) -> Result<&'static Dialect, Doubt> {
+pub fn target(known: &Known) -> Result<&'static Dialect, Doubt> {
     let stdout = own_stdout().map_err(|_| Doubt::NoFile)?;
     let metadata = stdout.metadata().map_err(|_| Doubt::NoFile)?;
     if !metadata.is_file() {
         return Err(Doubt::NoFile);
     }
     let identity = same_file::Handle::stdout().map_err(|_| Doubt::NoFile)?;
-    let bears_name = |d: &&&Dialect| {
-        same_file::Handle::from_path(std::path::Path::new(".").join(&d.id)).is_ok_and(|file| file == identity)
+    let bears_name = |name: &&'static str| {
+        same_file::Handle::from_path(std::path::Path::new(".").join(name)).is_ok_and(|file| file == identity)
     };
-    let dialect = dialects.iter().find(bears_name).copied().ok_or(Doubt::OtherFile)?;
+    let dialect = known.names().find(bears_name).and_then(|name| known.get(name)).ok_or(Doubt::OtherFile)?;
     if appends(&stdout).map_err(|_| Doubt::NoFile)? {
         return Err(Doubt::Append);
     }

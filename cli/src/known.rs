@@ -12,20 +12,22 @@ use codespan_reporting::diagnostic::{Diagnostic, Label};
 use codespan_reporting::files::SimpleFiles;
 use codespan_reporting::term::termcolor::WriteColor;
 use codespan_reporting::term::{self, Config};
-use ncc_dialects::{Dialect, DialectError, DialectFault, Place, Text, builtin_text, builtins, load};
+use ncc_dialects::{
+    Dialect, DialectError, DialectFault, Place, Text, builtin, builtin_ids, builtin_text, builtins, load,
+};
 
 use crate::problem::{Exit, Problem};
 
-/// Every dialect that can be named in this call.
-#[derive(Clone, Debug)]
+/// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
+#[derive(Clone, Debug, Default)]
 pub struct Known {
-    all: Vec<&'static Dialect>,
+    shops: Vec<&'static Dialect>,
 }
 
 impl Known {
     /// The built-in dialects.
     pub fn built_in() -> Known {
-        Known { all: builtins().iter().collect() }
+        Known::default()
     }
 
     /// Those, and the ones that files define. Called once in a process: what is read is kept.
@@ -48,6 +50,9 @@ impl Known {
         files: &[PathBuf],
         out: Option<&mut dyn WriteColor>,
     ) -> Result<Vec<&'static Dialect>, Problem> {
+        if files.is_empty() {
+            return Ok(Vec::new());
+        }
         let texts = files.iter().map(|file| read(file)).collect::<Result<Vec<_>, _>>()?;
         let borrowed: Vec<&str> = texts.iter().map(String::as_str).collect();
         let loaded = load(&borrowed).and_then(|loaded| match verbs_named(&loaded) {
@@ -58,7 +63,7 @@ impl Known {
             Ok(loaded) => {
                 let loaded: Vec<&'static Dialect> =
                     loaded.into_iter().map(|dialect| &*Box::leak(Box::new(dialect))).collect();
-                self.all.extend(&loaded);
+                self.shops.extend(&loaded);
                 Ok(loaded)
             }
             Err(error) => {
@@ -68,14 +73,19 @@ impl Known {
         }
     }
 
-    /// All of them, the built-in ones first.
-    pub fn all(&self) -> &[&'static Dialect] {
-        &self.all
+    /// All of them, the built-in ones first. All are read for that.
+    pub fn all(&self) -> Vec<&'static Dialect> {
+        builtins().chain(self.shops.iter().copied()).collect()
+    }
+
+    /// Their names, in the same order.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        builtin_ids().chain(self.shops.iter().map(|d| d.id.as_str()))
     }
 
     /// A dialect by its name.
     pub fn get(&self, id: &str) -> Option<&'static Dialect> {
-        self.all.iter().find(|d| d.id == id).copied()
+        builtin(id).or_else(|| self.shops.iter().find(|d| d.id == id).copied())
     }
 
     /// A dialect by its name.
@@ -84,9 +94,9 @@ impl Known {
     /// There is none of that name.
     pub fn dialect(&self, id: &str) -> Result<&'static Dialect, Problem> {
         self.get(id).ok_or_else(|| {
-            let near = self.all.iter().find(|d| d.id.eq_ignore_ascii_case(id) || close(&d.id, id));
+            let near = self.names().find(|name| name.eq_ignore_ascii_case(id) || close(name, id));
             let help = match near {
-                Some(dialect) => format!("did you mean {}? there are: {}", dialect.id, self.ids()),
+                Some(name) => format!("did you mean {name}? there are: {}", self.ids()),
                 None => format!("there are: {}", self.ids()),
             };
             let mut problem = Problem::usage(format!("there is no dialect `{id}`"), help);
@@ -99,7 +109,7 @@ impl Known {
 
     /// Their names, for a message.
     pub fn ids(&self) -> String {
-        self.all.iter().map(|d| d.id.as_str()).collect::<Vec<_>>().join(", ")
+        self.names().collect::<Vec<_>>().join(", ")
     }
 }
 

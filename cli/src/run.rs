@@ -49,7 +49,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
     let done = match &cli.verb {
         Verb::Translate(args) => return translate_verb(args, arrow, &known, &mut err),
         Verb::Dialects(args) => match &args.what {
-            None => print(&dialects::list(known.all())),
+            None => print(&dialects::list(&known.all())),
             Some(DialectsWhat::Show { id }) => {
                 known.dialect(id).and_then(|dialect| print(&dialects::show(dialect)))
             }
@@ -93,7 +93,7 @@ fn honour(said: Said, known: &Known) -> Result<(Vec<OsString>, Option<&'static D
         Said::Plain(arguments) => return Ok((arguments, None)),
         Said::Arrow { from, typed, rest } => (from, typed, rest),
     };
-    let to = arrow::target(known.all()).map_err(|doubt| Problem {
+    let to = arrow::target(known).map_err(|doubt| Problem {
         exit: Exit::Usage,
         message: format!("`{from} {typed}` without a target: {}", doubt.words()),
         help: vec![

@@ -105,8 +105,8 @@ const SILENT: &[&str] = &["ir", "frontends", "backends", "timeline", "machines",
 
 #[test]
 fn shared_code_names_no_dialect() {
-    let named = |d: &&Dialect| matches!(d.family, Family::Word | Family::Sinumerik);
-    let mut ids: Vec<&str> = ncc_dialects::builtins().iter().filter(named).map(|d| d.id.as_str()).collect();
+    let named = |d: &&'static Dialect| matches!(d.family, Family::Word | Family::Sinumerik);
+    let mut ids: Vec<&str> = ncc_dialects::builtins().filter(named).map(|d| d.id.as_str()).collect();
     assert!(ids.len() >= 4);
     ids.push("sinumerik");
     let mut failures = Failures::default();
@@ -201,7 +201,7 @@ fn no_paths_of_one_machine() {
 #[test]
 fn dictionary_rows_have_a_source() {
     let mut failures = Failures::default();
-    for dialect in ncc_dialects::builtins().iter().filter(|d| d.family == Family::Word) {
+    for dialect in ncc_dialects::builtins().filter(|d| d.family == Family::Word) {
         for (row, source) in rows(dialect) {
             let named = dialect.sources.keys().any(|tag| words(source).any(|w| words(tag).next() == Some(w)))
                 || source.starts_with("parameter");

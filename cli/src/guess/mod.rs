@@ -57,7 +57,10 @@ impl Evidence {
 ///
 /// # Errors
 /// Reading it.
-pub fn guess(source: &mut (impl Read + Seek), dialects: &[&'static Dialect]) -> io::Result<Guess> {
+pub fn guess(
+    source: &mut (impl Read + Seek),
+    dialects: impl IntoIterator<Item = &'static Dialect>,
+) -> io::Result<Guess> {
     source.seek(SeekFrom::Start(0))?;
     let mut text = Vec::new();
     source.take(BEGINNING).read_to_end(&mut text)?;
@@ -65,7 +68,7 @@ pub fn guess(source: &mut (impl Read + Seek), dialects: &[&'static Dialect]) -> 
         // The last line may be cut.
         text.truncate(text.iter().rposition(|b| *b == b'\n').unwrap_or(0));
     }
-    let found = dialects.iter().map(|dialect| (*dialect, evidence(dialect, &text)));
+    let found = dialects.into_iter().map(|dialect| (dialect, evidence(dialect, &text)));
     Ok(judge(found.collect()))
 }
 
@@ -287,8 +290,7 @@ mod tests {
     use std::io::Cursor;
 
     fn id(text: &str) -> Option<&'static str> {
-        let all: Vec<&Dialect> = ncc_dialects::builtins().iter().collect();
-        match guess(&mut Cursor::new(text.as_bytes()), &all).unwrap() {
+        match guess(&mut Cursor::new(text.as_bytes()), ncc_dialects::builtins()).unwrap() {
             Guess::Sure(dialect, reasons) => {
                 assert!(!reasons.is_empty());
                 Some(&dialect.id)

@@ -18,7 +18,7 @@ mod schema;
 mod settings;
 
 pub use fault::{DialectError, DialectFault, Place, Text};
-pub use load::{builtin, builtin_text, builtins, load, parse, renew};
+pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::Meaning;
 pub use names::*;
 pub use schema::*;

@@ -4,7 +4,7 @@
 //! (`merge`); what is wrong is told with its place, also if that lies in the base's text.
 
 use std::ops::Range;
-use std::sync::LazyLock;
+use std::sync::OnceLock;
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -17,7 +17,7 @@ use crate::merge;
 use crate::schema::Dialect;
 
 /// Data files of the built-in dialects, in the order of `ncc dialects`.
-const BUILTIN: &[(&str, &str)] = &[
+const BUILTIN: [(&str, &str); 6] = [
     ("mach9", include_str!("../data/mach9.toml")),
     ("fanuc", include_str!("../data/fanuc.toml")),
     ("haas", include_str!("../data/haas.toml")),
@@ -26,20 +26,41 @@ const BUILTIN: &[(&str, &str)] = &[
     ("ir", include_str!("../data/ir.toml")),
 ];
 
-pub(crate) static DIALECTS: LazyLock<Vec<Dialect>> = LazyLock::new(|| {
-    let built_in = Texts::new(&[]);
-    let all = (0..BUILTIN.len()).map(|i| built_in.dialect(Text::BuiltIn(i)));
-    all.map(|dialect| dialect.unwrap_or_else(|e| panic!("built-in dictionary: {e}"))).collect()
-});
+static DIALECTS: Shelf = Shelf::new();
 
-/// The built-in dialects.
-pub fn builtins() -> &'static [Dialect] {
-    &DIALECTS
+/// The built-in dialects, each read when it is asked for: a call of ncc needs two of them, rarely more.
+struct Shelf {
+    dialects: [OnceLock<Dialect>; BUILTIN.len()],
 }
 
-/// A built-in dialect by its id.
+impl Shelf {
+    const fn new() -> Shelf {
+        Shelf { dialects: [const { OnceLock::new() }; BUILTIN.len()] }
+    }
+
+    fn get(&self, id: &str) -> Option<&Dialect> {
+        let at = BUILTIN.iter().position(|(other, _)| *other == id)?;
+        let read = || {
+            let dialect = Texts::new(&[]).dialect(Text::BuiltIn(at));
+            dialect.unwrap_or_else(|e| panic!("built-in dictionary: {e}"))
+        };
+        Some(self.dialects[at].get_or_init(read))
+    }
+}
+
+/// The built-in dialects, in the order of `ncc dialects`; each is read when the iterator comes to it.
+pub fn builtins() -> impl Iterator<Item = &'static Dialect> {
+    builtin_ids().filter_map(builtin)
+}
+
+/// Their names; none is read for that.
+pub fn builtin_ids() -> impl Iterator<Item = &'static str> {
+    BUILTIN.iter().map(|(id, _)| *id)
+}
+
+/// A built-in dialect by its id; it is read if nobody has asked for it before.
 pub fn builtin(id: &str) -> Option<&'static Dialect> {
-    DIALECTS.iter().find(|d| d.id == id)
+    DIALECTS.get(id)
 }
 
 /// Name and data file of a built-in dialect, by its place among [`builtins`].
@@ -67,7 +88,7 @@ pub fn load(texts: &[&str]) -> Result<Vec<Dialect>, DialectError> {
     for (at, (id, place)) in ids.iter().enumerate() {
         let fault = match id {
             id if !is_id(id) => DialectFault::BadId { id: id.clone() },
-            id if BUILTIN.iter().any(|(b, _)| b == id) => DialectFault::BuiltInId { id: id.clone() },
+            id if builtin_ids().any(|b| b == id) => DialectFault::BuiltInId { id: id.clone() },
             id if ids[..at].iter().any(|(other, _)| other == id) => DialectFault::IdTwice { id: id.clone() },
             _ => continue,
         };
@@ -139,9 +160,12 @@ impl<'t> Texts<'t> {
 
     /// The name that a text defines, and its place.
     fn id(&self, which: Text) -> Result<(String, Place), DialectError> {
-        let tree = self.tree(which)?;
+        self.id_of(which, self.tree(which)?.get_ref())
+    }
+
+    fn id_of(&self, which: Text, tree: &DeTable) -> Result<(String, Place), DialectError> {
         let missing = || DialectFault::Missing { field: "id" }.at(Some(Place { text: which, span: 0..0 }));
-        let (id, span) = merge::key_of(tree.get_ref(), "id").ok_or_else(missing)?;
+        let (id, span) = merge::key_of(tree, "id").ok_or_else(missing)?;
         Ok((id, self.place(span).ok_or_else(missing)?))
     }
 
@@ -165,8 +189,7 @@ impl<'t> Texts<'t> {
                 None => self.lay(Spanned::new(over.span(), DeTable::new()), over),
             };
         };
-        let (id, _) = self.id(which)?;
-        above.push(id);
+        above.push(self.id_of(which, over.get_ref())?.0);
         let place = self.place(at);
         if above.contains(&base) {
             above.push(base);
@@ -256,9 +279,24 @@ fn places(tree: &DeTable<'_>) -> Places {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
+
     #[test]
     fn built_in_dictionaries_load() {
-        let ids: Vec<_> = super::builtins().iter().map(|d| d.id.as_str()).collect();
-        assert_eq!(ids, super::BUILTIN.iter().map(|(id, _)| *id).collect::<Vec<_>>());
+        let ids: Vec<_> = builtins().map(|d| d.id.as_str()).collect();
+        assert_eq!(ids, builtin_ids().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_dictionary_is_read_when_it_is_asked_for() {
+        let shelf = Shelf::new();
+        let read = || -> Vec<&str> {
+            shelf.dialects.iter().filter_map(OnceLock::get).map(|d| d.id.as_str()).collect()
+        };
+        assert!(shelf.get("nope").is_none() && read().is_empty());
+        // Its base is laid under it, and is no dialect that was asked for.
+        assert_eq!(shelf.get("haas").unwrap().base.as_deref(), Some("fanuc"));
+        assert_eq!(read(), ["haas"]);
+        assert!(std::ptr::eq(shelf.get("haas").unwrap(), shelf.get("haas").unwrap()));
     }
 }

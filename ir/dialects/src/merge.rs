@@ -14,7 +14,7 @@
 //! Not here: which fields there are, and whether rows fit together.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
@@ -150,6 +150,13 @@ fn merge_rows<'i>(
     over: DeArray<'i>,
 ) -> Result<DeArray<'i>, Fault> {
     let mut rows: Vec<Option<Spanned<DeValue<'i>>>> = base.into_iter().map(Some).collect();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    for (at, row) in rows.iter().enumerate() {
+        let row = row.as_ref().and_then(|row| row.get_ref().as_table());
+        if let Some((key, _)) = row.and_then(|row| key_of(row, field)) {
+            places.entry(same(&key)).or_insert(at);
+        }
+    }
     let mut seen = BTreeSet::new();
     for row in over {
         let at = row.span();
@@ -159,15 +166,10 @@ fn merge_rows<'i>(
         let Some((key, place)) = key_of(&over, field) else {
             return Err((DialectFault::NoKey { table: table.to_owned(), key: field }, at));
         };
+        let found = places.get(&same(&key)).and_then(|at| rows.get_mut(*at));
         if !seen.insert(same(&key)) {
             return Err((DialectFault::RowTwice { row: key }, place));
         }
-        let found = rows.iter_mut().find(|row| {
-            row.as_ref()
-                .and_then(|r| r.get_ref().as_table())
-                .and_then(|t| key_of(t, field))
-                .is_some_and(|(there, _)| same(&there) == same(&key))
-        });
         match (word(&mut over), found) {
             (Some((word, place)), None) => {
                 return Err((DialectFault::NothingThere { row: key, word }, place));

@@ -145,7 +145,7 @@ fn faults_in_the_base_name_it() {
         "id = \"shop\"\ntitle = \"A shop\"\nbase = \"fanuc\"\n[[cycle]]\ncode = \"G81\"\nremove = true\n";
     let error = parse(text).unwrap_err();
     assert_eq!(error.to_string(), "row G81: has no [[cycle]] row");
-    let fanuc = ncc_dialects::builtins().iter().position(|d| d.id == "fanuc").unwrap();
+    let fanuc = ncc_dialects::builtin_ids().position(|id| id == "fanuc").unwrap();
     let place = error.place.unwrap();
     assert_eq!(place.text, Text::BuiltIn(fanuc));
     assert_eq!(&ncc_dialects::builtin_text(fanuc).unwrap().1[place.span], "\"G81\"");

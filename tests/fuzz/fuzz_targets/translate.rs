@@ -8,8 +8,8 @@ use ncc_dialects::{Settings, builtins};
 
 fuzz_target!(|data: &[u8]| {
     let [from, to, text @ ..] = data else { return };
-    let dialects = builtins();
-    let pick = |byte: u8| Settings::new(&dialects[usize::from(byte) % dialects.len()]);
+    let dialects: Vec<_> = builtins().collect();
+    let pick = |byte: u8| Settings::new(dialects[usize::from(byte) % dialects.len()]);
     let job = Job {
         from: pick(*from),
         to: pick(*to),
