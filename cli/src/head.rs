@@ -5,12 +5,19 @@ use std::collections::BTreeSet;
 
 use ncc_dialects::Dialect;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict};
+use ncc_ir::maps::Numbered;
+use ncc_ir::program::Text;
 
 use crate::job::Job;
 use crate::render::words;
 
 /// The lines of the comment.
-pub(crate) fn lines(job: &Job, hash: &[u8; 32], diagnostics: &[Diagnostic]) -> Vec<String> {
+pub(crate) fn lines(
+    job: &Job,
+    hash: &[u8; 32],
+    diagnostics: &[Diagnostic],
+    renumbered: &BTreeSet<(Numbered, Text, Text)>,
+) -> Vec<String> {
     let hash: String = hash[..4].iter().map(|b| format!("{b:02x}")).collect();
     let verified = if job.verify { "verified" } else { "UNVERIFIED" };
     let mut lines =
@@ -26,7 +33,19 @@ pub(crate) fn lines(job: &Job, hash: &[u8; 32], diagnostics: &[Diagnostic]) -> V
     if !assumed.is_empty() {
         lines.push(format!("assumed: {}", assumed.join("; ")));
     }
+    lines.extend(by_name(renumbered, "to"));
     lines
+}
+
+/// What was renumbered, a line for each kind: `tools by name: 3 to 7, 4 to 1`.
+pub fn by_name(renumbered: &BTreeSet<(Numbered, Text, Text)>, arrow: &str) -> Vec<String> {
+    let line = |what: Numbered| {
+        let mut own: Vec<&(Numbered, Text, Text)> = renumbered.iter().filter(|row| row.0 == what).collect();
+        own.sort_by_key(|(_, from, _)| (from.len(), from.clone()));
+        let pairs: Vec<String> = own.iter().map(|(_, from, to)| format!("{from} {arrow} {to}")).collect();
+        (!pairs.is_empty()).then(|| format!("{} by name: {}", words::numbered(what, 2), pairs.join(", ")))
+    };
+    Numbered::ALL.into_iter().filter_map(line).collect()
 }
 
 /// An assumption in the few words that fit a program's head; `None` for what is none. A work offset

@@ -3,14 +3,17 @@
 //!
 //! Not here: how it is done (`translate`), how it is told (`render`), where it goes (`release`).
 
+use std::collections::BTreeSet;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use ncc_backends::Layout;
 use ncc_dialects::Settings;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::maps::Numbered;
 use ncc_ir::num::Nanos;
 use ncc_ir::passes::Pass;
+use ncc_ir::program::Text;
 use ncc_machines::reading::{Place, Side};
 use tempfile::SpooledTempFile;
 
@@ -78,6 +81,9 @@ pub struct Outcome {
     pub diagnostics: Vec<Diagnostic>,
     /// The number that the output has as a program, if it has one.
     pub program_number: Option<u32>,
+    /// Numbers that were put in for the target's machine: what, the source's number or name, and the
+    /// target's.
+    pub renumbered: BTreeSet<(Numbered, Text, Text)>,
     /// Which facts of the machines the assumptions among them rest on.
     pub rests: Vec<Rest>,
     /// What the verification covered; `None` if it was not asked for or did not come to its end.

@@ -8,6 +8,7 @@ use std::io::{self, Write};
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_machines::reading::key_of;
 use serde::Serialize;
 use serde::ser::{SerializeMap, SerializeSeq, Serializer};
 
@@ -108,6 +109,14 @@ struct UnconfirmedRow<'a> {
     uses: usize,
 }
 
+/// A number that was put in for the target's machine.
+#[derive(Serialize)]
+struct Renumbered<'a> {
+    what: &'static str,
+    from: &'a str,
+    to: &'a str,
+}
+
 /// What the translation took for granted; each once, however often it was relied on.
 #[derive(Serialize)]
 struct Assumption {
@@ -167,6 +176,7 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     map.serialize_entry("allow", &names(&job.allow))?;
     map.serialize_entry("deny", &names(&job.deny))?;
     map.serialize_entry("verdicts", &summary.verdicts)?;
+    map.serialize_entry("renumbered", &renumbered(outcome))?;
     map.serialize_entry("unconfirmed_rows", &unconfirmed(&outcome.diagnostics))?;
     map.serialize_entry("assumptions", &assumptions(job, &outcome.diagnostics))?;
     let entries = Entries { about: RefCell::new(about), diagnostics: &outcome.diagnostics };
@@ -174,6 +184,10 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     SerializeMap::end(map)?;
     out.write_all(b"\n")?;
     out.flush()
+}
+
+fn renumbered(outcome: &Outcome) -> Vec<Renumbered<'_>> {
+    outcome.renumbered.iter().map(|(what, from, to)| Renumbered { what: key_of(*what), from, to }).collect()
 }
 
 fn assumptions(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Assumption> {

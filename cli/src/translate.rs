@@ -12,6 +12,7 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
@@ -73,6 +74,8 @@ struct Line<'j> {
     reader: Reader,
     batch: Batch,
     folder: Option<Folder>,
+    /// Puts the target machine's numbers in.
+    renumbering: Renumbering,
     legaliser: Legaliser,
     writer: Writer,
     text: Vec<u8>,
@@ -103,6 +106,9 @@ impl<'j> Line<'j> {
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
         legaliser.stand_at(&job.start);
+        let maps = job.machines.maps(job.to.dialect);
+        legaliser.set_edge_entries(maps.edge_entries.clone());
+        legaliser.set_program_numbers(maps.program_numbers.clone());
         let start = Tracker { position: job.start, ..Tracker::default() };
         let folder = job.folds().then(|| Folder::new(target(job), start, job.from.dialect.caps.flat));
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
@@ -113,6 +119,7 @@ impl<'j> Line<'j> {
             reader: Reader::new(job.from.clone(), true),
             batch: Batch::default(),
             folder,
+            renumbering: Renumbering::new(maps),
             legaliser,
             writer,
             text: Vec::new(),
@@ -168,17 +175,20 @@ impl<'j> Line<'j> {
         let mut found = Vec::new();
         let unfolded = self.folder.as_mut().map(|folder| folder.piece(stmts, &assumed, over, &mut found));
         self.state_given(stmts);
-        let touched = unfolded.is_some() || self.legaliser.touches(stmts);
+        let renumbers = self.renumbering.touches(stmts);
+        let there = self.taken_there(stmts, &assumed, &mut found);
+        let touched = unfolded.is_some() || renumbers || self.legaliser.touches(stmts);
         if touched {
             // What the passes take for granted holds for the source as well.
             let original = unfolded.unwrap_or_else(|| stmts.clone());
-            self.legaliser.run(stmts, &assumed, &mut found);
+            self.renumbering.over(stmts, &mut found);
+            self.legaliser.run(stmts, &there, &mut found);
             self.take_parameters(&found);
             self.check(|v| v.source(&original, &assumed));
         } else {
-            self.legaliser.run(stmts, &assumed, &mut found);
+            self.legaliser.run(stmts, &there, &mut found);
         }
-        self.write_main(stmts, &assumed, &mut found);
+        self.write_main(stmts, &there, &mut found);
         self.take(found, Told::Writer);
         self.release_text(&assumed, (!touched).then_some(&stmts[..]))
     }
@@ -198,10 +208,11 @@ impl<'j> Line<'j> {
         self.streamed(&mut stmts, true)?;
         stmts.clear();
         let assumed = self.batch.assumed;
+        let there = self.renumbering.modes(&assumed);
         let mut found = Vec::new();
         self.legaliser.finish(&mut stmts, &mut found);
-        self.write_main(&stmts, &assumed, &mut found);
-        self.foot(&assumed, &mut found);
+        self.write_main(&stmts, &there, &mut found);
+        self.foot(&there, &mut found);
         self.writer.finish(&mut self.text, &mut found);
         self.take(found, Told::Writer);
         self.release_text(&assumed, None)?;
@@ -234,14 +245,17 @@ impl<'j> Line<'j> {
             passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
+        let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
+        let there = self.taken_there(main, &assumed, &mut found);
+        self.renumbering.run(&mut program, &mut found);
         self.legaliser.run_program(&mut program, &mut found);
         self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {
             match at {
                 0 => {
-                    self.write_main(&procedure.body, &assumed, &mut found);
-                    self.foot(&assumed, &mut found);
+                    self.write_main(&procedure.body, &there, &mut found);
+                    self.foot(&there, &mut found);
                 }
                 _ => self.writer.procedure(procedure, &mut self.text, &mut found),
             }
@@ -253,6 +267,14 @@ impl<'j> Line<'j> {
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.check(|v| v.whole(&source, &text, base, &inherited));
         self.output.push(&text)
+    }
+
+    /// What was taken for granted of the source, in the target machine's numbers. Those that it has not
+    /// are refused at the first of the statements that rely on them.
+    fn taken_there(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) -> Modes {
+        let at = stmts.iter().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).or(stmts.first());
+        self.renumbering.check_modes(assumed, at.map_or(Span::default(), |s| s.span), found);
+        self.renumbering.modes(assumed)
     }
 
     /// Writes statements of the main procedure; the shop's last lines go before the end of the program.
@@ -319,10 +341,11 @@ impl<'j> Line<'j> {
         stmts.splice(at..at, new);
     }
 
-    /// Assumed facts that the output does not state itself, and what was taken for granted of the
-    /// target.
+    /// Assumed facts that the output does not state itself, in the target machine's numbers, and what
+    /// was taken for granted of the target.
     fn inherited(&self, assumed: &Modes) -> Modes {
-        let facts = without(&without(assumed, &self.writer.stated()), &self.given);
+        let there = self.renumbering.modes(assumed);
+        let facts = without(&without(&there, &self.writer.stated()), &self.given);
         let taken = self.legaliser.taken();
         Modes {
             work_offset: taken.work_offset.or(facts.work_offset),
@@ -406,13 +429,15 @@ impl<'j> Line<'j> {
             }
             _ => None,
         };
-        if let Some(number) = self.job.program_number.filter(|n| self.numbers.contains(n)) {
+        let own = self.name();
+        let renamed = own.number.filter(|_| own.number != self.batch.name.number);
+        if let Some(number) = renamed.filter(|n| self.numbers.contains(n)) {
             let name = number.to_string().into();
             self.take(vec![Diagnostic::new(Fault::ProgramTwice { name }, Span::default())], Told::Writer);
         }
         let mut text = Vec::new();
         let mut found = Vec::new();
-        let head = Head { name: self.name(), lines: self.head_lines(&hash) };
+        let head = Head { name: own, lines: self.head_lines(&hash) };
         let program_number = head.name.number.filter(|_| self.job.to.dialect.program.number.is_some());
         self.writer.head(&head, &mut text, &mut found);
         self.take(found, Told::Writer);
@@ -439,6 +464,7 @@ impl<'j> Line<'j> {
         Outcome {
             diagnostics: self.diagnostics,
             program_number,
+            renumbered: self.renumbering.used().clone(),
             rests: self.rests,
             verified,
             release,
@@ -452,8 +478,8 @@ impl<'j> Line<'j> {
 
     /// The output's program name: the source's own; where the target needs one and the source has
     /// none, one made from the file's name.
-    fn name(&self) -> ProgramName {
-        let mut name = self.batch.name.clone();
+    fn name(&mut self) -> ProgramName {
+        let mut name = self.renumbering.name(&self.batch.name);
         if self.job.to.dialect.program.number.is_some() {
             // The lowest number that no subprogram has.
             let free = (1..).find(|n| !self.numbers.contains(n));
@@ -468,7 +494,7 @@ impl<'j> Line<'j> {
 
     fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
         let mut lines = match self.job.head {
-            true => head::lines(self.job, hash, &self.diagnostics),
+            true => head::lines(self.job, hash, &self.diagnostics, self.renumbering.used()),
             false => Vec::new(),
         };
         lines.extend(self.job.machines.layout().header);
@@ -502,6 +528,8 @@ fn target(job: &Job) -> Target {
         decimals: legal_decimals(job),
         peck_clearance: parameter(job, PECK_CLEARANCE),
         break_lift: parameter(job, BREAK_LIFT),
+        // What is asked for by name is done in the source's numbers.
+        ..Target::default()
     }
 }
 

@@ -1,6 +1,8 @@
 //! Verification of a translation as it streams by: source and emitted text are executed in the same
 //! worlds and under the same block-skip settings, and their events compared.
 
+use std::collections::BTreeMap;
+
 use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes};
@@ -57,6 +59,8 @@ pub(crate) struct Verifier {
     batch: Batch,
     runs: Vec<Run>,
     levels: u16,
+    /// Whether the target's machine has numbers of its own: then controls are never in one state.
+    renamed: bool,
     /// The target knows one level only: the source's are on or off together.
     one_level: bool,
     start: [Option<Nanos>; AXES],
@@ -98,13 +102,23 @@ pub(crate) fn resolution(settings: &Settings) -> Resolution {
 impl Verifier {
     pub(crate) fn new(job: &Job) -> Verifier {
         let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
+        let renaming = job.machines.renaming();
+        let own_entries = match (&renaming.tools, &job.machines.from) {
+            (Some(_), Some(machine)) => machine.tables().edge_entries,
+            (None, _) | (_, None) => BTreeMap::new(),
+        };
         let runs = (1..=WORLDS)
             .map(|seed| {
-                let source = World::generate(seed, &from);
-                let target = World::generate(seed, &to);
+                let mut source = World::generate(seed, &from);
+                source.tables.edge_entries.clone_from(&own_entries);
+                let mut target = World::generate(seed, &to);
+                target.tables.edge_entries.clone_from(&renaming.edge_entries);
+                target.renaming.clone_from(&renaming);
+                let mut comparison = Comparison::new(resolution(&job.to), source.start);
+                comparison.rename_tools(renaming.tools.clone());
                 Run {
                     skip: 0,
-                    comparison: Comparison::new(resolution(&job.to), source.start),
+                    comparison,
                     source: Exec::new(&source, 0),
                     target: Exec::new(&target, 0),
                     source_events: Vec::new(),
@@ -123,6 +137,7 @@ impl Verifier {
             batch: Batch::default(),
             runs,
             levels: 0,
+            renamed: !renaming.is_empty(),
             one_level: job.to.dialect.caps.skip_levels <= 1,
             start: job.start,
             stood: false,
@@ -239,7 +254,7 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
-            run.level = nothing_left && run.source.agrees(&run.target);
+            run.level = nothing_left && !self.renamed && run.source.agrees(&run.target);
         }
         self.batch.stmts.clear();
         Ok(())

@@ -3,6 +3,7 @@
 //! A [`Fault`] carries data, no prose: the words, labels and advice are rendered by the command
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
+use crate::maps::Numbered;
 use crate::source::Span;
 
 /// What was found, and where.
@@ -297,6 +298,9 @@ faults! {
     /// What the translation would take for granted is denied by the profile of a machine: which fact,
     /// and whose.
     ProfileDenies { fact: Box<str>, machine: Box<str> } = 505, Error;
+    /// A number that the program uses and the map between two machines does not have: the target's
+    /// machine has nothing of the name that the source's has for it, or the source's has no name.
+    NotInMap { what: Numbered, number: u32, name: Option<Box<str>> } = 506, Error;
 
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.

@@ -15,6 +15,7 @@ pub mod exec;
 pub mod expr;
 pub mod geometry;
 mod kinds;
+pub mod maps;
 pub mod num;
 pub mod passes;
 pub mod places;

@@ -5,8 +5,10 @@
 //! event and agree. Moves that rounding has brought to nothing vanish. The comparison consumes both
 //! streams as they come, so that its memory does not grow with the program.
 
+use std::collections::BTreeMap;
+
 use crate::canon::{AXES, Axis, same_point};
-use crate::exec::{Event, Kind};
+use crate::exec::{Event, Kind, State};
 use crate::expr::Expr;
 use crate::num::{Nanos, POW10};
 use crate::program::{Op, Point, Stmt};
@@ -107,6 +109,8 @@ pub struct Comparison {
     half: [Nanos; 2],
     source_at: [Nanos; AXES],
     target_at: [Nanos; AXES],
+    /// What the source calls the target's tools, where that may be another number.
+    tools: Option<BTreeMap<u32, u32>>,
     /// Pairs of events found equal.
     pub events: u64,
 }
@@ -115,7 +119,24 @@ impl Comparison {
     /// Nothing compared yet; both machines stand at `start`.
     pub fn new(resolution: Resolution, start: [Nanos; AXES]) -> Comparison {
         let half = [resolution.lengths(false), resolution.lengths(true)];
-        Comparison { resolution, half, source_at: start, target_at: start, events: 0 }
+        Comparison { resolution, half, source_at: start, target_at: start, tools: None, events: 0 }
+    }
+
+    /// The same tool has another number in the target: `tools` says what the source calls each of the
+    /// target's. One that is not among them is none of the source's.
+    pub fn rename_tools(&mut self, tools: Option<BTreeMap<u32, u32>>) {
+        self.tools = tools;
+    }
+
+    /// Whether tool, spindle and coolant are the same.
+    fn same_state(&self, a: &State, b: &State) -> bool {
+        let Some(tools) = &self.tools else { return a.same(b) };
+        // The tool that nobody named is the same on both.
+        let tool = match u32::try_from(b.tool) {
+            Err(_) => Some(b.tool),
+            Ok(tool) => tools.get(&tool).map(|own| i64::from(*own)),
+        };
+        tool.is_some_and(|tool| a.same(&State { tool, ..*b }))
     }
 
     /// From now on lengths of one unit may be off by half a unit of this digit, where the target
@@ -246,6 +267,6 @@ impl Comparison {
         if a.rate != b.rate && !near(a.rate, b.rate, self.resolution.feeds(b.inch)) {
             return Some(Aspect::Feed);
         }
-        (!a.state.same(&b.state)).then_some(Aspect::State)
+        (!self.same_state(&a.state, &b.state)).then_some(Aspect::State)
     }
 }

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
+use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 
 /// One state of the machine and its tables before the program starts.
@@ -23,7 +24,13 @@ pub struct World {
     pub break_lift: Nanos,
     /// What is known of its tables; the rest is the world's own.
     pub tables: Tables,
+    /// What is called otherwise here than in the world of the same seed that it is compared with:
+    /// the same tool, by another number, has the same length.
+    pub renaming: Renaming,
 }
+
+/// Marks what the other machine does not have: no value there is like it.
+const FOREIGN: u32 = 1 << 24;
 
 /// Tables of one machine, as far as somebody has stated them. Generated worlds have none.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -33,6 +40,8 @@ pub struct Tables {
     /// Lengths of tools, in nanos of a millimetre: entries of the length table, and edge 1 of the tool
     /// with that number. 0 is no tool.
     pub lengths: BTreeMap<u32, Nanos>,
+    /// The entry that edge 1 of a tool has, where it is not the tool's number.
+    pub edge_entries: BTreeMap<u32, u32>,
 }
 
 impl World {
@@ -68,6 +77,7 @@ impl World {
             peck_clearance: 0,
             break_lift: 0,
             tables: Tables::default(),
+            renaming: Renaming::default(),
         };
         world.start = std::array::from_fn(|axis| world.odd(50_000 + axis as u32, 400));
         world.peck_clearance = ONE / 2 + world.odd(60_000, 1).abs() / 2;
@@ -83,10 +93,14 @@ impl World {
     /// Zero of a work offset (1 is the first), in machine coordinates.
     pub fn work_offset(&self, number: u16) -> [Nanos; AXES] {
         let stated = self.tables.work_offsets.get(&number);
+        let renamed = match &self.renaming.offsets {
+            None => u32::from(number),
+            Some(map) => map.get(&number).map_or(u32::from(number) | FOREIGN, |n| u32::from(*n)),
+        };
         std::array::from_fn(|axis| match stated.and_then(|offset| offset[axis]) {
             Some(stated) => stated,
             None if self.seed == 0 => 0,
-            None => self.odd(u32::from(number) * 8 + axis as u32, 190),
+            None => self.odd(renamed * 8 + axis as u32, 190),
         })
     }
 
@@ -95,27 +109,36 @@ impl World {
         match self.tables.lengths.get(&entry) {
             _ if entry == 0 => 0,
             Some(stated) => *stated,
-            None => self.own_length(entry),
+            None => self.own_length(renamed(&self.renaming.entries, entry)),
         }
     }
 
+    /// The entry of the length table that edge 1 of a tool has.
+    pub fn edge_entry(&self, tool: u32) -> u32 {
+        self.tables.edge_entries.get(&tool).copied().unwrap_or(tool)
+    }
+
     /// Length of an edge of a tool, in millimetres; -1 is the tool that was in the spindle at the
-    /// start. Edge 1 is the table's entry with the tool's number.
+    /// start. Edge 1 is an entry of the table, in general the one with the tool's number.
     pub fn edge_length(&self, tool: i64, edge: u32) -> Nanos {
         let known = u32::try_from(tool);
         let entry = known.unwrap_or(97);
         match edge {
             0 => 0,
-            1 if entry != 0 && known.is_ok() => self.tool_length(entry),
+            1 if entry != 0 && known.is_ok() => self.tool_length(self.edge_entry(entry)),
             1 if entry != 0 => self.own_length(entry),
             _ if self.seed == 0 => 0,
-            _ => 40 * ONE + self.odd(100_000 + (entry.wrapping_mul(10).wrapping_add(edge)) * 8, 35),
+            _ => {
+                let tool = if known.is_ok() { renamed(&self.renaming.tools, entry) } else { entry };
+                let index = tool.wrapping_mul(10).wrapping_add(edge).wrapping_mul(8);
+                40 * ONE + self.odd(index.wrapping_add(100_000), 35)
+            }
         }
     }
 
     /// A length that no table states.
     fn own_length(&self, entry: u32) -> Nanos {
-        if self.seed == 0 { 0 } else { 40 * ONE + self.odd(entry * 8 + 7, 35) }
+        if self.seed == 0 { 0 } else { 40 * ONE + self.odd(entry.wrapping_mul(8).wrapping_add(7), 35) }
     }
 
     /// A value between -range and range mm that looks like no other: to six decimals, so that no
@@ -127,5 +150,13 @@ impl World {
         h ^= h >> 33;
         let micro = (h % (2_000_000 * range as u64)) as i64 - 1_000_000 * range;
         (micro | 1) * 1000
+    }
+}
+
+/// What another machine calls a number, or a number that is none of its own.
+fn renamed(map: &Option<BTreeMap<u32, u32>>, number: u32) -> u32 {
+    match map {
+        None => number,
+        Some(map) => map.get(&number).copied().unwrap_or(number | FOREIGN),
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use ncc_dialects::{Dialect, Quantity, SettingError, Settings};
+use ncc_dialects::{Dialect, Quantity, Role, SettingError, Settings};
 use ncc_ir::canon::Axis;
 
 use crate::fact::Fact;
@@ -26,12 +26,10 @@ pub(crate) fn check(schema: &Schema, dialect: &'static Dialect) -> Vec<ProfileEr
     }
     numbers(schema, &mut found);
     axes(schema, &mut found);
-    tables(schema, &mut found);
+    tables(schema, dialect, &mut found);
+    programs(schema, dialect, &mut found);
     codes(schema, dialect, &mut found);
     emit(&schema.emit, dialect, &mut found);
-    if let Some(map) = &schema.map {
-        found.add(Wrong::NotYet { key: "map" }, map.span());
-    }
     found.0
 }
 
@@ -173,27 +171,96 @@ fn axes(schema: &Schema, found: &mut Found) {
     }
 }
 
-fn tables(schema: &Schema, found: &mut Found) {
-    use crate::schema::WorkOffsetRow;
+/// Whether a key is there and empty.
+fn asked<T>(fact: &Fact<T>) -> bool {
+    fact.value.is_none() && !fact.span.is_empty()
+}
+
+fn tables(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
+    use crate::schema::{ToolRow, WorkOffsetRow};
     let (mut tools, mut pockets, mut offsets) = (BTreeMap::new(), BTreeMap::new(), BTreeMap::new());
+    let (mut entries, mut stated, mut names) = (BTreeMap::new(), Vec::new(), BTreeMap::new());
     for row in &schema.tool {
         let tool = row.get_ref();
         match tool.number.value {
+            // `ncc doctor` writes rows to be filled in: they say nothing yet.
+            None if asked(&tool.number) => {}
             None => found.add(Wrong::Missing { key: "number", why: "which tool is it?" }, row.span()),
             Some(n) => found.once(&mut tools, n.to_string(), format!("tool {n}"), tool.number.span.clone()),
+        }
+        let entry = &tool.length_entry;
+        if entry.value == Some(0) {
+            found.takes::<ToolRow>("length_entry", entry.span.clone());
+        } else if entry.value.is_some() && dialect.letter_for(Role::ToolEdge).is_some() {
+            let lacks = "length table: its tools have edges";
+            found.add(Wrong::NoForm { key: "length_entry", lacks }, entry.span.clone());
+        } else if let Some(n) = entry.value.or(tool.number.value).filter(|n| *n > 0) {
+            match entry.value {
+                Some(_) => stated.push((n, entry.span.clone())),
+                // A tool twice is told as that.
+                None => drop(entries.entry(n).or_insert_with(|| tool.number.span.clone())),
+            }
+        }
+        if let Some(name) = &tool.name.value {
+            found.once(&mut names, name.clone(), format!("a tool named {name}"), tool.name.span.clone());
         }
         if let Some(n) = tool.pocket.value {
             found.once(&mut pockets, n.to_string(), format!("pocket {n}"), tool.pocket.span.clone());
         }
     }
+    for (n, span) in stated {
+        match entries.get(&n) {
+            Some(first) => {
+                let error = ProfileError::new(Wrong::Twice { what: format!("length entry {n}") }, span);
+                found.0.push(ProfileError { related: Some(first.clone()), ..error });
+            }
+            None => drop(entries.insert(n, span)),
+        }
+    }
+    let mut names = BTreeMap::new();
     for row in &schema.work_offset {
         let offset = row.get_ref();
+        if let Some(name) = &offset.name.value {
+            let what = format!("a work offset named {name}");
+            found.once(&mut names, name.clone(), what, offset.name.span.clone());
+        }
         let span = offset.number.span.clone();
         match offset.number.value {
+            // `ncc doctor` writes rows to be filled in: they say nothing yet.
+            None if asked(&offset.number) => {}
             None => found.add(Wrong::Missing { key: "number", why: "which work offset is it?" }, row.span()),
             Some(0) => found.takes::<WorkOffsetRow>("number", span),
             Some(n) => found.once(&mut offsets, n.to_string(), format!("work offset {n}"), span),
         }
+    }
+}
+
+/// Programs: a number has one name, and a name one number.
+fn programs(schema: &Schema, dialect: &'static Dialect, found: &mut Found) {
+    use crate::schema::ProgramRow;
+    let (mut numbers, mut names) = (BTreeMap::new(), BTreeMap::new());
+    let digits = dialect.caps.call_digits;
+    for row in &schema.program {
+        let program = row.get_ref();
+        let span = program.number.span.clone();
+        match program.number.value {
+            // `ncc doctor` writes rows to be filled in: they say nothing yet.
+            None if asked(&program.number) => {}
+            None => found.add(Wrong::Missing { key: "number", why: "which program is it?" }, row.span()),
+            Some(0) => found.takes::<ProgramRow>("number", span),
+            Some(n) if digits > 0 && n >= 10u32.saturating_pow(digits) => {
+                found.takes::<ProgramRow>("number", span);
+            }
+            Some(n) => found.once(&mut numbers, n.to_string(), format!("program {n}"), span),
+        }
+        let Some(name) = &program.name.value else { continue };
+        let plain = |b: u8| b.is_ascii_alphanumeric() || b == b'_';
+        if !name.bytes().all(plain) || !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            found.takes::<ProgramRow>("name", program.name.span.clone());
+            continue;
+        }
+        let what = format!("a program named {name}");
+        found.once(&mut names, name.to_ascii_uppercase(), what, program.name.span.clone());
     }
 }
 

@@ -1,6 +1,8 @@
 //! The schema in words, from the types.
 
-use crate::schema::{AxisRow, Emit, MCodeRow, PowerOn, Rates, Spindle, Times, ToolRow, WorkOffsetRow};
+use crate::schema::{
+    AxisRow, Emit, MCodeRow, PowerOn, ProgramRow, Rates, Spindle, Times, ToolRow, WorkOffsetRow,
+};
 use crate::table::Table;
 
 /// The tables with fixed keys, as `docs/machine-profile.md` has them.
@@ -13,6 +15,7 @@ pub fn tables() -> String {
         table::<AxisRow>(),
         table::<ToolRow>(),
         table::<WorkOffsetRow>(),
+        table::<ProgramRow>(),
         table::<MCodeRow>(),
         table::<Emit>(),
     ];

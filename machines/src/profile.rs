@@ -83,9 +83,9 @@ impl Profile {
             axis: Vec::new(),
             tool: Vec::new(),
             work_offset: Vec::new(),
+            program: Vec::new(),
             m_code: Vec::new(),
             emit: Default::default(),
-            map: None,
         };
         Profile { schema, dialect }
     }
@@ -156,8 +156,13 @@ impl Profile {
             tables.work_offsets.insert(number, axes.map(|axis| axis.get().map(nanos)));
         }
         for row in self.schema.tool.iter().map(toml::Spanned::get_ref) {
-            if let (Some(number), Some(length)) = (row.number.get(), row.length.get()) {
-                tables.lengths.insert(number, nanos(length));
+            let Some(number) = row.number.get() else { continue };
+            let entry = row.length_entry.get().unwrap_or(number);
+            if let Some(length) = row.length.get() {
+                tables.lengths.insert(entry, nanos(length));
+            }
+            if entry != number {
+                tables.edge_entries.insert(number, entry);
             }
         }
         tables
@@ -174,6 +179,7 @@ impl Profile {
         rows.extend(s.axis.iter().map(|a| row(a.get_ref())));
         rows.extend(s.tool.iter().map(|t| row(t.get_ref())));
         rows.extend(s.work_offset.iter().map(|w| row(w.get_ref())));
+        rows.extend(s.program.iter().map(|p| row(p.get_ref())));
         rows.extend(s.m_code.iter().map(|m| row(m.get_ref())));
         rows.push(row(&s.emit));
         rows

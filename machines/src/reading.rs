@@ -2,12 +2,14 @@
 //!
 //! A translation tells what it took for granted. Each of these assumptions is one fact of one of the
 //! two machines, with a place in its profile; a profile that states the fact settles it, and one that
-//! states the contrary forbids it. What has no place in a profile stays an assumption.
+//! states the contrary forbids it. What has no place in a profile stays an assumption. The same
+//! goes for what is refused because a profile does not name it.
 
 use std::fmt;
 
 use ncc_dialects::{Dialect, Role};
 use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::maps::Numbered;
 
 /// One of the two machines of a translation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -40,6 +42,10 @@ pub enum Place {
     Code(String),
     /// A row of `[[m_code]]`: which code does something, by its name.
     Function(String),
+    /// A row of `[[tool]]`, `[[work_offset]]` or `[[program]]`: the name of a number.
+    Name(Numbered, u32),
+    /// The same: which number has a name.
+    Number(Numbered, String),
 }
 
 impl fmt::Display for Place {
@@ -53,7 +59,19 @@ impl fmt::Display for Place {
                 Some(number) => write!(f, "m_code for M{number}"),
                 None => write!(f, "m_code for {name}"),
             },
+            Place::Name(what, number) => write!(f, "{} {number}", key_of(*what)),
+            Place::Number(what, name) => write!(f, "{} {name:?}", key_of(*what)),
         }
+    }
+}
+
+/// The key of a profile's table in which something numbered has its rows, or its key in such a row.
+pub fn key_of(what: Numbered) -> &'static str {
+    match what {
+        Numbered::Tool => "tool",
+        Numbered::LengthEntry => "length_entry",
+        Numbered::WorkOffset => "work_offset",
+        Numbered::Program => "program",
     }
 }
 
@@ -136,6 +154,12 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
             let side = if edges(to) { Side::To } else { Side::From };
             (side, Place::Confirmed(EDGE_IS_ENTRY.to_owned()))
         }
+        Fault::NotInMap { what, number, name: None } => (Side::From, Place::Name(*what, *number)),
+        // The name is that of the tool.
+        Fault::NotInMap { what: Numbered::LengthEntry, name: Some(name), .. } => {
+            (Side::To, Place::Number(Numbered::Tool, name.to_string()))
+        }
+        Fault::NotInMap { what, name: Some(name), .. } => (Side::To, Place::Number(*what, name.to_string())),
         _ => return None,
     })
 }

@@ -60,15 +60,15 @@ pub struct Schema {
     /// Work offsets.
     #[serde(default)]
     pub work_offset: Vec<Spanned<WorkOffsetRow>>,
+    /// Programs.
+    #[serde(default)]
+    pub program: Vec<Spanned<ProgramRow>>,
     /// M codes of this machine.
     #[serde(default)]
     pub m_code: Vec<Spanned<MCodeRow>>,
     /// The shop's choices for emitted programs.
     #[serde(default)]
     pub emit: Emit,
-    /// Maps of numbers from machine to machine. There are none yet: the key is refused by name.
-    #[serde(default)]
-    pub map: Option<Spanned<toml::Value>>,
 }
 
 /// The value of an option: a number or a word.
@@ -270,9 +270,11 @@ table! {
     ToolRow "[[tool]]" {
         /// Its number.
         number: u32 = "a whole number";
-        /// Its name.
+        /// Its name, the same word on every machine: tools of two machines that have one name are one tool.
         name: String = "text";
-        /// Its length, mm: what the entry of the length table with the tool's number has, and edge 1 on a control whose tools have edges.
+        /// The entry of the length table that has its length; where not stated, the one with the tool's number. Not on a control whose tools have edges.
+        length_entry: u32 = "a whole number above 0";
+        /// Its length, mm: what that entry has, and edge 1 on a control whose tools have edges.
         length: f64 = "a number from 0 to 1000000";
         /// Its diameter, mm.
         diameter: f64 = "a number from 0";
@@ -286,6 +288,8 @@ table! {
     WorkOffsetRow "[[work_offset]]" {
         /// Its number; 1 is G54.
         number: u32 = "a whole number above 0";
+        /// Its name, the same word on every machine: `vice-left`.
+        name: String = "text";
         /// Along X, mm.
         x: f64 = "a number from -1000000 to 1000000";
         /// Along Y, mm.
@@ -298,6 +302,17 @@ table! {
         b: f64 = "a number from -1000000 to 1000000";
         /// About Z, degrees.
         c: f64 = "a number from -1000000 to 1000000";
+    }
+}
+
+table! {
+    /// A program that machines know by a common name: a row says that the program with this number is
+    /// called so.
+    ProgramRow "[[program]]" {
+        /// Its number; on a control that calls by number, of at most as many digits as it has.
+        number: u32 = "a whole number above 0";
+        /// Its name: what a control calls it that calls by name. Small letters count as capitals.
+        name: String = "letters, digits and underlines, a letter first";
     }
 }
 

@@ -55,7 +55,7 @@ pub enum Wrong {
         /// The row.
         row: String,
     },
-    /// An axis, a tool, a work offset or a code twice.
+    /// An axis, a tool, a work offset, a program or a code twice, or the name of one.
     Twice {
         /// What stands twice.
         what: String,
@@ -102,11 +102,6 @@ pub enum Wrong {
         /// What the dialect does not have.
         lacks: &'static str,
     },
-    /// A key that is reserved and means nothing yet.
-    NotYet {
-        /// The key.
-        key: &'static str,
-    },
 }
 
 impl Wrong {
@@ -126,10 +121,9 @@ impl Wrong {
             Wrong::NotOneToOne { .. } => 711,
             Wrong::TooFine { .. } => 712,
             Wrong::NoForm { .. } => 713,
-            Wrong::NotYet { .. } => 714,
         }
     }
 
     /// Every code.
-    pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713, 714];
+    pub const CODES: &'static [u16] = &[701, 702, 703, 704, 705, 706, 707, 708, 709, 710, 711, 712, 713];
 }

@@ -36,7 +36,7 @@ fn value(place: &Place, fault: &Fault, job: &Job, side: Side) -> String {
                 _ => "\"per-minute\"".to_owned(),
             }
         }
-        (Place::Code(_) | Place::Function(_), _) => "\"\"".to_owned(),
+        (Place::Code(_) | Place::Function(_) | Place::Name(..) | Place::Number(..), _) => "\"\"".to_owned(),
     }
 }
 
@@ -48,7 +48,7 @@ fn stated(dialect: &str, facts: &BTreeMap<Place, String>) -> Result<Arc<Profile>
             Place::PowerOn(key) => ("power_on", (*key).to_owned()),
             Place::Option(key) => ("options", quoted(key)),
             Place::Confirmed(key) => ("confirmed", quoted(key)),
-            Place::Code(_) | Place::Function(_) => continue,
+            Place::Code(_) | Place::Function(_) | Place::Name(..) | Place::Number(..) => continue,
         };
         text.push_str(&format!("{table}.{key} = {value}\n"));
     }

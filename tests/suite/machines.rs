@@ -149,3 +149,206 @@ fn an_unknown_m_code_is_carried_only_through_both_maps() {
         assert!(stops.is_empty() && text.contains("\nM70\n"), "{stops:?}\n{text}");
     }
 }
+
+/// Rows of tools: number, name, length entry if it is another.
+fn tools(rows: &[(u32, &str, Option<u32>)]) -> String {
+    let row = |(number, name, entry): &(u32, &str, Option<u32>)| {
+        let entry = entry.map_or(String::new(), |entry| format!("length_entry = {entry}\n"));
+        format!("[[tool]]\nnumber = {number}\nname = {name:?}\n{entry}")
+    };
+    rows.iter().map(row).collect()
+}
+
+/// Rows of work offsets or programs.
+fn rows(table: &str, rows: &[(u32, &str)]) -> String {
+    rows.iter().map(|(number, name)| format!("[[{table}]]\nnumber = {number}\nname = {name:?}\n")).collect()
+}
+
+const FANUC: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nS500 M03\nG00 X0. Y0.\nG43 H23 Z5.\nG01 Z-1. F100.\nG49\nT4 M06\nG43 H4 Z5.\nG55\nX1. Y2. Z3.\nT0 M06\nM30\n%\n";
+
+const SIEMENS: &str = "G71 G17 G90 G40 G94\nG54\nT3 M6\nD1\nS500 M3\nG0 X0 Y0\nZ5\nG1 Z-1 F100\nT4 M6\nD1\nG0 Z5\nG55\nG0 X1 Y2 Z3\nM30\n";
+
+/// Tools 3 and 4, work offsets 1 and 2 of a source.
+fn ours(dialect: &str, entry: Option<u32>) -> Arc<Profile> {
+    let offsets = rows("work_offset", &[(1, "vice"), (2, "plate")]);
+    profile(dialect, &(tools(&[(3, "drill-8", entry), (4, "mill-10", None)]) + &offsets))
+}
+
+/// The same, in other places.
+fn theirs(dialect: &str, entry: Option<u32>) -> Arc<Profile> {
+    let offsets = rows("work_offset", &[(3, "vice"), (1, "plate")]);
+    profile(dialect, &(tools(&[(7, "drill-8", entry), (3, "mill-10", None)]) + &offsets))
+}
+
+#[test]
+fn tools_lengths_and_work_offsets_go_by_name() {
+    let has = |(text, stops, _): (String, BTreeSet<u16>, usize), words: &[&str], not: &[&str]| {
+        assert!(stops.is_empty(), "{stops:?}");
+        let mut at = 0;
+        for word in words {
+            at += text[at..].find(word).unwrap_or_else(|| panic!("{word} in order:\n{text}")) + word.len();
+        }
+        for word in not {
+            assert!(!text.contains(word), "{word}:\n{text}");
+        }
+    };
+    let (fanuc, siemens) = (ours("fanuc", Some(23)), ours("siemens", None));
+    let words = ["G56", "T7", "H27", "T3", "H3", "G54", "T0"];
+    has(with(&fanuc, &theirs("fanuc", Some(27)), FANUC), &words, &["H23", "H7", "G55", "T4"]);
+    has(with(&fanuc, &theirs("haas", Some(27)), FANUC), &words, &["H23", "H7", "G55", "T4"]);
+    let words = ["G56", "T7", "T3", "G54", "T0"];
+    let part = FANUC;
+    has(with(&fanuc, &theirs("siemens", None), part), &words, &["G55", "T4"]);
+    let words = ["G56", "T7", "H27", "T3", "H3", "G54"];
+    has(with(&siemens, &theirs("fanuc", Some(27)), SIEMENS), &words, &["H7", "G55", "T4"]);
+    has(with(&siemens, &theirs("siemens", None), SIEMENS), &["G56", "T7", "T3", "G54"], &["G55", "T4"]);
+    // Both text forms, there and back: they have names of their own, or none.
+    for middle in ["ir", "canon"] {
+        let (there, stops, _) = with(&fanuc, &theirs(middle, Some(27)), FANUC);
+        assert!(stops.is_empty() && there.contains("SELECT_TOOL(7"), "{stops:?}\n{there}");
+        let back = with(&theirs(middle, Some(27)), &fanuc, &there);
+        has(back, &["G54", "T3", "H23", "T4", "H4", "G55", "T0"], &["G56", "T7"]);
+        let (there, stops, _) = with(&fanuc, &profile(middle, ""), FANUC);
+        assert!(stops.is_empty() && there.contains("SELECT_TOOL(3"), "{stops:?}\n{there}");
+    }
+}
+
+#[test]
+fn the_only_work_offset_of_a_control_goes_by_name_too() {
+    let names = |rows_: &[(u32, &str)]| rows("work_offset", rows_);
+    let known = |rest: &str| format!("{KNOWN}{}{rest}", tools(&[(1, "drill-8", None)]));
+    let mach9 = profile("mach9", &known(&names(&[(1, "vice")])));
+    let to = tools(&[(5, "drill-8", Some(25))]) + &names(&[(1, "plate"), (4, "vice")]);
+    let (text, stops, _) = with(&mach9, &profile("fanuc", &to), PART);
+    assert!(stops.is_empty(), "{stops:?}");
+    assert!(text.contains("G57") && text.contains("T5") && text.contains("H25"), "{text}");
+    assert!(!text.contains("G54") && !text.contains("T1") && !text.contains("H1"), "{text}");
+    // Back again: its only work offset is what it is called.
+    let from = profile("fanuc", &to);
+    let (back, stops, _) = with(&from, &mach9, &text);
+    assert!(stops.is_empty() && back.contains("T1") && back.contains("O1"), "{stops:?}\n{back}");
+    // A zero that the target has no name for is refused, though the program never says it.
+    let to = profile("fanuc", &(tools(&[(5, "drill-8", None)]) + &names(&[(1, "plate")])));
+    assert_eq!(with(&mach9, &to, PART).1, BTreeSet::from([506]));
+    // A fact at power-on is of the target's own numbers.
+    let to = tools(&[(5, "drill-8", None)]) + &names(&[(4, "vice"), (1, "plate")]);
+    let to = profile("fanuc", &format!("[power_on]\nwork_offset = 1\n{to}"));
+    let (text, stops, _) = with(&mach9, &to, PART);
+    assert!(stops.is_empty() && text.contains("G57"), "{stops:?}\n{text}");
+}
+
+#[test]
+fn what_is_not_in_the_map_is_refused_at_its_place() {
+    let refused = |from: &Arc<Profile>, to: &Arc<Profile>, text: &str| {
+        let mut job = job(&from.dialect.id, &to.dialect.id, "part");
+        job.machines = Machines { from: Some(from.clone()), to: Some(to.clone()) };
+        (job.from, job.to) = (from.settings(), to.settings());
+        let (outcome, written) = translate(&job, text.as_bytes());
+        assert!(outcome.release.is_err() && written.is_empty());
+        let errors = outcome.diagnostics.iter().filter(|d| d.fault.gravity() == Gravity::Error);
+        let at = |d: &ncc_ir::diag::Diagnostic| {
+            let line = text[..d.span.start as usize].matches('\n').count() + 1;
+            (d.fault.code(), line)
+        };
+        errors.map(at).collect::<Vec<_>>()
+    };
+    let (from, to) = (ours("fanuc", Some(23)), theirs("fanuc", None));
+    // The tool, and its entry with it; an entry of nobody; a work offset.
+    assert_eq!(refused(&from, &to, &FANUC.replace("T4", "T5").replace("H4", "H5")), [(506, 11)]);
+    assert_eq!(refused(&from, &to, &FANUC.replace("H4", "H44")), [(506, 12)]);
+    assert_eq!(refused(&from, &to, &FANUC.replace("H23", "H3")), [(506, 8)]);
+    assert_eq!(refused(&from, &to, &FANUC.replace("G55", "G56")), [(506, 13)]);
+    // Named by the source's machine alone.
+    let more =
+        format!("{}{}", tools(&[(3, "drill-8", Some(23)), (4, "tap", None)]), rows("work_offset", &[]));
+    assert_eq!(refused(&profile("fanuc", &more), &to, FANUC), [(506, 11)]);
+    // In a program that is kept whole, in its subprograms too.
+    let whole = FANUC.replace("T0 M06\nM30\n", "M98 P20\nM30\nO20\nT6 M06\nM99\n");
+    assert_eq!(refused(&from, &to, &whole), [(506, 18)]);
+    // Between a table and edges.
+    assert_eq!(refused(&ours("siemens", None), &to, &SIEMENS.replace("T4", "T9")), [(506, 9)]);
+    // What one of them does not name at all stays as it is.
+    let only = profile("fanuc", &tools(&[(7, "drill-8", None), (3, "mill-10", None)]));
+    let (text, stops, _) = with(&ours("fanuc", Some(23)), &only, FANUC);
+    assert!(stops.is_empty() && text.contains("G55") && text.contains("T7"), "{stops:?}\n{text}");
+    let (text, stops, _) = with(&ours("fanuc", Some(23)), &profile("fanuc", ""), FANUC);
+    assert!(stops.is_empty() && text.contains("T4") && text.contains("H23"), "{stops:?}\n{text}");
+}
+
+#[test]
+fn an_entry_of_another_number_is_not_taken_for_the_tool_s() {
+    // No names: edge 1 is the entry of the tool's number, unless a profile says otherwise.
+    let entry = profile("fanuc", "[[tool]]\nnumber = 3\nlength_entry = 23\n");
+    let part = FANUC.replace("H23", "H3").replace("T0 M06\n", "");
+    assert_eq!(with(&entry, &profile("siemens", ""), &part).1, BTreeSet::from([505]));
+    assert_eq!(with(&profile("siemens", ""), &entry, SIEMENS).1, BTreeSet::from([505]));
+}
+
+const CALLS: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nG00 X0. Y0. Z5.\nM98 P1001\nM98 P1002\nM30\nO1001\nG21 G90 G00 X1.\nM99\nO1002\nG21 G90 G00 X2.\nM98 P1001\nM99\n%\n";
+
+#[test]
+fn programs_have_names_and_numbers() {
+    let pair = [(1001, "Pocket"), (1002, "slot_2"), (1, "PART_7")];
+    let named = rows("program", &pair);
+    let (there, stops, _) = with(&profile("fanuc", &named), &profile("siemens", ""), CALLS);
+    assert!(stops.is_empty(), "{stops:?}\n{there}");
+    assert!(there.contains("%_N_POCKET_SPF") && there.contains("%_N_SLOT_2_SPF"), "{there}");
+    assert!(there.contains("%_N_PART_7_MPF") && !there.contains("L1001"), "{there}");
+    // The target's profile alone says it as well.
+    let (same, ..) = with(&profile("fanuc", ""), &profile("siemens", &named), CALLS);
+    assert_eq!(there, same);
+    // And back: by the rows of the machine with numbers. (Names in the text form are those of the rows.)
+    let ir = profile("ir", "");
+    let (there, stops, _) = with(&profile("fanuc", &named), &ir, CALLS);
+    assert!(stops.is_empty() && there.contains("CALL(\"SLOT_2\")"), "{stops:?}\n{there}");
+    let to = rows("program", &[(2001, "POCKET"), (2002, "SLOT_2"), (2, "PART_7")]);
+    let (back, stops, _) = with(&ir, &profile("fanuc", &to), &there);
+    assert!(stops.is_empty(), "{stops:?}\n{back}");
+    assert!(
+        back.contains("O2001 (POCKET)") && back.contains("O2002") && back.contains("M98 P2001"),
+        "{back}"
+    );
+    assert!(back.contains("O0002"), "{back}");
+    // Without a row a number is made, but none that is another program's.
+    let (made, stops, _) = with(&ir, &profile("fanuc", &rows("program", &pair[1..2])), &there);
+    assert!(
+        stops.is_empty() && made.contains("M98 P1002") && made.contains("M98 P1001"),
+        "{stops:?}\n{made}"
+    );
+    let other = rows("program", &[(1001, "OTHER"), (1002, "SLOT_2")]);
+    let (made, stops, _) = with(&ir, &profile("fanuc", &other), &there);
+    assert!(stops.is_empty() && !made.contains("P1001") && made.contains("P1003"), "{stops:?}\n{made}");
+    // The same from a control with names, whose subprograms are written out.
+    let (there, ..) = with(&profile("fanuc", &named), &profile("siemens", ""), CALLS);
+    let (back, stops, _) = with(&profile("siemens", ""), &profile("fanuc", &to), &there);
+    assert!(stops.is_empty() && back.contains("O0002"), "{stops:?}\n{back}");
+    // From number to number by way of the name; a number without one is refused.
+    let (text, stops, _) = with(&profile("fanuc", &named), &profile("haas", &to), CALLS);
+    assert!(stops.is_empty(), "{stops:?}\n{text}");
+    assert!(text.contains("M98 P2001") && text.contains("M98 P2002") && !text.contains("1001"), "{text}");
+    let some = profile("fanuc", &rows("program", &pair[..1]));
+    assert_eq!(with(&some, &profile("haas", &to), CALLS).1, BTreeSet::from([506]));
+    assert_eq!(
+        with(&profile("fanuc", &named), &profile("haas", &rows("program", &[(9, "POCKET")])), CALLS).1,
+        BTreeSet::from([506])
+    );
+    // Two programs of one number: a number that stays, and one that is put in.
+    let clash = profile("haas", &rows("program", &[(1002, "POCKET")]));
+    let two = there_with_both(&ir, &named);
+    assert_eq!(with(&ir, &clash, &two).1, BTreeSet::from([219]));
+    // The program's own number counts as well.
+    let own = profile("haas", &rows("program", &[(1002, "PART_7")]));
+    let text = CALLS.replace("P1001", "P1003").replace("O1001", "O1003");
+    let from = profile("fanuc", &rows("program", &[(1, "PART_7"), (1002, "X1"), (1003, "X2")]));
+    let all = rows("program", &[(7, "PART_7"), (8, "X1"), (7777, "X2")]);
+    let (text_, stops, _) = with(&from, &profile("haas", &all), &text);
+    assert!(stops.is_empty() && text_.contains("O00007") && text_.contains("P7777"), "{stops:?}\n{text_}");
+    let (_, stops, _) = with(&profile("fanuc", ""), &own, &text);
+    assert!(stops.is_empty(), "{stops:?}");
+}
+
+/// A program in the text form with a subprogram by name and one by number.
+fn there_with_both(ir: &Arc<Profile>, named: &str) -> String {
+    let row = named.split("[[program]]").find(|row| row.contains("Pocket")).unwrap_or_default();
+    with(&profile("fanuc", &format!("[[program]]{row}")), ir, CALLS).0
+}

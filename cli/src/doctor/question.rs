@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use ncc_dialects::Dialect;
+use ncc_ir::maps::Numbered;
 use ncc_machines::reading::{Place, Side, UNNAMED};
 use ncc_machines::schema::PowerOn;
 use ncc_machines::table::Table;
@@ -11,7 +12,7 @@ use ncc_machines::table::Table;
 use crate::job::Outcome;
 use crate::render::About;
 use crate::render::summary::phrase;
-use crate::render::words::Context;
+use crate::render::words::{Context, numbered};
 
 /// Of one question, so many lines are named.
 const MOST_LINES: usize = 8;
@@ -67,6 +68,8 @@ pub(super) fn questions(about: &mut About, outcome: &Outcome) -> io::Result<Vec<
             taken: match &rest.place {
                 Place::Code(code) => format!("what {code} does is not known"),
                 Place::Function(name) => format!("no code for {}", function(name)),
+                Place::Name(what, number) => format!("{} {number} has no name", numbered(*what, 1)),
+                Place::Number(what, name) => format!("no {} named {name}", numbered(*what, 1)),
                 Place::PowerOn(_) | Place::Option(_) | Place::Confirmed(_) => phrase(&diagnostic.fault, at),
             },
             takes: takes(&rest.place, dialect),
@@ -111,6 +114,13 @@ fn takes(place: &Place, dialect: &Dialect) -> String {
         Place::Code(_) => "a name for its function, in small letters; the same in the profile of the other \
                            machine. It must move no axis and change no tool."
             .to_owned(),
+        Place::Name(Numbered::LengthEntry, _) => {
+            "the tool whose length it is, with its number and its name, \
+                                                  the same in the profile of the other machine"
+                .to_owned()
+        }
+        Place::Name(..) => "its name, the same in the profile of the other machine".to_owned(),
+        Place::Number(..) => "its number on this machine".to_owned(),
         Place::Function(_) => "the code, and the name as the profile of the other machine has it".to_owned(),
     }
 }

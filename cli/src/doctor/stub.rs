@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use ncc_machines::reading::{Place, Side, UNNAMED, quoted};
+use ncc_ir::maps::Numbered;
+use ncc_machines::reading::{Place, Side, UNNAMED, key_of, quoted};
 
 use super::question::Question;
 use crate::render::About;
@@ -43,7 +44,7 @@ pub(super) fn profile(side: Side, about: &About, asked: &[Question], id: &str) -
             let key = match &question.place {
                 Place::PowerOn(key) => (*key).to_owned(),
                 Place::Option(key) | Place::Confirmed(key) => quoted(key),
-                Place::Code(_) | Place::Function(_) => continue,
+                Place::Code(_) | Place::Function(_) | Place::Name(..) | Place::Number(..) => continue,
             };
             let (lines, taken, takes) = (question.lines(), &question.taken, &question.takes);
             comment(&mut text, &format!("{lines}: taken for granted: {taken}"));
@@ -56,12 +57,35 @@ pub(super) fn profile(side: Side, about: &About, asked: &[Question], id: &str) -
             Place::Code(code) => (code.as_str(), ""),
             Place::Function(name) if name.starts_with(UNNAMED) => ("", ""),
             Place::Function(name) => ("", name.as_str()),
-            Place::PowerOn(_) | Place::Option(_) | Place::Confirmed(_) => continue,
+            Place::Name(..)
+            | Place::Number(..)
+            | Place::PowerOn(_)
+            | Place::Option(_)
+            | Place::Confirmed(_) => continue,
         };
         let _ = writeln!(text, "\n[[m_code]]");
         comment(&mut text, &format!("{}: {}", question.lines(), question.taken));
         comment(&mut text, &question.takes);
         let _ = writeln!(text, "code = {code:?}\nfunction = {function:?}");
+    }
+    for question in own() {
+        // What is not known yet makes no profile: it is left out by hand, or filled in.
+        let (what, keys) = match &question.place {
+            Place::Name(Numbered::LengthEntry, entry) => {
+                (Numbered::Tool, format!("number = \"\"\nname = \"\"\nlength_entry = {entry}"))
+            }
+            Place::Name(what, number) => (*what, format!("number = {number}\nname = \"\"")),
+            Place::Number(what, name) => (*what, format!("number = \"\"\nname = {name:?}")),
+            Place::Code(_)
+            | Place::Function(_)
+            | Place::PowerOn(_)
+            | Place::Option(_)
+            | Place::Confirmed(_) => continue,
+        };
+        let _ = writeln!(text, "\n[[{}]]", key_of(what));
+        comment(&mut text, &format!("{}: {}", question.lines(), question.taken));
+        comment(&mut text, &question.takes);
+        let _ = writeln!(text, "{keys}");
     }
     text
 }

@@ -9,6 +9,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::{Characters, Form, Numbering, ToolChange};
 use ncc_dialects::{Dialect, Settings};
 use ncc_ir::diag::Fault;
+use ncc_ir::maps::{Maps, Renaming};
 use ncc_machines::reading::{Place, Side, Told, rests_on};
 use ncc_machines::schema::{BlockNumbers, Characters as Set, FileName, LineEnds, ToolChangeForm};
 use ncc_machines::{Layout, Profile};
@@ -93,6 +94,11 @@ impl Machines {
         let Some((side, place)) = rests_on(fault, told, from.dialect, to.dialect) else {
             return Answer::Open;
         };
+        if let Fault::AssumedEdge { tool } = fault
+            && let Some(answer) = self.answer_edge(*tool)
+        {
+            return answer;
+        }
         let Some(profile) = self.side(side) else { return Answer::Open };
         let power_on = &profile.schema.power_on;
         let says = match (&place, fault) {
@@ -111,7 +117,7 @@ impl Machines {
             // A reader does not assume what its dictionary has as a fact.
             (Place::PowerOn(_), _) => None,
             // A code that a profile has is in its dictionary.
-            (Place::Code(_) | Place::Function(_), _) => None,
+            (Place::Code(_) | Place::Function(_) | Place::Name(..) | Place::Number(..), _) => None,
         };
         match says {
             None => Answer::Open,
@@ -121,6 +127,33 @@ impl Machines {
                 machine: profile.id().into(),
             }),
         }
+    }
+
+    /// What the profiles say to edge 1 of a tool being the entry of its number. Where tools go by name,
+    /// they say which entry is whose; where they do not, an entry of another number is not that.
+    fn answer_edge(&self, tool: u32) -> Option<Answer> {
+        if self.renaming().tools.is_some() {
+            return Some(Answer::Settled);
+        }
+        let denies = |profile: &&Profile| {
+            let mut rows = profile.schema.tool.iter().map(|row| row.get_ref());
+            rows.any(|row| {
+                row.number.get() == Some(tool) && row.length_entry.get().is_some_and(|n| n != tool)
+            })
+        };
+        let profile = [self.from.as_deref(), self.to.as_deref()].into_iter().flatten().find(denies)?;
+        let fact = format!("length_entry of tool {tool}").into();
+        Some(Answer::Denied(Fault::ProfileDenies { fact, machine: profile.id().into() }))
+    }
+
+    /// The target machine's numbers of what the source's calls by its own.
+    pub fn maps(&self, target: &Dialect) -> Maps {
+        ncc_machines::maps(self.from.as_deref(), self.to.as_deref(), target)
+    }
+
+    /// The way back, for a judge of what was written.
+    pub fn renaming(&self) -> Renaming {
+        ncc_machines::renaming(self.from.as_deref(), self.to.as_deref())
     }
 
     /// The name of an output in a folder: after the source or the program's number, with the

@@ -31,7 +31,6 @@ pub(super) fn message(wrong: &Wrong) -> String {
         Wrong::NotOneToOne { function } => format!("two codes for {function}"),
         Wrong::TooFine { key, .. } => format!("{key}: finer than the control"),
         Wrong::NoForm { key, lacks } => format!("{key}: the dialect has no {lacks}"),
-        Wrong::NotYet { key } => format!("[{key}] is not carried yet"),
     }
 }
 
@@ -70,10 +69,6 @@ pub(super) fn words(wrong: &Wrong) -> Words {
         ),
         Wrong::TooFine { most, .. } => (format!("it has {most} digits after the point"), None),
         Wrong::NoForm { .. } => ("cannot be written so".into(), None),
-        Wrong::NotYet { .. } => (
-            "leave it out".into(),
-            Some("programs keep their tool, length-entry, work-offset and program numbers".into()),
-        ),
     };
     Words { label, help }
 }

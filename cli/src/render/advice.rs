@@ -1,6 +1,7 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
 use ncc_ir::diag::{Fault, ModeName, Verdict};
+use ncc_ir::maps::Numbered;
 
 use super::words::{Context, mode, plain_upto};
 
@@ -141,6 +142,19 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
         Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
         Fault::TargetRange { .. } => Vec::new(),
+        Fault::NotInMap { what, .. } => {
+            vec![match what {
+            Numbered::LengthEntry => {
+                "state the entry as `length_entry` of a tool that both profiles name, or leave all names \
+                 out of one of them: numbers then stay as they are"
+            }
+            Numbered::Tool | Numbered::WorkOffset | Numbered::Program => {
+                "give it the same name in both profiles, or leave all names out of one of them: numbers \
+                 then stay as they are"
+            }
+        }
+        .to_owned()]
+        }
         Fault::ProfileDenies { .. } => own("write this place another way, or correct the profile"),
 
         Fault::NotTheSame { .. } | Fault::NotReadBack { .. } => vec![

@@ -10,7 +10,7 @@ use super::About;
 use super::human::{Loudness, told};
 use super::source::Lines;
 use super::words::{Context, plain, plural, words, work_offset};
-use crate::head::assumption;
+use crate::head::{assumption, by_name};
 use crate::job::{Failure, Outcome};
 
 /// Of one phrase, so many line numbers are named.
@@ -59,6 +59,9 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
             coloured(out, Color::Red, "NOT VERIFIED")?;
             writeln!(out)?;
         }
+    }
+    for line in by_name(&outcome.renumbered, "→") {
+        writeln!(out, "  {line}")?;
     }
     let at =
         Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "", beside: ("", "") };
@@ -246,6 +249,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::ArcVanishes
         | Fault::TargetRange { .. }
         | Fault::ProfileDenies { .. }
+        | Fault::NotInMap { .. }
         | Fault::NotTheSame { .. }
         | Fault::NotReadBack { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,

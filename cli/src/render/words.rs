@@ -5,6 +5,7 @@
 
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::maps::Numbered;
 use ncc_ir::num::ONE;
 
 /// What the wording may name besides the fault's own data.
@@ -267,6 +268,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("the profile of {} says otherwise", plain(machine)),
             format!("this rests on {}", plain(fact)),
         ),
+        Fault::NotInMap { what, number, name } => (
+            format!("the other machine's number of {} {number} is not known", numbered(*what, 1)),
+            match name {
+                Some(name) => format!("the target's profile has nothing named {}", plain(name)),
+                None => "the source's profile has no name for it".into(),
+            },
+        ),
         Fault::TargetRange { word } => {
             (format!("{} cannot be written", quoted(word)), format!("out of the range of {to}"))
         }
@@ -323,6 +331,17 @@ pub fn mode(fact: ModeName) -> &'static str {
 pub fn work_offset(number: u16, dialects: [&Dialect; 2]) -> String {
     let row = dialects.into_iter().find_map(|d| d.code_for(Meaning::SetOriginOffsets(number)));
     row.map_or_else(|| format!("work offset {number}"), |row| row.code.clone())
+}
+
+/// What has a number, as one or as several.
+pub fn numbered(what: Numbered, count: u64) -> String {
+    match what {
+        Numbered::Tool => plural(count, "tool"),
+        Numbered::LengthEntry if count == 1 => "length entry".to_owned(),
+        Numbered::LengthEntry => "length entries".to_owned(),
+        Numbered::WorkOffset => plural(count, "work offset"),
+        Numbered::Program => plural(count, "program"),
+    }
 }
 
 /// A noun with its plural's s.

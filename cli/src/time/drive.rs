@@ -14,6 +14,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::cycle::{Clearance, CycleKind};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Kind, Runner};
+use ncc_ir::maps::Renaming;
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
@@ -542,5 +543,6 @@ fn world(plan: &Plan) -> World {
         peck_clearance: value(PECK_CLEARANCE),
         break_lift: value(BREAK_LIFT),
         tables: plan.tables.clone(),
+        renaming: Renaming::default(),
     }
 }

@@ -238,7 +238,7 @@ impl Exec {
     pub(super) fn edge(&self, edge: u32) -> Length {
         match (u32::try_from(self.state.tool), edge) {
             (_, 0) => Length::Entry(0),
-            (Ok(tool), 1) if tool != 0 => Length::Entry(tool),
+            (Ok(tool), 1) if tool != 0 => Length::Entry(self.world.edge_entry(tool)),
             _ => Length::Edge(self.state.tool, edge),
         }
     }

@@ -4,6 +4,8 @@
 //! piece is left as it is and only the tool's position is followed. Bodies of structured control are
 //! not looked into: a target that has such control can say everything.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
@@ -69,7 +71,7 @@ impl Legaliser {
                 caps: caps.clone(),
                 decimals: decimals.min(8),
                 peck_clearance,
-                break_lift: None,
+                ..Target::default()
             },
             lacks,
             measures: false,
@@ -90,6 +92,17 @@ impl Legaliser {
     /// The value of the source control's lift of chip breaking, for cycles that must be written out.
     pub fn set_break_lift(&mut self, lift: Option<Num>) {
         self.target.break_lift = lift;
+    }
+
+    /// The entries of the target's length table that have the lengths of its tools, where they are not
+    /// the tools' numbers.
+    pub fn set_edge_entries(&mut self, entries: BTreeMap<u32, u32>) {
+        self.target.edge_entries = entries;
+    }
+
+    /// Numbers of programs that the target's machine has already, for others than this one's.
+    pub fn set_program_numbers(&mut self, numbers: BTreeSet<u32>) {
+        self.target.program_numbers = numbers;
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
@@ -307,7 +320,7 @@ impl Legaliser {
                 expand_calls::over(rest, &mut self.walk.clone(), diags);
             }
         }
-        number_names::over(rest, self.target.caps.call_digits, diags);
+        number_names::over(rest, &self.target, diags);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
             self.run(&mut main.body, &assumed, diags);

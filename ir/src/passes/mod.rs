@@ -25,6 +25,7 @@ pub mod flatten_facts;
 pub mod fold_cycles;
 pub mod fold_patterns;
 mod legalise;
+pub mod machine_numbers;
 pub mod number_names;
 pub mod offset_with_z;
 pub mod one_distance;
@@ -40,6 +41,8 @@ pub mod work_offset;
 mod write;
 
 pub use legalise::Legaliser;
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::caps::Caps;
 use crate::diag::Diagnostic;
@@ -64,6 +67,11 @@ pub struct Target {
     pub peck_clearance: Option<Num>,
     /// Lift of a chip-breaking cycle whose own control has it as a parameter, likewise.
     pub break_lift: Option<Num>,
+    /// The entry of its length table that has the length of edge 1 of a tool, where that is not the
+    /// entry with the tool's number.
+    pub edge_entries: BTreeMap<u32, u32>,
+    /// Numbers of programs that the machine has already: no subprogram is given one of them.
+    pub program_numbers: BTreeSet<u32>,
 }
 
 impl Target {

@@ -1,7 +1,7 @@
 //! `number-names`: procedures get numbers, where a target calls by number.
 //!
 //! A name that is a number of few enough digits stays. The others get the lowest numbers from 1001
-//! on that nothing in the program has, in the order in which they stand; the name becomes the title,
+//! on that nothing in the program has, nor the machine, in the order in which they stand; the name becomes the title,
 //! if there is none, so that it is still read.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,11 +17,12 @@ const FIRST: u32 = 1001;
 
 /// Numbers them.
 pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, target.caps.call_digits, diags);
+    over(program, target, diags);
 }
 
 /// The same for a number of digits; 0 leaves every name.
-pub(super) fn over(program: &mut Program, digits: u32, diags: &mut Vec<Diagnostic>) {
+pub(super) fn over(program: &mut Program, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let digits = target.caps.call_digits;
     let fits = |name: &str| {
         name.bytes().all(|b| b.is_ascii_digit())
             && name.parse::<u32>().is_ok_and(|n| n > 0 && n < limit(digits))
@@ -32,6 +33,7 @@ pub(super) fn over(program: &mut Program, digits: u32, diags: &mut Vec<Diagnosti
     }
     let mut taken: BTreeSet<u32> = subs().filter_map(|p| p.name.parse().ok()).collect();
     taken.extend(program.name.number);
+    taken.extend(&target.program_numbers);
     let mut free = (FIRST..limit(digits)).filter(|n| !taken.contains(n));
     let mut new: BTreeMap<Text, Text> = BTreeMap::new();
     for procedure in program.procedures.iter_mut().skip(1).filter(|p| !fits(&p.name)) {

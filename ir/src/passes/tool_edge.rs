@@ -78,7 +78,7 @@ pub(super) fn over(
         walk.enter(stmt.skip);
         match edges {
             true => to_edges(stmt, walk, state, made, diags),
-            false => to_entries(stmt, walk, state, made, diags),
+            false => to_entries(stmt, walk, state, target, made, diags),
         }
     });
 }
@@ -108,6 +108,7 @@ fn to_entries(
     mut stmt: Stmt,
     walk: &mut Walk,
     state: &mut State,
+    target: &Target,
     made: &mut Rebuild,
     diags: &mut Vec<Diagnostic>,
 ) {
@@ -146,6 +147,8 @@ fn to_entries(
             if entry > 0 {
                 state.tell(entry, span, diags);
             }
+            // The tool's own number, unless the machine keeps its length elsewhere.
+            let entry = target.edge_entries.get(&entry).copied().unwrap_or(entry);
             stmt.op = Op::UseToolLengthOffset(Expr::int(i64::from(entry)));
             waiting.place = Some(made.out.len());
             made.push(stmt);

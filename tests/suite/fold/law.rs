@@ -41,7 +41,7 @@ pub(super) fn everything(decimals: u8) -> Target {
         inch: true,
         ..Caps::default()
     };
-    Target { caps, decimals, peck_clearance: None, break_lift: None }
+    Target { caps, decimals, ..Target::default() }
 }
 
 /// Runs passes by name.

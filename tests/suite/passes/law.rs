@@ -363,8 +363,10 @@ fn the_machine_does_the_same() {
                         decimals: 3,
                         peck_clearance: Some(mm(10)),
                         break_lift: Some(mm(7)),
+                        ..super::Target::default()
                     },
                     start: [None; 6],
+                    maps: super::Maps::default(),
                 };
                 told.start[..3].copy_from_slice(&start);
                 // What the source's own control could not execute proves nothing.

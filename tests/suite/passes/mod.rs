@@ -4,7 +4,8 @@
 //! anything another `---` and the reports. Lines `#! …` before the program say what the pass is told:
 //! `target ID OPTION=VALUE` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
 //! (where the axes stand), `clearance 1.0` and `lift 0.5` (the parameters of peck drilling and of chip
-//! breaking, mm), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
+//! breaking, mm), `tools 3:7`, `entries`, `offsets`, `programs` (maps to another machine's numbers),
+//! `edge-entries 7:27` (entries of its tools), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
 //! `legaliser` the passes are picked by the target.
 //!
 //! Besides the text, every case that is not refused is executed before and after, in two worlds:
@@ -12,6 +13,7 @@
 
 mod law;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -22,7 +24,9 @@ use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, Return
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Progress, Runner};
+use ncc_ir::maps::{Maps, Renaming};
 use ncc_ir::num::{Nanos, Num, ONE, Unit};
+use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::{Legaliser, PASSES, Target};
 use ncc_ir::program::{Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
@@ -34,6 +38,7 @@ use ncc_tests::expect::{self, Failures};
 struct Told {
     target: Target,
     start: [Option<Nanos>; AXES],
+    maps: Maps,
 }
 
 fn folder() -> PathBuf {
@@ -42,8 +47,9 @@ fn folder() -> PathBuf {
 
 fn told(text: &str) -> Result<Told, String> {
     let mut told = Told {
-        target: Target { caps: Caps::default(), decimals: 3, peck_clearance: None, break_lift: None },
+        target: Target { decimals: 3, ..Target::default() },
         start: [None; AXES],
+        maps: Maps::default(),
     };
     for line in text.lines().filter_map(|l| l.strip_prefix("#! ")) {
         let (what, value) = line.split_once(' ').ok_or("a directive has a value")?;
@@ -65,6 +71,21 @@ fn told(text: &str) -> Result<Told, String> {
                     told.start[axis as usize] = Some(decimal(&word[1..])?);
                 }
             }
+            "tools" => told.maps.tools = Some(numbers(value)?),
+            "entries" => told.maps.entries = Some(numbers(value)?),
+            "offsets" => {
+                let short = |n: u32| u16::try_from(n).map_err(|e| e.to_string());
+                let rows = numbers(value)?.into_iter().map(|(a, b)| Ok((short(a)?, short(b)?)));
+                told.maps.offsets = Some(rows.collect::<Result<_, String>>()?);
+            }
+            "programs" => {
+                let pairs = value.split(' ').map(|pair| pair.split_once(':').ok_or("a pair has a colon"));
+                let rows = pairs.map(|pair| pair.map(|(a, b)| (a.into(), b.into())));
+                told.maps.programs = rows.collect::<Result<_, _>>()?;
+            }
+            "programs-in-force" => told.maps.programs_in_force = value == "yes",
+            "edge-entries" => told.target.edge_entries = numbers(value)?,
+            "program-numbers" => told.target.program_numbers = numbers(value)?.into_keys().collect(),
             "can" => value.split(' ').try_for_each(|one| can(&mut told.target.caps, one))?,
             _ => return Err(format!("unknown directive {what}")),
         }
@@ -93,6 +114,29 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
         _ => return Err(format!("no capability {name}")),
     }
     Ok(())
+}
+
+/// Pairs of numbers: `3:7 4:3`.
+fn numbers(text: &str) -> Result<BTreeMap<u32, u32>, String> {
+    let number = |text: &str| text.parse::<u32>().map_err(|e| format!("{text}: {e}"));
+    let pair = |pair: &str| {
+        let (a, b) = pair.split_once(':').ok_or("a pair has a colon")?;
+        Ok((number(a)?, number(b)?))
+    };
+    text.split(' ').map(pair).collect()
+}
+
+/// The way back of maps that are one to one.
+fn back(maps: &Maps) -> Renaming {
+    fn turned<T: Ord + Copy>(map: &Option<BTreeMap<T, T>>) -> Option<BTreeMap<T, T>> {
+        map.as_ref().map(|map| map.iter().map(|(a, b)| (*b, *a)).collect())
+    }
+    Renaming {
+        tools: turned(&maps.tools),
+        entries: turned(&maps.entries),
+        offsets: turned(&maps.offsets),
+        ..Renaming::default()
+    }
 }
 
 fn decimal(text: &str) -> Result<Nanos, String> {
@@ -143,11 +187,18 @@ fn refused(diags: &[Diagnostic]) -> bool {
     diags.iter().any(|d| d.fault.gravity() == Gravity::Error)
 }
 
+/// The folder of cases of the pass that is in no list.
+const NUMBERS: &str = "machine-numbers";
+
 fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnostic>, String> {
     let mut diags = Vec::new();
     if pass == "legaliser" {
         let mut legaliser = legaliser(told);
         legaliser.run_program(program, &mut diags);
+        return Ok(diags);
+    }
+    if pass == NUMBERS {
+        Renumbering::new(told.maps.clone()).run(program, &mut diags);
         return Ok(diags);
     }
     let pass = PASSES.iter().find(|p| p.name == pass).ok_or("a folder is named after a pass")?;
@@ -245,9 +296,20 @@ fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), Str
             let world = world(seed, before, told);
             let mut a = Machine::new(before, &world, skip, told);
             let on_after = if skip == 0 { 0 } else { skip | 1 << 1 };
-            let mut b = Machine::new(after, &world, on_after, told);
+            let mut there = world.clone();
+            there.renaming = back(&told.maps);
+            there.tables.edge_entries.clone_from(&told.target.edge_entries);
+            there.power_on = told.maps.modes(&world.power_on);
+            // Edge 1 of a tool is the entry of its number before, and another one after.
+            if !told.target.edge_entries.is_empty() {
+                let mut entries: BTreeMap<u32, u32> = (1..100).map(|n| (n, n)).collect();
+                entries.extend(told.target.edge_entries.iter().map(|(tool, entry)| (*entry, *tool)));
+                there.renaming.entries = Some(entries);
+            }
+            let mut b = Machine::new(after, &there, on_after, told);
             let resolution = Resolution { mm: 3, inch: 4, degree: 3, feed: 3, feed_inch: 4, second: 3 };
             let mut comparison = Comparison::new(resolution, a.exec.machine());
+            comparison.rename_tools(there.renaming.tools.clone());
             let (mut source, mut target) = (a.run()?, b.run()?);
             comparison
                 .advance(&mut source, &mut target, true)
@@ -309,7 +371,7 @@ impl<'p> Machine<'p> {
 #[test]
 fn every_pass_has_a_case() {
     let cases = cases();
-    for pass in PASSES {
-        assert!(cases.iter().any(|(name, _)| name == pass.name), "no case for {}", pass.name);
+    for pass in PASSES.iter().map(|pass| pass.name).chain([NUMBERS]) {
+        assert!(cases.iter().any(|(name, _)| name == pass), "no case for {pass}");
     }
 }
