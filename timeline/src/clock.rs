@@ -1,6 +1,8 @@
-//! The clock: functions go in, and come out with their time.
+//! The clock: functions go in, and have their time as soon as it is certain.
+//!
+//! They stay where they were put until the caller has done with them: copying one costs as much as a
+//! good part of its planning.
 
-use std::collections::VecDeque;
 use std::str::FromStr;
 
 use ncc_ir::exec::Kind;
@@ -14,6 +16,7 @@ use crate::machine::Machine;
 use crate::path::path;
 use crate::plan::Plan;
 use crate::profile::Profile;
+use crate::queue::Queue;
 use crate::ramp::stop_to_stop;
 use crate::smooth::Smooth;
 
@@ -115,19 +118,38 @@ impl Planner {
     }
 }
 
-/// Gives functions their times, in order.
+/// Functions in order; those that have their time stand first.
 #[derive(Clone, Debug)]
-struct Stamp {
-    now: f64,
+struct Row {
+    queue: Queue<Timed>,
+    /// How many of them have their time.
+    certain: usize,
+    /// Number of the last that went in.
     n: u64,
+    /// Seconds from the start to the end of the last that has its time.
+    now: f64,
 }
 
-impl Stamp {
-    fn put(&mut self, act: Act, duration: f64, profile: Profile, out: &mut Vec<Timed>) {
+impl Row {
+    /// One whose time is not known yet.
+    fn push(&mut self, act: Act) {
         self.n += 1;
-        let start = self.now;
-        self.now += duration;
-        out.push(Timed { act, n: self.n, start, duration, profile });
+        self.queue.push(Timed { act, n: self.n, start: 0.0, duration: 0.0, profile: Profile::default() });
+    }
+
+    /// The time of the first that has none.
+    fn settle(&mut self, duration: f64, profile: Profile) {
+        if let Some(timed) = self.queue.all().get_mut(self.certain) {
+            timed.start = self.now;
+            timed.duration = duration;
+            timed.profile = profile;
+            self.now += duration;
+            self.certain += 1;
+        }
+    }
+
+    fn waiting(&self) -> usize {
+        self.queue.len() - self.certain
     }
 }
 
@@ -138,10 +160,8 @@ pub struct Clock {
     limits: Limits,
     junctions: Junctions,
     planner: Planner,
-    /// Functions of the path whose time is not certain yet.
-    waiting: VecDeque<Act>,
+    row: Row,
     most_waiting: usize,
-    stamp: Stamp,
     /// Speed of the spindle, rev/min, signed.
     spindle: f64,
     lower: f64,
@@ -170,67 +190,79 @@ impl Clock {
             ),
             planner,
             machine,
-            waiting: VecDeque::new(),
+            row: Row { queue: Queue::default(), certain: 0, n: 0, now: 0.0 },
             most_waiting: 0,
-            stamp: Stamp { now: 0.0, n: 0 },
             spindle: 0.0,
             lower: 0.0,
             upper: 0.0,
         }
     }
 
-    /// Takes the next function; those whose time is certain now are pushed to `out`, in order.
-    pub fn push(&mut self, act: Act, out: &mut Vec<Timed>) {
-        if matches!(self.planner, Planner::Ideal) {
-            let duration = ideal::duration(&act, &self.machine);
+    /// Takes the next function; [`Clock::certain`] has those whose time is certain now.
+    pub fn push(&mut self, act: Act) {
+        let Clock { machine, limits, junctions, planner, row, .. } = self;
+        if matches!(planner, Planner::Ideal) {
+            let duration = ideal::duration(&act, machine);
             let profile = match &act.event.kind {
                 Kind::Traverse | Kind::Feed | Kind::Arc { .. } => {
                     Profile::constant(path(&act.event, &act.from).length, duration)
                 }
                 _ => Profile::default(),
             };
-            self.stamp.put(act, duration, profile, out);
+            row.push(act);
+            row.settle(duration, profile);
             return;
         }
-        let Clock { limits, junctions, planner, waiting, stamp, .. } = self;
         if let Some(movement) = limits.movement(&act) {
             let leg = &movement.leg;
             self.lower += leg.length / leg.speed;
             self.upper += stop_to_stop(leg);
-            waiting.push_back(act);
-            let mut certain = |profile: Profile| certain(profile, waiting, stamp, out);
-            junctions.push(&movement, limits, |leg| planner.push(leg, &mut certain));
-            self.most_waiting = self.most_waiting.max(self.waiting.len());
+            row.push(act);
+            let mut settle = |profile: Profile| row.settle(profile.duration(), profile);
+            junctions.push(&movement, limits, |leg| planner.push(leg, &mut settle));
+            self.most_waiting = self.most_waiting.max(self.row.waiting());
             return;
         }
-        let time = fixed(&act, &self.machine, self.spindle);
-        self.spindle = turning(&act.event.state, &self.machine);
+        let time = fixed(&act, machine, self.spindle);
+        self.spindle = turning(&act.event.state, machine);
         self.lower += time.seconds;
         self.upper += time.seconds;
         if time.stops {
-            self.finish(out);
+            self.finish();
         }
-        if self.waiting.is_empty() {
-            self.stamp.put(act, time.seconds, Profile::default(), out);
+        let Clock { junctions, planner, row, .. } = self;
+        row.push(act);
+        if row.waiting() == 1 {
+            row.settle(time.seconds, Profile::default());
         } else {
-            let Clock { junctions, planner, waiting, stamp, .. } = self;
-            waiting.push_back(act);
-            let mut certain = |profile: Profile| certain(profile, waiting, stamp, out);
-            junctions.instant(|leg| planner.push(leg, &mut certain));
+            let mut settle = |profile: Profile| row.settle(profile.duration(), profile);
+            junctions.instant(|leg| planner.push(leg, &mut settle));
         }
     }
 
-    /// The program is over: all the rest is pushed to `out`.
-    pub fn finish(&mut self, out: &mut Vec<Timed>) {
-        let Clock { junctions, planner, waiting, stamp, .. } = self;
-        let mut certain = |profile: Profile| certain(profile, waiting, stamp, out);
-        junctions.stop(|leg| planner.push(leg, &mut certain));
-        planner.stop(&mut certain);
+    /// The program is over, or stops: the time of all functions is certain.
+    pub fn finish(&mut self) {
+        let Clock { junctions, planner, row, .. } = self;
+        let mut settle = |profile: Profile| row.settle(profile.duration(), profile);
+        junctions.stop(|leg| planner.push(leg, &mut settle));
+        planner.stop(&mut settle);
     }
 
-    /// Seconds from the start to the end of the last function that came out.
+    /// Functions whose time is certain, in order, and that were not forgotten yet.
+    pub fn certain(&mut self) -> &mut [Timed] {
+        let certain = self.row.certain;
+        self.row.queue.all().get_mut(..certain).unwrap_or_default()
+    }
+
+    /// Forgets the functions whose time is certain: the caller has done with them.
+    pub fn forget(&mut self) {
+        self.row.queue.drop_first(self.row.certain);
+        self.row.certain = 0;
+    }
+
+    /// Seconds from the start to the end of the last function whose time is certain.
     pub fn now(&self) -> f64 {
-        self.stamp.now
+        self.row.now
     }
 
     /// Seconds of all functions that went in, at least and at most: at their rates without any
@@ -238,7 +270,7 @@ impl Clock {
     /// `ideal` model knows no acceleration: both are its time.
     pub fn bounds(&self) -> (f64, f64) {
         match self.planner {
-            Planner::Ideal => (self.stamp.now, self.stamp.now),
+            Planner::Ideal => (self.row.now, self.row.now),
             Planner::Trapezoidal(_) | Planner::JerkLimited(_) => (self.lower, self.upper),
         }
     }
@@ -246,12 +278,5 @@ impl Clock {
     /// The greatest number of functions that had to wait for what followed.
     pub fn most_waiting(&self) -> usize {
         self.most_waiting
-    }
-}
-
-/// The time of the first that waits is certain.
-fn certain(profile: Profile, waiting: &mut VecDeque<Act>, stamp: &mut Stamp, out: &mut Vec<Timed>) {
-    if let Some(act) = waiting.pop_front() {
-        stamp.put(act, profile.duration(), profile, out);
     }
 }

@@ -72,7 +72,7 @@ impl Junctions {
         if self.exact_stop || (last.shape == Shape::Turning) != (m.shape == Shape::Turning) {
             leg.cap = 0.0;
         }
-        let turn = turn(&last.heading, &m.headings[0]);
+        let turn = turn(&last.heading, &m.headings[0], limits);
         let mut corner = None;
         if turn.half_sine_squared <= STRAIGHT {
             let mut after = last.run;
@@ -88,7 +88,7 @@ impl Junctions {
         } else {
             self.resolve(last.run, &mut out);
             if leg.cap > 0.0 {
-                let (cap, by_length) = turn.caps(limits, self.tolerance);
+                let (cap, by_length) = turn.caps(self.tolerance);
                 leg.cap = leg.cap.min(cap).min(by_length * last.run);
                 if by_length * leg.length < leg.cap {
                     corner = Some(Corner { cap: leg.cap, by_length });
@@ -125,47 +125,60 @@ impl Junctions {
             if let Some(first) = self.held.first_mut() {
                 first.cap = corner.cap.min(corner.by_length * run);
             }
-            self.held.drain(..).for_each(out);
+            self.held.iter().for_each(|leg| out(*leg));
+            self.held.clear();
         }
     }
 }
 
 /// A change of direction.
 struct Turn {
-    /// Where it goes to, less where it came from.
-    change: [f64; 6],
     half_sine_squared: f64,
     half_cosine: f64,
+    /// How much an acceleration by the difference of the directions loads the axes.
+    load: f64,
     /// Speed in the space of all axes for each unit along the path: the greater of both sides.
     stretch: f64,
 }
 
-fn turn(from: &Heading, to: &Heading) -> Turn {
-    let change: [f64; 6] = std::array::from_fn(|i| to.unit[i] - from.unit[i]);
-    // From the difference and the sum of the directions: exact for the smallest angles, where a cosine
-    // is 1, and at a reversal, where it is -1.
+#[inline]
+fn turn(from: &Heading, to: &Heading, limits: &Limits) -> Turn {
+    let stretch = from.stretch.max(to.stretch);
+    // Where no rotary axis moves on either side, three axes are all.
+    let (difference, sum, load) = if stretch == 1.0 {
+        let (a, b) = ([0, 1, 2].map(|i| from.unit[i]), [0, 1, 2].map(|i| to.unit[i]));
+        let (difference, sum, change) = squares(&a, &b);
+        (difference, sum, limits.load_linear(&change))
+    } else {
+        let (difference, sum, change) = squares(&from.unit, &to.unit);
+        (difference, sum, limits.load(&change))
+    };
+    Turn { half_sine_squared: difference / 4.0, half_cosine: sum.sqrt() / 2.0, load, stretch }
+}
+
+/// Squared lengths of the difference and of the sum of two directions, and the difference. From these
+/// an angle is exact for the smallest, where a cosine is 1, and at a reversal, where it is -1.
+#[inline]
+fn squares<const N: usize>(from: &[f64; N], to: &[f64; N]) -> (f64, f64, [f64; N]) {
+    let change: [f64; N] = std::array::from_fn(|i| to[i] - from[i]);
     let (mut difference, mut sum) = (0.0, 0.0);
-    for ((from, to), change) in from.unit.iter().zip(&to.unit).zip(&change) {
+    for ((from, to), change) in from.iter().zip(to).zip(&change) {
         difference += change * change;
         sum += (from + to) * (from + to);
     }
-    Turn {
-        change,
-        half_sine_squared: difference / 4.0,
-        half_cosine: sum.sqrt() / 2.0,
-        stretch: from.stretch.max(to.stretch),
-    }
+    (difference, sum, change)
 }
 
 impl Turn {
     /// Squares of the speed: by the tolerance, and for each mm of the shorter move.
-    fn caps(&self, limits: &Limits, tolerance: f64) -> (f64, f64) {
+    #[inline]
+    fn caps(&self, tolerance: f64) -> (f64, f64) {
         // The sine of half the turn is the cosine of θ/2. The acceleration along the change of direction,
         // made a unit vector, is 2·cos(θ/2) over the load of the change itself; radius by radius, what
         // can be is multiplied out: divisions are dear. 1 / (1 − sin) is (1 + sin) / cos², without the
         // difference of two numbers near 1.
         let (squared, sine) = (self.half_sine_squared, self.half_cosine);
-        let each = 1.0 / (limits.load(&self.change) * self.stretch * self.stretch);
+        let each = 1.0 / (self.load * self.stretch * self.stretch);
         let by_tolerance = 2.0 * tolerance * sine * (1.0 + sine) / squared.sqrt();
         (by_tolerance * each, sine * each)
     }

@@ -17,6 +17,7 @@ mod machine;
 mod path;
 mod plan;
 mod profile;
+mod queue;
 mod ramp;
 mod smooth;
 

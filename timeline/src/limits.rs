@@ -9,12 +9,13 @@
 //! the acceleration at some point of a circle, so the weaker one counts, for the centripetal
 //! acceleration `v² / r` too. That and the acceleration along the path are not added up.
 
-use ncc_ir::canon::AXES;
+use ncc_ir::canon::{AXES, Plane};
 use ncc_ir::exec::Kind;
+use ncc_ir::num::Nanos;
 
 use crate::act::Act;
 use crate::machine::Machine;
-use crate::path::{Path, path, units};
+use crate::path::{Path, Round, arc, laid, line, units};
 
 /// Seconds in a minute.
 const MINUTE: f64 = 60.0;
@@ -126,11 +127,22 @@ impl Limits {
         load(direction, &self.acceleration)
     }
 
+    /// The same, where no rotary axis takes part.
+    pub(crate) fn load_linear(&self, direction: &[f64; 3]) -> f64 {
+        load_linear(direction, &self.acceleration)
+    }
+
     /// A move, if it is one and goes anywhere.
+    #[inline]
     pub(crate) fn movement(&self, act: &Act) -> Option<Move> {
-        let rapid = match &act.event.kind {
-            Kind::Traverse => true,
-            Kind::Feed | Kind::Arc { .. } => false,
+        let event = &act.event;
+        match &event.kind {
+            Kind::Traverse => self.straight(line(&event.end, &act.from), self.rapid_line, &self.rapid),
+            Kind::Feed => self.straight(line(&event.end, &act.from), self.wanted(event.rate), &self.feed),
+            Kind::Arc { plane, turn, full, centre } => {
+                let round = Round { plane: *plane, turn: *turn, full: *full, centre: *centre };
+                self.bent(arc(&round, &event.end, &act.from), *plane, self.wanted(event.rate))
+            }
             Kind::Dwell(_)
             | Kind::ToolChange
             | Kind::Coolant
@@ -140,50 +152,81 @@ impl Limits {
             | Kind::ProgramEnd
             | Kind::TextEnd
             | Kind::Message(_)
-            | Kind::Attribute(_) => return None,
-        };
-        let way = path(&act.event, &act.from);
+            | Kind::Attribute(_) => None,
+        }
+    }
+
+    /// The speed that a feed asks for.
+    #[inline]
+    fn wanted(&self, rate: Nanos) -> f64 {
+        if rate > 0 { self.most_feed.min(units(rate) / MINUTE) } else { self.most_feed }
+    }
+
+    /// A straight move, at most at such a speed, its axes within their rates.
+    #[inline]
+    fn straight(&self, way: Path, wanted: f64, rates: &[f64; AXES]) -> Option<Move> {
         if way.length <= 0.0 {
             return None;
         }
-        let arc = match &act.event.kind {
-            Kind::Arc { plane, .. } => {
-                let (f, s, n) = plane.axes();
-                Some([f as usize, s as usize, n as usize])
-            }
-            _ => None,
-        };
-        let turns = (3..AXES).any(|i| way.change[i] != 0.0);
-        let travel = travel(&way, arc);
-        let wanted = match units(act.event.rate) {
-            _ if rapid => self.rapid_line,
-            rate if rate > 0.0 => self.most_feed.min(rate / MINUTE),
-            _ => self.most_feed,
-        };
-        let mut speed = wanted.min(way.length / load(&travel, if rapid { &self.rapid } else { &self.feed }));
-        if let Some([f, s, _]) = arc {
-            let inward = 1.0 / self.acceleration[f].max(self.acceleration[s]);
-            speed = speed.min((inward * way.radius).sqrt() * way.length / travel[f]);
+        let [x, y, z, a, b, c] = way.change;
+        if a == 0.0 && b == 0.0 && c == 0.0 {
+            let headings = [Heading::linear(way.heading_from); 2];
+            let linear = [x, y, z];
+            let speed = wanted.min(way.length / load_linear(&linear, rates));
+            let acceleration = way.length / load_linear(&linear, &self.acceleration);
+            return Some(Move {
+                leg: self.leg(&way, &way.change, speed, acceleration),
+                shape: Shape::Straight,
+                headings,
+            });
         }
-        if self.block > 0.0 {
-            // A control that needs so long for a block feeds no faster than blocks come.
-            speed = speed.min(way.length / self.block);
+        let linear = x != 0.0 || y != 0.0 || z != 0.0;
+        let heading = if linear { way.heading(way.heading_from) } else { Heading::linear([0.0; 3]) };
+        let speed = wanted.min(way.length / load(&way.change, rates));
+        let acceleration = way.length / load(&way.change, &self.acceleration);
+        Some(Move {
+            leg: self.leg(&way, &way.change, speed, acceleration),
+            shape: if linear { Shape::Straight } else { Shape::Turning },
+            headings: [heading; 2],
+        })
+    }
+
+    /// An arc, at most at such a speed.
+    #[inline]
+    fn bent(&self, way: Path, plane: Plane, wanted: f64) -> Option<Move> {
+        if way.length <= 0.0 {
+            return None;
         }
+        let (f, s, n) = plane.axes();
+        // What each axis would travel at its fastest: those of the plane, where the arc runs along them.
+        let round = way.radius * way.sweep;
+        let [x, y, z] = laid(plane, [round, round, way.change[n as usize]]);
+        let travel = [x, y, z, way.change[3], way.change[4], way.change[5]];
+        let inward = 1.0 / self.acceleration[f as usize].max(self.acceleration[s as usize]);
+        let speed = wanted
+            .min(way.length / load(&travel, &self.feed))
+            .min((inward * way.radius).sqrt() * way.length / round);
         let acceleration = way.length / load(&travel, &self.acceleration);
-        // The slowest axis that moves sets the time in which acceleration is built up.
-        let moving = (0..AXES).filter(|i| self.soft && travel[*i] != 0.0);
-        let build_up = moving.fold(0.0, |most: f64, i| most.max(self.build_up[i]));
-        let leg =
-            Leg { length: way.length, speed, acceleration, softness: acceleration * build_up, cap: 0.0 };
-        let linear = way.change[..3].iter().any(|change| *change != 0.0) || arc.is_some();
-        let shape = match (linear, arc) {
-            (false, _) => Shape::Turning,
-            (true, None) => Shape::Straight,
-            (true, Some(_)) => Shape::Bent,
+        let headings = if way.turns() {
+            [way.heading(way.heading_from), way.heading(way.heading_to)]
+        } else {
+            [Heading::linear(way.heading_from), Heading::linear(way.heading_to)]
         };
-        let rotary = (turns && linear).then(|| [3, 4, 5].map(|i: usize| way.change[i] / way.length));
-        let headings = [heading(way.heading_from, rotary), heading(way.heading_to, rotary)];
-        Some(Move { leg, shape, headings })
+        Some(Move { leg: self.leg(&way, &travel, speed, acceleration), shape: Shape::Bent, headings })
+    }
+
+    /// The leg of a move, its cap not known yet.
+    #[inline]
+    fn leg(&self, way: &Path, travel: &[f64; AXES], speed: f64, acceleration: f64) -> Leg {
+        // A control that needs so long for a block feeds no faster than blocks come.
+        let speed = if self.block > 0.0 { speed.min(way.length / self.block) } else { speed };
+        let mut softness = 0.0;
+        if self.soft {
+            // The slowest axis that moves sets the time in which acceleration is built up.
+            let moving = (0..AXES).filter(|i| travel[*i] != 0.0);
+            softness = acceleration * moving.fold(0.0, |most: f64, i| most.max(self.build_up[i]));
+        }
+        Leg { length: way.length, speed, acceleration, softness, cap: 0.0 }
     }
 }
 
@@ -195,24 +238,30 @@ fn load(direction: &[f64; AXES], inverse_limits: &[f64; AXES]) -> f64 {
     larger(larger(larger(load(0), load(1)), larger(load(2), load(3))), larger(load(4), load(5)))
 }
 
-/// What each axis would travel at its fastest in the move: of an arc, what its plane's axes do where it runs
-/// along them.
-fn travel(way: &Path, arc: Option<[usize; 3]>) -> [f64; AXES] {
-    let mut travel = way.change;
-    if let Some([f, s, _]) = arc {
-        let round = way.radius * way.sweep;
-        (travel[f], travel[s]) = (round, round);
-    }
-    travel
+/// The same, where no rotary axis takes part.
+fn load_linear(direction: &[f64; 3], inverse_limits: &[f64; AXES]) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let load = |i: usize| direction[i].abs() * inverse_limits[i];
+    larger(larger(load(0), load(1)), load(2))
 }
 
-fn heading(linear: [f64; 3], rotary: Option<[f64; 3]>) -> Heading {
-    let [x, y, z] = linear;
-    match rotary {
-        None => Heading { unit: [x, y, z, 0.0, 0.0, 0.0], stretch: 1.0 },
-        Some([a, b, c]) => {
-            let stretch = (1.0 + a * a + b * b + c * c).sqrt();
-            Heading { unit: [x, y, z, a, b, c].map(|u| u / stretch), stretch }
-        }
+impl Path {
+    /// Whether rotary axes take part.
+    fn turns(&self) -> bool {
+        self.change[3..].iter().any(|change| *change != 0.0)
+    }
+
+    /// A direction of its linear axes with the share of the rotary ones.
+    fn heading(&self, [x, y, z]: [f64; 3]) -> Heading {
+        let [a, b, c] = [3, 4, 5].map(|i: usize| self.change[i] / self.length);
+        let stretch = (1.0 + a * a + b * b + c * c).sqrt();
+        Heading { unit: [x, y, z, a, b, c].map(|u| u / stretch), stretch }
+    }
+}
+
+impl Heading {
+    /// Of linear axes alone.
+    fn linear([x, y, z]: [f64; 3]) -> Heading {
+        Heading { unit: [x, y, z, 0.0, 0.0, 0.0], stretch: 1.0 }
     }
 }

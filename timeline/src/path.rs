@@ -1,6 +1,8 @@
 //! The way of a move: its length, and its directions at both ends.
 
-use ncc_ir::canon::{AXES, Turn};
+use std::f64::consts::TAU;
+
+use ncc_ir::canon::{AXES, Plane, Turn};
 use ncc_ir::exec::{Event, Kind};
 use ncc_ir::num::{Nanos, ONE};
 
@@ -33,7 +35,10 @@ fn norm(v: [f64; 3]) -> f64 {
 
 fn unit(v: [f64; 3]) -> [f64; 3] {
     match norm(v) {
-        n if n > 0.0 => v.map(|x| x / n),
+        n if n > 0.0 => {
+            let each = 1.0 / n;
+            v.map(|x| x * each)
+        }
         _ => [0.0; 3],
     }
 }
@@ -41,55 +46,11 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 /// The way of an event from a point, both in one coordinate system. An event that is no move has a
 /// way of no length.
 pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
-    let change: [f64; AXES] = std::array::from_fn(|i| units(event.end[i] - from[i]));
-    let linear = [change[0], change[1], change[2]];
     match &event.kind {
-        Kind::Traverse | Kind::Feed => {
-            let (length, heading) = match norm(linear) {
-                0.0 => (change[3].hypot(change[4]).hypot(change[5]), [0.0; 3]),
-                length => {
-                    let each = 1.0 / length;
-                    (length, linear.map(|x| x * each))
-                }
-            };
-            Path {
-                length,
-                change,
-                heading_from: heading,
-                heading_to: heading,
-                radius: f64::INFINITY,
-                sweep: 0.0,
-            }
-        }
+        Kind::Traverse | Kind::Feed => line(&event.end, from),
         Kind::Arc { plane, turn, full, centre } => {
-            let (f, s, n) = plane.axes();
-            let arm =
-                |p: &[Nanos; AXES]| [units(p[f as usize] - centre[0]), units(p[s as usize] - centre[1])];
-            let (a, b) = (arm(from), arm(&event.end));
-            let radius = (a[0] * a[0] + a[1] * a[1]).sqrt();
-            let angle = (b[1].atan2(b[0]) - a[1].atan2(a[0])).rem_euclid(std::f64::consts::TAU);
-            let sweep = match turn {
-                _ if *full => std::f64::consts::TAU,
-                Turn::Counterclockwise => angle,
-                Turn::Clockwise => std::f64::consts::TAU - angle,
-            };
-            let sense = if *turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
-            let rise = change[n as usize];
-            let heading = |arm: [f64; 2]| {
-                let mut v = [0.0; 3];
-                v[f as usize] = -arm[1] * sense * sweep;
-                v[s as usize] = arm[0] * sense * sweep;
-                v[n as usize] = rise;
-                unit(v)
-            };
-            Path {
-                length: ((radius * sweep) * (radius * sweep) + rise * rise).sqrt(),
-                change,
-                heading_from: heading(a),
-                heading_to: heading(b),
-                radius,
-                sweep,
-            }
+            let round = Round { plane: *plane, turn: *turn, full: *full, centre: *centre };
+            arc(&round, &event.end, from)
         }
         Kind::Dwell(_)
         | Kind::ToolChange
@@ -108,5 +69,82 @@ pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
             radius: f64::INFINITY,
             sweep: 0.0,
         },
+    }
+}
+
+/// Change of every axis.
+#[inline]
+fn change(end: &[Nanos; AXES], from: &[Nanos; AXES]) -> [f64; AXES] {
+    let [x, y, z] = [0, 1, 2].map(|i: usize| units(end[i] - from[i]));
+    // Rotary axes stand still in most moves.
+    if end[3..] == from[3..] {
+        return [x, y, z, 0.0, 0.0, 0.0];
+    }
+    let [a, b, c] = [3, 4, 5].map(|i: usize| units(end[i] - from[i]));
+    [x, y, z, a, b, c]
+}
+
+/// Of a straight move.
+#[inline]
+pub(crate) fn line(end: &[Nanos; AXES], from: &[Nanos; AXES]) -> Path {
+    let change = change(end, from);
+    let linear = [change[0], change[1], change[2]];
+    let (length, heading) = match norm(linear) {
+        0.0 => (change[3].hypot(change[4]).hypot(change[5]), [0.0; 3]),
+        length => {
+            let each = 1.0 / length;
+            (length, linear.map(|x| x * each))
+        }
+    };
+    Path { length, change, heading_from: heading, heading_to: heading, radius: f64::INFINITY, sweep: 0.0 }
+}
+
+/// What [`Kind::Arc`] says.
+pub(crate) struct Round {
+    pub(crate) plane: Plane,
+    pub(crate) turn: Turn,
+    pub(crate) full: bool,
+    pub(crate) centre: [Nanos; 2],
+}
+
+/// X Y Z of what is along the first and the second axis of a plane, and along its normal.
+#[inline]
+pub(crate) fn laid(plane: Plane, [first, second, normal]: [f64; 3]) -> [f64; 3] {
+    match plane {
+        Plane::Xy => [first, second, normal],
+        Plane::Yz => [normal, first, second],
+        Plane::Zx => [second, normal, first],
+    }
+}
+
+/// Of an arc.
+#[inline]
+pub(crate) fn arc(round: &Round, end: &[Nanos; AXES], from: &[Nanos; AXES]) -> Path {
+    let Round { plane, turn, full, centre } = round;
+    let change = change(end, from);
+    let (f, s, n) = plane.axes();
+    let arm = |p: &[Nanos; AXES]| [units(p[f as usize] - centre[0]), units(p[s as usize] - centre[1])];
+    let (a, b) = (arm(from), arm(end));
+    let radius = (a[0] * a[0] + a[1] * a[1]).sqrt();
+    let sense = if *turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
+    let sweep = if *full {
+        TAU
+    } else {
+        // From the one arm to the other, in the sense of the arc.
+        let across = (a[0] * b[1] - a[1] * b[0]) * sense;
+        let along = a[0] * b[0] + a[1] * b[1];
+        let angle = across.atan2(along);
+        if angle < 0.0 { angle + TAU } else { angle }
+    };
+    let rise = change[n as usize];
+    let round = sense * sweep;
+    let heading = |arm: [f64; 2]| unit(laid(*plane, [-arm[1] * round, arm[0] * round, rise]));
+    Path {
+        length: ((radius * sweep) * (radius * sweep) + rise * rise).sqrt(),
+        change,
+        heading_from: heading(a),
+        heading_to: heading(b),
+        radius,
+        sweep,
     }
 }

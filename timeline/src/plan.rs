@@ -13,10 +13,9 @@
 //! comes later with a smaller sum is settled before all that are larger and earlier, which then need
 //! not be kept.
 
-use std::collections::VecDeque;
-
 use crate::limits::Leg;
 use crate::profile::Profile;
+use crate::queue::Queue;
 
 /// Sum of gains from which it is counted anew, so that it keeps its digits.
 const RECOUNT: f64 = 1e9;
@@ -41,10 +40,10 @@ struct Candidate {
 /// The legs whose speeds are not certain yet.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Plan {
-    legs: VecDeque<Planned>,
+    legs: Queue<Planned>,
     /// Number of the first of them.
     first: u64,
-    candidates: VecDeque<Candidate>,
+    candidates: Queue<Candidate>,
     /// Gains of all legs since the count began.
     gains: f64,
 }
@@ -52,29 +51,28 @@ pub(crate) struct Plan {
 impl Plan {
     /// Takes a leg; gives the profiles of those that are certain now.
     pub(crate) fn push(&mut self, leg: Leg, out: &mut impl FnMut(Profile)) {
-        let entry = match self.legs.back() {
+        let entry = match self.legs.last() {
             None => 0.0,
             Some(last) => leg.cap.min(last.entry + last.gain),
         };
         let candidate = Candidate { leg: self.first + self.legs.len() as u64, at: entry + self.gains };
-        while self.candidates.back().is_some_and(|other| other.at >= candidate.at) {
-            self.candidates.pop_back();
+        while self.candidates.last().is_some_and(|other| other.at >= candidate.at) {
+            self.candidates.drop_last();
         }
-        self.candidates.push_back(candidate);
+        self.candidates.push(candidate);
         let gain = leg.gain();
         self.gains += gain;
-        self.legs.push_back(Planned { leg, gain, entry });
-        let mut settled = None;
-        while let Some(next) = self.candidates.front().filter(|next| next.at <= self.gains) {
-            settled = Some(next.leg);
-            self.candidates.pop_front();
-        }
-        if let Some(settled) = settled {
-            self.release((settled - self.first) as usize, out);
+        self.legs.push(Planned { leg, gain, entry });
+        let gains = self.gains;
+        let settled = self.candidates.all().iter().take_while(|next| next.at <= gains).count();
+        if let Some(last) = settled.checked_sub(1).and_then(|last| self.candidates.all().get(last)) {
+            let legs = (last.leg - self.first) as usize;
+            self.candidates.drop_first(settled);
+            self.release(legs, out);
         }
         if self.gains > RECOUNT {
-            for candidate in &mut self.candidates {
-                candidate.at -= self.gains;
+            for candidate in self.candidates.all() {
+                candidate.at -= gains;
             }
             self.gains = 0.0;
         }
@@ -83,7 +81,7 @@ impl Plan {
     /// The path ends in a stop: all the rest is certain.
     pub(crate) fn stop(&mut self, out: &mut impl FnMut(Profile)) {
         let leg = Leg::INSTANT;
-        self.legs.push_back(Planned { leg, gain: 0.0, entry: 0.0 });
+        self.legs.push(Planned { leg, gain: 0.0, entry: 0.0 });
         self.release(self.legs.len() - 1, out);
         self.legs.clear();
         self.candidates.clear();
@@ -92,21 +90,20 @@ impl Plan {
 
     /// Gives the legs before one whose entry is settled.
     fn release(&mut self, settled: usize, out: &mut impl FnMut(Profile)) {
-        let Some(last) = self.legs.get(settled) else { return };
+        let Some((legs, [last, ..])) = self.legs.all().split_at_mut_checked(settled) else { return };
         let mut exit = last.entry;
-        for planned in self.legs.range_mut(..settled).rev() {
+        for planned in legs.iter_mut().rev() {
             exit = planned.entry.min(exit + planned.gain);
             planned.entry = exit;
         }
-        let Some(mut this) = self.legs.front().copied() else { return };
-        let mut entry = this.entry.sqrt();
-        for _ in 0..settled {
-            self.legs.pop_front();
-            let Some(next) = self.legs.front().copied() else { return };
-            let exit = next.entry.sqrt();
-            out(ramps(&this, next.entry, [entry, exit]));
-            (this, entry) = (next, exit);
+        let mut entry = exit.sqrt();
+        let exits = legs.iter().skip(1).map(|planned| planned.entry).chain([last.entry]);
+        for (planned, squared) in legs.iter().zip(exits) {
+            let exit = squared.sqrt();
+            out(ramps(planned, squared, [entry, exit]));
+            entry = exit;
         }
+        self.legs.drop_first(settled);
         self.first += settled as u64;
     }
 }

@@ -195,9 +195,6 @@ struct Drive<'d> {
     /// A model with acceleration beside one that has none, for the upper bound.
     beside: Option<Clock>,
     events: Vec<Event>,
-    timed: Vec<Timed>,
-    /// What comes out of the clock beside.
-    unused: Vec<Timed>,
     /// Of functions whose time is not certain yet, in order.
     said: VecDeque<Said>,
     course: Course,
@@ -231,8 +228,6 @@ impl<'d> Drive<'d> {
             beside: (wants_bounds && model == Model::Ideal)
                 .then(|| Clock::new(Model::Trapezoidal, plan.machine.clone())),
             events: Vec::new(),
-            timed: Vec::new(),
-            unused: Vec::new(),
             said: VecDeque::new(),
             course: Course {
                 diagnostics: Vec::new(),
@@ -365,10 +360,10 @@ impl<'d> Drive<'d> {
             let reach = if arc { reach(&act, &self.exec).map(Box::new) } else { None };
             self.said.push_back(Said { reach, ..said.clone() });
             if let Some(clock) = &mut self.beside {
-                clock.push(act.clone(), &mut self.unused);
-                self.unused.clear();
+                clock.push(act.clone());
+                clock.forget();
             }
-            self.clock.push(act, &mut self.timed);
+            self.clock.push(act);
         }
         self.events = events;
         self.deliver().map(Ok)
@@ -436,18 +431,19 @@ impl<'d> Drive<'d> {
 
     /// Hands over what has its time.
     fn deliver(&mut self) -> io::Result<()> {
-        for mut timed in self.timed.drain(..) {
+        for timed in self.clock.certain() {
             timed.start += self.plan.start_time;
             let said = self.said.pop_front().unwrap_or_default();
-            self.sink.function(&timed, &said)?;
+            self.sink.function(timed, &said)?;
         }
+        self.clock.forget();
         Ok(())
     }
 
     /// The end.
     fn end(mut self) -> io::Result<Course> {
         if self.errors == 0 {
-            self.clock.finish(&mut self.timed);
+            self.clock.finish();
             self.deliver()?;
         }
         if self.wants_bounds {

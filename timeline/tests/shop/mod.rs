@@ -158,9 +158,12 @@ pub(crate) fn run(model: Model, machine: &Machine, acts: &[Act]) -> Run {
     let mut clock = Clock::new(model, machine.clone());
     let mut timed = Vec::new();
     for act in acts {
-        clock.push(act.clone(), &mut timed);
+        clock.push(act.clone());
+        timed.extend_from_slice(clock.certain());
+        clock.forget();
     }
-    clock.finish(&mut timed);
+    clock.finish();
+    timed.extend_from_slice(clock.certain());
     assert_eq!(timed.len(), acts.len(), "every function comes out once");
     let mut now = 0.0;
     for (i, (timed, act)) in timed.iter().zip(acts).enumerate() {
