@@ -19,6 +19,7 @@ mod schema;
 mod second;
 mod shared;
 mod siemens_second;
+mod stable;
 mod structure;
 mod tables;
 mod text_forms;
