@@ -546,3 +546,6 @@ pub(crate) fn parameter(job: &Job, option: &str) -> Option<Num> {
     (part.len() < 10)
         .then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
 }
+
+#[cfg(test)]
+mod tests;

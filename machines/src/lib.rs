@@ -22,7 +22,7 @@ mod wrong;
 pub use control::Layout;
 pub use document::tables;
 pub use fact::Fact;
-pub use maps::{maps, renaming};
+pub use maps::{counterpart, maps, nameless, renaming};
 pub use profile::{Profile, Row};
 pub use shipped::{find, shipped};
 pub use wrong::{ProfileError, Wrong};

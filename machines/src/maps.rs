@@ -10,7 +10,9 @@ use ncc_dialects::Dialect;
 use ncc_ir::maps::{Maps, Numbered, Renaming};
 use ncc_ir::program::Text;
 
+use crate::fact::Fact;
 use crate::profile::Profile;
+use crate::schema::{ToolRow, WorkOffsetRow};
 
 /// The target's numbers of what the source calls by its own. Tools and work offsets are mapped where
 /// both machines name any; programs by what either says, as their controls call by number or by name.
@@ -79,8 +81,7 @@ pub fn renaming(from: Option<&Profile>, to: Option<&Profile>) -> Renaming {
             numbers.insert(0, 0);
         }
         for theirs in to.schema.tool.iter().map(toml::Spanned::get_ref) {
-            let same =
-                |t: &&crate::schema::ToolRow| t.name.value.is_some() && t.name.value == theirs.name.value;
+            let same = |t: &&ToolRow| t.name.value.is_some() && t.name.value == theirs.name.value;
             let Some(ours) = from.schema.tool.iter().map(toml::Spanned::get_ref).find(same) else { continue };
             let (Some(there), Some(here)) = (theirs.number.value, ours.number.value) else { continue };
             numbers.insert(there, here);
@@ -109,6 +110,42 @@ pub fn renaming(from: Option<&Profile>, to: Option<&Profile>) -> Renaming {
         renaming.offsets = Some(numbers);
     }
     renaming
+}
+
+/// An imaginary machine of a dialect that has the names of a profile's tools and work offsets, with
+/// numbers in another order: a program for it shows what the profile makes of the names.
+pub fn counterpart(profile: &Profile, dialect: &'static Dialect) -> Profile {
+    let mut other = Profile::empty(dialect);
+    let fact = |number: usize| u32::try_from(number).map(|n| Fact { value: Some(n), ..Fact::default() });
+    let named = |name: &str| Fact { value: Some(name.to_owned()), ..Fact::default() };
+    for (at, name) in tools(profile).keys().enumerate() {
+        let row =
+            ToolRow { number: fact(at + 1).unwrap_or_default(), name: named(name), ..ToolRow::default() };
+        other.schema.tool.push(toml::Spanned::new(0..0, row));
+    }
+    for (at, name) in offsets(profile).keys().enumerate() {
+        let number = fact(at + 1).unwrap_or_default();
+        let row = WorkOffsetRow { number, name: named(name), ..WorkOffsetRow::default() };
+        other.schema.work_offset.push(toml::Spanned::new(0..0, row));
+    }
+    other
+}
+
+/// The same machine without a name for any number: numbers from and to it stay as they are.
+pub fn nameless(profile: &Profile) -> Profile {
+    fn cleared<T: Clone>(rows: &[toml::Spanned<T>], clear: fn(&mut T)) -> Vec<toml::Spanned<T>> {
+        let own = |row: &toml::Spanned<T>| {
+            let mut own = row.get_ref().clone();
+            clear(&mut own);
+            toml::Spanned::new(row.span(), own)
+        };
+        rows.iter().map(own).collect()
+    }
+    let mut own = profile.clone();
+    own.schema.tool = cleared(&profile.schema.tool, |row| row.name = Fact::default());
+    own.schema.work_offset = cleared(&profile.schema.work_offset, |row| row.name = Fact::default());
+    own.schema.program.clear();
+    own
 }
 
 /// A named tool.

@@ -17,6 +17,7 @@ use super::pair::Machines;
 use crate::job::Job;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
+use crate::render::words::plural;
 use crate::translate::translate;
 
 /// What most programs have.
@@ -43,7 +44,8 @@ pub(super) fn test(profile: &Profile) -> (String, bool) {
         &written.as_ref().map(|(n, _)| events(*n)).map_err(Clone::clone),
     );
     if let Ok((_, written)) = written {
-        let own = Machines { from: to.to.clone(), to: to.to.clone() };
+        // The sample's numbers are of this machine already.
+        let own = Machines { from: Some(Arc::new(ncc_machines::nameless(profile))), to: to.to.clone() };
         let again = translated(&written, profile.settings(), own);
         tell("the same, from the machine to itself", &again.map(|(n, _)| events(n)));
     }
@@ -61,7 +63,49 @@ pub(super) fn test(profile: &Profile) -> (String, bool) {
         });
         tell(&format!("its {} M codes, written and read back", codes.len()), &each);
     }
+    let other = ncc_machines::counterpart(profile, ir);
+    let (tools, offsets) = (other.schema.tool.len(), other.schema.work_offset.len());
+    if tools + offsets > 0 {
+        let machines = Machines { from: Some(Arc::new(other)), to: Some(Arc::new(profile.clone())) };
+        let written = translated(&of_names(tools, offsets), Settings::new(ir), machines);
+        let count = |n: usize, what: &str| format!("{n} {}", plural(n as u64, what));
+        let what = match (count(tools, "tool"), count(offsets, "work offset")) {
+            (what, _) if offsets == 0 => what,
+            (_, what) if tools == 0 => what,
+            (tools, offsets) => format!("{tools} and {offsets}"),
+        };
+        tell(&format!("the names of its {what}, from other numbers"), &written.map(|(n, _)| events(n)));
+    }
     (text, passed)
+}
+
+/// A program that uses so many tools and work offsets, numbered from 1.
+fn of_names(tools: usize, offsets: usize) -> String {
+    let mut used: String = (1..=tools)
+        .map(|n| {
+            format!(
+                "SELECT_TOOL({n}) & CHANGE_TOOL()\nUSE_TOOL_LENGTH_OFFSET({n}) & said STRAIGHT_TRAVERSE(Z {n}.mm)\n"
+            )
+        })
+        .collect();
+    used.extend(
+        (1..=offsets)
+            .map(|n| format!("SET_ORIGIN_OFFSETS({n})\nsaid STRAIGHT_TRAVERSE(X {n}.mm, Y 0.mm, Z 50.mm)\n")),
+    );
+    let without = |line: &&str| {
+        let tool = line.contains("SELECT_TOOL") || line.contains("USE_TOOL_LENGTH_OFFSET");
+        !(tools > 0 && tool || offsets > 0 && line.contains("SET_ORIGIN_OFFSETS"))
+    };
+    let mut text = String::new();
+    for line in SAMPLE.lines().filter(without) {
+        // Where tools or zeros have no names, the sample's own stay.
+        if line.starts_with("SET_SPINDLE_SPEED") {
+            text.push_str(&used);
+        }
+        text.push_str(line);
+        text.push('\n');
+    }
+    text
 }
 
 /// The M codes of the machine with their functions.

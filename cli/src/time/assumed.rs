@@ -99,7 +99,10 @@ fn of_lengths(plan: &Plan, course: &Course) -> Vec<String> {
     }
     let open = used.into_iter().filter(|length| !is_stated(length));
     open.map(|length| match length {
-        Length::Entry(entry) => format!("length of tool {entry} = 0 mm"),
+        Length::Entry(entry) => {
+            let tool = plan.tables.edge_entries.iter().find(|(_, own)| *own == entry);
+            format!("length of tool {} = 0 mm", tool.map_or(entry, |(tool, _)| tool))
+        }
         Length::Edge(tool, edge) if *tool < 0 => format!("length of edge {edge} at the start = 0 mm"),
         Length::Edge(tool, edge) => format!("length of edge {edge} of tool {tool} = 0 mm"),
     })

@@ -166,3 +166,89 @@ fn the_doctor_asks_for_m_codes_on_both_sides() {
     let done = ncc(folder.path(), &translates).exits(0);
     assert!(done.out.contains("\nM70\n"), "{}", done.out);
 }
+
+const PART: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nG00 X0. Y0.\nG43 H23 Z5.\nM98 P1001\nM30\nO1001\nG21 G90 G00 X1.\nM99\n%\n";
+
+/// Rows of one tool, one work offset and one program of two machines.
+fn two_machines() -> tempfile::TempDir {
+    let rows = |tool: &str, offset: u32, program: u32| {
+        format!(
+            "{SHOP}[[tool]]\n{tool}\nname = \"drill-8\"\n[[work_offset]]\nnumber = {offset}\nname = \"vice\"\n[[program]]\nnumber = {program}\nname = \"POCKET\"\n"
+        )
+    };
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("old.toml", &rows("number = 3\nlength_entry = 23", 1, 1001));
+    write("new.toml", &rows("number = 7", 2, 2001));
+    write("part.nc", PART);
+    folder
+}
+
+#[test]
+fn what_goes_by_name_is_told_everywhere() {
+    let folder = two_machines();
+    let machines = ["translate", "part.nc", "--machine-from", "old.toml", "--machine-to", "new.toml"];
+    let done = ncc(folder.path(), &[&machines[..], &["--report", "r.json"]].concat()).exits(0);
+    for line in [
+        "  tools by name: 3 → 7\n",
+        "  length entries by name: 23 → 7\n",
+        "  work offsets by name: 1 → 2\n",
+        "  programs by name: 1001 → 2001\n",
+    ] {
+        assert!(done.err.contains(line), "{line}{}", done.err);
+    }
+    for line in ["(TOOLS BY NAME: 3 TO 7)", "T7 M06", "G43 H7 Z5.", "G55", "M98 P2001", "O2001"] {
+        assert!(done.out.contains(line), "{line}:\n{}", done.out);
+    }
+    let report = std::fs::read_to_string(folder.path().join("r.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    let rows: Vec<String> = report["renumbered"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| format!("{} {} {}", row["what"], row["from"], row["to"]).replace('"', ""))
+        .collect();
+    assert_eq!(rows, ["tool 3 7", "length_entry 23 7", "work_offset 1 2", "program 1001 2001"]);
+    // Nothing is said of machines without names.
+    let done = ncc(folder.path(), &["fanuc", "to", "haas", "part.nc", "--report", "r.json"]).exits(0);
+    assert!(!done.err.contains("by name") && !done.out.contains("BY NAME"), "{}{}", done.err, done.out);
+    let report = std::fs::read_to_string(folder.path().join("r.json")).unwrap();
+    assert!(report.contains("\"renumbered\": []"), "{report}");
+}
+
+#[test]
+fn names_are_shown_tested_and_asked_for() {
+    let folder = two_machines();
+    let shown = ncc(folder.path(), &["machines", "show", "old.toml"]).exits(0).out;
+    for line in
+        ["  name          drill-8\n", "  length_entry  23\n", "  name    vice\n", "  name    POCKET\n"]
+    {
+        assert!(shown.contains(line), "{line}{shown}");
+    }
+    let tested = ncc(folder.path(), &["machines", "test", "old.toml", "new.toml"]).exits(0).out;
+    let line = "passed  the names of its 1 tool and 1 work offset, from other numbers: ";
+    assert!(tested.matches(line).count() == 2 && !tested.contains("failed"), "{tested}");
+    // A tool that the control cannot call is found out.
+    let far = std::fs::read_to_string(folder.path().join("new.toml")).unwrap();
+    std::fs::write(folder.path().join("far.toml"), far.replace("number = 7", "number = 123456789")).unwrap();
+    let tested = ncc(folder.path(), &["machines", "test", "far.toml"]).exits(1).out;
+    assert!(tested.contains("failed  the names of its 1 tool"), "{tested}");
+
+    // Nothing is asked for while all that is used has a name.
+    let asks = ["doctor", "part.nc", "--machine-from", "old.toml", "--machine-to", "new.toml"];
+    let asked = ncc(folder.path(), &asks).exits(0).out;
+    assert!(!asked.contains("tool"), "{asked}");
+    let text = PART.replace("M98", "T5 M06\nT6 M06\nG43 H66 Z5.\nG55\nM98");
+    std::fs::write(folder.path().join("part.nc"), text).unwrap();
+    let more = std::fs::read_to_string(folder.path().join("old.toml")).unwrap();
+    let more = format!("{more}[[tool]]\nnumber = 6\nname = \"tap \\\"M6\\\"\"\n");
+    std::fs::write(folder.path().join("old.toml"), more).unwrap();
+    let writes = [&asks[..], &["--write-from", "a.toml", "--write-to", "b.toml"]].concat();
+    let asked = ncc(folder.path(), &writes).exits(1).out;
+    expect("doctor-names.txt", &asked);
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    expect("doctor-names-from.toml", &read("a.toml"));
+    expect("doctor-names-to.toml", &read("b.toml"));
+    // What is written is a profile, empty as it is.
+    ncc(folder.path(), &["machines", "test", "a.toml", "b.toml"]).exits(0);
+}
