@@ -6,7 +6,7 @@
 use std::collections::HashSet;
 
 use ncc_ir::canon::{AXES, Spindle};
-use ncc_ir::exec::{Attribute, Kind};
+use ncc_ir::exec::{Attribute, Kind, Movement};
 use ncc_ir::num::ONE;
 use ncc_timeline::{Place, Timed, path};
 
@@ -155,26 +155,17 @@ impl Record {
                 axis.push(start, *at as f64 / ONE as f64);
             }
         }
-        let stroke = match &act.event.kind {
-            Kind::Traverse => Stroke::Rapid,
+        if act.event.kind == Kind::Attribute(Attribute::Hole) {
+            self.hole(timed);
+            return;
+        }
+        let stroke = match act.event.kind.moves() {
+            Some(Movement::Rapid) => Stroke::Rapid,
             // All that a block makes of a hole has its place.
-            Kind::Feed if self.hole == Some(act.place) => Stroke::Hole,
-            Kind::Feed => Stroke::Feed,
-            Kind::Arc { .. } => Stroke::Arc,
-            Kind::Attribute(Attribute::Hole) => {
-                self.hole(timed);
-                return;
-            }
-            Kind::Dwell(_)
-            | Kind::ToolChange
-            | Kind::Coolant
-            | Kind::MachineFunction(_)
-            | Kind::ProgramStop
-            | Kind::OptionalProgramStop
-            | Kind::ProgramEnd
-            | Kind::TextEnd
-            | Kind::Message(_)
-            | Kind::Attribute(_) => Stroke::Still,
+            Some(Movement::Feed) if self.hole == Some(act.place) => Stroke::Hole,
+            Some(Movement::Feed) => Stroke::Feed,
+            Some(Movement::Arc { .. }) => Stroke::Arc,
+            None => Stroke::Still,
         };
         if stroke == Stroke::Still {
             self.still(timed);

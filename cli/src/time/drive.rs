@@ -371,7 +371,7 @@ impl<'d> Drive<'d> {
 
     /// Notes what a move depends on: whether it goes anywhere too.
     fn moves(&mut self, act: &Act) {
-        if !matches!(act.event.kind, Kind::Traverse | Kind::Feed | Kind::Arc { .. }) {
+        if act.event.kind.moves().is_none() {
             return;
         }
         self.moved = true;

@@ -64,6 +64,50 @@ pub enum Kind {
     Attribute(Attribute),
 }
 
+/// A move of the axes, by its way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Movement {
+    /// Rapid, straight.
+    Rapid,
+    /// Straight at feed.
+    Feed,
+    /// Arc or helix at feed; its fields are those of [`Kind::Arc`].
+    Arc {
+        /// Its plane.
+        plane: Plane,
+        /// Its sense.
+        turn: Turn,
+        /// Whether it is a whole circle.
+        full: bool,
+        /// Its centre in the plane.
+        centre: [Nanos; 2],
+    },
+}
+
+impl Kind {
+    /// How the axes move, if it is a move. Here alone it is said which kinds are none.
+    #[inline]
+    pub fn moves(&self) -> Option<Movement> {
+        match self {
+            Kind::Traverse => Some(Movement::Rapid),
+            Kind::Feed => Some(Movement::Feed),
+            Kind::Arc { plane, turn, full, centre } => {
+                Some(Movement::Arc { plane: *plane, turn: *turn, full: *full, centre: *centre })
+            }
+            Kind::Dwell(_)
+            | Kind::ToolChange
+            | Kind::Coolant
+            | Kind::MachineFunction(_)
+            | Kind::ProgramStop
+            | Kind::OptionalProgramStop
+            | Kind::ProgramEnd
+            | Kind::TextEnd
+            | Kind::Message(_)
+            | Kind::Attribute(_) => None,
+        }
+    }
+}
+
 /// Functions that set an attribute of later events; `SELECT_PLANE` and others that say in which
 /// terms the program speaks are not among them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@ mod frame;
 mod holes;
 mod run;
 
-pub use event::{Attribute, Event, Kind, State};
+pub use event::{Attribute, Event, Kind, Movement, State};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
