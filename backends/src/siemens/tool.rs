@@ -49,14 +49,12 @@ impl Writer {
     /// An entry of a length table: none, or the one of the tool in the spindle.
     pub(super) fn length_offset(&mut self, entry: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let entry = entry.literal().and_then(|n| n.whole());
+        // The program says a length after the change; one that is refused is not missed once more.
+        self.standing.edge_waits = false;
         match (entry, self.words.tracker.tool) {
-            (Some(0), _) => {
-                self.standing.edge_waits = false;
-                self.edge_word(&Expr::int(0), span, sink)
-            }
+            (Some(0), _) => self.edge_word(&Expr::int(0), span, sink),
             (Some(entry), Some(tool)) if entry == tool => {
                 self.tell_edge(tool, span, sink);
-                self.standing.edge_waits = false;
                 self.edge_word(&Expr::int(1), span, sink)
             }
             _ => Err(cannot("an entry of the length table that is not the tool's own")),

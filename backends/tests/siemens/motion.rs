@@ -174,7 +174,9 @@ fn an_entry_of_the_table_is_the_tools_first_edge() {
     assert_eq!(text, "T7 M6\nG0 Z5 D1\n");
     assert_eq!(faults, [Fault::AssumedEdge { tool: 7 }]);
     let other = Op::UseToolLengthOffset(count("8"));
-    refused(&blocks(vec![tool("7"), vec![other, rapid("Z5.")]]));
+    let (_, faults) = told(&blocks(vec![tool("7"), vec![other], vec![rapid("Z5.")]]));
+    let what = "an entry of the length table that is not the tool's own";
+    assert_eq!(faults, [Fault::CannotSay { what: what.into() }], "told once");
 }
 
 #[test]
