@@ -108,20 +108,10 @@ pub enum Verb {
 )]
 pub struct Translate {
     /// Dialect of the source, or `auto` to recognise it
-    #[arg(
-        long,
-        value_name = "DIALECT",
-        required_unless_present = "machine_from",
-        help_heading = "What to translate"
-    )]
+    #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
     pub from: Option<String>,
     /// Dialect to translate into
-    #[arg(
-        long,
-        value_name = "DIALECT",
-        required_unless_present = "machine_to",
-        help_heading = "What to translate"
-    )]
+    #[arg(long, value_name = "DIALECT", help_heading = "What to translate")]
     pub to: Option<String>,
     /// The machine that the program was written for: a profile by its name or file, which names the
     /// dialect too

@@ -122,6 +122,22 @@ impl Source {
         look(&mut self.file).map_err(|e| Problem::file("read", &self.shown, &e))
     }
 
+    /// Whether there is nothing in it but white space.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn is_blank(&mut self) -> Result<bool, Problem> {
+        self.rewind()?;
+        let mut piece = vec![0; 1 << 16];
+        loop {
+            match self.file.read(&mut piece).map_err(|e| Problem::file("read", &self.shown, &e))? {
+                0 => return Ok(true),
+                n if piece[..n].trim_ascii().is_empty() => {}
+                _ => return Ok(false),
+            }
+        }
+    }
+
     /// Goes back to the start.
     ///
     /// # Errors

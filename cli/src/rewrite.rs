@@ -113,3 +113,23 @@ fn separates(op: &Op) -> bool {
         _ => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ncc_ir::canon::{Plane, Units};
+    use ncc_ir::source::Span;
+
+    #[test]
+    fn what_the_program_has_said_is_not_taken_for_granted() {
+        let target = Target::default();
+        let mut folder = Folder::new(target, Tracker::default(), false);
+        let mut said =
+            [Op::SelectPlane(Plane::Yz), Op::ChangeTool].map(|op| Stmt::new(Span::default(), op)).to_vec();
+        folder.piece(&mut said, &Modes::default(), false, &mut Vec::new());
+        let assumed = Modes { plane: Some(Plane::Xy), units: Some(Units::Mm), ..Modes::default() };
+        folder.piece(&mut Vec::new(), &assumed, false, &mut Vec::new());
+        assert_eq!(folder.entry.modes.plane, Some(Plane::Yz), "the program's own word");
+        assert_eq!(folder.entry.modes.units, Some(Units::Mm), "what it never said");
+    }
+}

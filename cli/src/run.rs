@@ -26,6 +26,9 @@ use crate::{
     arrow, dialect_test, dialects, doctor, explain, machines, plot, report, review, time, translate,
 };
 
+/// What to say to who names no target.
+pub(crate) const INTO_WHAT: &str = "name a dialect: --to fanuc; or a machine: --machine-to MACHINE";
+
 /// Runs `ncc` with its arguments, the program's name first.
 pub fn run(arguments: Vec<OsString>) -> Exit {
     let mut err = StandardStream::stderr(choice(Color::Auto));
@@ -174,7 +177,14 @@ fn translated(
     };
     let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
     let to = agreed(to, machines.to.as_deref(), "to")?;
-    let to = to.ok_or_else(|| Problem::usage("translate into what?", "name a dialect: --to fanuc"))?;
+    let to = to.ok_or_else(|| Problem::usage("translate into what?", INTO_WHAT))?;
+    if args.from.is_none() && args.machine_from.is_none() {
+        return Err(Problem::usage(
+            "translate from what?",
+            "name a dialect: --from mach9; or have it recognised: --from auto; \
+             or name a machine: --machine-from MACHINE",
+        ));
+    }
     let to = settings(machines.settings(Side::To, to), &args.to_option)?;
     let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
     let named = agreed(named, machines.from.as_deref(), "from")?;
@@ -315,6 +325,11 @@ pub(crate) fn recognise(
             }
             Ok(dialect)
         }
+        Guess::Unsure(_) if source.is_blank()? => Err(Problem {
+            exit: Exit::Refused,
+            message: format!("{} is empty", source.shown),
+            help: vec!["there is no program in it to read".to_owned()],
+        }),
         Guess::Unsure(fits) => {
             let mut help: Vec<String> = fits
                 .iter()

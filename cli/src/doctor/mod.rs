@@ -29,7 +29,7 @@ use crate::machines::pair::{Machines, agreed};
 use crate::problem::{Exit, Problem};
 use crate::render::About;
 use crate::render::human::{self, Loudness};
-use crate::run::{recognise, settings};
+use crate::run::{INTO_WHAT, recognise, settings};
 use crate::setting::Telling;
 use crate::translate;
 use question::{Question, questions};
@@ -53,7 +53,7 @@ pub struct Doctor {
     #[arg(long, value_name = "DIALECT")]
     pub from: Option<String>,
     /// Dialect to translate into
-    #[arg(long, value_name = "DIALECT", required_unless_present = "machine_to")]
+    #[arg(long, value_name = "DIALECT")]
     pub to: Option<String>,
     /// What is known of the machine that the program was written for: a profile's name or file
     #[arg(long, value_name = "MACHINE")]
@@ -90,7 +90,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, err)?;
     let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
     let to = agreed(to, machines.to.as_deref(), "to")?;
-    let to = to.ok_or_else(|| Problem::usage("translated into what?", "name a dialect: --to fanuc"))?;
+    let to = to.ok_or_else(|| Problem::usage("translated into what?", INTO_WHAT))?;
     let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
     let named = agreed(named, machines.from.as_deref(), "from")?;
     for path in [&args.write_from, &args.write_to].into_iter().flatten() {

@@ -17,6 +17,14 @@ pub(super) fn list(profiles: &[Profile]) -> String {
     text
 }
 
+/// The line that opens what is told of a machine; a profile need have no title.
+pub(super) fn headline(profile: &Profile) -> String {
+    match profile.schema.title.as_str() {
+        "" => format!("{}\n", profile.id()),
+        title => format!("{}: {title}\n", profile.id()),
+    }
+}
+
 /// Everything that a profile states, and what it does not.
 pub(super) fn show(profile: &Profile) -> String {
     let mut text = String::new();
@@ -27,7 +35,7 @@ pub(super) fn show(profile: &Profile) -> String {
 
 fn write_all(out: &mut String, profile: &Profile) -> fmt::Result {
     let s = &profile.schema;
-    writeln!(out, "{}: {}", profile.id(), s.title)?;
+    out.push_str(&headline(profile));
     writeln!(out, "dialect: {} ({})", profile.dialect.id, profile.dialect.title)?;
     if s.typical {
         writeln!(out, "typical: stands for a kind of machine, not for one that somebody has measured")?;

@@ -25,7 +25,7 @@ const SAMPLE: &str = include_str!("sample.ir");
 
 /// What was tested, for people, and whether all of it passed.
 pub(super) fn test(profile: &Profile) -> (String, bool) {
-    let mut text = format!("{}: {}\n", profile.id(), profile.schema.title);
+    let mut text = super::show::headline(profile);
     let mut passed = true;
     let mut tell = |what: &str, result: &Result<String, String>| match result {
         Ok(how) => text.push_str(&format!("  passed  {what}{how}\n")),

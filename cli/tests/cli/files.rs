@@ -135,6 +135,51 @@ fn a_file_without_any_program_is_a_clear_error() {
 }
 
 #[test]
+fn an_empty_file_is_no_riddle() {
+    let folder = folder();
+    let folder = folder.path();
+    for text in ["", "\n\r\n \t\n"] {
+        fs::write(folder.join("empty.cn"), text).unwrap();
+        for line in ["auto to fanuc empty.cn", "time empty.cn", "doctor empty.cn --to fanuc"] {
+            let words: Vec<&str> = line.split(' ').collect();
+            let done = ncc(folder, &words).exits(1).says("empty.cn is empty");
+            assert!(!done.err.contains("--from"), "{line}: {}", done.err);
+        }
+    }
+    fs::write(folder.join("empty.cn"), "hello\n").unwrap();
+    ncc(folder, &["auto", "to", "fanuc", "empty.cn"]).exits(2).says("cannot be told for certain");
+}
+
+#[cfg(unix)]
+#[test]
+fn what_must_not_be_written_is_left_as_it_is() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = folder();
+    let folder = folder.path();
+    fs::write(folder.join("part.nc"), "OLD").unwrap();
+    fs::set_permissions(folder.join("part.nc"), fs::Permissions::from_mode(0o444)).unwrap();
+    for option in ["-o", "--report"] {
+        ncc(folder, &["mach9", "to", "fanuc", "good.cn", option, "part.nc"])
+            .exits(4)
+            .says("cannot write part.nc");
+        assert_eq!(fs::read_to_string(folder.join("part.nc")).unwrap(), "OLD");
+    }
+    assert_eq!(names(folder), ["bad.cn", "good.cn", "part.nc"]);
+
+    let closed = folder.join("closed");
+    fs::create_dir(&closed).unwrap();
+    fs::set_permissions(&closed, fs::Permissions::from_mode(0o555)).unwrap();
+    // The superuser may write anywhere.
+    if fs::write(closed.join("try"), "").is_err() {
+        ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "closed/part.nc"])
+            .exits(4)
+            .says("cannot write closed/part.nc");
+        assert_eq!(names(&closed), [""; 0]);
+    }
+    fs::set_permissions(&closed, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
+#[test]
 fn line_ends_are_kept_or_chosen() {
     let folder = folder();
     let folder = folder.path();

@@ -27,6 +27,11 @@ fn machines_are_listed_shown_and_tested() {
     std::fs::write(folder.path().join("shop.toml"), format!("{SHOP}{codes}")).unwrap();
     let tested = ncc(folder.path(), &["machines", "test", "shop.toml"]).exits(0).out;
     assert!(tested.contains("passed  its 2 M codes, written and read back: 26 events"), "{tested}");
+    std::fs::write(folder.path().join("shop.toml"), SHOP.replace("A shop's machine", "")).unwrap();
+    for verb in ["show", "test"] {
+        let told = ncc(folder.path(), &["machines", verb, "shop.toml"]).exits(0).out;
+        assert_eq!(told.lines().next(), Some("shop"), "no title is told, and none is promised");
+    }
     let schema = ncc(folder.path(), &["machines", "schema"]).exits(0).out;
     assert!(schema.contains("### `[[axis]]`"));
 }
