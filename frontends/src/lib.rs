@@ -38,6 +38,17 @@ pub struct Batch {
     pub bare: Vec<BareNumber>,
 }
 
+impl Batch {
+    /// Where further statements go: into the subprogram that is being read, else into the main procedure.
+    #[inline]
+    pub(crate) fn body<'o>(&'o mut self, sub: &'o mut Option<Procedure>) -> &'o mut Vec<Stmt> {
+        match sub {
+            Some(procedure) => &mut procedure.body,
+            None => &mut self.stmts,
+        }
+    }
+}
+
 /// A number that stands without a decimal point where the dialect's rule makes that another value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BareNumber {

@@ -18,6 +18,7 @@ use super::sort::{Code, Words};
 use crate::Batch;
 use crate::word::Source;
 use crate::word::facts::Know;
+use crate::word::functions::setting;
 use crate::word::number::unit_of;
 use crate::word::sort::{RANK_AFTER, RANK_WORDS, rank};
 
@@ -177,15 +178,10 @@ impl Lower {
                 }
                 Op::NoEffect(code.name.into())
             }
-            Meaning::UseLengthUnits(units) => Op::UseLengthUnits(units),
-            Meaning::SelectPlane(plane) => Op::SelectPlane(plane),
-            Meaning::SetDistanceMode(distance) => Op::SetDistanceMode(distance),
-            Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
-            Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
-            Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
-            Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
-            Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
-            _ => return,
+            meaning => match setting(meaning) {
+                Some(op) => op,
+                None => return,
+            },
         };
         self.push(code.span, op, out);
     }

@@ -157,10 +157,7 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<usize> {
         let fast = self.fast.as_ref()?;
-        let stmts = match &mut self.sub {
-            Some(procedure) => &mut procedure.body,
-            None => &mut out.stmts,
-        };
+        let stmts = out.body(&mut self.sub);
         let end = fast::line(fast, text, at, base, longest, stmts)?;
         let absolute = fast.distance == Fact::Known(Distance::Absolute);
         if let Some(Op::StraightFeed(to) | Op::StraightTraverse(to)) = stmts.last().map(|stmt| &stmt.op) {
@@ -436,10 +433,7 @@ impl Lower {
     /// Where statements go.
     #[inline]
     pub(super) fn target<'o>(&'o mut self, out: &'o mut Batch) -> &'o mut Vec<Stmt> {
-        match &mut self.sub {
-            Some(procedure) => &mut procedure.body,
-            None => &mut out.stmts,
-        }
+        out.body(&mut self.sub)
     }
 
     /// Adds a statement to the block.

@@ -103,15 +103,10 @@ impl Lower {
                 }
                 Op::NoEffect(name.into())
             }
-            Meaning::UseLengthUnits(units) => Op::UseLengthUnits(units),
-            Meaning::SelectPlane(plane) => Op::SelectPlane(plane),
-            Meaning::SetDistanceMode(distance) => Op::SetDistanceMode(distance),
-            Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
-            Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
-            Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
-            Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
-            Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
-            _ => return,
+            meaning => match setting(meaning) {
+                Some(op) => op,
+                None => return,
+            },
         };
         self.push(code.span, op, out);
     }
@@ -230,4 +225,19 @@ impl Lower {
         }
         self.push(span, Op::UseToolLengthOffset(Expr::Num(num)), out);
     }
+}
+
+/// The statement of a code that sets a fact and has no words of its own; `None` of any other.
+pub(crate) fn setting(meaning: Meaning) -> Option<Op> {
+    Some(match meaning {
+        Meaning::UseLengthUnits(units) => Op::UseLengthUnits(units),
+        Meaning::SelectPlane(plane) => Op::SelectPlane(plane),
+        Meaning::SetDistanceMode(distance) => Op::SetDistanceMode(distance),
+        Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
+        Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
+        Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
+        Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
+        Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
+        _ => return None,
+    })
 }

@@ -235,10 +235,7 @@ impl Lower {
     /// Where statements go.
     #[inline]
     pub(super) fn target<'o>(&'o mut self, out: &'o mut Batch) -> &'o mut Vec<Stmt> {
-        match &mut self.sub {
-            Some(procedure) => &mut procedure.body,
-            None => &mut out.stmts,
-        }
+        out.body(&mut self.sub)
     }
 
     /// Adds a statement to the block.

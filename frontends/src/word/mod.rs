@@ -17,7 +17,7 @@ mod cycle;
 pub(crate) mod facts;
 pub(crate) mod fast;
 mod frame;
-mod functions;
+pub(crate) mod functions;
 pub(crate) mod lower;
 mod motion;
 pub(crate) mod number;
