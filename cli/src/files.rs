@@ -218,6 +218,21 @@ pub enum Destination {
 }
 
 impl Destination {
+    /// Finds out before anything is done whether there is a folder for it.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn check(&self) -> Result<(), Problem> {
+        let Destination::File(path) = self else { return Ok(()) };
+        match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+                let error = io::ErrorKind::NotFound.into();
+                Err(Problem::file("write", &path.display().to_string(), &error))
+            }
+            Some(_) | None => Ok(()),
+        }
+    }
+
     /// Writes the output there.
     ///
     /// # Errors

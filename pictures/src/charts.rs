@@ -149,12 +149,11 @@ fn panels<'r>(records: &'r [&'r Record], which: &[Chart]) -> Vec<Panel<'r>> {
                 panels.push(Panel { title: "Tool".to_owned(), height, show: Show::Tools(records) });
             }
             Chart::Feed => {
-                let mut panel = one("Feed (mm/min)", 160.0, &|r| &r.feed);
+                let mut panel = one("", 160.0, &|r| &r.feed);
                 if let Show::Curves { curves, powers } = &mut panel.show {
                     *powers = wants_powers(curves);
-                    if *powers {
-                        panel.title = "Feed (mm/min, log)".to_owned();
-                    }
+                    let log = if *powers { ", log" } else { "" };
+                    panel.title = format!("Feed ({}{log})", feed_unit(records.iter().copied()));
                 }
                 panels.push(panel);
             }
@@ -194,6 +193,16 @@ fn positions<'r>(records: &'r [&'r Record], one: &One<'r, '_>, panels: &mut Vec<
                 }
             }
         }
+    }
+}
+
+/// The unit of the rates along the path.
+pub(crate) fn feed_unit<'r>(records: impl IntoIterator<Item = &'r Record>) -> &'static str {
+    let rates = records.into_iter().fold([false; 2], |all, r| [all[0] | r.rates[0], all[1] | r.rates[1]]);
+    match rates {
+        [false, true] => "\u{b0}/min",
+        [true, true] => "mm/min, \u{b0}/min",
+        [_, false] => "mm/min",
     }
 }
 
@@ -417,7 +426,7 @@ impl Scale {
     fn linear((low, high): (f64, f64), most: usize) -> Scale {
         // A value that never changes lies in the middle; a step is not drawn on the frame.
         let room = if high > low { (high - low) * 0.08 } else { high.abs().max(1.0) * 0.5 };
-        let floor = if low == 0.0 && high > 0.0 { 0.0 } else { low - room };
+        let floor = if low == 0.0 { 0.0 } else { low - room };
         let (low, high) = (floor, high + room);
         let (marks, step) = marks(low, high, most);
         Scale { low, high, marks, step, powers: false, tools: Vec::new() }

@@ -183,7 +183,7 @@
       panels.push({ title, tall, curves: programs.map((p, i) => ({ line: of(p), ink: ink(i) })) });
     curves("Spindle (rev/min)", 110, (p) => p.speed);
     panels.push({ title: "Tool", tall: Math.min(220, Math.max(44, tools.length * 20 + 6)), tools });
-    curves("Feed (mm/min)", 120, (p) => p.feed);
+    curves(`Feed (${data.feed})`, 120, (p) => p.feed);
     if (pair) {
       const names = [...new Set(programs.flatMap((p) => p.axes.map((axis) => axis.name)))];
       const none = { t: new Float64Array(), v: new Float64Array() };
@@ -223,7 +223,7 @@
       if (low > high) [low, high] = [0, 0];
       const most = Math.max(2, panel.tall / 28);
       if (panel.title.startsWith("Feed") && high > 20 * least) {
-        panel.title = "Feed (mm/min, log)";
+        panel.title = `Feed (${data.feed}, log)`;
         const floor = Math.log10(least / 1.6);
         panel.at = (v) => (v > 0 ? Math.max(floor, Math.log10(v)) : floor);
         [panel.low, panel.high] = [floor, Math.log10(high * 1.25)];
@@ -237,7 +237,7 @@
       }
       const room = high > low ? (high - low) * 0.08 : Math.max(1, Math.abs(high)) * 0.5;
       panel.at = (v) => v;
-      panel.low = low === 0 && high > 0 ? 0 : low - room;
+      panel.low = low === 0 ? 0 : low - room;
       panel.high = high + room;
       const [at, step] = marks(panel.low, panel.high, most);
       panel.marks = at.map((v) => [v, number(v, step)]);

@@ -98,12 +98,14 @@ pub struct Record {
     pub name: String,
     /// Speed of the spindle, rev/min; 0 while it stands.
     pub speed: Series,
-    /// Rate along the path, mm/min; 0 while nothing moves.
+    /// Rate along the path, mm/min, and of rotary axes alone degrees a minute; 0 while nothing moves.
     pub feed: Series,
     /// Positions in the program's coordinates, mm and degrees.
     pub axes: [Series; AXES],
     /// Which axes move.
     pub moved: [bool; AXES],
+    /// Whether there are moves of linear axes, and moves of rotary axes alone, whose rate is in degrees.
+    pub rates: [bool; 2],
     /// The tools.
     pub tools: Vec<Stretch>,
     /// The holes.
@@ -131,6 +133,7 @@ impl Record {
             feed: Series::new(Course::Line),
             axes: std::array::from_fn(|_| Series::new(Course::Line)),
             moved: [false; AXES],
+            rates: [false; 2],
             tools: Vec::new(),
             holes: Vec::new(),
             way: Way::default(),
@@ -260,9 +263,11 @@ impl Record {
         };
         *time += timed.duration;
         // Degrees are no way of the tool.
-        if way.sweep > 0.0 || way.change[..3].iter().any(|change| *change != 0.0) {
+        let linear = way.sweep > 0.0 || way.change[..3].iter().any(|change| *change != 0.0);
+        if linear {
             *length += way.length;
         }
+        self.rates[usize::from(!linear)] = true;
         self.sums.moves += 1;
         self.stamps.push(self.sums.moves, timed.end());
     }

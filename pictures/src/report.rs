@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use serde_json::{Value, json};
 
-use crate::charts::{later, tool_name};
+use crate::charts::{feed_unit, later, tool_name};
 use crate::ink::{self, Ink};
 use crate::listing::Listing;
 use crate::record::Record;
@@ -65,6 +65,7 @@ pub fn report(pages: &[Page], version: &str) -> String {
     html.push_str(BODY);
     let data = json!({
         "inks": inks(),
+        "feed": feed_unit(pages.iter().map(|page| &page.record)),
         "programs": pages.iter().map(program).collect::<Vec<_>>(),
         "later": match pages {
             [a, b] => later(&a.record, &b.record).map(|line| curve(&line)),

@@ -50,6 +50,7 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Resul
         source.guard(name.map(PathBuf::as_path))?;
     }
     let destination = name.map_or(Destination::Stdout, |name| Destination::File(name.clone()));
+    destination.check()?;
     let mut pages = Vec::new();
     let mut caption = String::new();
     for (n, source) in sources.iter_mut().enumerate() {

@@ -63,7 +63,7 @@ pub struct Time {
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,
     /// Print the JSON Schema of payload and ndjson, and nothing else
-    #[arg(long, help_heading = "How the result looks")]
+    #[arg(long, conflicts_with = "files", help_heading = "How the result looks")]
     pub schema: bool,
 
     /// How much is told.
@@ -88,7 +88,8 @@ pub enum Form {
     Payload,
     /// Every function, as JSON, one a line
     Ndjson,
-    /// The canonical functions, with times in comments
+    /// The canonical functions, with times in comments; not of edges above 1, nor of a move in machine
+    /// coordinates for one block, for which there is no such function
     Canon,
 }
 

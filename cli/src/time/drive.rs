@@ -44,6 +44,8 @@ pub(crate) struct Plan<'p> {
     pub(crate) machine: Machine,
     /// Its tables of offsets and lengths, as far as they are stated.
     pub(crate) tables: Tables,
+    /// Clearance of peck drilling and lift of chip-breaking drilling, mm in nanos, that its profile states.
+    pub(crate) parameters: [Option<Nanos>; 2],
     /// The model.
     pub(crate) model: Model,
     /// Block-skip switches that are on: bit n is level n.
@@ -489,7 +491,8 @@ impl<'d> Drive<'d> {
             | CycleKind::DrillBreak { .. }
             | CycleKind::Bore { .. } => return,
         };
-        match parameter(self.plan.job, option).and_then(|value| value.nanos(false)) {
+        let said = parameter(self.plan.job, option).and_then(|value| value.nanos(false));
+        match said.or(self.plan.parameters[usize::from(!drill)]) {
             Some(nanos) => {
                 if drill {
                     self.exec.set_peck_clearance(nanos);

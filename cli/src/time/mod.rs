@@ -29,6 +29,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::{Layout, Numbering};
 use ncc_dialects::Settings;
 use ncc_ir::canon::Axis;
+use ncc_ir::num::{Nanos, ONE};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side;
 use ncc_timeline::{AssumedFact, Machine};
@@ -49,7 +50,7 @@ use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
 use crate::run::{recognise, settings};
-use crate::translate::translate;
+use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, translate};
 
 /// The machine of a call, as the model sees it.
 pub(crate) struct Shop {
@@ -99,6 +100,7 @@ pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         }
     }
     let destination = destination(args, &sources)?;
+    destination.check()?;
     let mut spool = Spool { output: Output::new() };
     match args.form {
         Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
@@ -255,11 +257,20 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         job,
         machine: shop.machine.clone(),
         tables: shop.profile.as_ref().map(Profile::tables).unwrap_or_default(),
+        parameters: [PECK_CLEARANCE, BREAK_LIFT].map(|option| own_parameter(shop.profile.as_ref()?, option)),
         model: args.setting.model,
         skip: args.setting.skip.iter().fold(0, |skip, level| skip | 1 << level),
         start_time: args.setting.start_time,
         stage: args.stage,
     }
+}
+
+/// What a machine's profile states of a parameter of its control, for programs in a language that has no
+/// such option.
+fn own_parameter(profile: &Profile, option: &str) -> Option<Nanos> {
+    let stated = profile.schema.options.iter().find(|(name, _)| name.get_ref() == option)?;
+    let mm: f64 = stated.1.value.as_ref()?.0.parse().ok()?;
+    Some((mm * ONE as f64).round() as Nanos)
 }
 
 /// Executes a program and tells what was found.
@@ -291,18 +302,27 @@ fn tell(
 ) -> io::Result<()> {
     let loudness = args.telling.loudness();
     let shown = source.shown.clone();
+    let other = match course.refused {
+        false => None,
+        true => match guess(&mut source.file, known.all())? {
+            Guess::Sure(other, reasons) => Some((other, reasons)),
+            Guess::Unsure(_) => None,
+        },
+    };
+    let other = other.filter(|(other, _)| other.id != plan.job.from.dialect.id);
     let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
-    human::print(err, &mut about, &course.diagnostics, loudness)?;
+    // What is wrong with a text in another language is nothing that anybody wants to know.
+    if other.is_none() || args.telling.quiet {
+        human::print(err, &mut about, &course.diagnostics, loudness)?;
+    }
     if course.refused && !args.telling.quiet {
         let others = args.files.len() > 1 && args.form.takes_several();
         let rest = if others { "" } else { "; nothing was written" };
         writeln!(err, "{shown}: not timed{rest}")?;
-        let dialect = plan.job.from.dialect;
-        if let Guess::Sure(other, reasons) = guess(&mut source.file, known.all())?
-            && other.id != dialect.id
-        {
+        if let Some((other, reasons)) = other {
+            let read = &plan.job.from.dialect.id;
             writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
-            writeln!(err, "  help: --from {}", other.id)?;
+            writeln!(err, "  it was read as {read}, in which it has errors\n  help: --from {}", other.id)?;
         }
     }
     err.flush()

@@ -330,7 +330,7 @@ fn cuts(tools: &[Tool]) -> Grid {
             row
         })
         .collect();
-    Grid { head: vec!["tool", "mm/min", "rev/min", "X", "Y", "Z"], rows, left: 1 }
+    Grid { head: vec!["tool", "mm/min", "rev/min", "X mm", "Y mm", "Z mm"], rows, left: 1 }
 }
 
 /// Time by operation.
