@@ -1,14 +1,14 @@
-//! NC0811 to NC0814, as far as statements show them: calls and subprograms.
+//! NC0812 to NC0814: where a program can go. Calls by its statements, jumps by its text.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 use ncc_ir::program::{Control, Op, Program, Stmt};
 use ncc_ir::source::Span;
 
 use crate::finding::{Finding, What};
 
-/// Subprograms that nothing calls, from the main program on. `within` is false where blocks that were not
-/// read may call them; then nothing is said.
+/// Subprograms that nothing calls, from the main program on. Not to be asked where blocks that
+/// were not read may call them.
 pub fn never_called(program: &Program) -> Vec<Finding> {
     let mut called = BTreeSet::new();
     let mut open: Vec<&[Stmt]> = program.procedures.first().map(|p| p.body.as_slice()).into_iter().collect();
@@ -46,5 +46,79 @@ fn calls(body: &[Stmt], found: &mut dyn FnMut(&str)) {
             },
             _ => {}
         }
+    }
+}
+
+/// Jumps and blocks of a text, one after the other: what leads nowhere, and what is never reached.
+#[derive(Debug, Default)]
+pub struct Jumps {
+    labels: HashSet<String>,
+    targets: HashSet<String>,
+    /// Jumps with their targets, of the program that is being read.
+    jumps: Vec<(String, Span)>,
+    /// First blocks after jumps that are always made, with their labels.
+    after: Vec<(Vec<String>, Span)>,
+    computed: bool,
+    /// Whether the block before is left by a jump that is always made.
+    left: bool,
+    /// Labels since then.
+    passed: Vec<String>,
+    found: Vec<Finding>,
+}
+
+impl Jumps {
+    /// Another program of the text begins.
+    pub fn program(&mut self) {
+        let labels = std::mem::take(&mut self.labels);
+        for (name, at) in self.jumps.drain(..).filter(|(name, _)| !labels.contains(name)) {
+            self.found.push(Finding::new(What::JumpNowhere { name: name.into() }, at));
+        }
+        let targets = std::mem::take(&mut self.targets);
+        // A computed jump may go to any label.
+        let led = |labels: &[String]| {
+            labels.iter().any(|label| targets.contains(label)) || (self.computed && !labels.is_empty())
+        };
+        for (_, at) in self.after.drain(..).filter(|(labels, _)| !led(labels)) {
+            self.found.push(Finding::new(What::AfterJump, at));
+        }
+        (self.computed, self.left) = (false, false);
+        self.passed.clear();
+    }
+
+    /// A block with its number or label. `says` is whether it is executed, `frames` whether a structure may
+    /// lead to it.
+    pub fn block(&mut self, label: Option<String>, at: Span, says: bool, frames: bool) {
+        if let Some(label) = label {
+            if self.left {
+                self.passed.push(label.clone());
+            }
+            self.labels.insert(label);
+        }
+        if (says || frames) && std::mem::take(&mut self.left) {
+            let labels = std::mem::take(&mut self.passed);
+            if !frames {
+                self.after.push((labels, at));
+            }
+        }
+    }
+
+    /// A jump in the block that was told last.
+    pub fn jump(&mut self, to: Option<String>, at: Span, always: bool, quiet: bool) {
+        match to {
+            Some(name) => {
+                self.targets.insert(name.clone());
+                if !quiet {
+                    self.jumps.push((name, at));
+                }
+            }
+            None => self.computed |= !quiet,
+        }
+        self.left |= always;
+    }
+
+    /// All that was found.
+    pub fn finish(mut self) -> Vec<Finding> {
+        self.program();
+        self.found
     }
 }

@@ -62,6 +62,11 @@ impl Seen {
         self.on.retain(|(on, _)| *on != mode);
     }
 
+    /// Whether a mode is on.
+    pub(crate) fn is_on(&self, mode: LeftOn) -> bool {
+        self.on.iter().any(|(on, _)| *on == mode)
+    }
+
     /// Modes that are on.
     pub(crate) fn on(&self) -> &[(LeftOn, Span)] {
         &self.on

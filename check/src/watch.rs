@@ -43,6 +43,8 @@ pub struct Checker {
     /// Where the axes stood after the last event.
     last: [Nanos; AXES],
     ended: bool,
+    /// Whether the program has cancelled a length offset.
+    pub(crate) cancels_length: bool,
 }
 
 /// Work offset in force, entry of the length table, and edge where the length is no entry.
@@ -60,9 +62,9 @@ pub(crate) struct Step<'s> {
 }
 
 impl Checker {
-    /// A checker of a program that is executed from here. `start` is where the tool stands before the
-    /// first block, program coordinates, as far as somebody has stated it.
-    pub fn new(limits: Limits, start: &[Option<Nanos>; AXES], exec: &Exec) -> Checker {
+    /// A checker of a program that is executed from here. Where the tool stands before the first block is
+    /// not known.
+    pub fn new(limits: Limits, exec: &Exec) -> Checker {
         let mut unchecked = BTreeSet::new();
         if !limits.machine {
             unchecked.insert(Unchecked::NoMachine);
@@ -84,11 +86,9 @@ impl Checker {
             events: Vec::new(),
             last: exec.machine(),
             ended: false,
+            cancels_length: false,
         };
         checker.rebase(exec);
-        checker.seen.program = start.map(|at| at.is_some());
-        let base = checker.seen.base;
-        checker.seen.machine = std::array::from_fn(|axis| start[axis].is_some() && base[axis]);
         checker
     }
 
@@ -98,7 +98,6 @@ impl Checker {
         if self.ended {
             return None;
         }
-        points::look(self, stmt);
         let step = Step {
             stmt,
             from: exec.position(),
@@ -148,8 +147,13 @@ impl Checker {
     }
 
     /// Numbers without a point of the piece of text whose statements come next.
-    pub fn bare(&mut self, span: Span, read: Num, with_point: Num) {
-        points::note(self, span, read, with_point);
+    pub fn bare(&mut self, span: Span, read: Num, with_point: Num, feed: bool) {
+        points::note(self, span, read, with_point, feed);
+    }
+
+    /// The text has a length with a point.
+    pub fn pointed(&mut self) {
+        self.points.pointed = true;
     }
 
     /// Something that was found otherwise.
@@ -171,7 +175,7 @@ impl Checker {
     /// The end of the program at the end of its text; a subprogram alone leaves everything to its caller.
     pub fn finish(mut self, subprogram: bool, end: Span) -> Checked {
         if subprogram {
-            self.findings.retain(|finding| !finding.at_entry);
+            self.findings.retain(|finding| !finding.at_entry && !matches!(finding.what, What::Left(_)));
         } else if !self.ended {
             left::on(&mut self, end);
         }

@@ -84,6 +84,8 @@ pub enum Verb {
     Dialects(Dialects),
     /// How long a program takes on a machine, and when everything in it happens
     Time(Box<crate::time::args::Time>),
+    /// Execute programs and tell what is wrong with them, before they meet a machine
+    Check(Box<crate::check::args::Check>),
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
     /// Print what a program does, one line an event, for git's own diff
@@ -356,7 +358,7 @@ pub(crate) fn start(text: &str) -> Result<Start, String> {
 }
 
 /// A decimal with at most nine digits after the point, in nanos.
-fn decimal(text: &str) -> Option<Nanos> {
+pub(crate) fn decimal(text: &str) -> Option<Nanos> {
     let (negative, digits) = match text.as_bytes().first()? {
         b'-' => (true, &text[1..]),
         b'+' => (false, &text[1..]),

@@ -20,10 +20,17 @@ pages! {
     501 502 503 504 505 506
     601 602 603
     701 702 703 704 705 706 707 708 709 710 711 712 713
+    801 802 803 804 805 806 807 808 809 810 811 812 813 814
 }
 
 /// The page of a code as it is typed: `NC0107`, in any case, or `107`.
 pub fn page(code: &str) -> Option<&'static str> {
+    let number = self::code(code)?;
+    PAGES.iter().find(|(code, _)| *code == number).map(|(_, page)| *page)
+}
+
+/// The number of a code as it is typed, if there is such a message.
+pub fn code(code: &str) -> Option<u16> {
     let code = code.trim();
     let digits = match code.get(..2) {
         Some(letters) if letters.eq_ignore_ascii_case("NC") => &code[2..],
@@ -33,24 +40,25 @@ pub fn page(code: &str) -> Option<&'static str> {
         return None;
     }
     let number: u16 = digits.parse().ok()?;
-    PAGES.iter().find(|(code, _)| *code == number).map(|(_, page)| *page)
+    PAGES.iter().any(|(code, _)| *code == number).then_some(number)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ncc_check::Rule;
     use ncc_ir::diag::Fault;
     use ncc_machines::Wrong;
 
     #[test]
     fn every_code_has_a_page() {
         let codes: Vec<u16> = PAGES.iter().map(|(code, _)| *code).collect();
-        for code in Fault::CODES.iter().chain(Wrong::CODES) {
+        for code in Fault::CODES.iter().chain(Wrong::CODES).chain(Rule::CODES) {
             assert!(codes.contains(code), "NC{code:04} has no page");
         }
         for code in &codes {
             assert!(
-                Fault::CODES.contains(code) || Wrong::CODES.contains(code),
+                Fault::CODES.contains(code) || Wrong::CODES.contains(code) || Rule::CODES.contains(code),
                 "NC{code:04} is no code any more"
             );
         }

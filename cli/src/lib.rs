@@ -5,6 +5,7 @@
 
 pub mod args;
 pub mod arrow;
+pub mod check;
 mod chunks;
 pub mod dialect_test;
 pub mod dialects;

@@ -23,7 +23,7 @@ use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
-    arrow, dialect_test, dialects, doctor, explain, machines, plot, report, review, time, translate,
+    arrow, check, dialect_test, dialects, doctor, explain, machines, plot, report, review, time, translate,
 };
 
 /// What to say to who names no target.
@@ -65,6 +65,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Doctor(args) => return ended(doctor::run(args, &known, &mut err), &mut err),
         Verb::Passes => print(&passes()),
         Verb::Time(args) => return ended(time::run(args, &known, &mut err), &mut err),
+        Verb::Check(args) => return ended(check::run(args, &known, cli.color, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
         Verb::GitTextconv(args) => return ended(review::textconv::run(args, &known, &mut err), &mut err),
         Verb::Explain(args) => match explain::page(&args.code) {

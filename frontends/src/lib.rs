@@ -36,6 +36,11 @@ pub struct Batch {
     pub diagnostics: Vec<Diagnostic>,
     /// Numbers without a point that count increments; only after [`Reader::watch`].
     pub bare: Vec<BareNumber>,
+    /// Whether a length has been met that is written with a point and is not zero; only after
+    /// [`Reader::watch`], and of dialects where the point matters.
+    pub pointed: bool,
+    /// Whether the text has been found to be a subprogram without its main program.
+    pub subprogram: bool,
 }
 
 impl Batch {
@@ -58,6 +63,52 @@ pub struct BareNumber {
     pub read: Num,
     /// What the same digits are with a point after them.
     pub with_point: Num,
+    /// Whether it is a feed.
+    pub feed: bool,
+}
+
+/// A piece of a text, as far as it says where a program can go.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Flow {
+    /// A program or subprogram begins: numbers and labels are its own.
+    Program,
+    /// A block.
+    Block {
+        /// Its number or label, as jumps name it: `N40`, `AGAIN`.
+        label: Option<String>,
+        /// All of it.
+        at: Span,
+        /// Whether it says anything that is executed.
+        says: bool,
+        /// Whether it is part of a structure (a loop, an alternative) that may lead to it by itself.
+        frames: bool,
+    },
+    /// A jump, in the block that was told last.
+    Jump {
+        /// Where to; `None` is computed.
+        to: Option<String>,
+        /// Its place.
+        at: Span,
+        /// Whether it is always made.
+        always: bool,
+        /// Whether the control goes on where there is no such block.
+        quiet: bool,
+    },
+}
+
+/// Tells the blocks and jumps of a whole text, translated or not. Texts of families without jumps have
+/// none.
+pub fn flow(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
+    match settings.dialect.family {
+        Family::Word => word::jumps::jumps(settings, text, found),
+        Family::Sinumerik => siemens::jumps::jumps(text, found),
+        Family::Canon | Family::Ir => {}
+    }
+}
+
+/// A literal for people: `0.1 mm`.
+pub fn spell(num: Num) -> String {
+    word::number::spell(num)
 }
 
 /// The name of the [`NoEffect`](ncc_ir::program::Op::NoEffect) that stands where a block was refused, after

@@ -102,6 +102,13 @@ fn is(name: &str, value: &Value) -> bool {
     }
 }
 
+/// What is wrong with a document by a schema.
+pub(crate) fn faults_by(schema: &Value, value: &Value) -> Vec<String> {
+    let mut wrong = Vec::new();
+    check(schema, schema, value, "", &mut wrong);
+    wrong
+}
+
 fn schema() -> Value {
     serde_json::from_str(ncc::time::SCHEMA).expect("the schema is JSON")
 }

@@ -2,12 +2,16 @@
 
 use ncc_ir::source::Span;
 
-use crate::finding::{Finding, What};
+use crate::finding::{Finding, LeftOn, What};
 use crate::watch::Checker;
 
 /// The program ends here.
 pub(crate) fn on(checker: &mut Checker, end: Span) {
     for (mode, at) in checker.seen.on().to_vec() {
+        // Where a program never cancels a length, the next one is not meant to find none.
+        if mode == LeftOn::Length && !checker.cancels_length {
+            continue;
+        }
         checker.findings.add(Finding::new(What::Left(mode), at).with([end]));
     }
 }

@@ -20,6 +20,7 @@ pub(crate) fn changed(checker: &mut Checker, event: &Event) {
 pub(crate) fn said(checker: &mut Checker, at: Span, exec: &Exec) {
     let none = exec.length_entry() == Some(0) || exec.length_edge().is_some_and(|(_, edge)| edge == 0);
     if none {
+        checker.cancels_length |= checker.seen.is_on(LeftOn::Length);
         checker.seen.switch_off(LeftOn::Length);
         return;
     }

@@ -1,9 +1,8 @@
 //! NC0808: a number without a decimal point that counts increments, in a program whose other numbers
-//! have points. Where no number has one, that is the programmer's habit, and nothing is found.
+//! have points. Where no number has one, that is the programmer's habit, and nothing is found; nor of a
+//! number that would be absurd with a point (a metre and more, a feed of 20 m/min and more).
 
-use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use crate::finding::What;
@@ -17,35 +16,26 @@ const MOST: usize = 1000;
 pub(crate) struct Met {
     bare: Vec<(Span, Num, Num)>,
     /// Whether any length has a point.
-    pointed: bool,
+    pub(crate) pointed: bool,
 }
 
 /// A number without a point.
-pub(crate) fn note(checker: &mut Checker, span: Span, read: Num, with_point: Num) {
+pub(crate) fn note(checker: &mut Checker, span: Span, read: Num, with_point: Num, feed: bool) {
+    // What would be absurd with a point is meant as increments.
+    let most = match (with_point.unit, feed) {
+        (Unit::Inch, false) => 100,
+        (Unit::Inch, true) => 1000,
+        (_, false) => 1000,
+        (_, true) => 20_000,
+    };
+    if with_point.mantissa.unsigned_abs() >= most {
+        return;
+    }
     let met = &mut checker.points;
     // A block may be looked at twice.
     if met.bare.len() < MOST && met.bare.iter().rev().take(16).all(|(other, ..)| *other != span) {
         met.bare.push((span, read, with_point));
     }
-}
-
-/// A statement: whether it has a length with a point.
-#[inline]
-pub(crate) fn look(checker: &mut Checker, stmt: &Stmt) {
-    if checker.points.pointed {
-        return;
-    }
-    let (Op::StraightFeed(m) | Op::StraightTraverse(m) | Op::Position(m) | Op::Hole(m)) = &stmt.op else {
-        return;
-    };
-    let point =
-        m.to.axes
-            .iter()
-            .flatten()
-            .any(|word| matches!(&word.value, Expr::Num(num) if num.point && num.mantissa != 0));
-    let bare = &checker.points.bare;
-    let own = bare.iter().any(|(span, ..)| span.start >= stmt.span.start && span.end <= stmt.span.end);
-    checker.points.pointed = point && !own;
 }
 
 /// The program is over.

@@ -94,7 +94,7 @@ fn same(a: &Fault, b: &Fault) -> bool {
     a == b || matches!((a, b), (Fault::CannotSay { .. }, Fault::CannotSay { .. }))
 }
 
-fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
+pub(crate) fn boxed(told: &Told, lines: &super::source::Lines) -> Boxed<()> {
     let range = |span| {
         let range = told.excerpt.range(lines, span).unwrap_or(0..0);
         let cut = told.excerpt.cut(range.start, LONGEST_LABEL);

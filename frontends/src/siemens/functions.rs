@@ -307,6 +307,7 @@ impl Lower {
                     let name = "return in the main program";
                     return self.not_supported(code.name, name, code.span, out);
                 } else {
+                    out.subprogram |= self.sub_alone || meaning == Meaning::Return;
                     Op::ProgramEnd
                 }
             }

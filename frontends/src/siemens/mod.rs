@@ -18,6 +18,7 @@ mod cycles;
 mod facts;
 mod frames;
 mod functions;
+pub(crate) mod jumps;
 mod letters;
 mod lower;
 mod motion;

@@ -113,8 +113,20 @@ impl Lower {
             Some(procedure) => &mut procedure.body,
             None => &mut out.stmts,
         };
-        line(fast, text, at, base, longest, stmts)
+        let end = line(fast, text, at, base, longest, stmts)?;
+        if self.watch && !out.pointed {
+            out.pointed = stmts.last().is_some_and(has_point);
+        }
+        Some(end)
     }
+}
+
+/// Whether a straight move has a length with a point that is not zero.
+#[cold]
+fn has_point(stmt: &Stmt) -> bool {
+    let (Op::StraightFeed(to) | Op::StraightTraverse(to)) = &stmt.op else { return false };
+    let pointed = |coord: &Coord| matches!(&coord.value, Expr::Num(num) if num.point && num.mantissa != 0);
+    to.to.axes.iter().flatten().any(pointed)
 }
 
 /// The number of the G code that says a straight motion, if its row is confirmed.

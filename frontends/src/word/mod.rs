@@ -18,6 +18,7 @@ pub(crate) mod facts;
 pub(crate) mod fast;
 mod frame;
 pub(crate) mod functions;
+pub(crate) mod jumps;
 pub(crate) mod lower;
 mod motion;
 pub(crate) mod number;

@@ -66,6 +66,7 @@ impl Lower {
             }
         };
         let mut num = Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit };
+        out.pointed |= self.watch && num.point && num.mantissa != 0 && quantity == Quantity::Length;
         if !num.point && num.mantissa != 0 {
             match rules.bare {
                 Bare::Units => {}
@@ -82,9 +83,15 @@ impl Lower {
                         Some(_) | None => rules.increment,
                     };
                     if shift > 0 {
-                        if self.watch && !self.calculator {
+                        let timed = quantity == Quantity::Seconds;
+                        if self.watch && !self.calculator && !timed {
                             let read = Num { scale: shift, point: true, ..num };
-                            out.bare.push(BareNumber { span: word.span, read, with_point: num });
+                            out.bare.push(BareNumber {
+                                span: word.span,
+                                read,
+                                with_point: num,
+                                feed: quantity == Quantity::Feed,
+                            });
                         }
                         if !self.calculator {
                             num.scale = shift;
