@@ -1,0 +1,168 @@
+//! `ncc check`: what is wrong with a program, before it meets a machine.
+//!
+//! `drive` goes from the text to findings, `told` brings them into words, and `text`, `json` and
+//! `sarif` write them. Not here: the rules (ncc-check), profiles (ncc-machines).
+
+pub mod args;
+mod drive;
+mod json;
+mod sarif;
+mod text;
+mod told;
+mod words;
+
+use std::io::{self, IsTerminal};
+use std::path::Path;
+
+use codespan_reporting::term::termcolor::{Ansi, NoColor, WriteColor};
+use ncc_check::Limits;
+use ncc_ir::canon::AXES;
+use ncc_ir::num::{Nanos, ONE};
+use ncc_machines::Profile;
+
+pub use self::json::SCHEMA;
+
+use self::args::{Check, Form};
+use self::told::Program;
+use crate::args::Color;
+use crate::files::{self, Destination};
+use crate::guess::{Guess, guess};
+use crate::job::Output;
+use crate::known::Known;
+use crate::problem::{Exit, Problem};
+use crate::render::human::Loudness;
+use crate::review::side::{Asked, Side, open_one};
+
+/// Runs the verb.
+///
+/// # Errors
+/// Wrong usage, or a file that cannot be read or written.
+pub fn run(args: &Check, known: &Known, color: Color, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    if args.schema {
+        files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
+        return Ok(Exit::Done);
+    }
+    if args.files.iter().filter(|file| *file == "-" || file.ends_with(":-")).count() > 1 {
+        return Err(Problem::usage("stdin can be read only once", "name a file"));
+    }
+    if let Some(id) = args.from.as_deref().filter(|id| *id != "auto") {
+        known.dialect(id)?;
+    }
+    let profile = match &args.machine {
+        Some(name) => Some(crate::machines::find(name, known, err)?),
+        None => None,
+    };
+    let limits = limits(args, profile.as_ref());
+    let mut exit = Exit::Done;
+    let mut programs = Vec::new();
+    for file in &args.files {
+        match one(args, file, &limits, known, err) {
+            Ok(program) => programs.push(program),
+            Err(problem) if args.files.len() < 2 => return Err(problem),
+            Err(problem) => {
+                // The exit code says so too.
+                let _ = problem.print(err, false);
+                exit = exit.and(problem.exit);
+            }
+        }
+    }
+    if programs.iter().any(Program::has_findings) {
+        exit = exit.and(Exit::Refused);
+    }
+    write(args, programs, color)?;
+    Ok(exit)
+}
+
+/// Checks one program.
+fn one(
+    args: &Check,
+    file: &str,
+    limits: &Limits,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Program, Problem> {
+    let asked = Asked {
+        operand: file,
+        from: args.from.as_deref(),
+        machine: args.machine.as_deref().filter(|_| args.from.is_none()),
+        options: &args.from_option,
+        start: None,
+    };
+    let say = !args.telling.quiet && args.format == Form::Text;
+    let Side { mut source, job } = open_one(&asked, say, known, err)?;
+    if let Some(output) = destination(args) {
+        source.guard(Some(output))?;
+    }
+    let skip = args.skip.iter().fold(0, |skip, level| skip | 1 << level);
+    let shown = source.shown.clone();
+    let wrong = |e: io::Error| Problem::file("read", &shown, &e);
+    let course = drive::drive(&job, limits.clone(), skip, &mut source).map_err(wrong)?;
+    let doubtful = course.diagnostics.len() > 2;
+    let program = told::tell(args, &job, &mut source, course).map_err(wrong)?;
+    if say
+        && doubtful
+        && program.counts[0] > 0
+        && let Ok(Guess::Sure(other, reasons)) = guess(&mut source.file, known.all())
+        && other.id != job.from.dialect.id
+    {
+        let _ = writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "));
+    }
+    Ok(program)
+}
+
+fn destination(args: &Check) -> Option<&Path> {
+    args.output.as_deref().filter(|name| *name != Path::new("-"))
+}
+
+fn write(args: &Check, programs: Vec<Program>, color: Color) -> Result<(), Problem> {
+    let loudness: Loudness = args.telling.loudness();
+    let destination =
+        destination(args).map_or(Destination::Stdout, |name| Destination::File(name.to_owned()));
+    let mut output = Output::new();
+    let mut text = Vec::new();
+    let written = match args.format {
+        Form::Json => json::write(&mut text, programs),
+        Form::Sarif => sarif::write(&mut text, &programs),
+        Form::Text => {
+            let color = is_colored(color) && matches!(destination, Destination::Stdout);
+            let mut plain = NoColor::new(Vec::new());
+            let mut colored = Ansi::new(Vec::new());
+            let out: &mut dyn WriteColor = if color { &mut colored } else { &mut plain };
+            let written = programs.iter().try_for_each(|program| text::write(out, program, loudness));
+            text = if color { colored.into_inner() } else { plain.into_inner() };
+            written
+        }
+    };
+    let written = written.and_then(|()| output.push(&text));
+    written.map_err(|e| Problem::file("write", "the findings", &e))?;
+    destination.release(&mut output)
+}
+
+/// Whether findings on stdout are coloured.
+fn is_colored(color: Color) -> bool {
+    match color {
+        Color::Always => true,
+        Color::Never => false,
+        Color::Auto => {
+            io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty())
+        }
+    }
+}
+
+/// The facts of a machine that rules need.
+fn limits(args: &Check, profile: Option<&Profile>) -> Limits {
+    let Some(profile) = profile else {
+        return Limits { rapid_plane: args.rapid_plane, ..Limits::default() };
+    };
+    let machine = profile.machine();
+    let nanos = |value: f64| (value * 1e6).round() as Nanos * (ONE / 1_000_000);
+    Limits {
+        machine: true,
+        travel: std::array::from_fn::<_, AXES, _>(|axis| machine.axes[axis].travel.map(|t| t.map(nanos))),
+        max_feed: machine.max_feed.map(nanos),
+        axis_feed: std::array::from_fn::<_, AXES, _>(|axis| machine.axes[axis].max_feed.map(nanos)),
+        max_speed: machine.spindle_max.map(nanos),
+        rapid_plane: args.rapid_plane,
+        tables: profile.tables(),
+    }
+}

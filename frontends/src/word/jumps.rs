@@ -1,0 +1,85 @@
+//! Jumps and block numbers of a text, by its tokens alone: for somebody who looks where a program that
+//! is not translated can go. Not here: what any block means.
+
+use ncc_dialects::Settings;
+use ncc_ir::source::Span;
+
+use super::token::{Signs, Token, Tokens};
+use crate::Flow;
+
+/// Tells every program, block and jump of a text.
+pub(crate) fn jumps(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
+    let program = &settings.dialect.program;
+    let signs = Signs::new(settings.dialect);
+    let frame = program.frame.as_bytes();
+    let mut comments = Vec::new();
+    let mut base = 0u32;
+    for line in text.split_inclusive(|b| *b == b'\n') {
+        let start = base;
+        base += line.len() as u32;
+        let line = line.trim_ascii_end();
+        if line.is_empty() || (!frame.is_empty() && line.starts_with(frame)) {
+            continue;
+        }
+        let mut from = 0;
+        loop {
+            comments.clear();
+            let mut tokens = Tokens::new(line, from, signs, &mut comments);
+            block(&mut tokens, start, program.number, program.number_also, signs.number, found);
+            match tokens.next_block() {
+                Some(at) => from = at,
+                None => break,
+            }
+        }
+    }
+}
+
+fn block(
+    tokens: &mut Tokens,
+    base: u32,
+    number: Option<char>,
+    number_also: Option<char>,
+    block_number: u8,
+    found: &mut dyn FnMut(Flow),
+) {
+    let span = |start: usize, end: usize| Span::new(base + start as u32, base + end as u32);
+    let mut whole: Option<Span> = None;
+    let mut label: Option<String> = None;
+    let (mut says, mut decides, mut frames, mut skipped) = (false, false, false, false);
+    let mut before: Option<Token> = None;
+    let mut jumps = Vec::new();
+    for token in tokens.by_ref() {
+        // A block that is none says something all the same.
+        let Ok((l, token, r)) = token else {
+            says = true;
+            break;
+        };
+        let at = whole.map_or(span(l, r), |whole| Span::new(whole.start, base + r as u32));
+        let first = whole.replace(at).is_none();
+        match (before, token) {
+            (Some(Token::Letter(letter)), Token::Number(digits))
+                if letter == block_number && label.is_none() =>
+            {
+                label = Some(format!("{}{}", letter as char, digits.mantissa));
+                says = false;
+            }
+            (Some(Token::Goto), Token::Number(digits)) => {
+                jumps.push((Some(format!("{}{}", block_number as char, digits.mantissa)), at));
+            }
+            (Some(Token::Goto), _) => jumps.push((None, at)),
+            (_, Token::If) => decides = true,
+            (_, Token::Do | Token::End | Token::While) => frames = true,
+            (_, Token::Skip) => skipped = true,
+            (_, Token::Letter(letter)) if first && number == Some(letter as char) => found(Flow::Program),
+            (_, Token::Colon) if first && number_also == Some(':') => found(Flow::Program),
+            _ => says = true,
+        }
+        before = Some(token);
+    }
+    let Some(at) = whole else { return };
+    let says = says || decides || frames || !jumps.is_empty();
+    found(Flow::Block { label, at, says, frames });
+    for (to, at) in jumps {
+        found(Flow::Jump { to, at, always: !decides && !skipped, quiet: false });
+    }
+}
