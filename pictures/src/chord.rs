@@ -1,9 +1,7 @@
 //! Arcs as chords, in the coordinates of the program.
 //!
-//! A function has its arc in machine coordinates. Between them and the program's lie shifts, and
-//! sometimes a turn and a scale, which show in how far the end lies from the start in both. A mirrored
-//! frame cannot be told from a turned one by that alone, so there an arc may be drawn on the wrong
-//! side; where nothing turns, nothing is taken for granted.
+//! A function has its arc in machine coordinates. What lies between them and the program's in the arc's
+//! plane (a turn, a scale, a mirror) the caller says; shifts follow from where the arc starts in both.
 
 use ncc_ir::canon::{AXES, Turn};
 use ncc_ir::exec::Kind;
@@ -18,9 +16,13 @@ pub(crate) fn place(at: &[Nanos; AXES]) -> [f64; 3] {
     [0, 1, 2].map(|i| at[i] as f64 / ONE as f64)
 }
 
+/// What a mm along the first and along the second axis of an arc's plane, in machine coordinates, is along
+/// the same axes in the program's.
+pub type Turned = [[f64; 2]; 2];
+
 /// Where the chords of an arc end, and after which part of its time; the last is its end. Empty for
 /// what is no arc.
-pub(crate) fn chords(act: &Act) -> Vec<([f64; 3], f64)> {
+pub(crate) fn chords(act: &Act, turned: Option<&Turned>) -> Vec<([f64; 3], f64)> {
     let Kind::Arc { plane, turn, centre, .. } = &act.event.kind else { return Vec::new() };
     let way = path(&act.event, &act.from);
     let (first, second, normal) = plane.axes();
@@ -29,19 +31,8 @@ pub(crate) fn chords(act: &Act) -> Vec<([f64; 3], f64)> {
     let (start, end) = (place(&act.program_from), place(&act.program_to));
     let centre = centre.map(|c| c as f64 / ONE as f64);
     let arm = [from[f] - centre[0], from[s] - centre[1]];
-    let moved = [way.change[f], way.change[s]];
-    let said = [end[f] - start[f], end[s] - start[s]];
-    // The complex number that the machine's change is multiplied by to give the program's.
-    let size = moved[0] * moved[0] + moved[1] * moved[1];
-    let same = (moved[0] - said[0]).hypot(moved[1] - said[1]) < 1e-6;
-    let by = match size {
-        _ if same || size == 0.0 => [1.0, 0.0],
-        _ => [
-            (said[0] * moved[0] + said[1] * moved[1]) / size,
-            (said[1] * moved[0] - said[0] * moved[1]) / size,
-        ],
-    };
-    let times = |v: [f64; 2]| [v[0] * by[0] - v[1] * by[1], v[0] * by[1] + v[1] * by[0]];
+    let [by_first, by_second] = turned.copied().unwrap_or([[1.0, 0.0], [0.0, 1.0]]);
+    let times = |v: [f64; 2]| [0, 1].map(|i: usize| v[0] * by_first[i] + v[1] * by_second[i]);
     let sense = if *turn == Turn::Counterclockwise { 1.0 } else { -1.0 };
     let count = (way.sweep / std::f64::consts::TAU * CHORDS).ceil().clamp(2.0, CHORDS) as usize;
     // The end is not exactly on the circle, so what it is off is spread over the arc.

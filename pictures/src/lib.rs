@@ -19,6 +19,7 @@ mod view;
 mod way;
 
 pub use charts::{Chart, charts, later};
+pub use chord::Turned;
 pub use listing::Listing;
 pub use project::{View, project};
 pub use record::{Hole, Record, Stamps, Stretch, Sums};

@@ -10,7 +10,7 @@ use ncc_ir::exec::{Attribute, Kind, Movement};
 use ncc_ir::num::ONE;
 use ncc_timeline::{Place, Timed, path};
 
-use crate::chord::{chords, place};
+use crate::chord::{Turned, chords, place};
 use crate::series::{Course, Series};
 use crate::way::{Leg, Stroke, Way};
 
@@ -146,8 +146,8 @@ impl Record {
         }
     }
 
-    /// The next function.
-    pub fn push(&mut self, timed: &Timed) {
+    /// The next function; of an arc, how the frames of the program turn its plane, where they do.
+    pub fn push(&mut self, timed: &Timed, turned: Option<&Turned>) {
         let (act, start, end) = (&timed.act, timed.start, timed.end());
         if std::mem::replace(&mut self.empty, false) {
             self.begin = start;
@@ -173,7 +173,7 @@ impl Record {
         if stroke == Stroke::Still {
             self.still(timed);
         } else {
-            self.go(timed, stroke);
+            self.go(timed, stroke, turned);
         }
         self.turns(timed, stroke);
         self.sums.changes += u64::from(act.event.kind == Kind::ToolChange);
@@ -225,7 +225,7 @@ impl Record {
         }
     }
 
-    fn go(&mut self, timed: &Timed, stroke: Stroke) {
+    fn go(&mut self, timed: &Timed, stroke: Stroke, turned: Option<&Turned>) {
         let (act, line) = (&timed.act, timed.act.place.line);
         let from = place(&act.program_from);
         let way = path(&act.event, &act.from);
@@ -244,7 +244,7 @@ impl Record {
                 axis.push(end, at);
             }
         };
-        let chords = chords(act);
+        let chords = chords(act, turned);
         if chords.is_empty() {
             leg(place(&act.program_to), 1.0);
         }

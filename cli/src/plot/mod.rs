@@ -31,8 +31,12 @@ enum Form {
 struct Recorder(Record);
 
 impl Sink for Recorder {
-    fn function(&mut self, timed: &Timed, _: &Said) -> io::Result<()> {
-        self.0.push(timed);
+    fn wants_turns(&self) -> bool {
+        true
+    }
+
+    fn function(&mut self, timed: &Timed, said: &Said) -> io::Result<()> {
+        self.0.push(timed, said.turned.as_deref());
         Ok(())
     }
 }

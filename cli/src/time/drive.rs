@@ -20,12 +20,13 @@ use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::world::{Tables, World};
 use ncc_machines::reading::Told;
+use ncc_pictures::Turned;
 use ncc_timeline::{Act, Clock, Machine, Model, Place, Timed};
 
 use super::args::Stage;
 use super::blocks::Blocks;
 use super::progress::Progress;
-use super::reach::{Reach, reach};
+use super::reach::{Reach, reach, turned};
 use crate::chunks::{Chunk, Chunks};
 use crate::files::Source;
 use crate::job::Job;
@@ -65,6 +66,8 @@ pub(crate) struct Said {
     pub(crate) remark: Option<Rc<str>>,
     /// Box around an arc in the program's coordinates, if the sink wants it.
     pub(crate) reach: Option<Box<Reach>>,
+    /// How frames turn the plane of an arc, if the sink wants it and they do.
+    pub(crate) turned: Option<Box<Turned>>,
 }
 
 /// What takes the functions.
@@ -76,6 +79,11 @@ pub(crate) trait Sink {
 
     /// Whether it wants the boxes around arcs.
     fn wants_reach(&self) -> bool {
+        false
+    }
+
+    /// Whether it wants to know how frames turn arcs.
+    fn wants_turns(&self) -> bool {
         false
     }
 
@@ -180,6 +188,7 @@ struct Drive<'d> {
     sink: &'d mut dyn Sink,
     wants_blocks: bool,
     wants_reach: bool,
+    wants_turns: bool,
     wants_bounds: bool,
     reader: Reader,
     batch: Batch,
@@ -215,6 +224,7 @@ impl<'d> Drive<'d> {
             wants_bounds,
             wants_blocks: sink.wants_blocks(),
             wants_reach: sink.wants_reach(),
+            wants_turns: sink.wants_turns(),
             plan,
             sink,
             reader: Reader::new(plan.job.from.clone(), true),
@@ -358,9 +368,11 @@ impl<'d> Drive<'d> {
             let act = Act::of(event, self.last, &self.exec, place);
             self.moves(&act);
             self.last = act.event.end;
-            let arc = self.wants_reach && matches!(act.event.kind, Kind::Arc { .. });
-            let reach = if arc { reach(&act, &self.exec).map(Box::new) } else { None };
-            self.said.push_back(Said { reach, ..said.clone() });
+            let arc = matches!(act.event.kind, Kind::Arc { .. });
+            let reach = if arc && self.wants_reach { reach(&act, &self.exec) } else { None };
+            let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
+            let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
+            self.said.push_back(Said { reach, turned, ..said.clone() });
             if let Some(clock) = &mut self.beside {
                 clock.push(act.clone());
                 clock.forget();

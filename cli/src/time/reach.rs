@@ -8,6 +8,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use ncc_ir::canon::{AXES, Turn};
 use ncc_ir::exec::{Exec, Kind};
 use ncc_ir::num::{Nanos, ONE};
+use ncc_pictures::Turned;
 use ncc_timeline::Act;
 
 /// Least and greatest coordinate in X, Y and Z, nanos.
@@ -49,6 +50,25 @@ pub(crate) fn reach(act: &Act, exec: &Exec) -> Option<Reach> {
         }
     }
     Some(reach)
+}
+
+/// What a mm along the axes of an arc's plane, in machine coordinates, is along the same axes in the
+/// program's; `None` of anything else, and where it is the same.
+pub(crate) fn turned(act: &Act, exec: &Exec) -> Option<Turned> {
+    let Kind::Arc { plane, .. } = &act.event.kind else { return None };
+    if is_shift(exec) {
+        return None;
+    }
+    // Of a long way: coordinates are rounded.
+    let far = 1000 * ONE;
+    let (f, s, _) = plane.axes();
+    let zero = exec.in_program(&[0; AXES]);
+    Some([f, s].map(|axis| {
+        let mut point = [0; AXES];
+        point[axis as usize] = far;
+        let there = exec.in_program(&point);
+        [f, s].map(|i| (there[i as usize] - zero[i as usize]) as f64 / far as f64)
+    }))
 }
 
 /// Whether program and machine coordinates differ by a shift alone.

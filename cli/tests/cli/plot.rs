@@ -117,3 +117,22 @@ fn charts_are_drawn_as_they_are_asked_for() {
     assert!(at("\nTool\n").unwrap() < at("\nSpindle (rev/min)\n").unwrap());
     assert!(at("Position").is_none() && at("Feed").is_none());
 }
+
+#[test]
+fn an_arc_lies_where_the_program_says_it_under_any_frame() {
+    let folder = folder();
+    let folder = folder.path();
+    let drawn = |frame: &str, view: &str| {
+        let moves = "G0 X10 Y5\nG1 Z-2 F150\nG3 X40 Y15 CR=20\nG2 X40 Y15 I0 J8\nG2 X50 Y25 CR=10\nM30\n";
+        let text = format!("G17 G90 G71 G94 G40\nG54\n{frame}\n{moves}");
+        std::fs::write(folder.join("arcs.mpf"), text).unwrap();
+        plot(folder, &["arcs.mpf", "--from", "siemens", "--view", view, "-q"]).exits(0).out
+    };
+    for view in ["plan", "isometric"] {
+        let plain = drawn("; none", view);
+        assert!(plain.contains("<path"));
+        for frame in ["MIRROR X0", "MIRROR Y0", "MIRROR X0 Y0", "ROT RPL=90"] {
+            assert!(drawn(frame, view) == plain, "{frame}, {view}");
+        }
+    }
+}

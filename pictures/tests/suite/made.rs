@@ -39,7 +39,7 @@ impl Made {
             Act { event, from: self.at, program_from: self.at, program_to: end, cut_offset: Some(0), place };
         self.n += 1;
         let timed = Timed { act, n: self.n, start: self.now, duration: seconds, profile: Profile::default() };
-        self.record.push(&timed);
+        self.record.push(&timed, None);
         self.at = end;
         self.now += seconds;
     }
