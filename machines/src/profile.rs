@@ -255,6 +255,17 @@ mod tests {
     }
 
     #[test]
+    fn a_length_is_in_its_entry() {
+        let head = "id = \"a\"\ntitle = \"t\"\ndialect = \"fanuc\"\n";
+        let rows =
+            "[[tool]]\nnumber = 3\nlength_entry = 23\nlength = 80.5\n[[tool]]\nnumber = 4\nlength = 90\n";
+        let tables = read(&format!("{head}{rows}")).expect("a profile").tables();
+        let mm = |n: Nanos| n * ONE / 10;
+        assert_eq!(tables.lengths.into_iter().collect::<Vec<_>>(), [(4, mm(900)), (23, mm(805))]);
+        assert_eq!(tables.edge_entries.into_iter().collect::<Vec<_>>(), [(3, 23)]);
+    }
+
+    #[test]
     fn no_text_makes_the_reader_panic() {
         for text in ["", "id = 5", "[", "id = \"é\"\ntitle = \"", "\u{feff}", "[[axis]]\n[axis]\n"] {
             assert!(read(text).is_err(), "{text:?}");

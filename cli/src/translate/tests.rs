@@ -126,7 +126,13 @@ fn a_number_without_a_name_is_like_no_other() {
 /// Numbers differ, so no move may pass for both sides unexecuted, however plain.
 #[test]
 fn with_a_map_both_sides_are_executed() {
-    let job = job();
+    // Tool 3 and all that is used with it have one number: the controls could be in one state.
+    let rows = |mill: u32| {
+        machine(&format!(
+            "[[tool]]\nnumber = 3\nname = \"drill\"\nlength_entry = 23\n[[tool]]\nnumber = {mill}\nname = \"mill\"\n"
+        ))
+    };
+    let job = Job { machines: Machines { from: rows(4), to: rows(7) }, ..job() };
     let mut line = Line::new(&job);
     let mut base = 0;
     for piece in PART.split_inclusive('\n') {
