@@ -261,3 +261,37 @@ fn peak(folder: &Path, arguments: &[&str]) -> u64 {
         std::thread::sleep(std::time::Duration::from_millis(2));
     }
 }
+
+#[test]
+fn what_cannot_be_written_is_told_before_anything_is_timed() {
+    let folder = folder();
+    let folder = folder.path();
+    let told = time(folder, &[&MACHINE[..], &["good.cn", "-o", "none/x.csv", "--as", "csv"]].concat());
+    assert_eq!(told.exits(4).err.lines().count(), 1, "nothing of the program");
+    time(folder, &["--schema", "good.cn"]).exits(2);
+}
+
+#[test]
+fn a_text_in_another_dialect_is_one_hint_and_no_page_of_errors() {
+    let folder = folder();
+    let told = time(folder.path(), &["good.cn", "--from", "fanuc"]).exits(1).says("--from mach9");
+    assert!(!told.err.contains("error["), "{}", told.err);
+}
+
+#[test]
+fn a_parameter_that_the_machine_states_is_used_for_programs_in_the_text_form() {
+    let folder = folder();
+    let folder = folder.path();
+    let cycle = "drill-peck(peck 5.mm, clearance parameter)";
+    let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpus/ir/pecks.ir"));
+    let text = text.unwrap();
+    assert!(text.contains(cycle));
+    std::fs::write(folder.join("pecks.ir"), text).unwrap();
+    let profile = "id = \"own\"\ntitle = \"Own\"\ndialect = \"fanuc\"\n";
+    std::fs::write(folder.join("none.toml"), profile).unwrap();
+    let stated = format!("{profile}[options]\npeck_clearance = 0.5\nbreak_lift = 0.5\n");
+    std::fs::write(folder.join("own.toml"), stated).unwrap();
+    let call = |machine: &str| time(folder, &["pecks.ir", "--from", "ir", "--machine", machine]);
+    call("none.toml").exits(1).says("NC0226").says("[options] of a machine profile");
+    call("own.toml").exits(0);
+}
