@@ -64,7 +64,8 @@ all options of `ncc translate --help` can be given with them.
 
 The translated program goes to stdout, everything else to stderr. Exit code: 0 done and verified;
 1 the program has errors, or something would be lost; 2 wrong usage; 3 verification failed and
-nothing is released; 4 a file could not be read or written.";
+nothing is released; 4 a file could not be read or written. Of `ncc diff`: 1 the programs differ; 5 they
+could not be compared.";
 
 const TRANSLATE_EXAMPLES: &str = "\
 Examples:
@@ -88,6 +89,10 @@ pub enum Verb {
     Check(Box<crate::check::args::Check>),
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
+    /// Do two programs make the same cut? If not, what differs?
+    Diff(Box<crate::review::diff::Diff>),
+    /// The same as a driver for git, which calls it with seven arguments
+    GitDiff(crate::review::diff::git::GitDiff),
     /// Print what a program does, one line an event, for git's own diff
     GitTextconv(crate::review::textconv::Textconv),
     /// List the machines, show a profile, or test one

@@ -10,7 +10,7 @@ use serde::Serialize;
 pub enum Exit {
     /// Done, and verified unless that was not wanted.
     Done = 0,
-    /// The program has errors, or a loss is not allowed.
+    /// The program has errors, or a loss is not allowed; of two programs that are compared: they differ.
     Refused = 1,
     /// Wrong usage.
     Usage = 2,
@@ -18,6 +18,8 @@ pub enum Exit {
     VerificationFailed = 3,
     /// A file, or its character set.
     File = 4,
+    /// Programs could not be compared.
+    NotCompared = 5,
 }
 
 impl Exit {

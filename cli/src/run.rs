@@ -67,6 +67,8 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Time(args) => return ended(time::run(args, &known, &mut err), &mut err),
         Verb::Check(args) => return ended(check::run(args, &known, cli.color, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
+        Verb::Diff(args) => return ended(review::diff::run(args, &known, &mut err), &mut err),
+        Verb::GitDiff(args) => return ended(review::diff::git::run(args, &known, &mut err), &mut err),
         Verb::GitTextconv(args) => return ended(review::textconv::run(args, &known, &mut err), &mut err),
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),

@@ -84,12 +84,7 @@ impl Measure {
             }
             What::Dwell => near(a.more[0], b.more[0], 0, self.seconds),
             What::Function | What::Message => a.more[0] == b.more[0],
-            What::ToolChange
-            | What::Coolant
-            | What::Stop
-            | What::OptionalStop
-            | What::End
-            | What::TextEnd => true,
+            What::ToolChange | What::Stop | What::OptionalStop | What::End | What::TextEnd => true,
         }
     }
 

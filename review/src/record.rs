@@ -23,7 +23,6 @@ pub enum What {
     Arc,
     Dwell,
     ToolChange,
-    Coolant,
     Function,
     Stop,
     OptionalStop,
@@ -337,14 +336,14 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::Arc { .. } => What::Arc,
         Kind::Dwell(_) => What::Dwell,
         Kind::ToolChange => What::ToolChange,
-        Kind::Coolant => What::Coolant,
         Kind::MachineFunction(_) => What::Function,
         Kind::ProgramStop => What::Stop,
         Kind::OptionalProgramStop => What::OptionalStop,
         Kind::ProgramEnd => What::End,
         Kind::TextEnd => What::TextEnd,
         Kind::Message(_) => What::Message,
-        Kind::Attribute(_) => return None,
+        // Coolant is an attribute of what comes after.
+        Kind::Coolant | Kind::Attribute(_) => return None,
     })
 }
 

@@ -7,6 +7,7 @@ mod check;
 mod cycles;
 mod dialects;
 mod dictionary_form;
+mod diff;
 mod doctor;
 mod expected;
 mod faults;

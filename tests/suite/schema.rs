@@ -113,6 +113,14 @@ fn schema() -> Value {
     serde_json::from_str(ncc::time::SCHEMA).expect("the schema is JSON")
 }
 
+/// What is wrong with a document by a schema.
+pub(crate) fn faults_of(schema: &str, value: &Value) -> Vec<String> {
+    let root: Value = serde_json::from_str(schema).expect("the schema is JSON");
+    let mut wrong = Vec::new();
+    check(&root, &root, value, "", &mut wrong);
+    wrong
+}
+
 fn faults(part: &str, value: &Value) -> Vec<String> {
     let root = schema();
     let mut wrong = Vec::new();

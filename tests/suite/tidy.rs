@@ -97,11 +97,18 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Rooms that know controls by their capabilities alone.
-const NO_DIALECT: &[&str] =
-    &["ir/src", "frontends/src/word", "backends/src/word", "timeline/src", "machines/src", "pictures/src"];
+const NO_DIALECT: &[&str] = &[
+    "ir/src",
+    "frontends/src/word",
+    "backends/src/word",
+    "timeline/src",
+    "machines/src",
+    "pictures/src",
+    "review/src",
+];
 
 /// Rooms that print nothing.
-const SILENT: &[&str] = &["ir", "frontends", "backends", "timeline", "machines", "pictures"];
+const SILENT: &[&str] = &["ir", "frontends", "backends", "timeline", "machines", "pictures", "review"];
 
 #[test]
 fn shared_code_names_no_dialect() {

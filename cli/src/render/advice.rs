@@ -88,9 +88,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NoCycle => own("call the cycle up before the positions"),
         Fault::CycleUpsideDown => own("check the signs of the bottom and of the retract plane"),
         Fault::EntryFactNeeded { .. } => own("say it in the subprogram itself"),
-        Fault::NotExecuted { what } if what.starts_with("an unknown ") => {
-            own("state it: `--from-option NAME=VALUE` where the dialect has such an option, or [options] of a machine profile")
-        }
+        Fault::NotExecuted { what } if what.starts_with("an unknown ") => own(
+            "state it: `--from-option NAME=VALUE` where the dialect has such an option, or [options] of a machine profile",
+        ),
         Fault::NotExecuted { .. } => {
             own("`--to ir` keeps it; for another target it has to be written another way")
         }

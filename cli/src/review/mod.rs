@@ -4,6 +4,7 @@
 //! makes records of what it does. What is found is told by the verbs' own rooms. Not here: what a
 //! difference is (ncc-review).
 
+pub mod diff;
 pub(crate) mod feed;
 pub(crate) mod side;
 pub(crate) mod stream;

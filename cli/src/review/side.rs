@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::{Layout, Numbering};
-use ncc_dialects::Dialect;
+use ncc_dialects::{Dialect, Settings};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
@@ -82,7 +82,6 @@ pub(crate) fn operand<'o>(
 ///
 /// # Errors
 /// Wrong usage, a file that cannot be read, or a dialect that cannot be told for certain.
-#[allow(dead_code)] // For verbs of two programs.
 pub(crate) fn open(
     asked: [&Asked; 2],
     say: bool,
@@ -122,7 +121,6 @@ struct Opened {
     source: Source,
     named: Option<&'static Dialect>,
     profile: Option<Arc<Profile>>,
-    #[allow(dead_code)] // As above.
     stdin: bool,
 }
 
@@ -192,6 +190,13 @@ impl Opened {
         };
         let from = settings(machines.settings(Whose::From, dialect), asked.options)?;
         self.source.rewind()?;
+        Ok(Side::of(self.source, from, machines, asked.start))
+    }
+}
+
+impl Side {
+    /// A program of a dialect with its options.
+    pub(crate) fn of(source: Source, from: Settings, machines: Machines, start: Option<Start>) -> Side {
         let job = Job {
             to: from.clone(),
             from,
@@ -201,13 +206,13 @@ impl Opened {
             fold: None,
             verify: true,
             head: true,
-            start: asked.start.unwrap_or_default(),
+            start: start.unwrap_or_default(),
             program_number: None,
-            source_name: self.source.name.clone(),
+            source_name: source.name.clone(),
             allow: Vec::new(),
             deny: Vec::new(),
         };
-        Ok(Side { source: self.source, job })
+        Side { source, job }
     }
 }
 

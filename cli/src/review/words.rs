@@ -96,7 +96,6 @@ pub(crate) fn event(record: &Record, style: &Style, texts: &[Text]) -> String {
         }
         What::Dwell => format!("dwell {} s", number(record.more[0])),
         What::ToolChange => format!("tool T{}", style.state.tool),
-        What::Coolant => format!("coolant {}", coolant(style.state.flood, style.state.mist)),
         What::Function => format!("function {}", text()),
         What::Stop => "stop".to_owned(),
         What::OptionalStop => "optional stop".to_owned(),

@@ -3,6 +3,7 @@
 mod arrow;
 mod check;
 mod dialects;
+mod diff;
 mod files;
 mod machines;
 mod messages;

@@ -1,0 +1,132 @@
+//! `ncc git-diff`: a driver for git, which calls it with seven arguments.
+//!
+//! It prints the difference of what both versions do; of their texts, if one of them cannot be
+//! executed, and says so. The exit code is 0 always: git takes anything else for a driver that has died.
+
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use clap::Args;
+use codespan_reporting::term::termcolor::{Buffer, WriteColor};
+
+use super::motion::motion;
+use super::tell::Account;
+use super::{SHOWN, plain, text, unified};
+use crate::args::pair;
+use crate::files;
+use crate::guess::{Guess, guess};
+use crate::known::Known;
+use crate::problem::{Exit, Problem};
+use crate::review::side::{Asked, Side, open};
+
+/// `ncc git-diff`.
+#[derive(Debug, Args)]
+#[command(
+    override_usage = "ncc git-diff [OPTIONS] PATH OLD OLD-HEX OLD-MODE NEW NEW-HEX NEW-MODE [RENAMED …]"
+)]
+pub struct GitDiff {
+    /// Path in the repository, then file, hash and mode of the old and of the new version
+    #[arg(value_name = "GIT", num_args = 1.., required = true)]
+    pub git: Vec<String>,
+    /// Dialect of the programs [default: recognised]
+    #[arg(long, value_name = "DIALECT")]
+    pub from: Option<String>,
+    /// Decide a question that the dialect's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    pub from_option: Vec<(String, String)>,
+    /// Show every difference, not only the first ten
+    #[arg(long)]
+    pub all: bool,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// The arguments are not those of git, or stdout cannot be written.
+pub fn run(args: &GitDiff, known: &Known, _err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let word = |i: usize| args.git.get(i).map_or("", String::as_str);
+    if args.git.len() == 1 {
+        return print(&format!("{}: unmerged\n", word(0)));
+    }
+    if args.git.len() < 7 {
+        return Err(Problem::usage(
+            "git calls this with seven arguments",
+            "put `diff.ncc.command = ncc git-diff` into git's configuration; to compare files: ncc diff A B",
+        ));
+    }
+    let (path, old, new) = (word(0), word(1), word(4));
+    let nothing = |file: &str| file == "/dev/null" || Path::new(file) == Path::new("nul");
+    let mut out = format!("diff --ncc {path}\n");
+    if let (true, true) = (args.git.len() > 8, !word(7).is_empty()) {
+        out += &format!("renamed to {}\n", word(7));
+    }
+    match (nothing(old), nothing(new)) {
+        (true, true) => {}
+        (true, false) => out += &format!("new program: {}\n", extent(new)),
+        (false, true) => out += &format!("deleted program: {}\n", extent(old)),
+        (false, false) => out += &both(args, known, [old, new], path),
+    }
+    print(&out)
+}
+
+fn print(text: &str) -> Result<Exit, Problem> {
+    files::to_stdout(&mut |out| out.write_all(text.as_bytes()))?;
+    Ok(Exit::Done)
+}
+
+fn extent(file: &str) -> String {
+    let lines = std::fs::read(file).map(|text| memchr::memchr_iter(b'\n', &text).count());
+    lines.map_or_else(|e| e.to_string(), |n| format!("{n} blocks"))
+}
+
+/// The dialect of both versions: of the new one, else of the old one, else by the path.
+fn dialect<'a>(args: &'a GitDiff, known: &'a Known, versions: [&str; 2]) -> Option<&'a str> {
+    if let Some(from) = &args.from {
+        return Some(from);
+    }
+    versions.iter().rev().find_map(|file| match guess(&mut File::open(file).ok()?, known.all()).ok()? {
+        Guess::Sure(dialect, _) => Some(dialect.id.as_str()),
+        Guess::Unsure(_) => None,
+    })
+}
+
+fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str) -> String {
+    // Files of git have names of their own: they are never taken for `DIALECT:PATH`.
+    let names = versions
+        .map(|file| if Path::new(file).is_absolute() { file.to_owned() } else { format!("./{file}") });
+    let asked = |operand| Asked {
+        operand,
+        from: dialect(args, known, versions),
+        options: &args.from_option,
+        ..Asked::default()
+    };
+    let mut quiet = Buffer::no_color();
+    let opened = open([&asked(&names[0]), &asked(&names[1])], false, known, &mut quiet);
+    let mut sides = match opened {
+        Ok(sides) => sides,
+        Err(problem) => return format!("not compared: {}\n", problem.message),
+    };
+    for (side, version) in sides.iter_mut().zip(["old", "new"]) {
+        side.source.shown = format!("{path} ({version})");
+    }
+    let most = if args.all { usize::MAX } else { SHOWN };
+    told(&mut sides, most).unwrap_or_else(|e| format!("not compared: {e}\n"))
+}
+
+fn told(sides: &mut [Side; 2], most: usize) -> std::io::Result<String> {
+    let found = motion(sides, None)?;
+    let mut out = Vec::new();
+    if !found.refused() {
+        plain::write(&mut out, &Account::of(&found, sides)?, most)?;
+        return Ok(String::from_utf8_lossy(&out).into_owned());
+    }
+    for (side, course) in sides.iter().zip(&found.courses) {
+        if course.refused {
+            let dialect = &side.dialect().id;
+            writeln!(out, "{} cannot be executed as {dialect}; the texts are compared", side.source.shown)?;
+        }
+    }
+    unified(&mut out, &text::compare(sides, &[])?, most)?;
+    Ok(String::from_utf8_lossy(&out).into_owned())
+}

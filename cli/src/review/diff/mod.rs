@@ -1,0 +1,309 @@
+//! `ncc diff`: do two programs make the same cut, and if not, what differs?
+//!
+//! `motion` executes both and holds their events side by side, `text` compares blocks. `tell` puts
+//! what was found into words, which `plain`, `json` and `html` lay out; `git` is the driver for git. Not
+//! here: what counts as the same, and how streams come together again (ncc-review).
+
+pub mod git;
+mod html;
+mod json;
+mod motion;
+mod plain;
+mod tell;
+mod text;
+
+use std::io::{self, Write};
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_dialects::Settings;
+use ncc_ir::num::Nanos;
+
+pub use self::json::SCHEMA;
+use self::motion::{Motion, motion};
+use self::tell::Account;
+use self::text::Texts;
+use super::side::{Asked, Side, open};
+use crate::args::{Start, pair, start};
+use crate::files::{self, Source};
+use crate::known::Known;
+use crate::machines::pair::Machines;
+use crate::problem::{Exit, Problem};
+use crate::render::{About, human};
+use crate::setting::Telling;
+
+const EXAMPLES: &str = "\
+Examples:
+  ncc diff old.nc new.nc                      do both make the same cut? what differs
+  ncc diff mach9:a.cn fanuc:b.nc --summary    across dialects, in one line
+  ncc diff a.nc b.nc --side-by-side --all     every difference, in two columns
+  ncc diff a.nc b.nc --html review.html       a page to send to somebody
+  ncc diff a.nc b.nc --text --ignore all      only what the text says otherwise
+
+Both programs are executed in three worlds: one in which offsets and lengths are nothing, and two
+with odd ones, so that a lost work offset shows; under every setting of the block-skip switches. Each
+takes for granted what its dialect does; -v says what. Exit code: 0 the same, 1 different, 2 wrong
+usage, 4 a file could not be read, 5 could not be compared, because a program has errors.";
+
+/// `ncc diff`.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct Diff {
+    /// The first program, as `PATH` or `DIALECT:PATH`; `-` for stdin
+    #[arg(value_name = "A", required_unless_present = "schema")]
+    pub a: Option<String>,
+    /// The second program
+    #[arg(value_name = "B", required_unless_present = "schema")]
+    pub b: Option<String>,
+    /// Dialect of what does not name one [default: recognised]
+    #[arg(long, value_name = "DIALECT", help_heading = "What is compared")]
+    pub from: Option<String>,
+    /// The machine of A: a profile by its name or file, which names the dialect too
+    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
+    pub a_machine: Option<String>,
+    /// The machine of B
+    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
+    pub b_machine: Option<String>,
+    /// Decide a question that the dictionary of A leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
+    pub a_option: Vec<(String, String)>,
+    /// Decide a question that the dictionary of B leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
+    pub b_option: Vec<(String, String)>,
+    /// Where the tool stands before the first block of both, in program coordinates
+    #[arg(
+        long,
+        value_name = "AXES",
+        value_parser = start,
+        allow_hyphen_values = true,
+        help_heading = "What is compared"
+    )]
+    pub start: Option<Start>,
+    /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
+    #[arg(long, value_name = "MM", value_parser = millimetres, help_heading = "What is compared")]
+    pub tolerance: Option<Nanos>,
+    /// Compare the text, block by block, instead of what it does
+    #[arg(long, help_heading = "What is compared")]
+    pub text: bool,
+    /// What counts for nothing in a text: numbers (of blocks), blanks, comments, case,
+    /// number-format, or all
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_enum,
+        value_delimiter = ',',
+        requires = "text",
+        hide_possible_values = true,
+        help_heading = "What is compared"
+    )]
+    pub ignore: Vec<Ignore>,
+
+    /// Say in one line what differs
+    #[arg(long, conflicts_with_all = ["side_by_side", "format"], help_heading = "How the result looks")]
+    pub summary: bool,
+    /// Both texts in two columns
+    #[arg(long, conflicts_with = "format", help_heading = "How the result looks")]
+    pub side_by_side: bool,
+    /// Show every difference, not only the first ten
+    #[arg(long, help_heading = "How the result looks")]
+    pub all: bool,
+    /// For people, or as JSON [default: human]
+    #[arg(
+        long,
+        value_name = "human|json",
+        value_enum,
+        default_value_t = Form::Human,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "How the result looks"
+    )]
+    pub format: Form,
+    /// Write a page with everything to this file
+    #[arg(long, value_name = "FILE", help_heading = "How the result looks")]
+    pub html: Option<PathBuf>,
+    /// Print the JSON Schema of `--format json`, and nothing else
+    #[arg(long, help_heading = "How the result looks")]
+    pub schema: bool,
+
+    /// How much is told.
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+/// Form of the result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// For people
+    Human,
+    /// One JSON document
+    Json,
+}
+
+/// What counts for nothing in a text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Ignore {
+    /// Block numbers
+    Numbers,
+    /// Blanks, and lines without anything else
+    Blanks,
+    /// Comments
+    Comments,
+    /// Capitals and small letters
+    Case,
+    /// How a number is written, where its value is the same
+    NumberFormat,
+    /// All of these
+    All,
+}
+
+/// Differences that are shown where not all are.
+const SHOWN: usize = 10;
+
+/// Runs the verb.
+///
+/// # Errors
+/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on `err`.
+pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    if args.schema {
+        files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
+        return Ok(Exit::Done);
+    }
+    let (Some(a), Some(b)) = (args.a.as_deref(), args.b.as_deref()) else {
+        return Err(Problem::usage("two programs are compared", "ncc diff A B"));
+    };
+    let from = args.from.as_deref();
+    let asked = |operand, machine, options| Asked { operand, from, machine, options, start: args.start };
+    let a = asked(a, args.a_machine.as_deref(), args.a_option.as_slice());
+    let b = asked(b, args.b_machine.as_deref(), args.b_option.as_slice());
+    let mut sides = open([&a, &b], args.telling.verbose, known, err).map_err(uncomparable)?;
+    if let Some(page) = &args.html {
+        sides[0].source.guard(Some(page))?;
+        sides[1].source.guard(Some(page))?;
+    }
+    let cannot = |e: &io::Error| Problem::file("compare", "the programs", e);
+    let mut texts = None;
+    let account = if args.text {
+        let found = text::compare(&mut sides, &args.ignore).map_err(|e| cannot(&e))?;
+        let account = found.account.clone();
+        texts = Some(found);
+        account
+    } else {
+        let found = motion(&mut sides, args.tolerance).map_err(|e| cannot(&e))?;
+        let _ = say(args, &mut sides, &found, known, err);
+        if found.refused() {
+            return Ok(Exit::NotCompared);
+        }
+        Account::of(&found, &mut sides).map_err(|e| cannot(&e))?
+    };
+    if let Some(page) = &args.html {
+        files::to_file(page, &mut |out| html::write(out, &account))?;
+    }
+    show(args, &account, texts.as_ref())?;
+    Ok(if account.equal { Exit::Done } else { Exit::Refused })
+}
+
+/// Two texts held side by side without a process, for tests: the document of `--format json`; `None` if
+/// they cannot be executed.
+///
+/// # Errors
+/// Anonymous files.
+pub fn document(texts: [(Settings, &[u8]); 2], by_text: Option<&[Ignore]>) -> io::Result<Option<String>> {
+    let mut sides = Vec::new();
+    for ((settings, text), name) in texts.into_iter().zip(["a", "b"]) {
+        let mut file = tempfile::tempfile()?;
+        file.write_all(text)?;
+        sides.push(Side::of(Source::of(file, name), settings, Machines::default(), None));
+    }
+    let Ok(mut sides) = <[Side; 2]>::try_from(sides) else { return Ok(None) };
+    let account = match by_text {
+        Some(ignore) => text::compare(&mut sides, ignore)?.account,
+        None => {
+            let found = motion(&mut sides, None)?;
+            if found.refused() {
+                return Ok(None);
+            }
+            Account::of(&found, &mut sides)?
+        }
+    };
+    let mut out = Vec::new();
+    json::write(&mut out, &account)?;
+    Ok(Some(String::from_utf8_lossy(&out).into_owned()))
+}
+
+/// A dialect that cannot be told is no wrong usage here: the programs could not be compared.
+fn uncomparable(problem: Problem) -> Problem {
+    let unsure = problem.exit == Exit::Usage && problem.message.contains("cannot tell");
+    if unsure { Problem { exit: Exit::NotCompared, ..problem } } else { problem }
+}
+
+fn show(args: &Diff, account: &Account, texts: Option<&Texts>) -> Result<(), Problem> {
+    let most = if args.all { usize::MAX } else { SHOWN };
+    files::to_stdout(&mut |out: &mut dyn Write| match (args.format, args.telling.quiet) {
+        (Form::Json, _) => json::write(out, account),
+        (Form::Human, true) => Ok(()),
+        (Form::Human, false) if args.summary => writeln!(out, "{}", account.summary),
+        (Form::Human, false) if args.side_by_side => plain::columns(out, account, most, plain::width()),
+        (Form::Human, false) => match texts {
+            Some(texts) => unified(out, texts, most),
+            None => plain::write(out, account, most),
+        },
+    })
+}
+
+/// Texts in the unified form.
+fn unified(out: &mut dyn Write, texts: &Texts, most: usize) -> io::Result<()> {
+    let account = &texts.account;
+    for note in &account.notes {
+        writeln!(out, "note: {note}")?;
+    }
+    if account.equal {
+        return writeln!(out, "{} and {}: {}", account.names[0], account.names[1], account.summary);
+    }
+    writeln!(out, "--- {}\n+++ {}", account.names[0], account.names[1])?;
+    for hunk in texts.unified.iter().take(most) {
+        write!(out, "{hunk}")?;
+    }
+    match texts.unified.len().saturating_sub(most) {
+        0 => Ok(()),
+        left => writeln!(out, "… and {left} more; --all shows them"),
+    }
+}
+
+/// Tells what was found in both programs.
+fn say(
+    args: &Diff,
+    sides: &mut [Side; 2],
+    found: &Motion,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> io::Result<()> {
+    for (side, course) in sides.iter_mut().zip(&found.courses) {
+        let shown = side.source.shown.clone();
+        let mut about = About { job: &side.job, name: &shown, source: &mut side.source.file };
+        human::print(err, &mut about, &course.diagnostics, args.telling.loudness())?;
+        if course.refused {
+            writeln!(
+                err,
+                "{shown}: not compared, because it cannot be executed as {}",
+                side.job.from.dialect.id
+            )?;
+            let dialect = side.job.from.dialect;
+            if let crate::guess::Guess::Sure(other, reasons) =
+                crate::guess::guess(&mut side.source.file, known.all())?
+                && other.id != dialect.id
+            {
+                writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
+                writeln!(err, "  help: {}:{shown}", other.id)?;
+            }
+        }
+    }
+    err.flush()
+}
+
+fn millimetres(text: &str) -> Result<Nanos, String> {
+    match text.parse::<f64>() {
+        Ok(mm) if (0.0..=1000.0).contains(&mm) => Ok((mm * 1e9).round() as Nanos),
+        Ok(_) | Err(_) => Err("write millimetres as a decimal, 0 to 1000".to_owned()),
+    }
+}

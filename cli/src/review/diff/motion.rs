@@ -1,0 +1,147 @@
+//! Two programs executed and held side by side, under every setting of the block-skip switches.
+//!
+//! Each side runs on a thread of its own and hands its records over in pieces, so that memory does not
+//! grow while both agree. Not here: what is told of it.
+
+use std::io;
+use std::ops::ControlFlow;
+use std::sync::mpsc::sync_channel;
+
+use ncc_ir::num::Nanos;
+use ncc_review::change::Collector;
+use ncc_review::measure::Measure;
+use ncc_review::record::Batch;
+use ncc_review::resync::{Rules, Tape, compare};
+
+use crate::review::feed::{Settings, records};
+use crate::review::side::Side;
+use crate::review::stream::{Course, clearances};
+use crate::verify_run::resolution;
+
+/// Pieces that a side may be ahead.
+const AHEAD: usize = 4;
+/// Levels of block skip of which every setting is tried; of more, each alone, pairs, and all.
+const ALL_SETTINGS: u32 = 6;
+
+/// What was found.
+pub(crate) struct Motion {
+    /// The differences.
+    pub(crate) found: Collector,
+    /// What became of both programs.
+    pub(crate) courses: [Course; 2],
+    /// Settings of the block-skip switches that were tried.
+    pub(crate) settings: usize,
+    /// Levels of block skip of which not every setting was tried.
+    pub(crate) sampled: bool,
+    /// Within how much two places are one.
+    pub(crate) measure: Measure,
+    /// Whether messages were left out, because one control has none.
+    pub(crate) mute: bool,
+}
+
+impl Motion {
+    /// Whether one of the programs could not be executed.
+    pub(crate) fn refused(&self) -> bool {
+        self.courses.iter().any(|course| course.refused)
+    }
+}
+
+/// Compares what two programs do.
+///
+/// # Errors
+/// Reading the sources.
+pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Result<Motion> {
+    let [a, b] = &*sides;
+    let mut measure = Measure::of(&resolution(&a.job.from), &resolution(&b.job.from));
+    if let Some(most) = tolerance {
+        measure.lengths = [most; 2];
+    }
+    let mute = sides[0].dialect().caps.messages != sides[1].dialect().caps.messages;
+    // What one control leaves to a parameter and its profile does not state is as on the other one.
+    let own = [clearances(&sides[0].job), clearances(&sides[1].job)];
+    let clearances =
+        [0, 1].map(|side| std::array::from_fn(|which: usize| own[side][which].or(own[1 - side][which])));
+    let mut found = Collector::default();
+    let settings = |skip| clearances.map(|clearances| Settings { skip, mute, clearances });
+    let courses = once(sides, settings(0), measure, &mut found)?;
+    let levels = courses[0].skip_levels | courses[1].skip_levels;
+    let one_level = sides.iter().any(|side| side.dialect().caps.skip_levels <= 1);
+    let further =
+        if courses.iter().any(|course| course.refused) { Vec::new() } else { further(levels, one_level) };
+    let mut motion = Motion {
+        found,
+        courses,
+        settings: 1 + further.len(),
+        sampled: !one_level && levels.count_ones() > ALL_SETTINGS,
+        measure,
+        mute,
+    };
+    for skip in further {
+        motion.found.again(skip);
+        let courses = once(sides, settings(skip), measure, &mut motion.found)?;
+        if courses.iter().any(|course| course.refused) {
+            motion.courses = courses;
+            break;
+        }
+    }
+    Ok(motion)
+}
+
+/// Settings of the switches besides all off.
+fn further(levels: u16, one_level: bool) -> Vec<u16> {
+    if levels == 0 {
+        return Vec::new();
+    }
+    if one_level {
+        // Bit 1 is the level of a control that has one only.
+        return vec![levels | 1 << 1];
+    }
+    let many = levels.count_ones() > ALL_SETTINGS;
+    (1..=u16::MAX)
+        .filter(|skip| skip & !levels == 0)
+        .filter(|skip| !many || skip.count_ones() <= 2 || *skip == levels)
+        .collect()
+}
+
+fn once(
+    sides: &mut [Side; 2],
+    settings: [Settings; 2],
+    measure: Measure,
+    into: &mut Collector,
+) -> io::Result<[Course; 2]> {
+    let [a, b] = sides;
+    let run = |side: &mut Side, settings: Settings, to: std::sync::mpsc::SyncSender<Batch>| {
+        records(side, settings, &mut |batch| match to.send(batch) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        })
+    };
+    let (to_a, from_a) = sync_channel(AHEAD);
+    let (to_b, from_b) = sync_channel(AHEAD);
+    std::thread::scope(|scope| {
+        let first = scope.spawn(move || run(a, settings[0], to_a));
+        let second = scope.spawn(move || run(b, settings[1], to_b));
+        let a = Tape::new(Box::new(move || from_a.recv().ok()));
+        let b = Tape::new(Box::new(move || from_b.recv().ok()));
+        compare(a, b, Rules { measure, shifts: true }, into);
+        let joined = |course: std::thread::Result<io::Result<Course>>| {
+            course.unwrap_or_else(|_| Err(io::Error::other("a side's execution broke off")))
+        };
+        Ok([joined(first.join())?, joined(second.join())?])
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_of_switches() {
+        assert!(further(0, false).is_empty());
+        assert_eq!(further(0b110, false), [0b10, 0b100, 0b110]);
+        assert_eq!(further(0b110, true), [0b110]);
+        assert_eq!(further(0b10, true), [0b10]);
+        let many = further(0b1111_1110, false);
+        assert_eq!(many.len(), 7 + 21 + 1);
+    }
+}
