@@ -104,6 +104,8 @@ pub struct Collector {
     pub unmatched: [u64; 2],
     /// Whether streams were too long to be brought together where they had nothing in common.
     pub lost: bool,
+    /// Whether moves that are off are in inches on one side and in millimetres on the other.
+    pub units: bool,
     /// Block-skip switches of this run.
     pub skip: u16,
     by_change: HashMap<(Change, i64), usize>,
@@ -293,6 +295,7 @@ impl Collector {
                 open = at;
             }
             if let (Some(a), Some(b)) = (first, second) {
+                self.units |= a.what.moves() && a.inch() != b.inch();
                 let style = |r: &Record, side: usize| tapes[side].styles.get(r.style as usize);
                 if let (Some(s), Some(t)) = (style(a, 0), style(b, 1)) {
                     // Positions are told already.

@@ -142,6 +142,14 @@ fn an_edit_is_told_as_what_it_is() {
     failures.finish();
 }
 
+/// Units that are others are told as that.
+#[test]
+fn lost_units_are_noted() {
+    let inches = PART.replacen("G21", "G20", 1);
+    let document = diff(("fanuc", PART.as_bytes()), ("fanuc", inches.as_bytes())).expect("executed");
+    assert_eq!(document["notes"][0], "one program is in inches where the other is in millimetres");
+}
+
 /// An insertion into a program that measures from where the tool stands shifts all that follows.
 #[test]
 fn a_shifted_tail_is_told_as_a_shift() {

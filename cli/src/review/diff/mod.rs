@@ -233,7 +233,7 @@ pub fn document(texts: [(Settings, &[u8]); 2], by_text: Option<&[Ignore]>) -> io
 
 /// A dialect that cannot be told is no wrong usage here: the programs could not be compared.
 fn uncomparable(problem: Problem) -> Problem {
-    let unsure = problem.exit == Exit::Usage && problem.message.contains("cannot tell");
+    let unsure = problem.exit == Exit::Usage && problem.message.contains("cannot be told");
     if unsure { Problem { exit: Exit::NotCompared, ..problem } } else { problem }
 }
 

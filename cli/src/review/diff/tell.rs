@@ -121,6 +121,9 @@ impl Account {
         if motion.mute {
             notes.push("messages are not compared: one of the controls has none".to_owned());
         }
+        if found.units {
+            notes.push("one program is in inches where the other is in millimetres".to_owned());
+        }
         if motion.sampled {
             notes.push(
                 "not every setting of the block-skip switches was tried: there are too many".to_owned(),
