@@ -25,8 +25,8 @@ pub(super) fn decimal(nanos: Nanos) -> String {
 pub(super) fn words(finding: &Finding) -> Words {
     let more = match finding.more {
         0 => String::new(),
-        1 => "; one more move is".to_owned(),
-        n => format!("; {n} more moves are"),
+        1 => "; one more move too".to_owned(),
+        n => format!("; {n} more moves too"),
     };
     let (message, label, related, advice): (String, String, &[&str], &str) = match &finding.what {
         What::AxisTravel { axis, side, to, limit, farthest } => {
@@ -39,7 +39,6 @@ pub(super) fn words(finding: &Finding) -> Words {
                 true => format!(", the farthest to {}{unit}", decimal(*farthest)),
                 false => String::new(),
             };
-            let more = more.replace("is", "too").replace("are", "too");
             (
                 format!("{axis} goes beyond its travel"),
                 format!(
@@ -56,7 +55,6 @@ pub(super) fn words(finding: &Finding) -> Words {
                 Some(axis) => format!("of {}", axis.letter() as char),
                 None => "of the machine".to_owned(),
             };
-            let more = more.replace("is", "too").replace("are", "too");
             (
                 format!("feed above the highest {whose}"),
                 format!("{} mm/min, and the highest is {}{more}", decimal(*feed), decimal(*limit)),
