@@ -14,7 +14,7 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 use ncc::job::Outcome;
-use ncc_ir::canon::{AXES, Distance, Fact, Modes};
+use ncc_ir::canon::{Distance, Fact, Modes};
 use ncc_ir::exec::{Event, Exec, Kind, Runner};
 use ncc_ir::passes::{PASSES, Target};
 use ncc_ir::program::{Op, Program, Stmt};
@@ -252,10 +252,11 @@ fn told(event: &Event, last: Option<&Event>, form: Form) -> String {
         other => format!("{other:?}"),
     };
     let last = last.filter(|_| form != Form::Whole);
-    for axis in 0..AXES {
-        if last.is_none_or(|last| last.end[axis] != end[axis]) {
-            let before = if form == Form::Incremental { from(axis) } else { 0 };
-            let _ = write!(out, " {axis}={}", end[axis] - before);
+    for (axis, at) in end.iter().enumerate() {
+        let before = last.map(|last| last.end[axis]);
+        if before != Some(*at) {
+            let zero = before.filter(|_| form == Form::Incremental).unwrap_or(0);
+            let _ = write!(out, " {axis}={}", at - zero);
         }
     }
     if last.is_none_or(|last| last.rate != *rate) {
