@@ -87,6 +87,8 @@ pub enum Verb {
     Time(Box<crate::time::args::Time>),
     /// Execute programs and tell what is wrong with them, before they meet a machine
     Check(Box<crate::check::args::Check>),
+    /// Lay programs out in their dialect, and show that they still say the same
+    Fmt(Box<crate::fmt::args::Fmt>),
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
     /// Do two programs make the same cut? If not, what differs?
@@ -332,7 +334,7 @@ pub(crate) fn pair(text: &str) -> Result<(String, String), String> {
     }
 }
 
-fn numbering(text: &str) -> Result<Numbering, String> {
+pub(crate) fn numbering(text: &str) -> Result<Numbering, String> {
     match text {
         "off" => return Ok(Numbering::Off),
         "keep" => return Ok(Numbering::Keep),

@@ -13,6 +13,7 @@ mod difference;
 pub mod doctor;
 pub mod explain;
 pub mod files;
+pub mod fmt;
 pub mod guess;
 pub mod head;
 pub mod job;

@@ -23,7 +23,7 @@ use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
-    arrow, check, dialect_test, dialects, doctor, explain, machines, plot, report, review, time, translate,
+    arrow, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report, review, time, translate,
 };
 
 /// What to say to who names no target.
@@ -66,6 +66,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Passes => print(&passes()),
         Verb::Time(args) => return ended(time::run(args, &known, &mut err), &mut err),
         Verb::Check(args) => return ended(check::run(args, &known, cli.color, &mut err), &mut err),
+        Verb::Fmt(args) => return ended(fmt::run(args, &known, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
         Verb::Diff(args) => return ended(review::diff::run(args, &known, &mut err), &mut err),
         Verb::GitDiff(args) => return ended(review::diff::git::run(args, &known, &mut err), &mut err),

@@ -7,6 +7,7 @@
 
 pub mod canon;
 pub mod ir;
+pub mod pieces;
 pub mod siemens;
 pub mod word;
 

@@ -23,6 +23,7 @@ mod letters;
 mod lower;
 mod motion;
 mod patterns;
+pub(crate) mod pieces;
 mod reader;
 mod sort;
 #[cfg(test)]

@@ -23,6 +23,7 @@ pub(crate) mod lower;
 mod motion;
 pub(crate) mod number;
 mod pattern;
+pub(crate) mod pieces;
 pub(crate) mod plain;
 pub(crate) mod sort;
 #[cfg(test)]

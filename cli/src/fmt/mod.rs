@@ -1,0 +1,304 @@
+//! `ncc fmt`: the layout of a program within its dialect, and nothing but the layout.
+//!
+//! `text` takes a program apart line by line and writes it anew (`layout`), and has each line judged
+//! (`same`); `number` gives blocks new numbers and whatever names them; `events` executes the text before
+//! and after; `own` is for dialects that are laid out by their writers. Not here: what words mean.
+
+pub mod args;
+mod events;
+mod layout;
+mod own;
+mod same;
+mod shown;
+#[cfg(test)]
+mod tests;
+mod text;
+
+use std::fs::File;
+use std::io::{self, Seek, SeekFrom, Write};
+
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_backends::Numbering;
+use ncc_dialects::Family;
+use ncc_machines::schema::BlockNumbers;
+
+use self::args::Fmt;
+use self::events::Compared;
+use self::own::Written;
+use self::text::Refused;
+use crate::args::Eol;
+use crate::files::{self, Source};
+use crate::guess::{Guess, guess};
+use crate::job::Job;
+use crate::known::Known;
+use crate::problem::{Exit, Problem};
+use crate::render::About;
+use crate::render::human::{self, Loudness};
+use crate::review::side::{Asked, Side, open_one, operand};
+
+/// Runs the verb.
+///
+/// # Errors
+/// Wrong usage, or, of a single file, what keeps it from being laid out.
+pub fn run(args: &Fmt, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    if args.files.iter().filter(|file| is_stdin(file)).count() > 1 {
+        return Err(Problem::usage("stdin can be read only once", "name a file"));
+    }
+    if args.stdout && args.files.len() > 1 {
+        return Err(Problem::usage(
+            "several files would run into each other on stdout",
+            "call ncc once for each of them",
+        ));
+    }
+    let mut exit = Exit::Done;
+    for file in &args.files {
+        match one(args, file, known, err) {
+            Ok(done) => exit = exit.and(done),
+            Err(problem) if args.files.len() < 2 => return Err(problem),
+            Err(problem) => {
+                // The exit code says so too.
+                let _ = problem.print(err, false);
+                exit = exit.and(problem.exit);
+            }
+        }
+    }
+    Ok(exit)
+}
+
+fn is_stdin(file: &str) -> bool {
+    file == "-" || file.ends_with(":-")
+}
+
+/// A text that was laid out.
+struct Done {
+    /// The result.
+    file: File,
+    /// Lines that look otherwise; of whole texts that are, 1.
+    changed: u32,
+    /// Lines that were not taken apart.
+    unread: (Vec<u32>, u32),
+    /// What was shown of it.
+    shown: String,
+    /// Whether it was executed before and after.
+    executed: bool,
+}
+
+fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let asked = Asked {
+        operand: file,
+        from: args.from.as_deref(),
+        machine: args.machine.as_deref(),
+        options: &args.from_option,
+        start: args.start,
+    };
+    let loudness = args.telling.loudness();
+    let say = loudness != Loudness::Quiet;
+    let Side { mut source, mut job } = open_one(&asked, say, known, err)?;
+    let eol = match args.eol.unwrap_or(job.machines.eol()) {
+        Eol::Lf => false,
+        Eol::Crlf => true,
+        Eol::Keep => source.is_crlf()?,
+    };
+    job.layout.crlf = eol;
+    job.layout.numbering = args.number.unwrap_or_else(|| numbering(&job));
+    let done = match job.from.dialect.family {
+        Family::Canon | Family::Ir => by_writer(&mut job, &mut source, err, loudness)?,
+        Family::Word | Family::Sinumerik => by_words(args, &job, &mut source, known, err)?,
+    };
+    tell(&done, &source, say, err);
+    if args.executed && !done.executed {
+        return Err(Problem {
+            exit: Exit::Refused,
+            message: format!("{} cannot be executed, and is left as it is", source.shown),
+            help: vec!["without --executed, what has the same words is written".to_owned()],
+        });
+    }
+    write(args, file, known, &mut source, done)
+}
+
+/// Block numbers, as the machine's profile has them; else they are kept.
+fn numbering(job: &Job) -> Numbering {
+    match job.machines.layout().numbers {
+        None | Some((BlockNumbers::Keep, ..)) => Numbering::Keep,
+        Some((BlockNumbers::Off, ..)) => Numbering::Off,
+        Some((BlockNumbers::New, first, step)) => Numbering::Every { first, step },
+    }
+}
+
+/// Lays out a text of words.
+fn by_words(
+    args: &Fmt,
+    job: &Job,
+    source: &mut Source,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Done, Problem> {
+    let shown = source.shown.clone();
+    let read = |e: io::Error| Problem::file("read", &shown, &e);
+    let eol: &[u8] = if job.layout.crlf { b"\r\n" } else { b"\n" };
+    let mut file = tempfile::tempfile().map_err(read)?;
+    let found = text::text(&job.from, eol, &mut source.file, &mut file).map_err(read)?;
+    match found.refused {
+        Some(Refused::NotText(line)) => return Err(not_text(&shown, Some(line))),
+        Some(Refused::NotSame(line)) => return Err(not_same(&shown, Some(line))),
+        None => {}
+    }
+    let unread = found.unread;
+    let mut done = Done { file, changed: found.changed, unread, shown: String::new(), executed: false };
+    let compared = events::compare(job, &mut source.file, &mut done.file).map_err(read)?;
+    match compared {
+        Compared::Same(events) => {
+            done.executed = true;
+            done.shown = format!("the same words, and {events} events the same");
+        }
+        Compared::Different => return Err(not_same(&shown, None)),
+        Compared::NotExecuted(_, true) => return Err(not_text(&shown, None)),
+        Compared::NotExecuted(first, false) => {
+            let other = guess(&mut source.file, known.all()).map_err(read)?;
+            if let Guess::Sure(other, reasons) = other
+                && other.id != job.from.dialect.id
+            {
+                let id = &job.from.dialect.id;
+                return Err(Problem {
+                    exit: Exit::Refused,
+                    message: format!("{shown} has errors as {id}, and reads like {}", other.id),
+                    help: vec![reasons.join(", "), format!("ncc fmt {}:{shown}", other.id)],
+                });
+            }
+            if let Some(first) = first.as_ref()
+                && args.telling.loudness() == Loudness::Verbose
+            {
+                let mut about = About { job, name: &shown, source: &mut source.file };
+                // What cannot be told changes nothing about what was done.
+                let _ = human::print(err, &mut about, std::slice::from_ref(first), Loudness::Verbose);
+            }
+            done.shown =
+                "the same words; ncc cannot execute the program, so that no more was shown".to_owned();
+        }
+    }
+    Ok(done)
+}
+
+/// Lays out a text by its dialect's own writer.
+fn by_writer(
+    job: &mut Job,
+    source: &mut Source,
+    err: &mut dyn WriteColor,
+    loudness: Loudness,
+) -> Result<Done, Problem> {
+    if job.layout.numbering != Numbering::Keep {
+        return Err(Problem::usage(
+            format!("block numbers of {} are not changed", job.from.dialect.id),
+            "leave --number out",
+        ));
+    }
+    let shown = source.shown.clone();
+    let read = |e: io::Error| Problem::file("read", &shown, &e);
+    let refused =
+        |message: String, help: &str| Problem { exit: Exit::Refused, message, help: vec![help.to_owned()] };
+    job.head = false;
+    let written = match own::text(job, &mut source.file).map_err(read)? {
+        Written::Done(text) => text,
+        Written::NotSame => return Err(not_same(&shown, None)),
+        Written::Refused => {
+            let id = &job.from.dialect.id;
+            let message = format!("{shown} cannot be laid out: it has errors as {id}");
+            return Err(refused(message, &format!("ncc {id} to {id} {shown} tells of them")));
+        }
+        Written::Notes => {
+            return Err(refused(
+                format!("{shown} cannot be laid out without losing its notes"),
+                "write one block a line, and the lines of its head as ncc does",
+            ));
+        }
+    };
+    let _ = (&err, loudness);
+    source.rewind()?;
+    let mut before = Vec::new();
+    io::Read::read_to_end(&mut source.file, &mut before).map_err(read)?;
+    let mut file = tempfile::tempfile().map_err(read)?;
+    file.write_all(&written).map_err(read)?;
+    let changed = u32::from(before != written);
+    let shown = "written by its own writer, and verified".to_owned();
+    Ok(Done { file, changed, unread: (Vec::new(), 0), shown, executed: true })
+}
+
+fn not_text(shown: &str, line: Option<u32>) -> Problem {
+    let place = line.map(|line| format!(":{line}")).unwrap_or_default();
+    Problem {
+        exit: Exit::Refused,
+        message: format!("{shown}{place} is not the text of a program"),
+        help: vec!["what is no text is never written over".to_owned()],
+    }
+}
+
+fn not_same(shown: &str, line: Option<u32>) -> Problem {
+    let place = line.map(|line| format!(":{line}")).unwrap_or_default();
+    Problem {
+        exit: Exit::VerificationFailed,
+        message: format!("{shown}{place} would not say the same; nothing is written"),
+        help: vec!["this is a fault of ncc; please report it with the program".to_owned()],
+    }
+}
+
+fn tell(done: &Done, source: &Source, say: bool, err: &mut dyn WriteColor) {
+    if !say {
+        return;
+    }
+    let shown = &source.shown;
+    let (named, count) = &done.unread;
+    if *count > 0 {
+        let named: Vec<String> = named.iter().map(u32::to_string).collect();
+        let more = if *count as usize > named.len() { " …" } else { "" };
+        let _ = writeln!(
+            err,
+            "{shown}: {count} line{} kept as {}, because ncc cannot take {} apart: {}{more}",
+            if *count == 1 { "" } else { "s" },
+            if *count == 1 { "it is" } else { "they are" },
+            if *count == 1 { "it" } else { "them" },
+            named.join(", ")
+        );
+    }
+    let change = match done.changed {
+        0 => "nothing to change".to_owned(),
+        1 => "1 line changes".to_owned(),
+        n => format!("{n} lines change"),
+    };
+    let _ = writeln!(err, "{shown}: {change}; {}", done.shown);
+}
+
+/// Writes the result, or tells what it would be.
+fn write(
+    args: &Fmt,
+    file: &str,
+    known: &Known,
+    source: &mut Source,
+    mut done: Done,
+) -> Result<Exit, Problem> {
+    let shown = source.shown.clone();
+    let exit = if args.check && done.changed > 0 { Exit::Refused } else { Exit::Done };
+    if args.check || args.diff {
+        return files::to_stdout(&mut |out| {
+            if args.check && done.changed > 0 {
+                writeln!(out, "{shown}")?;
+            }
+            if args.diff && done.changed > 0 {
+                shown::difference(&shown, &mut source.file, &mut done.file, out)?;
+            }
+            Ok(())
+        })
+        .map(|()| exit);
+    }
+    let mut copy = |out: &mut dyn Write| -> io::Result<()> {
+        done.file.seek(SeekFrom::Start(0))?;
+        io::copy(&mut done.file, out).map(|_| ())
+    };
+    if args.stdout || is_stdin(file) {
+        source.guard(None)?;
+        files::to_stdout(&mut copy)?;
+    } else if done.changed > 0 {
+        let (_, path) = operand(file, known)?;
+        files::to_file(path, &mut copy)?;
+    }
+    Ok(exit)
+}

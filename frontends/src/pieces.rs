@@ -1,0 +1,135 @@
+//! A text taken apart without loss: for somebody who lays it out anew and must not change what it says.
+//!
+//! Lines come one after the other, because what a line is depends on those before it: a mark that closes
+//! the program, a unit that is none. Of a block, every byte but blanks belongs to one piece. A line that
+//! the dialect's lexer cannot take apart is told as such, never guessed at. Not here: what words mean,
+//! and how they should look.
+
+use ncc_dialects::{Family, Settings};
+
+use crate::{siemens, word};
+
+/// What a piece is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PieceKind {
+    /// The letter that begins a word of the block: `X` of `X10.`, `N` of `N40`.
+    Address,
+    /// A letter anywhere else: in an expression, or an argument.
+    Letter,
+    /// An unsigned number.
+    Number,
+    /// A word of the language: `IF`, `GOTO`, `AND`, `SIN`.
+    Key,
+    /// Any other word of several letters.
+    Name,
+    /// An operator, a bracket, a comma; one or two characters.
+    Sign,
+    /// The mark of a block that can be skipped, with its level if that is part of the mark.
+    Skip,
+    /// What is to stay byte for byte: a string, a name in angle brackets, output of text.
+    Kept,
+    /// A comment with the signs that open and close it.
+    Comment,
+    /// A sign that ends a block before the line does.
+    End,
+}
+
+/// A piece of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Piece {
+    /// What it is.
+    pub kind: PieceKind,
+    /// Its first byte in the line.
+    pub start: usize,
+    /// The byte after it.
+    pub end: usize,
+    /// Open brackets around it.
+    pub depth: u32,
+}
+
+impl Piece {
+    /// Its text.
+    pub fn text<'l>(&self, line: &'l [u8]) -> &'l [u8] {
+        line.get(self.start..self.end).unwrap_or_default()
+    }
+}
+
+/// What a line is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineIs {
+    /// One or more blocks, or nothing: it is all in the pieces.
+    Blocks,
+    /// It frames the program or a unit: `%`, `%_N_NAME_MPF`. To be kept.
+    Frame,
+    /// It does not belong to the program: after its closing mark, or in a unit that is none.
+    Outside,
+    /// The lexer cannot take it apart.
+    Unread,
+}
+
+/// Takes the lines of one text apart.
+#[derive(Clone, Debug)]
+pub struct Lines {
+    settings: Settings,
+    /// Whether a mark has opened the text, or any line has stood without one.
+    opened: bool,
+    /// Whether the program is over.
+    closed: bool,
+}
+
+impl Lines {
+    /// For a text from its first line on.
+    pub fn new(settings: Settings) -> Lines {
+        Lines { settings, opened: false, closed: false }
+    }
+
+    /// Takes the next line (without its end) apart; `pieces` is emptied first. Families whose lines are
+    /// no blocks of words are not taken apart.
+    pub fn line(&mut self, line: &[u8], pieces: &mut Vec<Piece>) -> LineIs {
+        pieces.clear();
+        let dialect = self.settings.dialect;
+        let is = match dialect.family {
+            Family::Word => {
+                let text = line.trim_ascii();
+                // The end of a text file in old systems.
+                self.closed |= text.first() == Some(&0x1A);
+                let mark = dialect.program.frame.as_bytes();
+                match () {
+                    () if self.closed => LineIs::Outside,
+                    () if !mark.is_empty() && text.starts_with(mark) => {
+                        self.closed = std::mem::replace(&mut self.opened, true);
+                        LineIs::Frame
+                    }
+                    () => {
+                        self.opened |= !text.is_empty();
+                        word::pieces::pieces(dialect, line, pieces)
+                    }
+                }
+            }
+            Family::Sinumerik => siemens::pieces::line(line, &mut self.closed, pieces),
+            Family::Canon | Family::Ir => LineIs::Unread,
+        };
+        // Nothing may be lost.
+        let mut at = 0;
+        let whole = pieces.iter().all(|piece| {
+            let blank = line.get(at..piece.start).is_some_and(is_blank);
+            at = piece.end;
+            blank
+        });
+        match is {
+            LineIs::Blocks if whole && line.get(at..).is_some_and(is_blank) => LineIs::Blocks,
+            LineIs::Blocks => {
+                pieces.clear();
+                LineIs::Unread
+            }
+            LineIs::Frame | LineIs::Outside | LineIs::Unread => {
+                pieces.clear();
+                is
+            }
+        }
+    }
+}
+
+fn is_blank(text: &[u8]) -> bool {
+    text.iter().all(|byte| matches!(byte, b' ' | b'\t'))
+}
