@@ -91,6 +91,8 @@ pub enum Verb {
     Fmt(Box<crate::fmt::args::Fmt>),
     /// Draw what a program does over time, or the way of its tool, as SVG or HTML
     Plot(Box<crate::plot::args::Plot>),
+    /// Do two programs make the same cut? As strictly as a translation is verified; certificates
+    Verify(Box<crate::review::verify::Verify>),
     /// Do two programs make the same cut? If not, what differs?
     Diff(Box<crate::review::diff::Diff>),
     /// The same as a driver for git, which calls it with seven arguments

@@ -22,6 +22,8 @@ use crate::problem::{Exit, Problem};
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     shops: Vec<&'static Dialect>,
+    /// Files of those, and their texts, in the same order.
+    texts: Vec<(PathBuf, String)>,
 }
 
 impl Known {
@@ -64,6 +66,7 @@ impl Known {
                 let loaded: Vec<&'static Dialect> =
                     loaded.into_iter().map(|dialect| &*Box::leak(Box::new(dialect))).collect();
                 self.shops.extend(&loaded);
+                self.texts.extend(files.iter().cloned().zip(texts));
                 Ok(loaded)
             }
             Err(error) => {
@@ -105,6 +108,27 @@ impl Known {
             }
             problem
         })
+    }
+
+    /// The texts that a dialect is made of: its own, then its base's and so on; each with the dialect's
+    /// name and, of a shop's, its file.
+    pub fn texts(&self, id: &str) -> Vec<(&str, Option<&Path>, &str)> {
+        let mut texts = Vec::new();
+        let mut next = self.get(id);
+        while let Some(dialect) = next {
+            let shop = self.shops.iter().position(|shop| shop.id == dialect.id);
+            let text = match shop.and_then(|at| self.texts.get(at)) {
+                Some((file, text)) => Some((dialect.id.as_str(), Some(file.as_path()), text.as_str())),
+                None => builtin_ids()
+                    .position(|other| other == dialect.id)
+                    .and_then(builtin_text)
+                    .map(|(name, text)| (name, None, text)),
+            };
+            texts.extend(text);
+            // A base of itself is refused where dictionaries are read.
+            next = dialect.base.as_deref().and_then(|base| self.get(base));
+        }
+        texts
     }
 
     /// Their names, for a message.

@@ -68,6 +68,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Check(args) => return ended(check::run(args, &known, cli.color, &mut err), &mut err),
         Verb::Fmt(args) => return ended(fmt::run(args, &known, &mut err), &mut err),
         Verb::Plot(args) => return ended(plot::run(args, &known, &mut err), &mut err),
+        Verb::Verify(args) => return ended(review::verify::run(args, &known, &mut err), &mut err),
         Verb::Diff(args) => return ended(review::diff::run(args, &known, &mut err), &mut err),
         Verb::GitDiff(args) => return ended(review::diff::git::run(args, &known, &mut err), &mut err),
         Verb::GitTextconv(args) => return ended(review::textconv::run(args, &known, &mut err), &mut err),

@@ -503,7 +503,7 @@ impl<'j> Line<'j> {
 }
 
 /// The facts of `assumed` that `stated` does not have.
-fn without(assumed: &Modes, stated: &Modes) -> Modes {
+pub(crate) fn without(assumed: &Modes, stated: &Modes) -> Modes {
     fn keep<T: Copy>(a: Option<T>, s: Option<T>) -> Option<T> {
         if s.is_some() { None } else { a }
     }

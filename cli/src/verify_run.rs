@@ -116,22 +116,29 @@ fn same_at_power_on(source: &World, target: &mut World, from: &Modes, to: &Modes
     }
 }
 
+/// The world of a seed, as the source's control and as the target's has it.
+pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
+    let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
+    let renaming = job.machines.renaming();
+    let own_entries = match (&renaming.tools, &job.machines.from) {
+        (Some(_), Some(machine)) => machine.tables().edge_entries,
+        (None, _) | (_, None) => BTreeMap::new(),
+    };
+    let mut source = World::generate(seed, &from);
+    source.tables.edge_entries = own_entries;
+    let mut target = World::generate(seed, &to);
+    target.tables.edge_entries.clone_from(&renaming.edge_entries);
+    target.renaming = renaming;
+    same_at_power_on(&source, &mut target, &from, &to);
+    [source, target]
+}
+
 impl Verifier {
     pub(crate) fn new(job: &Job) -> Verifier {
-        let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
         let renaming = job.machines.renaming();
-        let own_entries = match (&renaming.tools, &job.machines.from) {
-            (Some(_), Some(machine)) => machine.tables().edge_entries,
-            (None, _) | (_, None) => BTreeMap::new(),
-        };
         let runs = (1..=WORLDS)
             .map(|seed| {
-                let mut source = World::generate(seed, &from);
-                source.tables.edge_entries.clone_from(&own_entries);
-                let mut target = World::generate(seed, &to);
-                target.tables.edge_entries.clone_from(&renaming.edge_entries);
-                target.renaming.clone_from(&renaming);
-                same_at_power_on(&source, &mut target, &from, &to);
+                let [source, target] = worlds_of(job, seed);
                 let mut comparison = Comparison::new(resolution(&job.to), source.start);
                 comparison.rename_tools(renaming.tools.clone());
                 Run {

@@ -12,6 +12,7 @@ use crate::exec::{Event, Kind, State};
 use crate::expr::Expr;
 use crate::num::{Nanos, POW10};
 use crate::program::{Op, Point, Stmt};
+use crate::source::Span;
 
 /// What the target resolves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,6 +103,38 @@ pub enum Aspect {
     Length,
 }
 
+/// Two events found equal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pair {
+    /// What both are.
+    pub kind: Kind,
+    /// Where the source's comes from.
+    pub source: Span,
+    /// Where the target's comes from, in the target's text.
+    pub target: Span,
+}
+
+/// How far from each other two places lie that were found equal.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Deviation {
+    /// In nanos of a millimetre.
+    pub by: Nanos,
+    /// Along this axis.
+    pub axis: Axis,
+    /// Where the source's event comes from.
+    pub source: Span,
+    /// Where the target's comes from, in the target's text.
+    pub target: Span,
+}
+
+/// What is noted while places are measured ([`Comparison::measure`]).
+#[derive(Clone, Copy, Debug, Default)]
+struct Measured {
+    farthest: Option<Deviation>,
+    /// Whether more than half a unit of the last digit was met.
+    beyond: bool,
+}
+
 /// A comparison in progress.
 #[derive(Clone, Debug)]
 pub struct Comparison {
@@ -113,19 +146,82 @@ pub struct Comparison {
     tools: Option<BTreeMap<u32, u32>>,
     /// Pairs of events found equal.
     pub events: u64,
+    /// The pairs themselves, if somebody asked.
+    pairs: Option<Vec<Pair>>,
+    /// Lengths may be off by so much, where that is more than half a unit of the last digit.
+    within: Nanos,
+    /// How far places are apart, if somebody asked.
+    measured: Option<Measured>,
 }
 
 impl Comparison {
     /// Nothing compared yet; both machines stand at `start`.
     pub fn new(resolution: Resolution, start: [Nanos; AXES]) -> Comparison {
         let half = [resolution.lengths(false), resolution.lengths(true)];
-        Comparison { resolution, half, source_at: start, target_at: start, tools: None, events: 0 }
+        Comparison {
+            resolution,
+            half,
+            source_at: start,
+            target_at: start,
+            tools: None,
+            events: 0,
+            pairs: None,
+            within: 0,
+            measured: None,
+        }
     }
 
     /// The same tool has another number in the target: `tools` says what the source calls each of the
     /// target's. One that is not among them is none of the source's.
     pub fn rename_tools(&mut self, tools: Option<BTreeMap<u32, u32>>) {
         self.tools = tools;
+    }
+
+    /// Says whether the pairs are kept from now on, until they are taken.
+    pub fn keep_pairs(&mut self, keep: bool) {
+        self.pairs = keep.then(Vec::new);
+    }
+
+    /// The pairs found since this was last asked, in order; none unless they are kept. What both sides
+    /// made by one execution ([`Comparison::pass`]) is not among them.
+    pub fn take_pairs(&mut self) -> Vec<Pair> {
+        self.pairs.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// From now on it is noted how far places are apart that are found equal, and they are found equal
+    /// within so many nanos of a millimetre, or half a unit of the last digit if that is more. Angles,
+    /// feeds and seconds are not lengths. What both sides made by one execution is not measured.
+    pub fn measure(&mut self, within: Nanos) {
+        self.within = within;
+        self.measured.get_or_insert_default();
+    }
+
+    /// The largest deviation met, and whether any was more than half a unit of the last digit; nothing
+    /// unless it is measured, and where all places are the same.
+    pub fn deviation(&self) -> Option<(Deviation, bool)> {
+        self.measured.and_then(|m| m.farthest.map(|farthest| (farthest, m.beyond)))
+    }
+
+    /// Notes how far apart the ends, and the centres of arcs, of two events are that were found equal.
+    #[cold]
+    fn note(&mut self, a: &Event, b: &Event, ends: [&[Nanos; AXES]; 2]) {
+        let half = self.half[usize::from(b.inch)];
+        let Some(measured) = &mut self.measured else { return };
+        let mut note = |axis: Axis, x: Nanos, y: Nanos, half: Nanos| {
+            let by = Nanos::try_from(x.abs_diff(y)).unwrap_or(Nanos::MAX);
+            measured.beyond |= by > half;
+            if by > measured.farthest.map_or(0, |farthest| farthest.by) {
+                measured.farthest = Some(Deviation { by, axis, source: a.span, target: b.span });
+            }
+        };
+        for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
+            note(axis, ends[0][axis as usize], ends[1][axis as usize], half);
+        }
+        if let (Kind::Arc { plane, centre, .. }, Kind::Arc { centre: other, .. }) = (&a.kind, &b.kind) {
+            let (first, second, _) = plane.axes();
+            note(first, centre[0], other[0], half * 3 / 2);
+            note(second, centre[1], other[1], half * 3 / 2);
+        }
     }
 
     /// Whether tool, spindle and coolant are the same.
@@ -178,14 +274,26 @@ impl Comparison {
                         self.source_at = a.end;
                         self.target_at = b.end;
                         self.events += 1;
+                        if self.measured.is_some() {
+                            self.note(a, b, [&a.end, &b.end]);
+                        }
+                        if let Some(pairs) = &mut self.pairs {
+                            pairs.push(Pair { kind: a.kind.clone(), source: a.span, target: b.span });
+                        }
                         s += 1;
                         t += 1;
                     }
                     Some(_) if self.vanishes(a, &self.target_at) => {
+                        if self.measured.is_some() {
+                            self.note(a, b, [&a.end, &self.target_at.clone()]);
+                        }
                         self.source_at = a.end;
                         s += 1;
                     }
                     Some(_) if self.vanishes(b, &self.source_at) => {
+                        if self.measured.is_some() {
+                            self.note(a, b, [&self.source_at.clone(), &b.end]);
+                        }
                         self.target_at = b.end;
                         t += 1;
                     }
@@ -230,7 +338,7 @@ impl Comparison {
             let half = if axis.is_rotary() {
                 Resolution::half(self.resolution.degree, false)
             } else {
-                self.half[usize::from(inch)]
+                self.half[usize::from(inch)].max(self.within)
             };
             off > half as u64
         })
@@ -247,7 +355,7 @@ impl Comparison {
             ) => {
                 // The centre follows from the rounded start and a rounded word, so it may be off by
                 // up to one and a half times what an end point may.
-                let half = self.half[usize::from(b.inch)] * 3 / 2;
+                let half = (self.half[usize::from(b.inch)] * 3 / 2).max(self.within);
                 let same = plane == p2 && turn == t2 && full == f2;
                 if !same || !near(centre[0], c2[0], half) || !near(centre[1], c2[1], half) {
                     return Some(Aspect::Arc);

@@ -24,5 +24,5 @@ pub use document::tables;
 pub use fact::Fact;
 pub use maps::{counterpart, maps, nameless, renaming};
 pub use profile::{Profile, Row};
-pub use shipped::{find, shipped};
+pub use shipped::{find, shipped, shipped_text};
 pub use wrong::{ProfileError, Wrong};

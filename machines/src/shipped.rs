@@ -29,3 +29,8 @@ pub fn shipped() -> &'static [Profile] {
 pub fn find(id: &str) -> Option<&'static Profile> {
     PROFILES.iter().find(|profile| profile.id() == id)
 }
+
+/// The data file of a shipped profile.
+pub fn shipped_text(id: &str) -> Option<&'static str> {
+    PROFILES.iter().position(|profile| profile.id() == id).and_then(|at| SHIPPED.get(at)).copied()
+}

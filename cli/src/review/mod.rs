@@ -1,12 +1,14 @@
 //! Judging programs: what two of them do, held side by side.
 //!
 //! `side` is a program named on the command line, `stream` executes it whole in given worlds, `feed`
-//! makes records of what it does. What is found is told by the verbs' own rooms. Not here: what a
-//! difference is (ncc-review).
+//! makes records of what it does. What is found is told by the verbs' own rooms; `cert` checks again what
+//! `verify` has certified. Not here: what a difference is (ncc-review).
 
+pub mod cert;
 pub mod diff;
 pub(crate) mod feed;
 pub(crate) mod side;
 pub(crate) mod stream;
 pub mod textconv;
+pub mod verify;
 pub(crate) mod words;

@@ -18,11 +18,12 @@ use std::io::{self, Seek, SeekFrom};
 use std::ops::ControlFlow;
 
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::canon::{AXES, Modes, Units};
+use ncc_ir::cycle::{Clearance, CycleKind};
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::program::{self, FrameSlot, Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::world::World;
 use ncc_machines::reading::Told;
@@ -64,6 +65,15 @@ pub(crate) struct Made<'m> {
     pub(crate) controls: &'m [Control],
 }
 
+/// What becomes of facts that a program relies on and never says.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Unsaid {
+    /// Its dialect's power-on rows are taken for granted, and told: a user's source.
+    Taken,
+    /// Only these facts hold; the worlds disagree about every other: a text that has to say it all.
+    Only(Modes),
+}
+
 /// What became of a program.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Course {
@@ -75,8 +85,27 @@ pub(crate) struct Course {
     pub(crate) skip_levels: u16,
     /// Blocks that say something.
     pub(crate) blocks: u64,
+    /// Facts that the program relies on and never says, where they are taken for granted.
+    pub(crate) assumed: Modes,
+    /// What its text has of what a comparison must know of the whole.
+    pub(crate) has: Has,
     /// SHA-256 of the source's bytes; only of a source that was read to its end.
     pub(crate) sha256: [u8; 32],
+}
+
+/// What a program has somewhere in its text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Has {
+    /// Messages for the operator.
+    pub(crate) messages: bool,
+    /// Words of inches.
+    pub(crate) inches: bool,
+    /// The first work offset that it names.
+    pub(crate) work_offset: Option<u16>,
+    /// A word that cancels a shift of the origin.
+    pub(crate) clears_shift: bool,
+    /// Cycles that clear chips with a parameter of the control: pecks, breaks of chips.
+    pub(crate) chips: bool,
 }
 
 /// The control's own parameters of cycles, where options or a profile state them: clearance of peck
@@ -124,10 +153,25 @@ pub(crate) fn stream(
     controls: Vec<Exec>,
     take: &mut dyn FnMut(Made) -> ControlFlow<()>,
 ) -> io::Result<Course> {
+    stream_as(job, file, Unsaid::Taken, controls, take)
+}
+
+/// The same of a program of which it is said what becomes of the facts that it leaves unsaid.
+///
+/// # Errors
+/// Reading the source.
+pub(crate) fn stream_as(
+    job: &Job,
+    file: &mut File,
+    unsaid: Unsaid,
+    controls: Vec<Exec>,
+    take: &mut dyn FnMut(Made) -> ControlFlow<()>,
+) -> io::Result<Course> {
     file.seek(SeekFrom::Start(0))?;
     let mut run = Run {
         job,
-        reader: Reader::new(job.from.clone(), true),
+        reader: Reader::new(job.from.clone(), matches!(unsaid, Unsaid::Taken)),
+        unsaid,
         batch: Batch::default(),
         controls: controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect(),
         stood: false,
@@ -162,6 +206,7 @@ pub(crate) fn stream(
 struct Run<'r> {
     job: &'r Job,
     reader: Reader,
+    unsaid: Unsaid,
     batch: Batch,
     controls: Vec<Control>,
     /// Whether the tools have been put where they start.
@@ -232,7 +277,11 @@ impl Run<'_> {
     fn assume(&mut self) {
         let stood = std::mem::replace(&mut self.stood, true);
         for control in &mut self.controls {
+            // What the text itself takes for granted goes before what holds for it.
             control.exec.assume(&self.batch.assumed);
+            if let Unsaid::Only(facts) = &self.unsaid {
+                control.exec.assume(facts);
+            }
             if !stood {
                 control.exec.stand_at(&self.job.start);
             }
@@ -262,6 +311,7 @@ impl Run<'_> {
 
     fn end(mut self) -> Course {
         self.course.refused = self.errors > 0;
+        self.course.assumed = self.batch.assumed;
         if self.errors == 0 && !self.broken_off {
             for control in &mut self.controls {
                 control.events.clear();
@@ -275,6 +325,9 @@ impl Run<'_> {
     /// Looks through statements for what is to be known of the whole.
     fn look(&mut self, stmts: &[Stmt]) {
         self.course.skip_levels |= levels(stmts);
+        for stmt in stmts {
+            note(&stmt.op, &mut self.course.has);
+        }
         let says = |s: &&Stmt| !s.joined && !matches!(s.op, Op::Blank | Op::Comment(_));
         self.course.blocks += stmts.iter().filter(says).count() as u64;
     }
@@ -294,5 +347,31 @@ impl Run<'_> {
         }
         self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
         self.course.diagnostics.push(diagnostic);
+    }
+}
+
+/// Notes what a statement has, and those inside of it.
+fn note(op: &Op, has: &mut Has) {
+    if let Op::SetOriginOffsets(number) = op {
+        has.work_offset.get_or_insert(*number);
+    } else if let Op::StartCycle(cycle) = op {
+        has.chips |= matches!(
+            cycle.kind,
+            CycleKind::DrillPeck { clearance: Clearance::Parameter, .. }
+                | CycleKind::DrillBreak { lift: Clearance::Parameter, .. }
+        );
+    } else if let Op::Control(control) = op {
+        let bodies: [&[Stmt]; 2] = match &**control {
+            program::Control::Repeat { body, .. }
+            | program::Control::Loop { body }
+            | program::Control::While { body, .. }
+            | program::Control::For { body, .. } => [body, &[]],
+            program::Control::If { then, otherwise, .. } => [then, otherwise],
+        };
+        bodies.into_iter().flatten().for_each(|stmt| note(&stmt.op, has));
+    } else {
+        has.messages |= matches!(op, Op::Message(_));
+        has.inches |= matches!(op, Op::UseLengthUnits(Units::Inch));
+        has.clears_shift |= matches!(op, Op::ClearFrame(FrameSlot::Shift));
     }
 }

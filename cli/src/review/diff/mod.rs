@@ -7,9 +7,9 @@
 pub mod git;
 mod html;
 mod json;
-mod motion;
+pub(crate) mod motion;
 mod plain;
-mod tell;
+pub(crate) mod tell;
 mod text;
 
 use std::io::{self, Write};

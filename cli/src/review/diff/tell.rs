@@ -155,12 +155,16 @@ impl Account {
 
 /// Texts of the blocks that are shown.
 #[derive(Debug, Default)]
-struct Blocks {
+pub(crate) struct Blocks {
     by_place: BTreeMap<u32, Block>,
 }
 
 impl Blocks {
-    fn read(source: &mut Source, places: Vec<u32>) -> io::Result<Blocks> {
+    /// Reads the blocks of these places.
+    ///
+    /// # Errors
+    /// Reading the source.
+    pub(crate) fn read(source: &mut Source, places: Vec<u32>) -> io::Result<Blocks> {
         let lines = Lines::find(&mut source.file, places.clone())?;
         let mut blocks = Blocks::default();
         for place in places {
@@ -180,7 +184,8 @@ impl Blocks {
         Ok(blocks)
     }
 
-    fn get(&self, place: u32) -> Option<Block> {
+    /// The block of a place that was read.
+    pub(crate) fn get(&self, place: u32) -> Option<Block> {
         self.by_place.get(&place).cloned()
     }
 }

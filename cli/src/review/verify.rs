@@ -1,0 +1,329 @@
+//! `ncc verify`: do two programs make the same cut, and a certificate of it.
+//!
+//! `pair` executes and compares as strictly as a translation compares what it has written, `document` is
+//! what is written down of it, `text` tells it, `hashes` name what it rests on; certificates are checked
+//! again by `cert`. Not here: how two programs differ in all their parts (`diff`).
+
+pub mod document;
+mod hashes;
+pub(crate) mod pair;
+mod text;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_ir::num::Nanos;
+
+pub use self::document::SCHEMA;
+use self::document::{Document, Word};
+use super::cert;
+use super::side::{Asked, Side, open, operand};
+use crate::args::{Format, Start, decimal, pair, start};
+use crate::files::{self, Source};
+use crate::guess::{Guess, guess};
+use crate::job::Job;
+use crate::known::Known;
+use crate::machines::pair::Machines;
+use crate::problem::{Exit, Problem};
+use crate::render::{About, human};
+use crate::setting::Telling;
+
+const EXAMPLES: &str = "\
+Examples:
+  ncc verify part.cn part.nc                          the same cut?
+  ncc verify mach9:part.cn fanuc:part.nc --tolerance 0.01
+  ncc verify part.cn part.nc --cert part.json         and a certificate of it
+  ncc verify --cert part.json                         does the certificate hold?
+  ncc verify --cert part.json --recheck a.cn b.nc     the same, of files that have other names now
+
+Both programs are executed in generated worlds, of which each has other offsets, lengths and modes at
+power-on, under every setting of the block-skip switches. What SRC relies on and never says is taken
+for granted, as its dialect or the profile of its machine has it, and told. What OUT relies on and
+never says is not: unless its dialect or the profile of its machine settles it, the worlds disagree
+about it, and OUT is not equal. Only what a translation into its dialect would not say either, and what
+neither of two programs for one control says, holds of OUT as of SRC; that is told too.
+
+Exit code: 0 equal, or equal within the tolerance, and if a certificate is checked, all of it holds;
+1 different, or the certificate does not hold; 2 wrong usage; 4 a file could not be read or written;
+5 could not be compared, because a program has errors.";
+
+/// `ncc verify`.
+#[derive(Debug, Args)]
+#[command(
+    after_help = EXAMPLES,
+    override_usage = "ncc verify [OPTIONS] SRC OUT\n       ncc verify --cert FILE [--recheck SRC OUT]"
+)]
+pub struct Verify {
+    /// What was meant, and what shall do the same: `PATH` or `DIALECT:PATH`; `-` for stdin
+    #[arg(value_name = "SRC OUT", num_args = 0..=2, required_unless_present_any = ["schema", "cert"])]
+    pub files: Vec<String>,
+    /// Dialect of SRC, where it is not named with the file [default: recognised]
+    #[arg(long, value_name = "DIALECT", help_heading = "What is compared")]
+    pub from: Option<String>,
+    /// Dialect of OUT, likewise
+    #[arg(long, value_name = "DIALECT", help_heading = "What is compared")]
+    pub to: Option<String>,
+    /// The machine of SRC: a profile by its name or file, which names the dialect too
+    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
+    pub machine_from: Option<String>,
+    /// The machine of OUT; with both, tools, offsets and lengths are the same by their names
+    #[arg(long, value_name = "MACHINE", help_heading = "What is compared")]
+    pub machine_to: Option<String>,
+    /// Decide a question that the dictionary of SRC leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
+    pub from_option: Vec<(String, String)>,
+    /// Decide a question that the dictionary of OUT leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
+    pub to_option: Vec<(String, String)>,
+    /// Where the tool stands before the first block, in the coordinates of SRC, mm and degrees
+    #[arg(
+        long,
+        value_name = "AXES",
+        value_parser = start,
+        allow_hyphen_values = true,
+        help_heading = "What is compared"
+    )]
+    pub start: Option<Start>,
+    /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
+    #[arg(long, value_name = "MM", value_parser = millimetres, help_heading = "What is compared")]
+    pub tolerance: Option<Nanos>,
+
+    /// With SRC and OUT, write a certificate to this file; without, check the certificate in it again
+    #[arg(long, value_name = "FILE", help_heading = "Certificates")]
+    pub cert: Option<PathBuf>,
+    /// Check the certificate for SRC and OUT, which have other names or places than it says
+    #[arg(long, requires = "cert", help_heading = "Certificates")]
+    pub recheck: bool,
+
+    /// For people, or as JSON, the same document as the certificate [default: human]
+    #[arg(
+        long,
+        value_name = "human|json",
+        value_enum,
+        default_value_t = Format::Human,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "What is reported"
+    )]
+    pub format: Format,
+    /// Print the JSON Schema of the certificate, and nothing else
+    #[arg(long, help_heading = "What is reported")]
+    pub schema: bool,
+    /// How much is told.
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+/// What a comparison is called with, as far as the document tells it.
+pub(crate) struct Call<'c> {
+    /// The programs' files, as they were named.
+    pub(crate) files: [String; 2],
+    /// Their machines, likewise.
+    pub(crate) machines: [Option<&'c str>; 2],
+    /// How far lengths may be apart.
+    pub(crate) tolerance: Option<Nanos>,
+    /// The dialects.
+    pub(crate) known: &'c Known,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// Wrong usage, or a file that cannot be read or written. What is wrong with a program is told on `err`.
+pub fn run(args: &Verify, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    if args.schema {
+        files::to_stdout(&mut |out| out.write_all(SCHEMA.as_bytes()))?;
+        return Ok(Exit::Done);
+    }
+    let both = <&[String; 2]>::try_from(args.files.as_slice()).ok();
+    match (&args.cert, both) {
+        (Some(certificate), None) if args.files.is_empty() => {
+            cert::check_again(args, certificate, None, known, err)
+        }
+        (Some(certificate), Some(files)) if args.recheck => {
+            cert::check_again(args, certificate, Some(files), known, err)
+        }
+        (_, Some(files)) => verify(args, files, known, err),
+        (_, None) => {
+            Err(Problem::usage("two programs are compared, the source and the output", "ncc verify SRC OUT"))
+        }
+    }
+}
+
+fn verify(
+    args: &Verify,
+    files: &[String; 2],
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Exit, Problem> {
+    let asked = [
+        Asked {
+            operand: &files[0],
+            from: args.from.as_deref(),
+            machine: args.machine_from.as_deref(),
+            options: &args.from_option,
+            start: args.start,
+        },
+        Asked {
+            operand: &files[1],
+            from: args.to.as_deref(),
+            machine: args.machine_to.as_deref(),
+            options: &args.to_option,
+            start: None,
+        },
+    ];
+    let say = !args.telling.quiet && args.format == Format::Human;
+    let mut sides = open([&asked[0], &asked[1]], say, known, err)?;
+    let certificate = args.cert.as_deref();
+    if let Some(name) = certificate {
+        sides[0].source.guard(Some(name))?;
+        sides[1].source.guard(Some(name))?;
+        if name.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml")) {
+            return Err(Problem::usage(
+                format!("{} would be a certificate by the name of a dictionary or profile", name.display()),
+                "a certificate is JSON: name it so",
+            ));
+        }
+    }
+    let named = |text: &str| operand(text, known).map(|(_, path)| path.display().to_string());
+    let call = Call {
+        files: [named(&files[0])?, named(&files[1])?],
+        machines: [args.machine_from.as_deref(), args.machine_to.as_deref()],
+        tolerance: args.tolerance,
+        known,
+    };
+    let document = compare(args, &mut sides, &call, err)?;
+    if let Some(name) = certificate {
+        files::to_file(name, &mut |out| write(out, &document))?;
+    }
+    show(args, &document)?;
+    Ok(exit(&document))
+}
+
+/// Compares both sides, and tells what keeps them from being compared.
+///
+/// # Errors
+/// Reading the programs.
+pub(crate) fn compare(
+    args: &Verify,
+    sides: &mut [Side; 2],
+    call: &Call,
+    err: &mut dyn WriteColor,
+) -> Result<Document, Problem> {
+    let cannot = |e: io::Error| Problem::file("compare", "the programs", &e);
+    let found = pair::compare(sides, call.tolerance.unwrap_or_default()).map_err(cannot)?;
+    if args.format == Format::Human {
+        for (side, course) in sides.iter_mut().zip(&found.courses) {
+            if course.refused || args.telling.verbose {
+                // Messages that cannot be written change nothing about what was found.
+                let _ = say(args, side, course, call.known, err);
+            }
+        }
+    }
+    Document::of(&found, sides, call).map_err(cannot)
+}
+
+/// Tells what was found in a program.
+fn say(
+    args: &Verify,
+    side: &mut Side,
+    course: &super::stream::Course,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> io::Result<()> {
+    let shown = side.source.shown.clone();
+    let dialect = side.dialect();
+    let mut about = About { job: &side.job, name: &shown, source: &mut side.source.file };
+    human::print(err, &mut about, &course.diagnostics, args.telling.loudness())?;
+    if course.refused {
+        writeln!(err, "{shown}: not compared, because it cannot be executed as {}", dialect.id)?;
+        if let Guess::Sure(other, reasons) = guess(&mut side.source.file, known.all())?
+            && other.id != dialect.id
+        {
+            writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
+            writeln!(err, "  help: {}:{shown}", other.id)?;
+        }
+    }
+    err.flush()
+}
+
+/// Shows a document on stdout.
+///
+/// # Errors
+/// stdout cannot be written.
+pub(crate) fn show(args: &Verify, document: &Document) -> Result<(), Problem> {
+    files::to_stdout(&mut |out| match (args.format, args.telling.quiet) {
+        (Format::Json, _) => write(out, document),
+        (Format::Human, true) => Ok(()),
+        (Format::Human, false) => text::write(out, document),
+    })
+}
+
+/// The exit code of a verdict.
+pub(crate) fn exit(document: &Document) -> Exit {
+    match document.verdict {
+        Word::Equal | Word::EqualWithinTolerance => Exit::Done,
+        Word::Different => Exit::Refused,
+        Word::NotCompared => Exit::NotCompared,
+    }
+}
+
+/// Writes a document.
+///
+/// # Errors
+/// Writing.
+pub(crate) fn write(out: &mut dyn Write, document: &Document) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut *out, document)?;
+    writeln!(out)
+}
+
+/// Two texts, in the dialects and for the machines of a job, compared without a process.
+///
+/// # Errors
+/// Anonymous files.
+pub fn of_texts(
+    job: &Job,
+    texts: [&[u8]; 2],
+    tolerance: Option<Nanos>,
+    known: &Known,
+) -> io::Result<Document> {
+    let anonymous = |text: &[u8], name: &str| -> io::Result<Source> {
+        let mut file = tempfile::tempfile()?;
+        file.write_all(text)?;
+        Ok(Source::of(file, name))
+    };
+    let own = |machine: &Option<std::sync::Arc<ncc_machines::Profile>>| Machines {
+        from: machine.clone(),
+        to: machine.clone(),
+    };
+    let mut sides = [
+        Side::of(anonymous(texts[0], "source")?, job.from.clone(), own(&job.machines.from), Some(job.start)),
+        Side::of(anonymous(texts[1], "output")?, job.to.clone(), own(&job.machines.to), None),
+    ];
+    let machine = |machine: &Option<std::sync::Arc<ncc_machines::Profile>>| {
+        machine.as_ref().map(|machine| machine.id().to_owned())
+    };
+    let machines = [machine(&job.machines.from), machine(&job.machines.to)];
+    let call = Call {
+        files: ["source".to_owned(), "output".to_owned()],
+        machines: [machines[0].as_deref(), machines[1].as_deref()],
+        tolerance,
+        known,
+    };
+    let found = pair::compare(&mut sides, tolerance.unwrap_or_default())?;
+    Document::of(&found, &mut sides, &call)
+}
+
+fn millimetres(text: &str) -> Result<Nanos, String> {
+    match decimal(text) {
+        Some(nanos) if (0..=1_000_000_000_000).contains(&nanos) => Ok(nanos),
+        Some(_) | None => Err("write millimetres as a decimal, 0 to 1000".to_owned()),
+    }
+}
+
+/// Whether a path is stdin.
+pub(crate) fn is_stdin(path: &str) -> bool {
+    Path::new(path) == Path::new("-")
+}
