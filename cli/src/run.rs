@@ -23,7 +23,8 @@ use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
-    arrow, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report, review, time, translate,
+    arrow, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report, review, time,
+    translate,
 };
 
 /// What to say to who names no target.
@@ -193,6 +194,7 @@ fn translated(
     let to = settings(machines.settings(Side::To, to), &args.to_option)?;
     let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
     let named = agreed(named, machines.from.as_deref(), "from")?;
+    destination.check()?;
     let mut source = files::open(path)?;
     match &destination {
         Destination::File(name) => source.guard(Some(name))?,

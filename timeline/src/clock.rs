@@ -5,8 +5,6 @@
 
 use std::str::FromStr;
 
-use ncc_ir::exec::Kind;
-
 use crate::act::Act;
 use crate::fixed::{fixed, turning};
 use crate::ideal;
@@ -203,11 +201,9 @@ impl Clock {
         let Clock { machine, limits, junctions, planner, row, .. } = self;
         if matches!(planner, Planner::Ideal) {
             let duration = ideal::duration(&act, machine);
-            let profile = match &act.event.kind {
-                Kind::Traverse | Kind::Feed | Kind::Arc { .. } => {
-                    Profile::constant(path(&act.event, &act.from).length, duration)
-                }
-                _ => Profile::default(),
+            let profile = match act.event.kind.moves() {
+                Some(_) => Profile::constant(path(&act.event, &act.from).length, duration),
+                None => Profile::default(),
             };
             row.push(act);
             row.settle(duration, profile);

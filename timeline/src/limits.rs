@@ -10,7 +10,7 @@
 //! acceleration `v² / r` too. That and the acceleration along the path are not added up.
 
 use ncc_ir::canon::{AXES, Plane};
-use ncc_ir::exec::Kind;
+use ncc_ir::exec::Movement;
 use ncc_ir::num::Nanos;
 
 use crate::act::Act;
@@ -136,23 +136,13 @@ impl Limits {
     #[inline]
     pub(crate) fn movement(&self, act: &Act) -> Option<Move> {
         let event = &act.event;
-        match &event.kind {
-            Kind::Traverse => self.straight(line(&event.end, &act.from), self.rapid_line, &self.rapid),
-            Kind::Feed => self.straight(line(&event.end, &act.from), self.wanted(event.rate), &self.feed),
-            Kind::Arc { plane, turn, full, centre } => {
-                let round = Round { plane: *plane, turn: *turn, full: *full, centre: *centre };
-                self.bent(arc(&round, &event.end, &act.from), *plane, self.wanted(event.rate))
+        match event.kind.moves()? {
+            Movement::Rapid => self.straight(line(&event.end, &act.from), self.rapid_line, &self.rapid),
+            Movement::Feed => self.straight(line(&event.end, &act.from), self.wanted(event.rate), &self.feed),
+            Movement::Arc { plane, turn, full, centre } => {
+                let round = Round { plane, turn, full, centre };
+                self.bent(arc(&round, &event.end, &act.from), plane, self.wanted(event.rate))
             }
-            Kind::Dwell(_)
-            | Kind::ToolChange
-            | Kind::Coolant
-            | Kind::MachineFunction(_)
-            | Kind::ProgramStop
-            | Kind::OptionalProgramStop
-            | Kind::ProgramEnd
-            | Kind::TextEnd
-            | Kind::Message(_)
-            | Kind::Attribute(_) => None,
         }
     }
 

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use ncc_ir::canon::{AXES, Plane, Turn};
-use ncc_ir::exec::{Event, Kind};
+use ncc_ir::exec::{Event, Movement};
 use ncc_ir::num::{Nanos, ONE};
 
 /// The geometry of a move.
@@ -46,22 +46,12 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 /// The way of an event from a point, both in one coordinate system. An event that is no move has a
 /// way of no length.
 pub fn path(event: &Event, from: &[Nanos; AXES]) -> Path {
-    match &event.kind {
-        Kind::Traverse | Kind::Feed => line(&event.end, from),
-        Kind::Arc { plane, turn, full, centre } => {
-            let round = Round { plane: *plane, turn: *turn, full: *full, centre: *centre };
-            arc(&round, &event.end, from)
+    match event.kind.moves() {
+        Some(Movement::Rapid | Movement::Feed) => line(&event.end, from),
+        Some(Movement::Arc { plane, turn, full, centre }) => {
+            arc(&Round { plane, turn, full, centre }, &event.end, from)
         }
-        Kind::Dwell(_)
-        | Kind::ToolChange
-        | Kind::Coolant
-        | Kind::MachineFunction(_)
-        | Kind::ProgramStop
-        | Kind::OptionalProgramStop
-        | Kind::ProgramEnd
-        | Kind::TextEnd
-        | Kind::Message(_)
-        | Kind::Attribute(_) => Path {
+        None => Path {
             length: 0.0,
             change: [0.0; AXES],
             heading_from: [0.0; 3],

@@ -115,6 +115,9 @@ fn files_that_cannot_be_used_are_exit_4() {
     ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "no/part.nc"])
         .exits(4)
         .says("cannot write no/part.nc");
+    // Found out before anything else is.
+    let done = ncc(folder, &["mach9", "to", "fanuc", "bad.cn", "-o", "no/part.nc"]).exits(4);
+    assert!(!done.err.contains("NC0"), "{}", done.err);
     ncc(folder, &["mach9", "to", "fanuc", "good.cn", "--report", "no/r.json"]).exits(4);
 }
 
@@ -205,10 +208,17 @@ fn a_reader_that_stops_is_no_panic() {
         "X10.\nX0.\n".repeat(50_000)
     );
     fs::write(folder.path().join("long.cn"), long).unwrap();
-    let line = format!("{{ {NCC} mach9 to fanuc long.cn; echo $? >&2; }} | head -n 1");
-    let done = finish(command("sh", folder.path(), &["-c", &line])).exits(0);
-    assert_eq!(done.out, "%\n");
-    assert!(!done.err.contains("panicked") && !done.err.contains("Broken pipe"), "{}", done.err);
+    let time = "time long.cn --from mach9 --machine romi-discovery-4022 -q --as";
+    for (verb, first) in [
+        ("mach9 to fanuc long.cn -q", "%\n"),
+        (&format!("{time} ndjson"), "{"),
+        (&format!("{time} csv"), "n,block,"),
+    ] {
+        let line = format!("{{ {NCC} {verb}; echo exit $? >&2; }} | head -n 1");
+        let done = finish(command("sh", folder.path(), &["-c", &line])).exits(0);
+        assert!(done.out.starts_with(first), "{verb}: {}", done.out);
+        assert_eq!(done.err, "exit 4\n", "{verb}");
+    }
     for closed in [">&-", "2>&-", ">&- 2>&-", "> /dev/full", "2> /dev/full"] {
         for verb in ["mach9 to fanuc good.cn", "dialects", "--help", "explain NC0107", "nonsense"] {
             let line = format!("{NCC} {verb} {closed}");
