@@ -9,10 +9,12 @@
 pub mod canon;
 mod characters;
 pub mod ir;
+mod origin;
 pub mod siemens;
 pub mod word;
 
 mod writer;
+pub use origin::Origin;
 pub use writer::Writer;
 
 use ncc_ir::program::ProgramName;

@@ -7,7 +7,8 @@ use ncc_ir::num::Nanos;
 use ncc_ir::program::{Procedure, Stmt};
 
 use crate::characters::encode;
-use crate::{Characters, Form, Head, Layout, canon, ir, siemens, word};
+use crate::origin::Trace;
+use crate::{Characters, Form, Head, Layout, Origin, canon, ir, siemens, word};
 
 /// A writer of any dialect.
 pub struct Writer {
@@ -38,6 +39,61 @@ impl Writer {
         Writer { kind, characters: Characters::All }
     }
 
+    /// Records from now on where every line comes from.
+    pub fn trace(&mut self) {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.trace(),
+            Kind::Siemens(writer) => writer.trace(),
+            Kind::Canon(writer) => writer.trace = Some(Trace::default()),
+            Kind::Ir(writer) => writer.trace = Some(Trace::default()),
+        }
+    }
+
+    /// Where the lines come from that have been written since this was last asked, in their order. The
+    /// head is not among them. Empty if nothing is recorded.
+    pub fn take_origins(&mut self) -> Vec<Origin> {
+        self.tracing().map(Trace::take).unwrap_or_default()
+    }
+
+    fn tracing(&mut self) -> Option<&mut Trace> {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.trace.as_deref_mut(),
+            Kind::Siemens(writer) => writer.tracing(),
+            Kind::Canon(writer) => writer.trace.as_mut(),
+            Kind::Ir(writer) => writer.trace.as_mut(),
+        }
+    }
+
+    /// More is about to be written; gives where it begins.
+    fn begin(&mut self, out: &[u8]) -> usize {
+        if let Some(trace) = self.tracing() {
+            trace.begin(out.len());
+        }
+        out.len()
+    }
+
+    /// Writes a text as a comment that can stand at the end of a line of its own dialect, with the
+    /// blank before it. What one comment cannot hold is cut off. Returns `false`, with nothing
+    /// written, where there are no such comments.
+    pub fn beside(&mut self, text: &str, out: &mut Vec<u8>) -> bool {
+        let start = out.len();
+        let written = match &mut self.kind {
+            Kind::Word(writer) => writer.beside(text, out),
+            Kind::Siemens(writer) => writer.beside(text, out),
+            Kind::Ir(_) => {
+                out.extend_from_slice(b" # ");
+                out.extend(
+                    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect::<String>().bytes(),
+                );
+                true
+            }
+            // A call a line, and a comment is a call.
+            Kind::Canon(_) => false,
+        };
+        encode(out, start, self.characters);
+        written
+    }
+
     /// Takes a shop's choices for the form of the text, before anything is written.
     pub fn set_form(&mut self, form: Form) {
         self.characters = form.characters;
@@ -63,7 +119,7 @@ impl Writer {
     /// Writes further statements of the main procedure. `assumed` are the facts taken for granted
     /// so far.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        let start = out.len();
+        let start = self.begin(out);
         match &mut self.kind {
             Kind::Word(writer) => writer.write(stmts, assumed, out, diags),
             Kind::Siemens(writer) => writer.write(stmts, assumed, out, diags),
@@ -75,7 +131,7 @@ impl Writer {
 
     /// Writes a subprogram, after all of the main procedure.
     pub fn procedure(&mut self, procedure: &Procedure, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        let start = out.len();
+        let start = self.begin(out);
         match &mut self.kind {
             Kind::Word(writer) => writer.procedure(procedure, out, diags),
             Kind::Siemens(writer) => writer.procedure(procedure, out, diags),
@@ -87,7 +143,7 @@ impl Writer {
 
     /// Writes the end of the text.
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
-        let start = out.len();
+        let start = self.begin(out);
         match &mut self.kind {
             Kind::Word(writer) => writer.finish(out, diags),
             Kind::Siemens(writer) => writer.finish(out, diags),

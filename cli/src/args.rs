@@ -99,6 +99,8 @@ pub enum Verb {
     GitDiff(crate::review::diff::git::GitDiff),
     /// Print what a program does, one line an event, for git's own diff
     GitTextconv(crate::review::textconv::Textconv),
+    /// Where a line of a translated program comes from, by which words, and what is in force there
+    Why(crate::provenance::args::Why),
     /// List the machines, show a profile, or test one
     Machines(crate::machines::Machines),
     /// List the facts about both machines that a translation depends on, and ask for them
@@ -197,6 +199,11 @@ pub struct Translate {
     #[arg(long, conflicts_with = "no_verify", help_heading = "How the result looks")]
     pub no_head: bool,
 
+    /// Put the line of the source at the end of each line of the result, as a comment with its number;
+    /// only where it is another one than that of the line before
+    #[arg(long, help_heading = "How the result looks")]
+    pub annotate: bool,
+
     /// Let these verdicts pass: changed, manual, dropped
     #[arg(
         long,
@@ -224,6 +231,10 @@ pub struct Translate {
     /// Write everything that is known of the translation to this file, as JSON
     #[arg(long, value_name = "FILE", help_heading = "What is reported")]
     pub report: Option<PathBuf>,
+    /// Write to this file where every line of the result comes from, as JSON; `ncc why` reads it, by
+    /// itself if it is named as the result with `.map.json` behind
+    #[arg(long, value_name = "FILE", conflicts_with = "no_verify", help_heading = "What is reported")]
+    pub map: Option<PathBuf>,
     /// How much is told.
     #[command(flatten)]
     pub telling: Telling,

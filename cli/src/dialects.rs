@@ -211,7 +211,7 @@ fn addresses(out: &mut String, d: &Dialect) -> fmt::Result {
 }
 
 /// `CentreX` as `centre x`.
-fn spaced(name: &str) -> String {
+pub(crate) fn spaced(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {
         if c.is_ascii_uppercase() && !text.is_empty() && !text.ends_with(' ') {

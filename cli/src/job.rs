@@ -172,6 +172,11 @@ impl Output {
         self.head = head;
     }
 
+    /// Lines of the text that goes before the body.
+    pub fn head_lines(&self) -> usize {
+        memchr::memchr_iter(b'\n', &self.head).count()
+    }
+
     /// Length of the whole.
     pub fn bytes(&self) -> u64 {
         self.head.len() as u64 + self.body_bytes

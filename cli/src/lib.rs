@@ -22,6 +22,7 @@ pub mod known;
 pub mod machines;
 pub mod plot;
 pub mod problem;
+pub mod provenance;
 pub mod render;
 pub mod report;
 pub mod review;

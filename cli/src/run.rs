@@ -19,6 +19,8 @@ use crate::job::{Failure, Job, Outcome};
 use crate::known::{self, Known};
 use crate::machines::pair::{Machines, agreed};
 use crate::problem::{Exit, Problem};
+use crate::provenance::trace::Asked;
+use crate::provenance::{map, why};
 use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
@@ -73,6 +75,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Verb::Diff(args) => return ended(review::diff::run(args, &known, &mut err), &mut err),
         Verb::GitDiff(args) => return ended(review::diff::git::run(args, &known, &mut err), &mut err),
         Verb::GitTextconv(args) => return ended(review::textconv::run(args, &known, &mut err), &mut err),
+        Verb::Why(args) => return ended(why::run(args, &known, &mut err), &mut err),
         Verb::Explain(args) => match explain::page(&args.code) {
             Some(page) => print(page),
             None => Err(Problem::usage(
@@ -200,14 +203,25 @@ fn translated(
         Destination::File(name) => source.guard(Some(name))?,
         Destination::Stdout => source.guard(None)?,
     }
-    if let Some(report) = &args.report {
-        source.guard(Some(report))?;
-        if matches!(&destination, Destination::File(name) if name == report) {
-            return Err(Problem::usage(
-                format!("{} is both output and report", report.display()),
-                "choose another name for one of them",
-            ));
+    let both = |name: &Path, what: &str| {
+        let message = format!("{} is both {what}", name.display());
+        Problem::usage(message, "choose another name for one of them")
+    };
+    for (file, what) in [(&args.report, "output and report"), (&args.map, "output and map")] {
+        let Some(file) = file else { continue };
+        source.guard(Some(file))?;
+        if matches!(&destination, Destination::File(name) if name == file) {
+            return Err(both(file, what));
         }
+    }
+    if let Some(map) = args.map.as_ref().filter(|map| args.report.as_ref() == Some(map)) {
+        return Err(both(map, "report and map"));
+    }
+    if args.annotate && !crate::provenance::annotate::can(to.dialect) {
+        return Err(Problem::usage(
+            format!("{} has no comments that could stand at the end of a line", to.dialect.id),
+            "leave --annotate out; --map FILE says where every line comes from",
+        ));
     }
     let from = match named {
         Some(dialect) => dialect,
@@ -235,7 +249,9 @@ fn translated(
     };
     source.rewind()?;
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
-    let mut outcome = translate::translate(&job, &mut source.file).map_err(|e| cannot_read(&e, &source))?;
+    let asked = Asked { map: args.map.is_some(), annotate: args.annotate };
+    let (mut outcome, record) = translate::translate_recording(&job, asked, &mut source.file)
+        .map_err(|e| cannot_read(&e, &source))?;
     if let Destination::File(folder) = &destination
         && folder.is_dir()
     {
@@ -250,6 +266,18 @@ fn translated(
     let mut about = About { job: &job, name: &source.shown, source: &mut source.file };
     if let Some(name) = &args.report {
         files::to_file(name, &mut |out| report::write(out, &mut about, &outcome))?;
+    }
+    if let (Some(name), Some(record)) = (&args.map, record) {
+        let output = match &destination {
+            Destination::File(name) => name.file_name().map(|name| name.to_string_lossy().into_owned()),
+            Destination::Stdout => None,
+        };
+        let output = output.unwrap_or_else(|| "-".to_owned());
+        let mut record = Some(record);
+        files::to_file(name, &mut |out| match record.take() {
+            Some(record) => map::write(out, &mut about, &output, &mut outcome, record),
+            None => Ok(()),
+        })?;
     }
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, &mut about, &outcome, err);

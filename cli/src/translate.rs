@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 use std::io::{self, Read};
 
-use ncc_backends::{Head, Writer};
+use ncc_backends::{Head, Origin, Writer};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
@@ -24,6 +24,8 @@ use crate::chunks::{Chunk, Chunks};
 use crate::head;
 use crate::job::{Failure, Job, Outcome, Output, Rest};
 use crate::machines::pair::Answer;
+use crate::provenance::annotate::Annotator;
+use crate::provenance::trace::{Asked, Recorded, Trace};
 use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
 
@@ -48,13 +50,38 @@ pub fn translate(job: &Job, source: &mut dyn Read) -> io::Result<Outcome> {
     Ok(translate_keeping(job, source)?.0)
 }
 
+/// Translates a program, and keeps what is asked of where the output comes from; the record only where a
+/// map is asked for and the output was verified.
+///
+/// # Errors
+/// As of [`translate`]; an output of which the map is asked and that is longer than 4 GiB.
+pub fn translate_recording(
+    job: &Job,
+    asked: Asked,
+    source: &mut dyn Read,
+) -> io::Result<(Outcome, Option<Recorded>)> {
+    let (outcome, _, record) = run(job, asked, source)?;
+    Ok((outcome, record))
+}
+
 /// Translates a program; tells also which assumed facts the output does not state itself.
 pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Read) -> io::Result<(Outcome, Modes)> {
+    let (outcome, inherited, _) = run(job, Asked::default(), source)?;
+    Ok((outcome, inherited))
+}
+
+fn run(job: &Job, asked: Asked, source: &mut dyn Read) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
     let mut chunks = Chunks::new(source);
     let mut line = Line::new(job);
+    line.record(asked);
     loop {
         match chunks.next()? {
-            Chunk::Lines(base, range) => line.piece(chunks.text(range), base)?,
+            Chunk::Lines(base, range) => {
+                if let Some(annotator) = &mut line.annotator {
+                    annotator.source(chunks.text(range.clone()), base)?;
+                }
+                line.piece(chunks.text(range), base)?;
+            }
             Chunk::TooLong(start, end) => line.reader.too_long(Span::new(start, end), &mut line.batch),
             Chunk::End => break,
         }
@@ -65,7 +92,10 @@ pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Read) -> io::Result<
     line.end()?;
     let (hash, bytes) = chunks.finish();
     let inherited = line.inherited(&line.batch.assumed);
-    Ok((line.outcome(hash, bytes), inherited))
+    let record = line.trace.take();
+    let outcome = line.outcome(hash, bytes);
+    let record = record.filter(|_| outcome.release.is_ok()).map(Trace::finish).transpose()?;
+    Ok((outcome, inherited, record))
 }
 
 /// What is between source and output.
@@ -80,6 +110,10 @@ struct Line<'j> {
     writer: Writer,
     text: Vec<u8>,
     verifier: Option<Verifier>,
+    /// Puts the source beside the text.
+    annotator: Option<Annotator>,
+    /// Where the text comes from.
+    trace: Option<Trace>,
     /// Facts that always hold for the source's control and were stated for the target's.
     given: Modes,
     output: Output,
@@ -124,6 +158,8 @@ impl<'j> Line<'j> {
             writer,
             text: Vec::new(),
             verifier: job.verify.then(|| Verifier::new(job)),
+            annotator: None,
+            trace: None,
             given: Modes::default(),
             output: Output::new(),
             written: 0,
@@ -139,6 +175,18 @@ impl<'j> Line<'j> {
         };
         line.open_frame();
         line
+    }
+
+    /// Begins to record where the text comes from, as asked.
+    fn record(&mut self, asked: Asked) {
+        if asked.anything() {
+            self.writer.trace();
+        }
+        self.annotator = asked.annotate.then(|| Annotator::new(self.job.to.dialect));
+        if let (Some(verifier), true) = (&mut self.verifier, asked.map) {
+            verifier.watch();
+            self.trace = Some(Trace::new());
+        }
     }
 
     /// Lets the verification read a head, which opens the frame of the text. The final one can be
@@ -217,7 +265,7 @@ impl<'j> Line<'j> {
         self.take(found, Told::Writer);
         self.release_text(&assumed, None)?;
         self.check(Verifier::finish);
-        Ok(())
+        self.trace_events()
     }
 
     /// The end of a program of which the rest was kept whole.
@@ -262,11 +310,43 @@ impl<'j> Line<'j> {
         }
         self.writer.finish(&mut self.text, &mut found);
         self.take(found, Told::Writer);
-        let text = std::mem::take(&mut self.text);
+        let text = self.finished_text()?;
         let inherited = self.inherited(&assumed);
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
-        self.check(|v| v.whole(&source, &text, base, &inherited));
+        let mut trace = self.trace.take();
+        self.check(|v| {
+            v.whole_telling(&source, &text, base, &inherited, &mut |pairs| {
+                if let Some(trace) = &mut trace {
+                    trace.pairs(pairs);
+                }
+            })
+        });
+        self.trace = trace;
         self.output.push(&text)
+    }
+
+    /// The text written so far, with what was asked beside it; notes where it comes from.
+    fn finished_text(&mut self) -> io::Result<Vec<u8>> {
+        let mut text = std::mem::take(&mut self.text);
+        if self.annotator.is_none() && self.trace.is_none() {
+            return Ok(text);
+        }
+        let origins: Vec<Origin> = self.writer.take_origins();
+        if let Some(annotator) = &mut self.annotator {
+            text = annotator.apply(&text, &origins, &mut self.writer)?;
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.text(&text, origins)?;
+        }
+        Ok(text)
+    }
+
+    /// Notes the events that the verification has found.
+    fn trace_events(&mut self) -> io::Result<()> {
+        let (Some(trace), Some(verifier)) = (&mut self.trace, &mut self.verifier) else { return Ok(()) };
+        let (pairs, over) = verifier.take_pairs();
+        trace.pairs(&pairs);
+        trace.over(over.map_or(trace.bytes(), u64::from))
     }
 
     /// What was taken for granted of the source, in the target machine's numbers. Those that it has not
@@ -357,14 +437,15 @@ impl<'j> Line<'j> {
     /// Verifies the text written so far and passes it on; `said` are the statements that it says, if
     /// they are the source's own.
     fn release_text(&mut self, assumed: &Modes, said: Option<&[Stmt]>) -> io::Result<()> {
-        let text = std::mem::take(&mut self.text);
+        let text = self.finished_text()?;
         let inherited = self.inherited(assumed);
-        // Places in the output are not shown, so a base that does not fit does no harm.
+        // Places in the output are told by a map alone, which refuses a base that does not fit.
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         self.check(|v| match said {
             Some(stmts) => v.piece(stmts, assumed, &text, base, &inherited),
             None => v.target(&text, base, &inherited),
         });
+        self.trace_events()?;
         self.output.push(&text)?;
         self.written += text.len() as u64;
         self.text = text;

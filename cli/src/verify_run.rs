@@ -11,7 +11,7 @@ use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::verify::{self, Comparison, Difference, Resolution};
+use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
 use ncc_ir::world::World;
 
 use crate::difference;
@@ -61,6 +61,8 @@ pub(crate) struct Verifier {
     levels: u16,
     /// Whether the target's machine has numbers of its own: then controls are never in one state.
     renamed: bool,
+    /// Whether the pairs of events are kept: then no move passes for both sides by being executed once.
+    watched: bool,
     /// The target knows one level only: the source's are on or off together.
     one_level: bool,
     start: [Option<Nanos>; AXES],
@@ -163,11 +165,27 @@ impl Verifier {
             runs,
             levels: 0,
             renamed: !renaming.is_empty(),
+            watched: false,
             one_level: job.to.dialect.caps.skip_levels <= 1,
             start: job.start,
             stood: false,
             last: Span::default(),
         }
+    }
+
+    /// Keeps the pairs of events of the first world, with every block-skip switch off.
+    pub(crate) fn watch(&mut self) {
+        self.watched = true;
+        if let Some(run) = self.runs.first_mut() {
+            run.comparison.keep_pairs(true);
+        }
+    }
+
+    /// The pairs found since this was last asked, and the place in the text before which no further
+    /// ones are found; `None` is its end.
+    pub(crate) fn take_pairs(&mut self) -> (Vec<Pair>, Option<u32>) {
+        let Some(run) = self.runs.first_mut() else { return (Vec::new(), None) };
+        (run.comparison.take_pairs(), run.target_events.first().map(|event| event.span.start))
     }
 
     /// Reads the head of the output, which opens its frame; it makes no events.
@@ -279,7 +297,7 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, false)
                 .map_err(|d| different(&d, self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
-            run.level = nothing_left && !self.renamed && run.source.agrees(&run.target);
+            run.level = nothing_left && !self.renamed && !self.watched && run.source.agrees(&run.target);
         }
         self.batch.stmts.clear();
         Ok(())
@@ -327,6 +345,18 @@ impl Verifier {
         base: u32,
         inherited: &Modes,
     ) -> Result<(), Stop> {
+        self.whole_telling(source, text, base, inherited, &mut |_| {})
+    }
+
+    /// As [`Verifier::whole`]; pairs of events go to `pairs` as they are found, if they are kept.
+    pub(crate) fn whole_telling(
+        &mut self,
+        source: &Program,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Stop> {
         for procedure in &source.procedures {
             self.prepare(&procedure.body, &source.assumed);
         }
@@ -355,6 +385,9 @@ impl Verifier {
                 run.comparison
                     .advance(&mut run.source_events, &mut run.target_events, over)
                     .map_err(|d| different(&d, self.last))?;
+                if self.watched {
+                    pairs(&run.comparison.take_pairs());
+                }
                 if over {
                     break;
                 }
@@ -420,6 +453,7 @@ impl Verifier {
                 .filter(|r| !many || r.skip.count_ones() <= 1 || r.skip == all)
                 .cloned()
                 .map(|mut run| {
+                    run.comparison.keep_pairs(false);
                     run.skip |= bit;
                     run.source.set_skip(run.skip);
                     run.target.set_skip(if self.one_level { 1 << 1 } else { run.skip });

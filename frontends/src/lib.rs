@@ -107,6 +107,32 @@ pub fn flow(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow)) {
     }
 }
 
+/// A word of a text, as its dictionary may have a row for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Word<'t> {
+    /// A letter with a number, in tenths where it has them: `G43`, `G5.1`, `X10.`.
+    Numbered {
+        /// The letter, a capital.
+        letter: u8,
+        /// Ten times the number, if that is a whole number; `None` for what no code has.
+        tenths: Option<u32>,
+    },
+    /// A letter with another value, or none.
+    Letter(u8),
+    /// A word of several letters, as written.
+    Name(&'t [u8]),
+}
+
+/// Tells the words of one line by the dialect's own lexer, comments left out, whether they make sense or
+/// not. It stops at what is no word. Lines of families without a dictionary of words have none.
+pub fn words(settings: &Settings, line: &[u8], found: &mut dyn FnMut(Word)) {
+    match settings.dialect.family {
+        Family::Word => word::words::words(settings, line, found),
+        Family::Sinumerik => siemens::words::words(line, found),
+        Family::Canon | Family::Ir => {}
+    }
+}
+
 /// A literal for people: `0.1 mm`.
 pub fn spell(num: Num) -> String {
     word::number::spell(num)

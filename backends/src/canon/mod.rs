@@ -20,6 +20,7 @@ use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 use self::text::{quote, whole};
+use crate::origin::Trace;
 use crate::{Head, Layout};
 
 /// Digits after the point that are written.
@@ -51,6 +52,8 @@ pub struct Writer {
     begun: bool,
     /// Block numbers left out, and the first place.
     numbers: (u32, Span),
+    /// Where the lines come from, if somebody asked.
+    pub(crate) trace: Option<Trace>,
 }
 
 impl Writer {
@@ -77,6 +80,7 @@ impl Writer {
             offset_waits: false,
             begun: false,
             numbers: (0, Span::default()),
+            trace: None,
         }
     }
 
@@ -91,7 +95,13 @@ impl Writer {
             self.at = Tracker { position: self.start, ..Tracker::new(*assumed) };
         }
         for stmt in stmts {
+            if let Some(trace) = &mut self.trace {
+                trace.enter(std::slice::from_ref(stmt));
+            }
             self.stmt(stmt, assumed, out, diags);
+            if let Some(trace) = &mut self.trace {
+                trace.wrote(out, &[]);
+            }
         }
     }
 

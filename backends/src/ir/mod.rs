@@ -11,8 +11,10 @@ use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::Var;
 use ncc_ir::program::{Control, Op, Procedure, Stmt};
+use ncc_ir::source::Span;
 
 use crate::canon::text::{quote, whole};
+use crate::origin::Trace;
 use crate::{Head, Layout};
 
 /// The version of the text form.
@@ -27,13 +29,15 @@ pub struct Writer {
     begun: bool,
     /// Skip level of the statement before.
     skip: Option<u8>,
+    /// Where the lines come from, if somebody asked.
+    pub(crate) trace: Option<Trace>,
 }
 
 impl Writer {
     /// A writer. The text has no numbering of its own: block numbers are part of the program.
     pub fn new(_settings: Settings, layout: Layout) -> Writer {
         let eol = if layout.crlf { b"\r\n".as_slice() } else { b"\n" };
-        Writer { eol, assumed: Modes::default(), begun: false, skip: None }
+        Writer { eol, assumed: Modes::default(), begun: false, skip: None, trace: None }
     }
 
     /// Writes statements of the main procedure.
@@ -48,6 +52,7 @@ impl Writer {
             self.end_line(out);
             op::assumed(assumed, out);
             out.extend_from_slice(self.eol);
+            self.frame(out);
             self.assumed = *assumed;
         }
         self.body(stmts, 0, out);
@@ -70,10 +75,12 @@ impl Writer {
         }
         out.extend_from_slice(b" {");
         out.extend_from_slice(self.eol);
+        self.frame(out);
         self.body(&p.body, 1, out);
         self.end_line(out);
         out.push(b'}');
         out.extend_from_slice(self.eol);
+        self.frame(out);
     }
 
     /// Ends the text.
@@ -124,6 +131,26 @@ impl Writer {
         if std::mem::take(&mut self.begun) {
             out.extend_from_slice(self.eol);
         }
+        self.of_block(out, None);
+    }
+
+    /// Notes lines that are over as those of the block at hand; `next` is the place of the block that
+    /// is at hand from here.
+    fn of_block(&mut self, out: &[u8], next: Option<Span>) {
+        if let Some(trace) = &mut self.trace {
+            trace.so_far(out);
+            if let Some(span) = next {
+                trace.leave(Vec::new());
+                trace.join(span);
+            }
+        }
+    }
+
+    /// Notes lines that are over as nobody's.
+    fn frame(&mut self, out: &[u8]) {
+        if let Some(trace) = &mut self.trace {
+            trace.frame(out);
+        }
     }
 
     fn body(&mut self, stmts: &[Stmt], depth: usize, out: &mut Vec<u8>) {
@@ -135,8 +162,12 @@ impl Writer {
     fn stmt(&mut self, s: &Stmt, depth: usize, out: &mut Vec<u8>) {
         if s.joined && self.begun {
             out.extend_from_slice(b" & ");
+            if let Some(trace) = &mut self.trace {
+                trace.join(s.span);
+            }
         } else {
             self.end_line(out);
+            self.of_block(out, Some(s.span));
             indent(depth, out);
             out.extend_from_slice(if s.joined { b"& ".as_slice() } else { b"" });
         }
@@ -168,15 +199,18 @@ impl Writer {
                 Control::If { then, otherwise, .. } => {
                     self.inner(then, depth, out);
                     if !otherwise.is_empty() {
+                        self.of_block(out, Some(s.span));
                         indent(depth, out);
                         out.extend_from_slice(b"} else {");
                         self.inner(otherwise, depth, out);
                     }
                 }
             }
+            self.of_block(out, Some(s.span));
             indent(depth, out);
             out.push(b'}');
             out.extend_from_slice(self.eol);
+            self.of_block(out, None);
             // A joined statement that follows begins a line of its own.
             self.begun = false;
         }
@@ -186,6 +220,7 @@ impl Writer {
     fn inner(&mut self, body: &[Stmt], depth: usize, out: &mut Vec<u8>) {
         out.extend_from_slice(self.eol);
         self.begun = false;
+        self.of_block(out, None);
         self.body(body, depth + 1, out);
         self.end_line(out);
     }

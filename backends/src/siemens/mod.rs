@@ -26,6 +26,7 @@ use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
+use crate::origin::Trace;
 use crate::word;
 use crate::word::Sink;
 use crate::word::block::{Need, Part, Rank};
@@ -126,6 +127,21 @@ impl Writer {
         self.words.stand_at(start);
     }
 
+    /// Begins to record where lines come from.
+    pub(crate) fn trace(&mut self) {
+        self.words.trace();
+    }
+
+    /// The record, if there is one.
+    pub(crate) fn tracing(&mut self) -> Option<&mut Trace> {
+        self.words.trace.as_deref_mut()
+    }
+
+    /// A comment to stand at the end of a line.
+    pub(crate) fn beside(&mut self, text: &str, out: &mut Vec<u8>) -> bool {
+        self.words.beside(text, out)
+    }
+
     /// Takes a shop's choices for the form of the text.
     pub fn set_form(&mut self, form: Form) {
         self.words.set_form(form);
@@ -148,9 +164,15 @@ impl Writer {
         while at < stmts.len() {
             let end = self.words.block_end(stmts, at);
             let block = &stmts[at..end];
+            if let Some(trace) = &mut self.words.trace {
+                trace.enter(block);
+            }
             if !self.plain_block(block, sink) {
                 self.words.pass_on(sink.out);
                 self.source_block(block, sink);
+            }
+            if self.words.trace.is_some() {
+                self.words.block_written(sink.out);
             }
             at = end;
         }

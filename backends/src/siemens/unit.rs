@@ -63,6 +63,9 @@ impl Writer {
         if let Some(title) = &p.title {
             self.words.comment_line(title, sink.out);
         }
+        if let Some(trace) = &mut self.words.trace {
+            trace.frame(sink.out);
+        }
         self.words.forget();
         self.words.tracker = Tracker::default();
         self.standing = Standing::START;
@@ -198,7 +201,17 @@ impl Writer {
         };
         self.label(&name, stmt.span, sink)?;
         self.words.flush(false, sink);
+        let outer = match &mut self.words.trace {
+            Some(trace) => {
+                trace.so_far(sink.out);
+                trace.enter(std::slice::from_ref(stmt))
+            }
+            None => Vec::new(),
+        };
         self.body(body, sink);
+        if let Some(trace) = &mut self.words.trace {
+            trace.leave(outer);
+        }
         match times {
             1 => Ok(()),
             times => self.repeat(&name, "", times - 1, sink),

@@ -80,6 +80,9 @@ impl Writer {
             Ok((letter, number)) => self.program_line(letter, number, p.title.as_deref(), sink.out),
             Err(fault) => return sink.report(fault, span),
         }
+        if let Some(trace) = &mut self.trace {
+            trace.frame(sink.out);
+        }
         self.forget();
         self.tracker = Tracker::default();
         self.body(&p.body, &mut sink);
@@ -99,6 +102,9 @@ impl Writer {
         if !frame.is_empty() {
             sink.out.extend_from_slice(frame.as_bytes());
             sink.out.extend_from_slice(self.eol);
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.frame(sink.out);
         }
         if let Some(span) = self.first_left.take() {
             sink.report(Fault::NumbersLeftOut { count: self.numbers_left }, span);

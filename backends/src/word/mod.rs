@@ -27,6 +27,7 @@ use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
+use crate::origin::Trace;
 use crate::{Form, Layout, Numbering, ToolChange};
 use block::{Block, Need};
 use codes::Codes;
@@ -112,6 +113,8 @@ pub struct Writer {
     named: u8,
     /// Blocks of a tool change.
     pub(crate) tool_change: ToolChange,
+    /// Where the lines come from, if somebody asked.
+    pub(crate) trace: Option<Box<Trace>>,
 }
 
 impl Writer {
@@ -164,6 +167,7 @@ impl Writer {
             last_words: [Num::int(0, Unit::Mm); AXES],
             named: 0,
             tool_change: ToolChange::Kept,
+            trace: None,
         }
     }
 
@@ -196,13 +200,42 @@ impl Writer {
         while at < stmts.len() {
             let end = self.block_end(stmts, at);
             let block = &stmts[at..end];
+            if let Some(trace) = &mut self.trace {
+                trace.enter(block);
+            }
             if !self.plain_block(block, sink.out) {
                 self.pass_on(sink.out);
                 self.source_block(block, sink);
             }
+            if self.trace.is_some() {
+                self.block_written(sink.out);
+            }
             at = end;
         }
         self.pass_on(sink.out);
+    }
+
+    /// Notes the lines of the block at hand as its own.
+    pub(crate) fn block_written(&mut self, out: &mut Vec<u8>) {
+        self.pass_on(out);
+        if let Some(trace) = &mut self.trace {
+            trace.wrote(out, self.preamble.as_ref().map_or(&[], |p| &p.held));
+        }
+    }
+
+    /// Begins to record where lines come from.
+    pub(crate) fn trace(&mut self) {
+        self.trace = Some(Box::default());
+    }
+
+    /// A comment to stand at the end of a line: as much of the text as one comment holds.
+    pub(crate) fn beside(&mut self, text: &str, out: &mut Vec<u8>) -> bool {
+        if self.dialect.comment.open.is_empty() {
+            return false;
+        }
+        out.push(b' ');
+        self.comments.write(text, out, &mut Vec::new(), self.eol);
+        true
     }
 
     /// One past the last statement of the block that begins at `at`, by the form of a tool change.

@@ -39,6 +39,9 @@ impl Writer {
             if held > MOST_HELD
                 && let Some(p) = &mut self.preamble
             {
+                if let Some(trace) = &mut self.trace {
+                    trace.started(sink.out, &p.held);
+                }
                 sink.out.append(&mut p.held);
             }
             return Ok(false);
@@ -78,6 +81,9 @@ impl Writer {
         self.block.skip = None;
         self.flush(false, sink);
         let Some(preamble) = self.preamble.take() else { return };
+        if let Some(trace) = &mut self.trace {
+            trace.held_so_far(&preamble.held);
+        }
         let facts = Facts { said: &preamble.said, assumed: &self.assumed };
         let units = facts.get(|m| m.units);
         let plane = facts.get(|m| m.plane);
@@ -116,6 +122,9 @@ impl Writer {
         if let Some(setting) = own_block {
             self.start_setting(setting, &mut stated, sink);
             self.flush(false, sink);
+        }
+        if let Some(trace) = &mut self.trace {
+            trace.started(sink.out, &preamble.held);
         }
         sink.out.extend_from_slice(&preamble.held);
         self.stated = stated;
@@ -156,6 +165,9 @@ impl Writer {
         if self.preamble.as_ref().is_some_and(|p| p.any) {
             self.start(sink);
         } else if let Some(p) = self.preamble.take() {
+            if let Some(trace) = &mut self.trace {
+                trace.started(sink.out, &p.held);
+            }
             sink.out.extend_from_slice(&p.held);
         }
     }

@@ -32,6 +32,7 @@ mod tests;
 mod token;
 mod tree;
 mod unit;
+pub(crate) mod words;
 
 pub use reader::Reader;
 

@@ -30,6 +30,7 @@ pub(crate) mod sort;
 #[path = "../../tests/word/mod.rs"]
 mod tests;
 pub(crate) mod token;
+pub(crate) mod words;
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;

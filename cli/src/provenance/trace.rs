@@ -1,0 +1,213 @@
+//! The record of a translation: for every line of the output's body the places of the source that it was
+//! written from and the events that the verification has paired in it.
+//!
+//! A line waits until nothing further can happen in it, then goes to the [`Spool`]. In a program that
+//! streams, that is as soon as its events have met those of the source; one that is kept whole waits for
+//! the end of its execution.
+
+use std::collections::VecDeque;
+use std::io;
+
+use ncc_backends::Origin;
+use ncc_ir::exec::Kind;
+use ncc_ir::source::Span;
+use ncc_ir::verify::Pair;
+
+use super::spool::{Row, Spool, Stretch};
+
+/// What is asked of a translation besides its text.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Asked {
+    /// The map.
+    pub map: bool,
+    /// The source's lines as comments.
+    pub annotate: bool,
+}
+
+impl Asked {
+    /// Whether anything is.
+    pub fn anything(self) -> bool {
+        self.map || self.annotate
+    }
+}
+
+/// Stretches of events of one line that are kept; of a line executed more often than that, the others
+/// are counted.
+const MOST_STRETCHES: usize = 1000;
+
+/// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
+pub const KINDS: [&str; 12] = [
+    "STRAIGHT_TRAVERSE",
+    "STRAIGHT_FEED",
+    "ARC_FEED",
+    "DWELL",
+    "CHANGE_TOOL",
+    "COOLANT",
+    "MACHINE_FUNCTION",
+    "PROGRAM_STOP",
+    "OPTIONAL_PROGRAM_STOP",
+    "PROGRAM_END",
+    "TEXT_END",
+    "MESSAGE",
+];
+
+/// A kind's place in [`KINDS`]; `None` is no event of a comparison.
+fn place_of(kind: &Kind) -> Option<u8> {
+    Some(match kind {
+        Kind::Traverse => 0,
+        Kind::Feed => 1,
+        Kind::Arc { .. } => 2,
+        Kind::Dwell(_) => 3,
+        Kind::ToolChange => 4,
+        Kind::Coolant => 5,
+        Kind::MachineFunction(_) => 6,
+        Kind::ProgramStop => 7,
+        Kind::OptionalProgramStop => 8,
+        Kind::ProgramEnd => 9,
+        Kind::TextEnd => 10,
+        Kind::Message(_) => 11,
+        Kind::Attribute(_) => return None,
+    })
+}
+
+/// The record while it is made.
+#[derive(Debug)]
+pub(crate) struct Trace {
+    /// Lines that wait, the first of them at `first`.
+    waiting: VecDeque<Waiting>,
+    /// Places of lines that are not there yet: a text may be handed over with its last line open.
+    origins: VecDeque<Origin>,
+    /// Where the open line begins in the body.
+    open: u64,
+    /// Bytes of the body so far.
+    bytes: u64,
+    /// Events so far.
+    events: u64,
+    /// The end of the text is an event of no line.
+    pub(crate) text_end: Option<u64>,
+    spool: Spool,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    start: u64,
+    row: Row,
+}
+
+impl Trace {
+    pub(crate) fn new() -> Trace {
+        Trace {
+            waiting: VecDeque::new(),
+            origins: VecDeque::new(),
+            open: 0,
+            bytes: 0,
+            events: 0,
+            text_end: None,
+            spool: Spool::new(),
+        }
+    }
+
+    /// Further text of the body, and where its lines come from.
+    ///
+    /// # Errors
+    /// The body is longer than places in it can be told.
+    pub(crate) fn text(&mut self, text: &[u8], origins: Vec<Origin>) -> io::Result<()> {
+        self.origins.extend(origins);
+        for end in memchr::memchr_iter(b'\n', text) {
+            let start = self.open;
+            self.open = self.bytes + end as u64 + 1;
+            let spans = self.next_origin();
+            self.waiting.push_back(Waiting { start, row: Row { spans, ..Row::default() } });
+        }
+        self.bytes += text.len() as u64;
+        match u32::try_from(self.bytes) {
+            Ok(_) => Ok(()),
+            Err(_) => Err(io::Error::new(io::ErrorKind::FileTooLarge, "no map of an output of over 4 GiB")),
+        }
+    }
+
+    fn next_origin(&mut self) -> Vec<Span> {
+        let Some(origin) = self.origins.front_mut() else { return Vec::new() };
+        origin.lines = origin.lines.saturating_sub(1);
+        if origin.lines > 0 {
+            return origin.spans.clone();
+        }
+        self.origins.pop_front().map(|origin| origin.spans).unwrap_or_default()
+    }
+
+    /// Pairs of events that the verification has found, in their order.
+    pub(crate) fn pairs(&mut self, pairs: &[Pair]) {
+        for pair in pairs {
+            let Some(kind) = place_of(&pair.kind) else { continue };
+            let event = self.events;
+            self.events += 1;
+            if matches!(pair.kind, Kind::TextEnd) {
+                self.text_end = Some(event);
+                continue;
+            }
+            let at = u64::from(pair.target.start);
+            let after = self.waiting.partition_point(|line| line.start <= at);
+            let Some(line) = after.checked_sub(1).and_then(|at| self.waiting.get_mut(at)) else { continue };
+            line.row.add(event, 1 << kind);
+        }
+    }
+
+    /// No further events are made before this place of the body.
+    ///
+    /// # Errors
+    /// The anonymous file cannot be written.
+    pub(crate) fn over(&mut self, place: u64) -> io::Result<()> {
+        // A line is over where the next one begins.
+        while self.waiting.get(1).map_or(self.open, |next| next.start) <= place {
+            let Some(line) = self.waiting.pop_front() else { break };
+            self.spool.push(&line.row)?;
+        }
+        Ok(())
+    }
+
+    /// The body's length so far.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
+    }
+
+    /// All rows, once the body is whole.
+    ///
+    /// # Errors
+    /// The anonymous file cannot be written.
+    pub(crate) fn finish(mut self) -> io::Result<Recorded> {
+        if self.open < self.bytes {
+            // A last line without its end.
+            let spans = self.next_origin();
+            self.waiting.push_back(Waiting { start: self.open, row: Row { spans, ..Row::default() } });
+        }
+        for line in std::mem::take(&mut self.waiting) {
+            self.spool.push(&line.row)?;
+        }
+        Ok(Recorded { rows: self.spool, events: self.events, text_end: self.text_end })
+    }
+}
+
+impl Row {
+    fn add(&mut self, event: u64, kind: u16) {
+        let full = self.stretches.len() >= MOST_STRETCHES;
+        match self.stretches.last_mut() {
+            Some(stretch) if stretch.last + 1 == event && self.more == 0 => {
+                stretch.last = event;
+                stretch.kinds |= kind;
+            }
+            Some(_) if full => self.more += 1,
+            Some(_) | None => self.stretches.push(Stretch { first: event, last: event, kinds: kind }),
+        }
+    }
+}
+
+/// The record of a whole output.
+#[derive(Debug)]
+pub struct Recorded {
+    /// A row for each line of the body.
+    pub(crate) rows: Spool,
+    /// How many events source and output have.
+    pub(crate) events: u64,
+    /// The event of a text that ends without saying so.
+    pub(crate) text_end: Option<u64>,
+}
