@@ -11,6 +11,7 @@ mod diff;
 mod doctor;
 mod expected;
 mod faults;
+mod fmt;
 mod fold;
 mod laws;
 mod machines;

@@ -2,12 +2,14 @@
 //!
 //! `text` takes a program apart line by line and writes it anew (`layout`), and has each line judged
 //! (`same`); `number` gives blocks new numbers and whatever names them; `events` executes the text before
-//! and after; `own` is for dialects that are laid out by their writers. Not here: what words mean.
+//! and after; `calls` is for texts that are lists of calls. Not here: what words mean.
 
 pub mod args;
+mod calls;
 mod events;
 mod layout;
-mod own;
+mod number;
+mod references;
 mod same;
 mod shown;
 #[cfg(test)]
@@ -15,7 +17,7 @@ mod tests;
 mod text;
 
 use std::fs::File;
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Numbering;
@@ -24,7 +26,6 @@ use ncc_machines::schema::BlockNumbers;
 
 use self::args::Fmt;
 use self::events::Compared;
-use self::own::Written;
 use self::text::Refused;
 use crate::args::Eol;
 use crate::files::{self, Source};
@@ -73,13 +74,13 @@ fn is_stdin(file: &str) -> bool {
 struct Done {
     /// The result.
     file: File,
-    /// Lines that look otherwise; of whole texts that are, 1.
+    /// Lines that look otherwise.
     changed: u32,
     /// Lines that were not taken apart.
     unread: (Vec<u32>, u32),
     /// What was shown of it.
     shown: String,
-    /// Whether it was executed before and after.
+    /// Whether it was executed before and after, or nothing changes.
     executed: bool,
 }
 
@@ -101,10 +102,14 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
     };
     job.layout.crlf = eol;
     job.layout.numbering = args.number.unwrap_or_else(|| numbering(&job));
-    let done = match job.from.dialect.family {
-        Family::Canon | Family::Ir => by_writer(&mut job, &mut source, err, loudness)?,
-        Family::Word | Family::Sinumerik => by_words(args, &job, &mut source, known, err)?,
-    };
+    let of_words = matches!(job.from.dialect.family, Family::Word | Family::Sinumerik);
+    if !of_words && job.layout.numbering != Numbering::Keep {
+        return Err(Problem::usage(
+            format!("block numbers of {} are not changed", job.from.dialect.id),
+            "leave --number out",
+        ));
+    }
+    let done = laid_out(args, &job, &mut source, known, err)?;
     tell(&done, &source, say, err);
     if args.executed && !done.executed {
         return Err(Problem {
@@ -125,8 +130,8 @@ fn numbering(job: &Job) -> Numbering {
     }
 }
 
-/// Lays out a text of words.
-fn by_words(
+/// Lays a text out.
+fn laid_out(
     args: &Fmt,
     job: &Job,
     source: &mut Source,
@@ -145,6 +150,14 @@ fn by_words(
     }
     let unread = found.unread;
     let mut done = Done { file, changed: found.changed, unread, shown: String::new(), executed: false };
+    if job.layout.numbering != Numbering::Keep {
+        numbered(job, &shown, &mut source.file, &mut done)?;
+    }
+    if done.changed == 0 {
+        // Every byte is the same.
+        done.executed = true;
+        return Ok(done);
+    }
     let compared = events::compare(job, &mut source.file, &mut done.file).map_err(read)?;
     match compared {
         Compared::Same(events) => {
@@ -179,48 +192,34 @@ fn by_words(
     Ok(done)
 }
 
-/// Lays out a text by its dialect's own writer.
-fn by_writer(
-    job: &mut Job,
-    source: &mut Source,
-    err: &mut dyn WriteColor,
-    loudness: Loudness,
-) -> Result<Done, Problem> {
-    if job.layout.numbering != Numbering::Keep {
-        return Err(Problem::usage(
-            format!("block numbers of {} are not changed", job.from.dialect.id),
-            "leave --number out",
-        ));
-    }
-    let shown = source.shown.clone();
-    let read = |e: io::Error| Problem::file("read", &shown, &e);
-    let refused =
-        |message: String, help: &str| Problem { exit: Exit::Refused, message, help: vec![help.to_owned()] };
-    job.head = false;
-    let written = match own::text(job, &mut source.file).map_err(read)? {
-        Written::Done(text) => text,
-        Written::NotSame => return Err(not_same(&shown, None)),
-        Written::Refused => {
-            let id = &job.from.dialect.id;
-            let message = format!("{shown} cannot be laid out: it has errors as {id}");
-            return Err(refused(message, &format!("ncc {id} to {id} {shown} tells of them")));
-        }
-        Written::Notes => {
-            return Err(refused(
-                format!("{shown} cannot be laid out without losing its notes"),
-                "write one block a line, and the lines of its head as ncc does",
-            ));
-        }
+/// Gives the blocks of a text that was laid out other numbers.
+fn numbered(job: &Job, shown: &str, before: &mut File, done: &mut Done) -> Result<(), Problem> {
+    let wrong = |e: io::Error| Problem::file("read", shown, &e);
+    let all = |file: &mut File| -> io::Result<Vec<u8>> {
+        let mut text = Vec::new();
+        file.seek(SeekFrom::Start(0))?;
+        file.read_to_end(&mut text)?;
+        Ok(text)
     };
-    let _ = (&err, loudness);
-    source.rewind()?;
-    let mut before = Vec::new();
-    io::Read::read_to_end(&mut source.file, &mut before).map_err(read)?;
-    let mut file = tempfile::tempfile().map_err(read)?;
-    file.write_all(&written).map_err(read)?;
-    let changed = u32::from(before != written);
-    let shown = "written by its own writer, and verified".to_owned();
-    Ok(Done { file, changed, unread: (Vec::new(), 0), shown, executed: true })
+    let laid_out = all(&mut done.file).map_err(wrong)?;
+    let text = number::renumber(&job.from, &laid_out, job.layout.numbering).map_err(|refused| {
+        if refused.ours {
+            return not_same(shown, None);
+        }
+        let place = if refused.line > 0 { format!(":{}", refused.line) } else { String::new() };
+        Problem {
+            exit: Exit::Refused,
+            message: format!("{shown}{place}: block numbers cannot be changed because of {}", refused.what),
+            help: vec!["--number keep leaves them as they are".to_owned()],
+        }
+    })?;
+    let before = all(before).map_err(wrong)?;
+    let lines =
+        |text: &'_ [u8]| text.split_inclusive(|b| *b == b'\n').map(<[u8]>::to_vec).collect::<Vec<_>>();
+    let changed = lines(&before).iter().zip(&lines(&text)).filter(|(a, b)| a != b).count();
+    done.changed = u32::try_from(changed).unwrap_or(u32::MAX);
+    done.file.set_len(0).and_then(|()| done.file.rewind()).map_err(wrong)?;
+    done.file.write_all(&text).map_err(wrong)
 }
 
 fn not_text(shown: &str, line: Option<u32>) -> Problem {
@@ -259,12 +258,11 @@ fn tell(done: &Done, source: &Source, say: bool, err: &mut dyn WriteColor) {
             named.join(", ")
         );
     }
-    let change = match done.changed {
-        0 => "nothing to change".to_owned(),
-        1 => "1 line changes".to_owned(),
-        n => format!("{n} lines change"),
+    let _ = match done.changed {
+        0 => writeln!(err, "{shown}: nothing to change"),
+        1 => writeln!(err, "{shown}: 1 line changes; {}", done.shown),
+        n => writeln!(err, "{shown}: {n} lines change; {}", done.shown),
     };
-    let _ = writeln!(err, "{shown}: {change}; {}", done.shown);
 }
 
 /// Writes the result, or tells what it would be.

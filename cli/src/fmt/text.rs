@@ -5,11 +5,11 @@
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 
-use ncc_dialects::Settings;
+use ncc_dialects::{Family, Settings};
 use ncc_frontends::pieces::{LineIs, Lines};
 
-use super::layout;
 use super::same::{Taken, same};
+use super::{calls, layout};
 
 /// Longest line in bytes; no text of a program has a longer one.
 const LONGEST: u64 = 1 << 20;
@@ -74,8 +74,14 @@ pub(super) fn text(settings: &Settings, eol: &[u8], from: &mut File, to: &mut Fi
             }
             Some(_) | None => b"",
         };
-        let is = lines.line(line, &mut pieces);
+        let mut is = lines.line(line, &mut pieces);
+        let family = settings.dialect.family;
+        let is_calls = matches!(family, Family::Canon | Family::Ir);
+        if is_calls && calls::line(line, family == Family::Ir, &mut written) {
+            is = LineIs::Blocks;
+        }
         match is {
+            LineIs::Blocks if is_calls => {}
             LineIs::Blocks => layout::line(settings.dialect, line, &pieces, &mut written),
             LineIs::Frame | LineIs::Outside => written.extend_from_slice(line),
             LineIs::Unread => {
@@ -86,9 +92,14 @@ pub(super) fn text(settings: &Settings, eol: &[u8], from: &mut File, to: &mut Fi
                 }
             }
         }
-        let is_again = again.line(&written, &mut pieces_again);
-        let a = Taken { is, line, pieces: &pieces };
-        if !same(a, Taken { is: is_again, line: &written, pieces: &pieces_again }) {
+        let says_same = if is_calls {
+            calls::same(line, &written)
+        } else {
+            let is_again = again.line(&written, &mut pieces_again);
+            let a = Taken { is, line, pieces: &pieces };
+            same(a, Taken { is: is_again, line: &written, pieces: &pieces_again })
+        };
+        if !says_same {
             found.refused = Some(Refused::NotSame(found.lines));
             return Ok(found);
         }

@@ -5,6 +5,7 @@ mod check;
 mod dialects;
 mod diff;
 mod files;
+mod fmt;
 mod machines;
 mod messages;
 mod plot;

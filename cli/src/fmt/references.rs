@@ -1,0 +1,368 @@
+//! Block numbers of a text, and everything that names one: what renumbering has to know.
+//!
+//! What names a block:
+//! - `GOTO n` of the macro languages (Fanuc 16i/18i-PB, custom macro), `GOTO`, `GOTOF`, `GOTOB`, `GOTOC`
+//!   with a number, `CALL BLOCK n TO m` (Sinumerik, Job Planning);
+//! - `M97 P`: a block of the same program (Haas VF manual, p. 217);
+//! - `M99 P`: the block at which the *caller* goes on (Fanuc 16i/18i-PB; in a main program a block of its
+//!   own);
+//! - `P` and `Q` of G70 to G73 where these are the turning cycles, first and last block of a contour
+//!   (Fanuc 0i-T), which they are not in a dictionary that has another meaning for the code.
+//!
+//! What may name one and cannot be known to, is a [`Doubt`]. Not here: new numbers (`number`).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use ncc_dialects::{Dialect, Family, Meaning, Role, Settings};
+use ncc_frontends::pieces::{LineIs, Lines, Piece, PieceKind as Kind};
+
+/// A block.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    /// Which program or unit it stands in.
+    pub(super) scope: usize,
+    /// Its number.
+    pub(super) number: Option<Number>,
+    /// Where a number goes, if it has none.
+    pub(super) place: usize,
+    /// Whether it says anything besides its number.
+    pub(super) says: bool,
+    /// Its line, from 1.
+    pub(super) line: u32,
+}
+
+/// A block's number.
+#[derive(Clone, Debug)]
+pub(super) struct Number {
+    pub(super) value: u32,
+    /// Letter and digits.
+    pub(super) word: Range<usize>,
+    /// The digits.
+    pub(super) digits: Range<usize>,
+    /// Where the rest of the block begins.
+    pub(super) rest: usize,
+    /// Whether a number of this form can be left out.
+    pub(super) optional: bool,
+}
+
+/// A place that names a block.
+#[derive(Clone, Debug)]
+pub(super) struct Reference {
+    pub(super) value: u32,
+    pub(super) digits: Range<usize>,
+    /// Whose block it is.
+    pub(super) scope: usize,
+    /// It is a block of those that call the program it stands in.
+    pub(super) of_callers: bool,
+    pub(super) line: u32,
+}
+
+/// What keeps numbers from being changed.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Doubt {
+    pub(super) line: u32,
+    pub(super) what: String,
+    /// It counts only if a block of the scope has this number.
+    pub(super) only: Option<(usize, u32)>,
+}
+
+/// What was found in a text.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    pub(super) blocks: Vec<Block>,
+    pub(super) references: Vec<Reference>,
+    pub(super) doubts: Vec<Doubt>,
+    /// Numbers of programs, by scope.
+    pub(super) programs: BTreeMap<usize, u32>,
+    /// Which scope calls which program.
+    pub(super) calls: BTreeSet<(usize, u32)>,
+    /// Names that jumps lead to: scope, name, line.
+    named: Vec<(usize, String, u32)>,
+    labels: BTreeSet<(usize, String)>,
+}
+
+/// Looks through a text.
+pub(super) fn find(settings: &Settings, text: &[u8]) -> Found {
+    let mut lines = Lines::new(settings.clone());
+    let mut look = Look { dialect: settings.dialect, found: Found::default(), scope: 0, line: 0 };
+    let (mut base, mut pieces) = (0, Vec::new());
+    for whole in text.split_inclusive(|b| *b == b'\n') {
+        look.line += 1;
+        let line = whole.trim_ascii_end();
+        match lines.line(line, &mut pieces) {
+            LineIs::Blocks => {
+                for block in pieces.split(|piece| piece.kind == Kind::End) {
+                    look.block(line, base, block);
+                }
+            }
+            LineIs::Frame if line.len() > 1 && settings.dialect.family == Family::Sinumerik => {
+                look.scope += usize::from(line.starts_with(b"%"));
+            }
+            LineIs::Frame | LineIs::Outside => {}
+            LineIs::Unread => look.doubt("a block that cannot be taken apart", None),
+        }
+        base += whole.len();
+    }
+    let mut found = look.found;
+    for (scope, name, line) in std::mem::take(&mut found.named) {
+        if !found.labels.contains(&(scope, name.clone())) {
+            let what = format!("the jump to {name}, which is no label: it may be computed");
+            found.doubts.push(Doubt { line, what, only: None });
+        }
+    }
+    found.doubts.sort_by_key(|doubt| doubt.line);
+    found
+}
+
+struct Look<'d> {
+    dialect: &'d Dialect,
+    found: Found,
+    scope: usize,
+    line: u32,
+}
+
+/// A word with a number without point: its letter, its value, its digits in the line.
+#[derive(Clone, Copy)]
+struct Whole {
+    letter: u8,
+    value: u32,
+    start: usize,
+    end: usize,
+}
+
+impl Look<'_> {
+    fn doubt(&mut self, what: impl Into<String>, only: Option<u32>) {
+        let only = only.map(|value| (self.scope, value));
+        self.found.doubts.push(Doubt { line: self.line, what: what.into(), only });
+    }
+
+    fn reference(&mut self, base: usize, value: u32, start: usize, end: usize, of_callers: bool) {
+        let digits = base + start..base + end;
+        let (scope, line) = (self.scope, self.line);
+        self.found.references.push(Reference { value, digits, scope, of_callers, line });
+    }
+
+    fn block(&mut self, line: &[u8], base: usize, all: &[Piece]) {
+        let pieces: Vec<Piece> = all.iter().copied().filter(|p| p.kind != Kind::Comment).collect();
+        let at = match pieces.as_slice() {
+            [] => return,
+            [Piece { kind: Kind::Skip, .. }, Piece { kind: Kind::Number, .. }, ..] => 2,
+            [Piece { kind: Kind::Skip, .. }, ..] => 1,
+            _ => 0,
+        };
+        let program = match pieces.get(at..) {
+            Some([sign, number, ..]) if self.begins_program(sign.text(line)) => whole(number, line),
+            Some(_) | None => None,
+        };
+        if let Some(program) = program {
+            self.scope += 1;
+            self.found.programs.insert(self.scope, program);
+        }
+        let number = self.number(line, base, all, &pieces, at);
+        let used = at + if number.is_some() { 2 } else { 0 };
+        self.found.blocks.push(Block {
+            scope: self.scope,
+            place: base + pieces.get(at).map_or(line.len(), |p| p.start),
+            says: program.is_none() && pieces.len() > used,
+            line: self.line,
+            number: number.clone(),
+        });
+        match self.dialect.family {
+            Family::Sinumerik => self.names(line, base, &pieces, at, number.is_some()),
+            Family::Word | Family::Canon | Family::Ir => self.words(line, base, &pieces),
+        }
+    }
+
+    fn begins_program(&self, sign: &[u8]) -> bool {
+        let rules = &self.dialect.program;
+        let is = |c: Option<char>| c.is_some_and(|c| sign == [c as u8]);
+        is(rules.number) || is(rules.number_also)
+    }
+
+    /// The number of a block.
+    fn number(
+        &self,
+        line: &[u8],
+        base: usize,
+        all: &[Piece],
+        pieces: &[Piece],
+        from: usize,
+    ) -> Option<Number> {
+        let letter = self.dialect.block.number? as u8;
+        let at = match self.dialect.family {
+            Family::Sinumerik => from,
+            Family::Word | Family::Canon | Family::Ir => {
+                pieces.iter().position(|p| p.kind == Kind::Address && p.text(line) == [letter])?
+            }
+        };
+        let (sign, number) = (pieces.get(at)?, pieces.get(at + 1)?);
+        let optional = sign.text(line) == [letter];
+        let main = self.dialect.family == Family::Sinumerik && sign.text(line) == b":";
+        let value = whole(number, line).filter(|_| optional || main)?;
+        let rest = all.iter().find(|p| p.start >= number.end).map_or(number.end, |p| p.start);
+        Some(Number {
+            value,
+            word: base + sign.start..base + number.end,
+            digits: base + number.start..base + number.end,
+            rest: base + rest,
+            optional,
+        })
+    }
+
+    /// References in a block of words.
+    fn words(&mut self, line: &[u8], base: usize, pieces: &[Piece]) {
+        let text = |at: usize| pieces.get(at).map_or(&b""[..], |p| p.text(line));
+        let mut words = Vec::new();
+        let mut computed = BTreeSet::new();
+        let mut numbers = 0;
+        for (at, piece) in pieces.iter().enumerate() {
+            let next = pieces.get(at + 1);
+            let value = next.and_then(|next| Some((whole(next, line)?, next.start, next.end)));
+            match (piece.kind, value) {
+                (Kind::Key, Some((value, start, end))) if text(at) == b"GOTO" => {
+                    self.reference(base, value, start, end, false);
+                }
+                (Kind::Key, None) if text(at) == b"GOTO" => self.doubt("a computed jump", None),
+                (Kind::Address, Some((value, start, end))) => {
+                    let letter = text(at)[0];
+                    numbers += usize::from(Some(letter as char) == self.dialect.block.number);
+                    words.push(Whole { letter, value, start, end });
+                }
+                (Kind::Address, None) if next.is_some_and(|n| n.kind == Kind::Sign) => {
+                    computed.insert(text(at)[0]);
+                }
+                _ => {}
+            }
+        }
+        if numbers > 1 || self.dialect.block.number.is_some_and(|n| computed.contains(&(n as u8))) {
+            self.doubt("a block with two numbers, or a computed one", None);
+        }
+        self.codes(base, pieces, line, &words, &computed);
+    }
+
+    /// What the codes of a block make of its words.
+    fn codes(
+        &mut self,
+        base: usize,
+        pieces: &[Piece],
+        line: &[u8],
+        words: &[Whole],
+        computed: &BTreeSet<u8>,
+    ) {
+        let word = |letter: u8| words.iter().find(|w| w.letter == letter).copied();
+        let has = |letter: u8, value: u32| words.iter().any(|w| w.letter == letter && w.value == value);
+        let mut known = Vec::new();
+        if has(b'M', 97) || has(b'M', 99) {
+            match word(b'P') {
+                Some(p) => {
+                    self.reference(base, p.value, p.start, p.end, has(b'M', 99));
+                    known.push(p.start);
+                }
+                None if computed.contains(&b'P') => self.doubt("a block named by a variable (P)", None),
+                None => {}
+            }
+        }
+        if has(b'M', 98) {
+            let packed = 10u32.checked_pow(self.dialect.program.packed_call_digits).filter(|p| *p > 1);
+            if let Some(p) = word(b'P') {
+                let program = packed.filter(|packed| p.value >= *packed).map_or(p.value, |by| p.value % by);
+                self.found.calls.insert((self.scope, program));
+                known.push(p.start);
+            }
+            for letter in [b'Q', b'H'] {
+                if word(letter).is_some() || computed.contains(&letter) {
+                    let what = format!("a call with {}: it may name a block", letter as char);
+                    self.doubt(what, None);
+                }
+            }
+        }
+        let translated = |letter: u8, value: u32| {
+            let row = value.checked_mul(10).and_then(|tenths| self.dialect.code_row(letter, tenths));
+            row.and_then(|row| row.means)
+        };
+        let turning = (70..=73).any(|code| has(b'G', code) && translated(b'G', code).is_none());
+        if let (true, Some(p), Some(q)) = (turning, word(b'P'), word(b'Q')) {
+            for w in [p, q] {
+                self.reference(base, w.value, w.start, w.end, false);
+                known.push(w.start);
+            }
+        }
+        let is_code = |w: &&Whole| matches!(w.letter, b'G' | b'M');
+        let means: Vec<Option<Meaning>> =
+            words.iter().filter(is_code).map(|w| translated(w.letter, w.value)).collect();
+        let strange = means.iter().any(Option::is_none)
+            || pieces.windows(2).any(|p| p[0].text(line) == b"G" && p[1].text(line).contains(&b'.'));
+        let uses_letters = means
+            .iter()
+            .flatten()
+            .any(|m| matches!(m, Meaning::StartCycle | Meaning::Pattern | Meaning::Call));
+        for w in words {
+            let row = self.dialect.address_row(w.letter);
+            let number = self.dialect.block.number == Some(w.letter as char);
+            let fixed = matches!(w.letter, b'G' | b'M' | b'O' | b'S' | b'T' | b'F')
+                || row.is_some_and(|row| matches!(row.role, Role::Axis));
+            let repeats = self.dialect.cycles.repeat == Some(w.letter as char);
+            let refused = row.is_some_and(|row| row.refuse.is_some()) && !uses_letters && !repeats;
+            if !number && !fixed && !known.contains(&w.start) && (strange || refused) {
+                let what = format!("{}{}: it may name a block", w.letter as char, w.value);
+                self.doubt(what, Some(w.value));
+            }
+        }
+    }
+
+    /// References in a block with names.
+    fn names(&mut self, line: &[u8], base: usize, pieces: &[Piece], at: usize, numbered: bool) {
+        let text = |at: usize| pieces.get(at).map_or(&b""[..], |p| p.text(line));
+        let head = at + if numbered { 2 } else { 0 };
+        if pieces.get(head).is_some_and(|p| p.kind == Kind::Name) && text(head + 1) == b":" {
+            let label = String::from_utf8_lossy(text(head)).to_ascii_uppercase();
+            self.found.labels.insert((self.scope, label));
+        }
+        for (at, piece) in pieces.iter().enumerate().skip(head) {
+            let value = pieces.get(at + 1).and_then(|next| whole(next, line));
+            let jumps = at > 0 && text(at - 1).starts_with(b"GOTO") && pieces[at - 1].kind == Kind::Key;
+            let names_block = piece.kind == Kind::Address && text(at) == b"N" || jumps && text(at) == b":";
+            match (piece.kind, value) {
+                (_, Some(value)) if names_block => {
+                    let next = &pieces[at + 1];
+                    self.reference(base, value, next.start, next.end, false);
+                }
+                _ if names_block => self.doubt("a computed jump", None),
+                (Kind::Name, _) if jumps => {
+                    let name = String::from_utf8_lossy(text(at)).to_ascii_uppercase();
+                    self.found.named.push((self.scope, name, self.line));
+                }
+                _ if jumps => self.doubt("a computed jump", None),
+                (Kind::Name, _) if text(at) == b"EXECSTRING" => {
+                    self.doubt("a block that is put together (EXECSTRING)", None);
+                }
+                (Kind::Kept, _) => self.kept(text(at)),
+                _ => {}
+            }
+        }
+    }
+
+    /// A text that may name blocks: `CYCLE95("N100:N200")`.
+    fn kept(&mut self, text: &[u8]) {
+        let capitals = text.to_ascii_uppercase();
+        let quoted = text.first() == Some(&b'"');
+        if !quoted && capitals.windows(4).any(|w| w == b"GOTO") {
+            return self.doubt("a jump in a synchronised action or a macro", None);
+        }
+        for (at, _) in capitals.iter().enumerate().filter(|(_, b)| **b == b'N') {
+            let digits = capitals[at + 1..].iter().take_while(|b| b.is_ascii_digit()).count();
+            let digits = std::str::from_utf8(&capitals[at + 1..at + 1 + digits]).unwrap_or_default();
+            if let Ok(value) = digits.parse() {
+                self.doubt(format!("N{value} in a text: it may name a block"), Some(value));
+            }
+        }
+    }
+}
+
+/// The value of a number without a point.
+fn whole(piece: &Piece, line: &[u8]) -> Option<u32> {
+    let text = piece.text(line);
+    let digits = (piece.kind == Kind::Number).then(|| std::str::from_utf8(text).ok()).flatten()?;
+    digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok()).flatten()
+}
