@@ -5,6 +5,7 @@
 //! here: what counts as the same, and how streams come together again (ncc-review).
 
 pub mod git;
+mod edits;
 mod html;
 mod json;
 pub(crate) mod motion;

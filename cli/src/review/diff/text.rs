@@ -6,12 +6,12 @@
 
 use std::collections::HashMap;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::time::{Duration, Instant};
 
 use ncc_dialects::{Bare, Family, Settings};
-use similar::{Algorithm, DiffOp, capture_diff_slices_deadline, group_diff_ops};
+use similar::{DiffOp, group_diff_ops};
 
 use super::Ignore;
+use super::edits::edits;
 use super::tell::{Account, Block, Difference, decoded};
 use crate::review::side::Side;
 
@@ -21,8 +21,6 @@ const AROUND: usize = 3;
 const MOST_BLOCKS: usize = 100;
 /// Differences that are kept.
 const MOST: usize = 20_000;
-/// Seconds after which the shortest edit is no longer sought, only some edit.
-const PATIENCE: u64 = 5;
 /// The option that says what a number without a point counts, and its value that makes them units.
 const POINT_OPTION: (&str, &str) = ("decimal_point", "calculator");
 
@@ -51,8 +49,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], ignore: &[Ignore]) -> io::Result<Te
     let mut ids: HashMap<Vec<u8>, u32> = HashMap::new();
     let [a, b] = [0, 1].map(|side: usize| lines(&texts[side], &sides[side].job.from, &rules, &mut ids));
     drop(ids);
-    let until = Instant::now() + Duration::from_secs(PATIENCE);
-    let ops = capture_diff_slices_deadline(Algorithm::Myers, &a.ids, &b.ids, Some(until));
+    let ops = edits(&a.ids, &b.ids);
     let both = [&a, &b];
     let block = |side: usize, i: usize| {
         let line = &both[side].lines[i];
@@ -198,6 +195,7 @@ struct Lines {
 fn lines(text: &[u8], settings: &Settings, rules: &Rules, ids: &mut HashMap<Vec<u8>, u32>) -> Lines {
     let mut out = Lines { lines: Vec::new(), ids: Vec::new(), crlf: false };
     let bare = bare(settings);
+    let mut said = Vec::new();
     let mut start = 0;
     let mut number = 0;
     while start < text.len() {
@@ -206,11 +204,19 @@ fn lines(text: &[u8], settings: &Settings, rules: &Rules, ids: &mut HashMap<Vec<
         out.crlf |= cr && number == 0;
         let line = &text[start..end - usize::from(cr)];
         number += 1;
-        let said = normal(line, settings, rules, &bare);
+        said.clear();
+        normal(line, settings, rules, &bare, &mut said);
         let nothing = said.is_empty() && (rules.blanks || (rules.comments && !line.is_empty()));
         if !nothing {
-            let next = ids.len() as u32;
-            out.ids.push(*ids.entry(said).or_insert(next));
+            let id = match ids.get(&said) {
+                Some(id) => *id,
+                None => {
+                    let next = ids.len() as u32;
+                    ids.insert(said.clone(), next);
+                    next
+                }
+            };
+            out.ids.push(id);
             out.lines.push(Line { number, start, end: start + line.len() });
         }
         start = end + 1;
@@ -231,15 +237,14 @@ fn bare(settings: &Settings) -> [bool; 26] {
     all
 }
 
-/// What a line says.
-fn normal(line: &[u8], settings: &Settings, rules: &Rules, bare: &[bool; 26]) -> Vec<u8> {
+/// Appends what a line says to nothing.
+fn normal(line: &[u8], settings: &Settings, rules: &Rules, bare: &[bool; 26], out: &mut Vec<u8>) {
     let dialect = settings.dialect;
     let (open, close) = (dialect.comment.open.as_bytes(), dialect.comment.close.as_bytes());
     let quotes = dialect.family == Family::Sinumerik;
-    let mut out = Vec::with_capacity(line.len());
     let mut at = 0;
     if rules.numbers {
-        at = after_number(line, dialect.block.number, dialect.block.skip.as_bytes(), &mut out);
+        at = after_number(line, dialect.block.number, dialect.block.skip.as_bytes(), out);
     }
     let mut letters = 0;
     while let Some(&byte) = line.get(at) {
@@ -288,7 +293,7 @@ fn normal(line: &[u8], settings: &Settings, rules: &Rules, bare: &[bool; 26]) ->
             if rules.format && len > 0 && (letters < 2 || of_letter) {
                 let letter = out.last().filter(|_| of_letter).map(|b| b.to_ascii_uppercase());
                 let counts = letter.is_some_and(|l| l.is_ascii_uppercase() && bare[(l - b'A') as usize]);
-                plain(&digits[..len], byte == b'-', counts, &mut out);
+                plain(&digits[..len], byte == b'-', counts, out);
                 at += usize::from(signed) + len;
             } else {
                 let len = len.max(1) + usize::from(signed && len > 0);
@@ -303,7 +308,6 @@ fn normal(line: &[u8], settings: &Settings, rules: &Rules, bare: &[bool; 26]) ->
         let kept = out.iter().rposition(|b| !b.is_ascii_whitespace()).map_or(0, |i| i + 1);
         out.truncate(kept);
     }
-    out
 }
 
 /// Passes over a block number; the mark of a block that can be skipped stays.
@@ -358,7 +362,8 @@ mod tests {
 
     fn said(dialect: &str, line: &str, rules: Rules) -> String {
         let settings = Settings::new(builtin(dialect).expect("a built-in dialect"));
-        let said = normal(line.as_bytes(), &settings, &rules, &bare(&settings));
+        let mut said = Vec::new();
+        normal(line.as_bytes(), &settings, &rules, &bare(&settings), &mut said);
         String::from_utf8(said).expect("a text")
     }
 
