@@ -19,6 +19,8 @@ use crate::files;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
 
+/// Longest value that is told whole, in characters.
+const LONGEST: usize = 80;
 /// Disagreements that are told.
 const SHOWN: usize = 20;
 
@@ -299,6 +301,15 @@ fn apart(at: &str, old: &Value, new: &Value, wrong: &mut Vec<String>) {
         (Value::Array(a), Value::Array(b)) => {
             wrong.push(format!("{at}: the certificate has {} rows, found are {}", a.len(), b.len()));
         }
-        (a, b) => wrong.push(format!("{at}: the certificate says {a}, found is {b}")),
+        (a, b) => wrong.push(format!("{at}: the certificate says {}, found is {}", short(a), short(b))),
+    }
+}
+
+/// A value, or its beginning.
+fn short(value: &Value) -> String {
+    let text = value.to_string();
+    match text.char_indices().nth(LONGEST) {
+        Some((cut, _)) => format!("{}…", &text[..cut]),
+        None => text,
     }
 }

@@ -12,6 +12,7 @@ mod plot;
 mod readme;
 mod time;
 mod usage;
+mod verify;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -8,6 +8,7 @@ fn the_help_reads_as_written_down() {
     for (name, arguments) in [
         ("help.txt", &["--help"][..]),
         ("help-translate.txt", &["translate", "--help"]),
+        ("help-verify.txt", &["verify", "--help"]),
         ("dialects.txt", &["dialects"]),
         ("explain-NC0107.txt", &["explain", "NC0107"]),
     ] {

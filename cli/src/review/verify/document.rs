@@ -214,6 +214,11 @@ pub(crate) struct Mistake {
 }
 
 impl Document {
+    /// What it came to.
+    pub fn verdict(&self) -> Word {
+        self.verdict
+    }
+
     /// Of what was found.
     ///
     /// # Errors

@@ -173,7 +173,11 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
 fn same_control(sides: &[Side; 2]) -> bool {
     let [a, b] = sides;
     let machine = |side: &Side| side.job.machines.from.as_ref().map(|machine| machine.id().to_owned());
-    a.dialect().id == b.dialect().id && machine(a) == machine(b)
+    let (own, other) = (&a.job.from, &b.job.from);
+    let mut options = own.dialect.option.iter();
+    own.dialect.id == other.dialect.id
+        && machine(a) == machine(b)
+        && options.all(|option| own.get(&option.name) == other.get(&option.name))
 }
 
 /// Facts that hold of the output's control although the output does not say them: what the source

@@ -1,0 +1,159 @@
+//! `ncc verify`, and certificates.
+
+use super::*;
+
+/// What [`GOOD`] is on a Fanuc, as somebody else might write it.
+const OTHER: &str = "%\nO0007\nN1 G21 G90 G17 G40 G49 G80 G94\nN2 G54\nN3 T1 M6\nN4 S1000 M3\n\
+    N5 G0 X0 Y0\nN6 G43 H1 Z5.\nN7 G1 Z-1. F100.\nN8 X10.\nN9 G0 Z50.\nN10 M5\nN11 M30\n%\n";
+
+fn pair() -> tempfile::TempDir {
+    let folder = folder();
+    std::fs::write(folder.path().join("other.nc"), OTHER).unwrap();
+    folder
+}
+
+fn write(folder: &tempfile::TempDir, name: &str, text: &str) {
+    std::fs::write(folder.path().join(name), text).unwrap();
+}
+
+fn read(folder: &tempfile::TempDir, name: &str) -> String {
+    std::fs::read_to_string(folder.path().join(name)).unwrap()
+}
+
+#[test]
+fn verdicts() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    expect("verify-equal.txt", &run(&["mach9:good.cn", "fanuc:other.nc"]).exits(0).out);
+    run(&["mach9:good.cn", "mach9:good.cn"]).exits(0);
+    // The other way round: what a Fanuc says, the other control has no words for.
+    run(&["fanuc:other.nc", "mach9:good.cn"]).exits(0);
+    write(&folder, "off.nc", &OTHER.replace("X10.", "X10.004"));
+    expect("verify-different.txt", &run(&["mach9:good.cn", "fanuc:off.nc"]).exits(1).out);
+    let within = run(&["mach9:good.cn", "fanuc:off.nc", "--tolerance", "0.005"]).exits(0).out;
+    expect("verify-tolerance.txt", &within);
+    run(&["mach9:good.cn", "fanuc:off.nc", "--tolerance", "0.003"]).exits(1);
+    // A feed is no length.
+    write(&folder, "feed.nc", &OTHER.replace("F100.", "F101."));
+    run(&["mach9:good.cn", "fanuc:feed.nc", "--tolerance", "1"]).exits(1);
+    assert_eq!(run(&["mach9:good.cn", "fanuc:feed.nc", "-q"]).exits(1).out, "");
+    expect("verify.json", &run(&["mach9:good.cn", "fanuc:off.nc", "--format", "json"]).exits(1).out);
+}
+
+/// What the output leaves unsaid is not taken for granted, what the source leaves unsaid is.
+#[test]
+fn what_is_left_unsaid() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    write(&folder, "unsaid.nc", &OTHER.replace("N2 G54\n", ""));
+    expect("verify-unsaid.txt", &run(&["mach9:good.cn", "fanuc:unsaid.nc"]).exits(1).out);
+    // Of a source it is taken for granted, and two programs for one control leave the same unsaid.
+    run(&["fanuc:unsaid.nc", "fanuc:other.nc"]).exits(0);
+    run(&["fanuc:unsaid.nc", "fanuc:unsaid.nc"]).exits(0);
+    write(&folder, "units.nc", &OTHER.replace("G21 ", ""));
+    let units = run(&["mach9:good.cn", "fanuc:units.nc"]).exits(1).out;
+    assert!(units.contains("never says its units") && units.contains("nothing settles it: units"), "{units}");
+}
+
+#[test]
+fn programs_that_cannot_be_compared() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    run(&["mach9:good.cn", "fanuc:good.cn"]).exits(5).says("good.cn: not compared").says("reads like mach9");
+    run(&["mach9:bad.cn", "fanuc:other.nc"]).exits(5).says("GOX-15.");
+    run(&["mach9:other.nc", "fanuc:good.cn"]).exits(5).says("other.nc: not compared");
+    write(&folder, "empty.nc", "");
+    run(&["mach9:good.cn", "fanuc:empty.nc"]).exits(5);
+    std::fs::write(folder.path().join("binary.nc"), [0u8, 1, 2, 255, 0, 9]).unwrap();
+    run(&["mach9:good.cn", "fanuc:binary.nc"]).exits(5);
+    write(&folder, "cut.nc", &OTHER[..OTHER.len() - 30]);
+    run(&["mach9:good.cn", "fanuc:cut.nc"]).exits(1);
+    run(&["mach9:good.cn"]).exits(2).says("ncc verify SRC OUT");
+    run(&["mach9:good.cn", "fanuc:none.nc"]).exits(4);
+    run(&["mach9:-", "fanuc:-"]).exits(2).says("only once");
+    run(&["mach9:good.cn", "fanuc:other.nc", "--tolerance", "-1"]).exits(2);
+    run(&["mach9:good.cn", "fanuc:other.nc", "--cert", "good.cn"]).exits(2).says("never written over");
+    let json = run(&["mach9:bad.cn", "fanuc:other.nc", "--format", "json"]).exits(5);
+    assert!(json.err.is_empty() && json.out.contains("\"verdict\": \"not-compared\""), "{json:?}");
+}
+
+#[test]
+fn certificates() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    run(&["mach9:good.cn", "fanuc:other.nc", "--cert", "c.json"]).exits(0);
+    let certificate = read(&folder, "c.json");
+    expect("certificate-holds.txt", &run(&["--cert", "c.json"]).exits(0).out);
+    // From another folder; under other names.
+    let elsewhere = tempfile::tempdir().unwrap();
+    let path = folder.path().join("c.json");
+    ncc(elsewhere.path(), &["verify", "--cert", path.to_str().unwrap()]).exits(0);
+    write(&folder, "a", GOOD);
+    write(&folder, "b", OTHER);
+    run(&["--cert", "c.json", "--recheck", "a", "b"]).exits(0);
+    assert_eq!(read(&folder, "c.json"), certificate);
+    let swapped = run(&["--cert", "c.json", "--recheck", "fanuc:b", "mach9:a"]).exits(1).out;
+    assert!(swapped.contains("good.cn is another file"), "{swapped}");
+    run(&["--cert", "c.json", "--tolerance", "1"]).exits(2).says("--tolerance is said by the certificate");
+
+    // Somebody has been at it.
+    for (from, to, says) in [
+        ("\"verdict\": \"equal\"", "\"verdict\": \"different\"", "verdict: the certificate says"),
+        ("\"events\": ", "\"events\": 1", "compared/events: the certificate says"),
+        ("\"skip_settings\": 1", "\"skip_settings\": 2", "compared/skip_settings"),
+        ("\"tolerance_mm\": null", "\"tolerance_mm\": 1.0", ""),
+        ("\"sha256\": \"", "\"sha256\": \"0", "is another file: sha256 0"),
+    ] {
+        let other = certificate.replacen(from, to, 1);
+        assert_ne!(other, certificate, "{from}");
+        write(&folder, "t.json", &other);
+        let code = i32::from(!says.is_empty());
+        let told = run(&["--cert", "t.json"]).exits(code).out;
+        assert!(told.contains(says), "{from}: {told}");
+    }
+    let at = certificate.rfind("\"sha256\": \"").unwrap();
+    write(&folder, "t.json", &format!("{}\"sha256\": \"f{}", &certificate[..at], &certificate[at + 11..]));
+    let told = run(&["--cert", "t.json"]).exits(1).out;
+    assert!(told.contains("the dictionary fanuc is another one"), "{told}");
+    let version = format!("\"ncc_version\": \"{}\"", env!("CARGO_PKG_VERSION"));
+    write(&folder, "t.json", &certificate.replace(&version, "\"ncc_version\": \"0.0.9\""));
+    let told = run(&["--cert", "t.json"]).exits(0).out;
+    assert!(told.contains("it was made by ncc 0.0.9"), "{told}");
+
+    // No certificates.
+    write(&folder, "t.json", &certificate.replacen("\"blocks\"", "\"block\"", 1));
+    run(&["--cert", "t.json"]).exits(5).says("no certificate of ncc verify: unknown field `block`");
+    let without = certificate.replacen("  \"summary\": \"the same cut\",\n", "", 1);
+    write(&folder, "t.json", &without);
+    run(&["--cert", "t.json"]).exits(5).says("missing field `summary`");
+    write(&folder, "t.json", &certificate.replacen("\"version\": 1", "\"version\": 2", 1));
+    run(&["--cert", "t.json"]).exits(5).says("has version 2 of the form");
+    run(&["--cert", "good.cn"]).exits(5).says("no certificate");
+    write(&folder, "t.json", &certificate[..certificate.len() / 2]);
+    run(&["--cert", "t.json"]).exits(5).says("no certificate");
+    run(&["--cert", "none.json"]).exits(4).says("no such file");
+
+    // The files have changed since.
+    write(&folder, "other.nc", &OTHER.replace("X10.", "X10.5"));
+    expect("certificate-fails.txt", &run(&["--cert", "c.json"]).exits(1).out);
+    std::fs::remove_file(folder.path().join("other.nc")).unwrap();
+    run(&["--cert", "c.json"]).exits(4).says("other.nc");
+}
+
+/// Dictionaries of a shop and profiles are found again by their names in the certificate.
+#[test]
+fn a_certificate_of_machines() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    write(&folder, "shop.toml", "id = \"shop\"\ntitle = \"A shop's\"\nbase = \"fanuc\"\n");
+    run(&["mach9:good.cn", "shop:other.nc", "--dialect", "shop.toml", "--cert", "c.json"]).exits(0);
+    let told = read(&folder, "c.json");
+    assert!(told.contains("\"name\": \"shop\"") && told.contains("\"name\": \"fanuc\""), "{told}");
+    run(&["--cert", "c.json"]).exits(0);
+    write(&folder, "shop.toml", "id = \"shop\"\ntitle = \"Another\"\nbase = \"fanuc\"\n");
+    let told = run(&["--cert", "c.json"]).exits(1).out;
+    assert!(told.contains("the dictionary shop is another one"), "{told}");
+    run(&["fanuc:other.nc", "other.nc", "--machine-to", "fanuc-vmc", "--cert", "m.json"]).exits(0);
+    assert!(read(&folder, "m.json").contains("\"name\": \"fanuc-vmc\""));
+    run(&["--cert", "m.json"]).exits(0);
+}
