@@ -50,10 +50,7 @@ fn bytes_of_comments_and_line_ends_stay() {
     let folder = folder.path();
     write(folder, "latin1.nc", b"g21 g90 g17 g94 g54 (gro\xdf,  \x80)\r\nG0 X1.\nM30");
     fmt(folder, &["fanuc:latin1.nc"]).exits(0);
-    assert_eq!(
-        read(folder, "latin1.nc"),
-        b"G21 G90 G17 G94 G54 (gro\xdf,  \x80)\r\nG00 X1.\r\nM30\r\n"
-    );
+    assert_eq!(read(folder, "latin1.nc"), b"G21 G90 G17 G94 G54 (gro\xdf,  \x80)\r\nG00 X1.\r\nM30\r\n");
     fmt(folder, &["fanuc:latin1.nc", "--eol", "lf"]).exits(0);
     assert!(!read(folder, "latin1.nc").contains(&b'\r'));
 }
