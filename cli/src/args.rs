@@ -73,6 +73,7 @@ Examples:
   ncc mach9 to fanuc part.cn --number 10:10 --eol crlf
   ncc mach9 to canon part.cn --start X-9,Y15.588,Z3 --from-option o_word=ignore
   ncc auto to fanuc - --report part.json < part.cn
+  ncc mach9 to fanuc a.cn b.cn folder -o out/     several, into a folder
 
 `ncc dialects` lists the dialects, `ncc dialects show mach9` the options and what is unconfirmed.";
 
@@ -133,7 +134,7 @@ pub struct Translate {
     /// The machine to translate for
     #[arg(long, value_name = "MACHINE", help_heading = "What to translate")]
     pub machine_to: Option<String>,
-    /// The program; `-` for stdin
+    /// The program; `-` for stdin. Several, and folders of programs, go into a folder: -o FOLDER
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     /// Decide a question that the source's dictionary leaves open
@@ -170,6 +171,22 @@ pub struct Translate {
     /// the file is named as the machine's profile has it
     #[arg(short, long, value_name = "FILE", help_heading = "How the result looks")]
     pub output: Option<PathBuf>,
+    /// Write subprograms to files of their own, in the folder of -o: `L300.SPF`, `O0300.nc` [default: of
+    /// several programs, where the control keeps them so, as a Sinumerik does]
+    #[arg(long, conflicts_with = "no_split", help_heading = "How the result looks")]
+    pub split: bool,
+    /// Write a program and its subprograms as one text
+    #[arg(long, help_heading = "How the result looks")]
+    pub no_split: bool,
+    /// Programs that are translated at the same time [default: the machine's cores]
+    #[arg(
+        short,
+        long,
+        value_name = "N",
+        value_parser = clap::value_parser!(u16).range(1..),
+        help_heading = "What to translate"
+    )]
+    pub jobs: Option<u16>,
     /// Block numbers: none, those of the source, or new ones [default: off]
     #[arg(
         long,
@@ -187,7 +204,7 @@ pub struct Translate {
         help_heading = "How the result looks"
     )]
     pub eol: Option<Eol>,
-    /// Program number, where the target has one
+    /// Program number, where the target has one; of several programs, the first one's, counted up
     #[arg(
         long,
         value_name = "N",
@@ -238,7 +255,8 @@ pub struct Translate {
     /// How much is told.
     #[command(flatten)]
     pub telling: Telling,
-    /// Messages for people, or as JSON, one object a line [default: human]
+    /// Messages for people, or as JSON, one object a line; of several programs, one document on stdout
+    /// [default: human]
     #[arg(
         long,
         value_name = "human|json",

@@ -5,6 +5,7 @@
 
 pub mod args;
 pub mod arrow;
+pub mod batch;
 pub mod check;
 mod chunks;
 pub mod dialect_test;
@@ -20,6 +21,7 @@ pub mod job;
 pub mod judge;
 pub mod known;
 pub mod machines;
+mod order;
 pub mod plot;
 pub mod problem;
 pub mod provenance;

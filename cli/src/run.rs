@@ -2,22 +2,20 @@
 
 use std::ffi::OsString;
 use std::io::{self, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
-use ncc_backends::Layout;
 use ncc_dialects::{Dialect, SettingError, Settings};
 use ncc_ir::passes::PASSES;
-use ncc_machines::reading::Side;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Translate, Verb};
 use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::{Failure, Job, Outcome};
 use crate::known::{self, Known};
-use crate::machines::pair::{Machines, agreed};
+use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::provenance::{map, why};
@@ -25,7 +23,7 @@ use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
-    arrow, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report, review, time,
+    arrow, batch, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report, review, time,
     translate,
 };
 
@@ -159,15 +157,10 @@ fn translated(
     known: &Known,
     err: &mut StandardStream,
 ) -> Result<Exit, Problem> {
-    let path = match args.files.as_slice() {
-        [one] => one.as_path(),
-        several => {
-            return Err(Problem::usage(
-                format!("{} files: one is translated at a time", several.len()),
-                "call ncc once for each of them",
-            ));
-        }
-    };
+    if batch::is_meant(args) {
+        return batch::run(args, arrow, known, err);
+    }
+    let path = args.files.first().map_or(Path::new("-"), PathBuf::as_path);
     let mut destination = match &args.output {
         Some(name) if arrow.is_some() => {
             return Err(Problem::usage(
@@ -178,25 +171,12 @@ fn translated(
         Some(name) if name != Path::new("-") => Destination::File(name.clone()),
         Some(_) | None => Destination::Stdout,
     };
-    let machines = {
+    let order = {
         // For a reader of JSON, the problem alone says where.
         let mut nowhere = Buffer::no_color();
         let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
-        Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, told)?
+        Order::find(args, known, told)?
     };
-    let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
-    let to = agreed(to, machines.to.as_deref(), "to")?;
-    let to = to.ok_or_else(|| Problem::usage("translate into what?", INTO_WHAT))?;
-    if args.from.is_none() && args.machine_from.is_none() {
-        return Err(Problem::usage(
-            "translate from what?",
-            "name a dialect: --from mach9; or have it recognised: --from auto; \
-             or name a machine: --machine-from MACHINE",
-        ));
-    }
-    let to = settings(machines.settings(Side::To, to), &args.to_option)?;
-    let named = args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
-    let named = agreed(named, machines.from.as_deref(), "from")?;
     destination.check()?;
     let mut source = files::open(path)?;
     match &destination {
@@ -217,36 +197,16 @@ fn translated(
     if let Some(map) = args.map.as_ref().filter(|map| args.report.as_ref() == Some(map)) {
         return Err(both(map, "report and map"));
     }
-    if args.annotate && !crate::provenance::annotate::can(to.dialect) {
-        return Err(Problem::usage(
-            format!("{} has no comments that could stand at the end of a line", to.dialect.id),
-            "leave --annotate out; --map FILE says where every line comes from",
-        ));
-    }
-    let from = match named {
+    let from = match order.named {
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.telling.quiet && args.format == Format::Human, known, err)?,
     };
-    let crlf = match args.eol.unwrap_or(machines.eol()) {
+    let crlf = match order.eol(args) {
         Eol::Lf => false,
         Eol::Crlf => true,
         Eol::Keep => source.is_crlf()?,
     };
-    let job = Job {
-        from: settings(machines.settings(Side::From, from), &args.from_option)?,
-        to,
-        layout: Layout { numbering: args.number.unwrap_or(machines.numbering()), crlf },
-        machines,
-        passes: args.pass.clone(),
-        fold: args.optimise.map(|level| level > 0),
-        verify: !args.no_verify,
-        head: !args.no_head,
-        start: args.start.unwrap_or_default(),
-        program_number: args.program_number,
-        source_name: source.name.clone(),
-        allow: args.allow.clone(),
-        deny: args.deny.clone(),
-    };
+    let job = order.job(args, from, &source.name, crlf)?;
     source.rewind()?;
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let asked = Asked { map: args.map.is_some(), annotate: args.annotate };
@@ -294,7 +254,16 @@ fn translated(
     })
 }
 
-fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn WriteColor) -> io::Result<()> {
+/// Tells of a translation on `err`.
+///
+/// # Errors
+/// Reading the source, or writing.
+pub(crate) fn tell(
+    args: &Translate,
+    about: &mut About,
+    outcome: &Outcome,
+    err: &mut dyn WriteColor,
+) -> io::Result<()> {
     let loudness = args.telling.loudness();
     match args.format {
         Format::Json => {
@@ -315,7 +284,15 @@ fn tell(args: &Translate, about: &mut About, outcome: &Outcome, err: &mut dyn Wr
 }
 
 /// If a refused text is clearly written in another dialect, says so.
-fn doubt_dialect(source: &mut Source, job: &Job, known: &Known, err: &mut dyn Write) -> io::Result<()> {
+///
+/// # Errors
+/// Reading the source, or writing.
+pub(crate) fn doubt_dialect(
+    source: &mut Source,
+    job: &Job,
+    known: &Known,
+    err: &mut dyn Write,
+) -> io::Result<()> {
     match guess(&mut source.file, known.all())? {
         Guess::Sure(other, reasons) if other.id != job.from.dialect.id => {
             let (from, to) = (&other.id, &job.to.dialect.id);

@@ -20,7 +20,7 @@ fn outputs_are_as_read() {
         for to in corpus::DIALECTS {
             let job = job(program.dialect, to, &program.file);
             let (outcome, text) = translate(&job, &program.text);
-            let extension = &builtin(to).expect("a dialect").extensions[0];
+            let extension = builtin(to).expect("a dialect").extensions[0].to_lowercase();
             let output = folder.join(format!("to.{to}.{extension}"));
             let what = format!("{}/{} to {to}", program.dialect, program.file);
             if outcome.release.is_ok() {

@@ -197,3 +197,28 @@ fn wrong_documents_are_seen() {
     document["more"] = json!(1);
     assert_eq!(faults("", &document).len(), 3);
 }
+
+/// The documents that stand with the tests of batches, which hold them against what is printed.
+#[test]
+fn documents_of_batches_are_as_their_schema_says() {
+    let folder = corpus::root().join("cli/tests/expected/batch");
+    let mut seen = 0;
+    for path in corpus::files(&folder) {
+        let text = fs::read_to_string(&path).expect("a text");
+        if !path.to_string_lossy().ends_with("-json.txt") {
+            continue;
+        }
+        let document = text.split_once("--- stdout\n").and_then(|(_, rest)| rest.split_once("--- stderr\n"));
+        let document: Value = serde_json::from_str(document.expect("a document").0).expect("JSON");
+        assert_eq!(faults_of(ncc::batch::SCHEMA, &document), [""; 0], "{}", path.display());
+        for (place, wrong) in
+            [("/version", json!(2)), ("/files/0/result", json!("fine")), ("/exit", json!(-1))]
+        {
+            let mut document = document.clone();
+            *document.pointer_mut(place).expect("it is there") = wrong;
+            assert_ne!(faults_of(ncc::batch::SCHEMA, &document), [""; 0], "{place}");
+        }
+        seen += 1;
+    }
+    assert!(seen >= 2, "{seen}");
+}

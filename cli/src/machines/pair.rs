@@ -156,22 +156,31 @@ impl Machines {
         ncc_machines::renaming(self.from.as_deref(), self.to.as_deref())
     }
 
+    /// Whether the shop names files after the numbers of programs.
+    pub(crate) fn names_by_number(&self) -> bool {
+        let emit = self.to.as_deref().map(|profile| &profile.schema.emit);
+        emit.and_then(|e| e.file_name.get()) == Some(FileName::ProgramNumber)
+    }
+
     /// The name of an output in a folder: after the source or the program's number, with the
     /// extension that the shop or the dialect has.
     pub(crate) fn file_name(&self, to: &Dialect, source: &str, number: Option<u32>) -> String {
-        let emit = self.to.as_deref().map(|profile| &profile.schema.emit);
-        let by_number = emit.and_then(|e| e.file_name.get()) == Some(FileName::ProgramNumber);
-        let stem = match number.filter(|_| by_number) {
+        match number.filter(|_| self.names_by_number()) {
             Some(number) => {
                 let letter = to.program.number.map(String::from).unwrap_or_default();
-                format!("{letter}{number:0digits$}", digits = to.program.number_digits)
+                let digits = to.program.number_digits;
+                self.with_extension(to, &format!("{letter}{number:0digits$}"))
             }
-            None if source == "-" => "program".to_owned(),
-            None => source.rsplit_once('.').map_or(source, |(stem, _)| stem).to_owned(),
-        };
+            None => self.with_extension(to, stem(source)),
+        }
+    }
+
+    /// The name of a file with the extension that the shop or the dialect has.
+    pub(crate) fn with_extension(&self, to: &Dialect, stem: &str) -> String {
+        let emit = self.to.as_deref().map(|profile| &profile.schema.emit);
         let usual = to.extensions.first().map(String::as_str).unwrap_or_default();
         let extension = emit.and_then(|e| e.extension.value.as_deref()).unwrap_or(usual);
-        let name = if extension.is_empty() { stem } else { format!("{stem}.{extension}") };
+        let name = if extension.is_empty() { stem.to_owned() } else { format!("{stem}.{extension}") };
         match emit.and_then(|e| e.upper_case.get()) {
             Some(true) => name.to_uppercase(),
             Some(false) | None => name,
@@ -201,6 +210,16 @@ impl Machines {
     }
 }
 
+/// The name of a source without its extension. A name that begins with a point has none; its output is
+/// not hidden, though.
+fn stem(source: &str) -> &str {
+    let shown = source.trim_start_matches('.');
+    match shown.rsplit_once('.').map_or(shown, |(stem, _)| stem) {
+        "" | "-" => "program",
+        stem => stem,
+    }
+}
+
 /// The dialect of a side, by its name or by its profile.
 ///
 /// # Errors
@@ -217,5 +236,27 @@ pub(crate) fn agreed(
         )),
         (Some(dialect), _) => Ok(Some(dialect)),
         (None, profile) => Ok(profile.map(|profile| profile.dialect)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_output_has_a_name() {
+        let names = [
+            ("part.cn", "part.nc"),
+            (".nc", "nc.nc"),
+            (".part.cn", "part.nc"),
+            ("part", "part.nc"),
+            ("a.b.cn", "a.b.nc"),
+            ("-", "program.nc"),
+            ("..", "program.nc"),
+        ];
+        let fanuc = ncc_dialects::builtin("fanuc").unwrap();
+        for (source, output) in names {
+            assert_eq!(Machines::default().file_name(fanuc, source, Some(7)), output, "{source}");
+        }
     }
 }

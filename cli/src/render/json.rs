@@ -6,7 +6,7 @@ use codespan_reporting::diagnostic::Severity;
 use ncc_ir::diag::Diagnostic;
 use serde::Serialize;
 
-use super::human::{Loudness, choose};
+use super::human::{Loudness, choose, told};
 use super::{About, Place, Told};
 
 /// A diagnostic, as it stands in a line of `--format json` and in a report.
@@ -108,6 +108,16 @@ pub fn print(
         line(out, &LeftOut { left_out: format!("NC{code:04}"), count })?;
     }
     Ok(())
+}
+
+/// The diagnostics that are told at this loudness.
+///
+/// # Errors
+/// Reading the source.
+pub fn entries(about: &mut About, diagnostics: &[Diagnostic], loudness: Loudness) -> io::Result<Vec<Entry>> {
+    let shown = told(about.job, diagnostics, loudness);
+    let lines = about.lines(shown.iter().copied())?;
+    shown.into_iter().map(|diagnostic| Ok(Entry::from(about.tell(&lines, diagnostic)?))).collect()
 }
 
 /// One object in a line.

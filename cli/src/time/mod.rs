@@ -13,7 +13,7 @@ mod columns;
 mod csv;
 pub(crate) mod drive;
 mod duration;
-mod grid;
+pub(crate) mod grid;
 mod parameters;
 mod payload;
 mod progress;

@@ -1,6 +1,7 @@
 //! The command line as a process: usage, exit codes, what goes to which stream, which files appear.
 
 mod arrow;
+mod batch;
 mod check;
 mod dialects;
 mod diff;

@@ -37,7 +37,7 @@ fn wrong_usage_is_exit_2_and_writes_nothing() {
         (&["Mach9", "to", "fanuc", "good.cn"], "did you mean mach9?"),
         (&["mach9", "to", "auto", "good.cn"], "no dialect `auto`"),
         (&["mach9:nonsense", "good.cn"], "no dialect `nonsense`"),
-        (&["mach9", "to", "fanuc", "good.cn", "bad.cn"], "one is translated at a time"),
+        (&["mach9", "to", "fanuc", "good.cn", "bad.cn"], "name a folder for the outputs"),
         (&["mach9", "to", "fanuc", "good.cn", "--eol", "cr"], "--eol"),
         (&["mach9", "to", "fanuc", "good.cn", "--number", "10"], "FIRST:STEP"),
         (&["mach9", "to", "fanuc", "good.cn", "--allow", "everything"], "--allow"),

@@ -1,0 +1,290 @@
+//! `ncc translate` of several programs: files and folders in, a folder out.
+//!
+//! Each program is translated as it is by itself, on one of several threads; reports come in the order
+//! of the files. A program that comes to nothing does not stop the others. No output has the name of a
+//! source or of another program's output: such programs are refused before anything is written.
+//!
+//! Refused here: programs of several files, which are not put together; one report, map or program on
+//! stdin for several.
+
+mod gather;
+mod names;
+mod pool;
+mod progress;
+mod split;
+mod summary;
+mod work;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Instant;
+
+use codespan_reporting::term::termcolor::{Buffer, WriteColor};
+use ncc_dialects::Dialect;
+
+pub use self::summary::SCHEMA;
+
+use self::gather::{Gathered, gather, identity};
+use self::names::Claim;
+use self::progress::Progress;
+use self::summary::{Result as Came, Row, Summary};
+use self::work::{Bench, Done, Held, Store, make_folder};
+use crate::args::{Format, Translate};
+use crate::files;
+use crate::known::Known;
+use crate::order::Order;
+use crate::problem::{Exit, Problem, as_write};
+
+/// Whether a command is about several programs, or about a folder of outputs.
+pub(crate) fn is_meant(args: &Translate) -> bool {
+    let ends_as_folder = |path: &PathBuf| {
+        path.as_os_str().to_string_lossy().ends_with(std::path::is_separator) && !path.exists()
+    };
+    args.files.len() > 1
+        || args.files.iter().any(|file| file.is_dir())
+        || args.split
+        || args.output.as_ref().is_some_and(ends_as_folder)
+}
+
+/// Translates several programs.
+///
+/// # Errors
+/// Nothing can be translated: the command makes no sense, or the folder of the outputs cannot be made.
+pub(crate) fn run(
+    args: &Translate,
+    arrow: Option<&'static Dialect>,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<Exit, Problem> {
+    let begun = Instant::now();
+    let folder = output_folder(args)?;
+    let order = {
+        // For a reader of JSON, the problem alone says where.
+        let mut nowhere = Buffer::no_color();
+        let told: &mut dyn WriteColor = if args.format == Format::Json { &mut nowhere } else { err };
+        Order::find(args, known, told)?
+    };
+    let to = order.to.dialect;
+    if args.split && !split::can(to) {
+        return Err(Problem::usage(
+            format!("subprograms of {} are no files of their own", to.id),
+            "leave --split out",
+        ));
+    }
+    let extensions = extensions(&order, known);
+    let found = gather(&args.files, &extensions, &folder);
+    if found.items.is_empty() {
+        return Err(nothing(&found, &extensions));
+    }
+    let split = !args.no_split && (args.split || split::usual(to));
+    // Names that follow from what is in the programs are known at the end.
+    let late = split || order.machines.names_by_number();
+    let sources: BTreeSet<_> = found.items.iter().filter_map(|item| identity(&item.path)).collect();
+    let shown = |at: usize| found.items[at].path.display().to_string();
+    let refused = match late {
+        true => BTreeMap::new(),
+        false => names::refused(&planned(&order, &found, &folder), &sources, &shown),
+    };
+    make_folder(&folder.join("x"))?;
+    let store = match late {
+        true => Some(Mutex::new(Store::new().map_err(|e| Problem::file("write", "an anonymous file", &e))?)),
+        false => None,
+    };
+    let bench = Bench {
+        args,
+        order: &order,
+        known,
+        items: &found.items,
+        folder: &folder,
+        refused: &refused,
+        split,
+        store: store.as_ref(),
+        colour: err.supports_color(),
+    };
+    let (mut rows, held) = translate_all(&bench, err)?;
+    for (path, problem) in &found.unread {
+        let mut row = Row::new(path.display().to_string());
+        row.fails(Came::NotTranslated, problem);
+        rows.push(row);
+        say(args, problem, err);
+    }
+    if let Some(store) = &store {
+        let mut store = store.lock().unwrap_or_else(PoisonError::into_inner);
+        write_all(args, &mut store, &held, &sources, &mut rows, err);
+    }
+    let summary = Summary {
+        to: &to.id,
+        folder: folder.display().to_string(),
+        exit: rows.iter().fold(Exit::Done, |exit, row| exit.and(row.exit)),
+        rows,
+        skipped: &found.skipped,
+        seconds: (begun.elapsed().as_secs_f64() * 1e3).round() / 1e3,
+        verbose: args.telling.verbose,
+        letter: to.program.number,
+    };
+    tell(args, arrow, &summary, err)?;
+    Ok(summary.exit)
+}
+
+/// The folder of the outputs.
+fn output_folder(args: &Translate) -> Result<PathBuf, Problem> {
+    let several = match args.files.as_slice() {
+        [one] => one.display().to_string(),
+        files => format!("{} files and folders", files.len()),
+    };
+    let folder = match &args.output {
+        Some(name) if name != Path::new("-") => name.clone(),
+        Some(_) | None => {
+            return Err(Problem::usage(
+                format!("{several}: where to?"),
+                "name a folder for the outputs: -o FOLDER",
+            ));
+        }
+    };
+    if folder.exists() && !folder.is_dir() {
+        return Err(Problem::usage(
+            format!("{several}: {} is a file", folder.display()),
+            "the outputs go to a folder",
+        ));
+    }
+    if args.files.iter().any(|file| file == Path::new("-")) && args.files.len() > 1 {
+        return Err(Problem::usage("`-` among several programs", "translate stdin by itself"));
+    }
+    if args.map.is_some() {
+        return Err(Problem::usage("--map is about one program", "translate it by itself"));
+    }
+    if args.report.is_some() {
+        return Err(Problem::usage(
+            "--report is about one program",
+            "--format json prints one document about all of them",
+        ));
+    }
+    Ok(folder)
+}
+
+/// Extensions of files in folders that are taken, in small letters.
+fn extensions(order: &Order, known: &Known) -> BTreeSet<String> {
+    let of = |dialect: &Dialect| dialect.extensions.iter().map(|e| e.to_lowercase()).collect::<Vec<_>>();
+    match order.named {
+        Some(dialect) => of(dialect).into_iter().collect(),
+        None => known.all().into_iter().flat_map(of).collect(),
+    }
+}
+
+fn nothing(found: &Gathered, extensions: &BTreeSet<String>) -> Problem {
+    if let Some((_, problem)) = found.unread.first() {
+        return problem.clone();
+    }
+    let extensions: Vec<String> = extensions.iter().map(|e| format!(".{e}")).collect();
+    let left = found.skipped.len();
+    Problem::usage(
+        format!("there is no program in the folders; {left} left out"),
+        format!("of a folder, {} are taken; name other files themselves", extensions.join(", ")),
+    )
+}
+
+/// Names of the outputs, where they follow from those of the sources.
+fn planned(order: &Order, found: &Gathered, folder: &Path) -> Vec<Claim> {
+    let name = |path: &Path| path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let claim = |(by, item): (usize, &gather::Item)| {
+        let name = order.machines.file_name(order.to.dialect, &name(&item.path), None);
+        Claim { by, path: folder.join(&item.below).join(name), shared: None }
+    };
+    found.items.iter().enumerate().map(claim).collect()
+}
+
+/// Translates all, and tells of each in its turn.
+fn translate_all(bench: &Bench, err: &mut dyn WriteColor) -> Result<(Vec<Row>, Vec<Vec<Held>>), Problem> {
+    let args = bench.args;
+    let jobs = match args.jobs {
+        Some(jobs) => usize::from(jobs),
+        None => thread::available_parallelism().map_or(1, usize::from),
+    };
+    let progress = Progress::new(bench.items.len(), !args.telling.quiet && args.format == Format::Human);
+    let (mut rows, mut held) = (Vec::new(), Vec::new());
+    let took = |_: usize, done: Done| {
+        progress.aside(|| {
+            // If nobody can read it, there is nobody to tell.
+            let _ = as_write(err).write_all(done.told.as_slice());
+        });
+        rows.push(done.row);
+        held.push(done.held);
+    };
+    pool::each(bench.items.len(), jobs, |at| bench.one(at), || progress.ended(), took)
+        .map_err(|e| Problem::file("start", "a thread", &e))?;
+    Ok((rows, held))
+}
+
+/// Writes what has waited for its name.
+fn write_all(
+    args: &Translate,
+    store: &mut Store,
+    held: &[Vec<Held>],
+    sources: &BTreeSet<gather::Identity>,
+    rows: &mut [Row],
+    err: &mut dyn WriteColor,
+) {
+    let claims: Vec<Claim> = held
+        .iter()
+        .enumerate()
+        .flat_map(|(by, all)| all.iter().map(move |held| (by, held)))
+        .map(|(by, held)| Claim { by, path: held.path.clone(), shared: held.shared })
+        .collect();
+    let refused = names::refused(&claims, sources, &|by| rows[by].file.clone());
+    for (at, held) in held.iter().enumerate() {
+        // The main program comes last: what it calls is there when it is.
+        let written = match refused.get(&at) {
+            Some(problem) => Err(problem.clone()),
+            None => held.iter().rev().try_for_each(|held| write_one(store, held)),
+        };
+        if let (Err(problem), Some(row)) = (written, rows.get_mut(at)) {
+            row.fails(Came::NotWritten, &problem);
+            say(args, &problem, err);
+        }
+    }
+}
+
+fn write_one(store: &mut Store, held: &Held) -> Result<(), Problem> {
+    make_folder(&held.path)?;
+    files::to_file(&held.path, &mut |out| store.get(&held.range, out))
+}
+
+/// Tells a problem that does not stop the rest. The summary and the exit code say it too.
+fn say(args: &Translate, problem: &Problem, err: &mut dyn WriteColor) {
+    if args.format == Format::Human {
+        let _ = problem.print(err, false);
+    }
+}
+
+fn tell(
+    args: &Translate,
+    arrow: Option<&'static Dialect>,
+    summary: &Summary,
+    err: &mut dyn WriteColor,
+) -> Result<(), Problem> {
+    let mut text = Vec::new();
+    let done: io::Result<()> = match args.format {
+        Format::Json => summary.json(&mut text),
+        Format::Human if args.telling.quiet => Ok(()),
+        Format::Human => text.write_all(summary.table().as_bytes()),
+    };
+    done.map_err(|e| Problem::file("write", "the summary", &e))?;
+    match arrow {
+        None => files::to_stdout(&mut |out| out.write_all(&text)),
+        Some(to) => {
+            // stdout is a file that the shell has made.
+            let _ = as_write(err).write_all(&text);
+            if args.format == Format::Human && !args.telling.quiet {
+                let _ = writeln!(
+                    err,
+                    "The empty file `{0}` of this folder is the shell's, which took `> {0}` for a redirection.",
+                    to.id
+                );
+            }
+            Ok(())
+        }
+    }
+}

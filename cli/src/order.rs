@@ -1,0 +1,100 @@
+//! What a translation is ordered to be, as far as that is the same for every program of a command: the
+//! machines of both sides, the target with its options, and the source's dialect where it is named.
+//!
+//! Not here: the programs themselves, and where their translations go (`run`, `batch`).
+
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_backends::Layout;
+use ncc_dialects::{Dialect, Settings};
+use ncc_machines::reading::Side;
+
+use crate::args::{Eol, Translate};
+use crate::job::Job;
+use crate::known::Known;
+use crate::machines::pair::{Machines, agreed};
+use crate::problem::Problem;
+use crate::provenance::annotate;
+use crate::run::{INTO_WHAT, settings};
+
+/// What all programs of a command have in common.
+#[derive(Debug)]
+pub(crate) struct Order {
+    /// The machines of both sides.
+    pub(crate) machines: Machines,
+    /// The target, with what was chosen of it.
+    pub(crate) to: Settings,
+    /// The dialect of the sources; `None` if it is to be recognised.
+    pub(crate) named: Option<&'static Dialect>,
+    /// The same with what was chosen of it. What a profile states is put in once: it is kept for good.
+    from: Option<Settings>,
+}
+
+impl Order {
+    /// What the command line says. Faults of profiles are told.
+    ///
+    /// # Errors
+    /// A dialect or a machine is missing, unknown or at odds with the other; an option is none of the
+    /// dialect's.
+    pub(crate) fn find(args: &Translate, known: &Known, told: &mut dyn WriteColor) -> Result<Order, Problem> {
+        let machines = Machines::find(args.machine_from.as_deref(), args.machine_to.as_deref(), known, told)?;
+        let to = args.to.as_deref().map(|id| known.dialect(id)).transpose()?;
+        let to = agreed(to, machines.to.as_deref(), "to")?;
+        let to = to.ok_or_else(|| Problem::usage("translate into what?", INTO_WHAT))?;
+        if args.from.is_none() && args.machine_from.is_none() {
+            return Err(Problem::usage(
+                "translate from what?",
+                "name a dialect: --from mach9; or have it recognised: --from auto; \
+                 or name a machine: --machine-from MACHINE",
+            ));
+        }
+        let to = settings(machines.settings(Side::To, to), &args.to_option)?;
+        if args.annotate && !annotate::can(to.dialect) {
+            return Err(Problem::usage(
+                format!("{} has no comments that could stand at the end of a line", to.dialect.id),
+                "leave --annotate out; --map FILE says where every line comes from",
+            ));
+        }
+        let named =
+            args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
+        let named = agreed(named, machines.from.as_deref(), "from")?;
+        let from = named.map(|from| settings(machines.settings(Side::From, from), &args.from_option));
+        Ok(Order { from: from.transpose()?, machines, to, named })
+    }
+
+    /// Line ends, as far as they are the same for all.
+    pub(crate) fn eol(&self, args: &Translate) -> Eol {
+        args.eol.unwrap_or(self.machines.eol())
+    }
+
+    /// The translation of one program in the dialect that is named or was recognised.
+    ///
+    /// # Errors
+    /// An option is none of the recognised dialect's.
+    pub(crate) fn job(
+        &self,
+        args: &Translate,
+        from: &'static Dialect,
+        source_name: &str,
+        crlf: bool,
+    ) -> Result<Job, Problem> {
+        let from = match &self.from {
+            Some(settings) => settings.clone(),
+            None => settings(self.machines.settings(Side::From, from), &args.from_option)?,
+        };
+        Ok(Job {
+            from,
+            to: self.to.clone(),
+            layout: Layout { numbering: args.number.unwrap_or(self.machines.numbering()), crlf },
+            machines: self.machines.clone(),
+            passes: args.pass.clone(),
+            fold: args.optimise.map(|level| level > 0),
+            verify: !args.no_verify,
+            head: !args.no_head,
+            start: args.start.unwrap_or_default(),
+            program_number: args.program_number,
+            source_name: source_name.to_owned(),
+            allow: args.allow.clone(),
+            deny: args.deny.clone(),
+        })
+    }
+}
