@@ -18,6 +18,7 @@ mod machines;
 mod pages;
 mod pairs;
 mod passes;
+mod provenance;
 mod schema;
 mod second;
 mod shared;

@@ -171,6 +171,11 @@ impl<W: Write> Lines<'_, '_, W> {
         let (number, start) = (self.number, self.start);
         write!(self.out, "{comma}\n{{\"line\":{number},\"start\":{start},\"from\":\"{from}\"")?;
         self.places()?;
+        if !self.row.also.is_empty() {
+            write!(self.out, ",\"also\":[")?;
+            let places = by_line(&self.row.also, &self.source);
+            self.list(&places)?;
+        }
         if !self.row.stretches.is_empty() {
             write!(self.out, ",\"events\":[")?;
             for (at, stretch) in self.row.stretches.iter().enumerate() {
@@ -208,16 +213,10 @@ impl<W: Write> Lines<'_, '_, W> {
         }
         write!(self.out, ",\"source\":[")?;
         let places = by_line(&self.row.spans, &self.source);
-        for (at, span) in places.iter().enumerate() {
-            let (line, column) = (self.source.line_of(span.start), self.source.column_of(span.start)?);
-            let comma = if at > 0 { "," } else { "" };
-            let (start, end) = (span.start, span.end);
-            write!(
-                self.out,
-                "{comma}{{\"start\":{start},\"end\":{end},\"line\":{line},\"column\":{column}}}"
-            )?;
-            if fresh {
-                let text = self.source.stretch(start, end.min(start.saturating_add(LONGEST)))?;
+        if fresh {
+            for span in &places {
+                let end = span.end.min(span.start.saturating_add(LONGEST));
+                let text = self.source.stretch(span.start, end)?;
                 for line in text.split(|b| *b == b'\n') {
                     self.from.line(line, &mut self.found);
                     for row in &self.found {
@@ -227,9 +226,21 @@ impl<W: Write> Lines<'_, '_, W> {
                     }
                 }
             }
-        }
-        if fresh {
             self.last = Some(self.row.spans.clone());
+        }
+        self.list(&places)
+    }
+
+    /// Places, and the end of their list.
+    fn list(&mut self, places: &[Span]) -> io::Result<()> {
+        for (at, span) in places.iter().enumerate() {
+            let (line, column) = (self.source.line_of(span.start), self.source.column_of(span.start)?);
+            let comma = if at > 0 { "," } else { "" };
+            let (start, end) = (span.start, span.end);
+            write!(
+                self.out,
+                "{comma}{{\"start\":{start},\"end\":{end},\"line\":{line},\"column\":{column}}}"
+            )?;
         }
         write!(self.out, "]")
     }

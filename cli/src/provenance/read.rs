@@ -29,6 +29,8 @@ pub(crate) struct Entry {
     #[serde(default)]
     pub(crate) source: Vec<Place>,
     #[serde(default)]
+    pub(crate) also: Vec<Place>,
+    #[serde(default)]
     pub(crate) events: Vec<Events>,
     #[serde(default)]
     pub(crate) more_events: u64,

@@ -13,6 +13,8 @@ const IN_MEMORY: usize = 1 << 20;
 pub(crate) struct Row {
     /// Places of the source.
     pub(crate) spans: Vec<Span>,
+    /// Places of events that it makes besides: holes that it makes in one with others.
+    pub(crate) also: Vec<Span>,
     /// Its events.
     pub(crate) stretches: Vec<Stretch>,
     /// Events beyond those.
@@ -45,10 +47,12 @@ impl Spool {
     /// The anonymous file cannot be written.
     pub(crate) fn push(&mut self, row: &Row) -> io::Result<()> {
         let out = &mut self.file;
-        number(out, row.spans.len() as u64)?;
-        for span in &row.spans {
-            number(out, u64::from(span.start))?;
-            number(out, u64::from(span.end))?;
+        for spans in [&row.spans, &row.also] {
+            number(out, spans.len() as u64)?;
+            for span in spans {
+                number(out, u64::from(span.start))?;
+                number(out, u64::from(span.end))?;
+            }
         }
         number(out, row.stretches.len() as u64)?;
         for stretch in &row.stretches {
@@ -83,9 +87,11 @@ impl Rows {
     /// There is none, or the anonymous file cannot be read.
     pub(crate) fn next(&mut self, row: &mut Row) -> io::Result<()> {
         let from = &mut self.file;
-        row.spans.clear();
-        for _ in 0..read(from)? {
-            row.spans.push(Span::new(read(from)? as u32, read(from)? as u32));
+        for spans in [&mut row.spans, &mut row.also] {
+            spans.clear();
+            for _ in 0..read(from)? {
+                spans.push(Span::new(read(from)? as u32, read(from)? as u32));
+            }
         }
         row.stretches.clear();
         for _ in 0..read(from)? {
@@ -133,6 +139,7 @@ mod tests {
     fn rows_come_back_as_they_were() {
         let row = Row {
             spans: vec![Span::new(0, 7), Span::new(300, u32::MAX)],
+            also: vec![Span::new(9, 10)],
             stretches: vec![Stretch { first: 127, last: 1 << 40, kinds: 0x800 }],
             more: u64::MAX,
         };

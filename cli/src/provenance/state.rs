@@ -79,6 +79,15 @@ pub(crate) fn around(settings: &Settings, text: &mut dyn Read, line: (u32, u32))
     procedures.append(&mut batch.procedures);
     let program = Program { procedures, ..Program::default() };
     walk.occurs |= program.procedures.iter().any(|p| walk.is_in(&p.body));
+    for (at, procedure) in program.procedures.iter().enumerate() {
+        let flow = walk.flow_in(&procedure.body);
+        // What holds where a subprogram begins is its caller's, whichever that is.
+        walk.failed |= at > 0 && matches!(flow, Some([None, _]));
+        walk.flow = walk.flow.or(flow);
+    }
+    if walk.failed {
+        return Ok(Around::Unknown);
+    }
     let mut runner = Runner::new(&program);
     loop {
         match runner.next(&walk.exec) {
@@ -106,6 +115,9 @@ struct Walk<'s> {
     after: Option<State>,
     /// Whether a statement stands in the line.
     occurs: bool,
+    /// The statements beside those of the line, where it only says where the program goes on: such a
+    /// line is not executed by itself.
+    flow: Option<[Option<Span>; 2]>,
     failed: bool,
 }
 
@@ -120,6 +132,7 @@ impl Walk<'_> {
             before: None,
             after: None,
             occurs: false,
+            flow: None,
             failed: false,
         }
     }
@@ -145,8 +158,50 @@ impl Walk<'_> {
         })
     }
 
+    /// The neighbours of the line's statements in their body, if all of them only say where to go on.
+    fn flow_in(&self, body: &[Stmt]) -> Option<[Option<Span>; 2]> {
+        let flows = |stmt: &&Stmt| matches!(stmt.op, Op::Call(_) | Op::Return | Op::RepeatBlocks(_));
+        let first = body.iter().position(|stmt| self.holds(stmt.span))?;
+        let count = body[first..].iter().take_while(|stmt| self.holds(stmt.span)).count();
+        let (before, rest) = body.split_at(first);
+        let (own, after) = rest.split_at(count);
+        own.iter().all(|stmt| flows(&stmt)).then(|| {
+            let before = before.iter().rev().find(|stmt| !flows(stmt));
+            let after = after.iter().find(|stmt| !flows(stmt));
+            [before.map(|stmt| stmt.span), after.map(|stmt| stmt.span)]
+        })
+    }
+
+    /// Executes a statement beside which the line may stand; `None` if nothing further is to be found.
+    fn beside(&mut self, stmt: &Stmt, [last, next]: [Option<Span>; 2]) -> Option<()> {
+        if self.before.is_some() && next == Some(stmt.span) {
+            self.after = Some(self.state());
+            return None;
+        }
+        if self.before.is_none() && last.is_none() {
+            self.before = Some(self.state());
+        }
+        if self.exec.step(stmt, &mut Vec::new()).is_err() {
+            self.failed = true;
+            return None;
+        }
+        self.tracker.step(stmt);
+        if self.before.is_none() && last == Some(stmt.span) {
+            self.before = Some(self.state());
+            // The end of a subprogram changes nothing.
+            if next.is_none() {
+                self.after = self.before.clone();
+                return None;
+            }
+        }
+        Some(())
+    }
+
     /// Executes a statement; `None` if nothing further is to be found.
     fn step(&mut self, stmt: &Stmt) -> Option<()> {
+        if let Some(beside) = self.flow {
+            return self.beside(stmt, beside);
+        }
         let here = self.holds(stmt.span);
         if !here && self.after.is_some() {
             return None;

@@ -35,6 +35,9 @@ impl Asked {
 /// are counted.
 const MOST_STRETCHES: usize = 1000;
 
+/// Places of events of one line that are kept, besides those that it was written from.
+const MOST_PLACES: usize = 1000;
+
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
 pub const KINDS: [&str; 12] = [
     "STRAIGHT_TRAVERSE",
@@ -77,6 +80,8 @@ pub(crate) struct Trace {
     waiting: VecDeque<Waiting>,
     /// Places of lines that are not there yet: a text may be handed over with its last line open.
     origins: VecDeque<Origin>,
+    /// Events of the line that is still open: their number, kind and place in the source.
+    ahead: Vec<(u64, u16, Span)>,
     /// Where the open line begins in the body.
     open: u64,
     /// Bytes of the body so far.
@@ -99,6 +104,7 @@ impl Trace {
         Trace {
             waiting: VecDeque::new(),
             origins: VecDeque::new(),
+            ahead: Vec::new(),
             open: 0,
             bytes: 0,
             events: 0,
@@ -116,14 +122,22 @@ impl Trace {
         for end in memchr::memchr_iter(b'\n', text) {
             let start = self.open;
             self.open = self.bytes + end as u64 + 1;
-            let spans = self.next_origin();
-            self.waiting.push_back(Waiting { start, row: Row { spans, ..Row::default() } });
+            self.line(start);
         }
         self.bytes += text.len() as u64;
         match u32::try_from(self.bytes) {
             Ok(_) => Ok(()),
             Err(_) => Err(io::Error::new(io::ErrorKind::FileTooLarge, "no map of an output of over 4 GiB")),
         }
+    }
+
+    /// A line is there, with the events that came before its end.
+    fn line(&mut self, start: u64) {
+        let mut row = Row { spans: self.next_origin(), ..Row::default() };
+        for (event, kind, place) in self.ahead.drain(..) {
+            row.add(event, kind, place);
+        }
+        self.waiting.push_back(Waiting { start, row });
     }
 
     fn next_origin(&mut self) -> Vec<Span> {
@@ -146,9 +160,13 @@ impl Trace {
                 continue;
             }
             let at = u64::from(pair.target.start);
+            if at >= self.open {
+                self.ahead.push((event, 1 << kind, pair.source));
+                continue;
+            }
             let after = self.waiting.partition_point(|line| line.start <= at);
             let Some(line) = after.checked_sub(1).and_then(|at| self.waiting.get_mut(at)) else { continue };
-            line.row.add(event, 1 << kind);
+            line.row.add(event, 1 << kind, pair.source);
         }
     }
 
@@ -177,8 +195,7 @@ impl Trace {
     pub(crate) fn finish(mut self) -> io::Result<Recorded> {
         if self.open < self.bytes {
             // A last line without its end.
-            let spans = self.next_origin();
-            self.waiting.push_back(Waiting { start: self.open, row: Row { spans, ..Row::default() } });
+            self.line(self.open);
         }
         for line in std::mem::take(&mut self.waiting) {
             self.spool.push(&line.row)?;
@@ -188,7 +205,16 @@ impl Trace {
 }
 
 impl Row {
-    fn add(&mut self, event: u64, kind: u16) {
+    fn add(&mut self, event: u64, kind: u16, place: Span) {
+        let own = |span: &Span| span.start < place.end && place.start < span.end;
+        if place.start < place.end
+            && !self.spans.iter().any(own)
+            && self.also.last() != Some(&place)
+            && self.also.len() < MOST_PLACES
+            && !self.also.contains(&place)
+        {
+            self.also.push(place);
+        }
         let full = self.stretches.len() >= MOST_STRETCHES;
         match self.stretches.last_mut() {
             Some(stretch) if stretch.last + 1 == event && self.more == 0 => {

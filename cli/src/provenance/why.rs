@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::args::Why;
 use super::find::{Found, find};
-use super::read::{Events, Row, Side};
+use super::read::{Events, Place, Row, Side};
 use super::state::{Around, State, WHAT, around};
 use super::text::Text;
 use crate::args::Format;
@@ -35,6 +35,8 @@ struct Answer {
     text: String,
     from: String,
     source: Vec<Origin>,
+    /// Further places of which the line makes the events.
+    also: Vec<Origin>,
     events: Vec<Events>,
     more_events: u64,
     rows: Vec<Row>,
@@ -68,6 +70,27 @@ struct Modal {
 /// # Errors
 /// Wrong usage, a file that cannot be read, or one that is not what the map was made of.
 pub fn run(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+    let answer = ask(args, known, err)?;
+    files::to_stdout(&mut |out| match args.format {
+        Format::Json => {
+            serde_json::to_writer_pretty(&mut *out, &answer)?;
+            out.write_all(b"\n")
+        }
+        Format::Human => tell(out, &answer),
+    })?;
+    Ok(Exit::Done)
+}
+
+/// Answers as JSON, without printing it.
+///
+/// # Errors
+/// As of [`run`].
+pub fn document(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<serde_json::Value, Problem> {
+    let answer = ask(args, known, err)?;
+    serde_json::to_value(&answer).map_err(|e| Problem::file("write", "the answer", &e.into()))
+}
+
+fn ask(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Answer, Problem> {
     let (path, line) = &args.place;
     let mut output = files::open(path)?;
     let wrong = |e: io::Error| Problem::file("read", &path.display().to_string(), &e);
@@ -85,15 +108,7 @@ pub fn run(args: &Why, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, 
         return Err(Problem::usage(format!("{} {counted}, there is no line {line}", path.display()), help));
     }
     let found = find(args, &mut output, &sha256, known, err)?;
-    let answer = answer(args, found, &mut output, known)?;
-    files::to_stdout(&mut |out| match args.format {
-        Format::Json => {
-            serde_json::to_writer_pretty(&mut *out, &answer)?;
-            out.write_all(b"\n")
-        }
-        Format::Human => tell(out, &answer),
-    })?;
-    Ok(Exit::Done)
+    answer(args, found, &mut output, known)
 }
 
 fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -> Result<Answer, Problem> {
@@ -114,18 +129,8 @@ fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -
     let shown = source.shown.clone();
     let no_source = |e: io::Error| Problem::file("read", &shown, &e);
     let mut from = Text::new(&mut source.file).map_err(no_source)?;
-    let mut origins = Vec::new();
-    for place in &entry.source {
-        let line = from.line_of(place.start);
-        origins.push(Origin {
-            file: shown.clone(),
-            line,
-            column: from.column_of(place.start).map_err(no_source)?,
-            start: place.start,
-            end: place.end,
-            text: from.shown(line, LONGEST).map_err(no_source)?.unwrap_or_default(),
-        });
-    }
+    let origins = places(&entry.source, &mut from, &shown).map_err(no_source)?;
+    let also = places(&entry.also, &mut from, &shown).map_err(no_source)?;
     let rows = |all: &[Row], some: &[usize]| some.iter().filter_map(|at| all.get(*at).cloned()).collect();
     let around = match own_settings(&document.output, known) {
         Some(settings) => {
@@ -146,6 +151,7 @@ fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -
         text,
         from: entry.from,
         source: origins,
+        also,
         events: entry.events,
         more_events: entry.more_events,
         rows: rows(&document.rows, &entry.rows),
@@ -153,6 +159,22 @@ fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -
         state,
         modal,
     })
+}
+
+fn places(places: &[Place], source: &mut Text, shown: &str) -> io::Result<Vec<Origin>> {
+    let mut origins = Vec::with_capacity(places.len());
+    for place in places {
+        let line = source.line_of(place.start);
+        origins.push(Origin {
+            file: shown.to_owned(),
+            line,
+            column: source.column_of(place.start)?,
+            start: place.start,
+            end: place.end,
+            text: source.shown(line, LONGEST)?.unwrap_or_default(),
+        });
+    }
+    Ok(origins)
 }
 
 /// The output's dialect with the options that it was written with; `None` if there is no such dialect here.
@@ -181,6 +203,9 @@ fn tell(out: &mut dyn Write, answer: &Answer) -> io::Result<()> {
     }
     for origin in &answer.source {
         writeln!(out, "  from {}:{}: {}", origin.file, origin.line, origin.text.trim())?;
+    }
+    for origin in &answer.also {
+        writeln!(out, "   and {}:{}: {}", origin.file, origin.line, origin.text.trim())?;
     }
     for events in &answer.events {
         let which = match events.first == events.last {

@@ -10,6 +10,7 @@ mod fmt;
 mod machines;
 mod messages;
 mod plot;
+mod provenance;
 mod readme;
 mod time;
 mod usage;
