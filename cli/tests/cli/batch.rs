@@ -261,9 +261,11 @@ fn what_makes_no_sense_is_exit_2_and_writes_nothing() {
 #[test]
 fn a_folder_that_cannot_be_made_is_exit_4() {
     let folder = shop();
-    ncc(folder.path(), &["mach9", "to", "fanuc", "mixed", "-o", "good.cn/out"])
+    let done = ncc(folder.path(), &["mach9", "to", "fanuc", "mixed", "-o", "good.cn/out"])
         .exits(4)
-        .says("cannot make the folder good.cn/out");
+        .says("cannot make the folder good.cn/out: there is a file of that name");
+    assert_eq!(done.out, "");
+    assert!(!done.err.contains("mixed"), "it was found out late: {}", done.err);
 }
 
 /// A program that is stopped leaves whole files or none.
@@ -321,7 +323,8 @@ fn the_readme_shows_the_summary() {
     let arguments = ["fanuc", "to", "siemens", "corpus/fanuc/calls.nc", "corpus/fanuc/tools.nc", "-o", "out"];
     let arguments: Vec<&str> =
         arguments.iter().map(|a| if *a == "out" { folder.to_str().unwrap() } else { a }).collect();
-    let told = ncc(&root, &arguments).exits(1).out.replace(folder.to_str().unwrap(), "/tmp/out");
+    let told = ncc(&root, &arguments).exits(1).out.replace(folder.to_str().unwrap(), "out");
+    // The columns are as wide as the folder's name.
     let squeezed = |text: &str| -> Vec<String> {
         masked(text).lines().map(|line| line.split_whitespace().collect::<Vec<_>>().join(" ")).collect()
     };
