@@ -29,3 +29,4 @@ mod tables;
 mod text_forms;
 mod tidy;
 mod time;
+mod verify;
