@@ -117,8 +117,9 @@ mod tests {
         let from = [1000, 0, 0, 0, 0, 0];
         let (least, most) = extent(&arc(Turn::Counterclockwise, false, [0, -1000]), &from);
         assert_eq!((least[..2].to_vec(), most[..2].to_vec()), (vec![-1000, -1000], vec![1000, 1000]));
+        // The start belongs to the move before.
         let (least, most) = extent(&arc(Turn::Clockwise, false, [0, -1000]), &from);
-        assert_eq!((least[..2].to_vec(), most[..2].to_vec()), (vec![0, -1000], vec![1000, 0]));
+        assert_eq!((least[..2].to_vec(), most[..2].to_vec()), (vec![0, -1000], vec![1000, -1000]));
         let (least, most) = extent(&arc(Turn::Clockwise, true, [1000, 0]), &from);
         assert_eq!((least[..2].to_vec(), most[..2].to_vec()), (vec![-1000, -1000], vec![1000, 1000]));
     }

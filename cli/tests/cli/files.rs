@@ -111,7 +111,7 @@ fn files_that_cannot_be_used_are_exit_4() {
     ncc(folder, &["mach9", "to", "fanuc", "none.cn"])
         .exits(4)
         .says("cannot read none.cn: there is no such file");
-    ncc(folder, &["mach9", "to", "fanuc", "."]).exits(4).says("it is a folder");
+    ncc(folder, &["mach9", "to", "fanuc", "."]).exits(2).says("name a folder for the outputs");
     ncc(folder, &["mach9", "to", "fanuc", "good.cn", "-o", "no/part.nc"])
         .exits(4)
         .says("cannot write no/part.nc");

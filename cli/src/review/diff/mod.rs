@@ -4,8 +4,8 @@
 //! what was found into words, which `plain`, `json` and `html` lay out; `git` is the driver for git. Not
 //! here: what counts as the same, and how streams come together again (ncc-review).
 
-pub mod git;
 mod edits;
+pub mod git;
 mod html;
 mod json;
 pub(crate) mod motion;
