@@ -20,7 +20,7 @@ use crate::guess::{Guess, guess};
 use crate::job::Job;
 use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
-use crate::problem::Problem;
+use crate::problem::{Exit, Problem};
 use crate::run::{recognise, settings};
 use crate::sugar::is_name;
 
@@ -98,7 +98,20 @@ pub(crate) fn open(
     second.settle(first.named, say, known, err)?;
     // The second side may have been recognised after the first was in doubt.
     first.settle(second.named, say, known, err)?;
+    for side in [&mut first, &mut second] {
+        if side.named.is_none() {
+            side.named = Some(recognise(&mut side.source, say, known, err).map_err(uncomparable)?);
+        }
+    }
     Ok([first.finish(a, say, known, err)?, second.finish(b, say, known, err)?])
+}
+
+/// A dialect that cannot be told is no wrong usage here: the programs could not be compared.
+fn uncomparable(problem: Problem) -> Problem {
+    match problem.exit {
+        Exit::File => problem,
+        _ => Problem { exit: Exit::NotCompared, ..problem },
+    }
 }
 
 /// Opens one program.

@@ -177,7 +177,7 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
     let asked = |operand, machine, options| Asked { operand, from, machine, options, start: args.start };
     let a = asked(a, args.a_machine.as_deref(), args.a_option.as_slice());
     let b = asked(b, args.b_machine.as_deref(), args.b_option.as_slice());
-    let mut sides = open([&a, &b], args.telling.verbose, known, err).map_err(uncomparable)?;
+    let mut sides = open([&a, &b], args.telling.verbose, known, err)?;
     if let Some(page) = &args.html {
         sides[0].source.guard(Some(page))?;
         sides[1].source.guard(Some(page))?;
@@ -230,12 +230,6 @@ pub fn document(texts: [(Settings, &[u8]); 2], by_text: Option<&[Ignore]>) -> io
     let mut out = Vec::new();
     json::write(&mut out, &account)?;
     Ok(Some(String::from_utf8_lossy(&out).into_owned()))
-}
-
-/// A dialect that cannot be told is no wrong usage here: the programs could not be compared.
-fn uncomparable(problem: Problem) -> Problem {
-    let unsure = problem.exit == Exit::Usage && problem.message.contains("cannot be told");
-    if unsure { Problem { exit: Exit::NotCompared, ..problem } } else { problem }
 }
 
 fn show(args: &Diff, account: &Account, texts: Option<&Texts>) -> Result<(), Problem> {
