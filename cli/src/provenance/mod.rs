@@ -1,10 +1,10 @@
 //! Where emitted text comes from: `translate --map`, `translate --annotate` and `ncc why`.
 //!
-//! While a translation streams by, [`trace::Trace`] joins what the writer tells of its lines (which
+//! While a translation streams by, `trace` joins what the writer tells of its lines (which
 //! places of the source they were written from) with what the verification found (which pair of events
 //! stands in which line), and keeps a few numbers for each line in an anonymous file. [`map`] makes the
-//! document of them, once the output is whole; [`read`] reads one line of such a document back; [`why`]
-//! tells about one line. [`annotate`] puts the source beside the text before it is verified.
+//! document of them, once the output is whole; `read` reads one line of such a document back; [`why`]
+//! tells about one line. `annotate` puts the source beside the text before it is verified.
 //!
 //! Nothing here changes what a program does, and nothing is guessed: a line of which the source does not
 //! say anything has no place in it.

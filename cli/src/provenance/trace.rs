@@ -1,7 +1,7 @@
 //! The record of a translation: for every line of the output's body the places of the source that it was
 //! written from and the events that the verification has paired in it.
 //!
-//! A line waits until nothing further can happen in it, then goes to the [`Spool`]. In a program that
+//! A line waits until nothing further can happen in it, then goes to the `Spool`. In a program that
 //! streams, that is as soon as its events have met those of the source; one that is kept whole waits for
 //! the end of its execution.
 
