@@ -1,4 +1,4 @@
-//! The result as one JSON document; its form is in `check.schema.json` beside this file.
+//! The result as one JSON document; its form is in `cli/schema/check.schema.json`.
 
 use std::io::{self, Write};
 
@@ -11,7 +11,7 @@ use crate::render::json::JsonPlace;
 const VERSION: u32 = 1;
 
 /// The JSON Schema of the document.
-pub const SCHEMA: &str = include_str!("check.schema.json");
+pub const SCHEMA: &str = include_str!("../../schema/check.schema.json");
 
 #[derive(Serialize)]
 struct Document {

@@ -1,4 +1,4 @@
-//! The account as JSON; its schema is `docs/diff.schema.json`.
+//! The account as JSON; its schema is `cli/schema/diff.schema.json`.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use super::tell::{Account, Difference};
 const VERSION: u32 = 1;
 
 /// Its JSON Schema.
-pub const SCHEMA: &str = include_str!("../../../../docs/diff.schema.json");
+pub const SCHEMA: &str = include_str!("../../../schema/diff.schema.json");
 
 #[derive(Serialize)]
 struct Document<'a> {

@@ -1,5 +1,5 @@
 //! What a comparison has come to, as it is written down: the document of `--format json`, and the
-//! certificate, which are one form. `docs/certificate.md` describes it, `docs/certificate.schema.json`
+//! certificate, which are one form. `docs/certificate.md` describes it, `cli/schema/certificate.schema.json`
 //! is its JSON Schema.
 //!
 //! The number in `version` changes when a field changes its meaning, comes or goes: a certificate is
@@ -31,7 +31,7 @@ pub const VERSION: u32 = 1;
 /// What the document is.
 pub const KIND: &str = "ncc verification of a pair of programs";
 /// Its JSON Schema.
-pub const SCHEMA: &str = include_str!("../../../../docs/certificate.schema.json");
+pub const SCHEMA: &str = include_str!("../../../schema/certificate.schema.json");
 
 /// Differences that are listed; further ones are counted.
 const MOST: usize = 100;
