@@ -192,7 +192,15 @@ pub struct Findings {
 impl Findings {
     /// Adds a finding; gives its index if it is kept.
     pub fn add(&mut self, finding: Finding) -> Option<usize> {
-        let rule = finding.what.rule();
+        if self.count(finding.what.rule(), 1) > MOST {
+            return None;
+        }
+        self.kept.push(finding);
+        Some(self.kept.len() - 1)
+    }
+
+    /// Counts findings of a rule, kept or not; gives how many there are by now.
+    pub fn count(&mut self, rule: Rule, n: usize) -> usize {
         let place = match self.counts.iter().position(|(of, _)| *of == rule) {
             Some(place) => place,
             None => {
@@ -201,12 +209,8 @@ impl Findings {
             }
         };
         let count = &mut self.counts[place].1;
-        *count += 1;
-        if *count > MOST {
-            return None;
-        }
-        self.kept.push(finding);
-        Some(self.kept.len() - 1)
+        *count += n;
+        *count
     }
 
     /// A finding that was kept.

@@ -295,6 +295,20 @@ fn wrong_logs_are_seen() {
 }
 
 /// Rules by id: allowed ones are counted, denied ones are errors.
+/// Of a thousand findings of a rule each has its place; the others are counted.
+#[test]
+fn findings_beyond_the_most_are_counted() {
+    let lines: String = (0..1200).map(|n| format!("X{}\n", 10 + n % 2)).collect();
+    let text = format!("%\nO1\nG21 G17 G90 G94 G54\nG0 X1.5\n{lines}M30\n%\n");
+    let (_, out) = check_text("--from fanuc", &text, "json");
+    let document: Value = serde_json::from_str(&out).expect("JSON");
+    let program = &document["programs"][0];
+    let findings = program["findings"].as_array().expect("a list");
+    assert_eq!(findings.iter().filter(|f| f["id"] == "NC0808").count(), 1000);
+    let counted: u64 = ["errors", "warnings", "notes"].iter().filter_map(|k| program[k].as_u64()).sum();
+    assert_eq!(counted, findings.len() as u64 + 200, "{counted}");
+}
+
 #[test]
 fn rules_are_allowed_and_denied_by_id() {
     let text = "%\nO1\nG21 G17 G90 G94 G54\nS100 M3\nG0 X1.\nM30\n%\n";

@@ -2,19 +2,28 @@
 //! have points. Where no number has one, that is the programmer's habit, and nothing is found; nor of a
 //! number that would be absurd with a point (a metre and more, a feed of 20 m/min and more).
 
+use std::collections::VecDeque;
+
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use crate::finding::What;
+use crate::rule::Rule;
 use crate::watch::Checker;
 
-/// So many numbers are kept.
+/// So many numbers are kept; further ones are counted.
 const MOST: usize = 1000;
+
+/// A block may be looked at twice: so many numbers back, the same one is looked for.
+const BACK: usize = 16;
 
 /// Numbers that were met.
 #[derive(Debug, Default)]
 pub(crate) struct Met {
     bare: Vec<(Span, Num, Num)>,
+    /// How many more there are.
+    more: usize,
+    last: VecDeque<Span>,
     /// Whether any length has a point.
     pub(crate) pointed: bool,
 }
@@ -32,9 +41,16 @@ pub(crate) fn note(checker: &mut Checker, span: Span, read: Num, with_point: Num
         return;
     }
     let met = &mut checker.points;
-    // A block may be looked at twice.
-    if met.bare.len() < MOST && met.bare.iter().rev().take(16).all(|(other, ..)| *other != span) {
-        met.bare.push((span, read, with_point));
+    if met.last.contains(&span) {
+        return;
+    }
+    if met.last.len() == BACK {
+        met.last.pop_front();
+    }
+    met.last.push_back(span);
+    match met.bare.len() < MOST {
+        true => met.bare.push((span, read, with_point)),
+        false => met.more += 1,
     }
 }
 
@@ -44,5 +60,6 @@ pub(crate) fn finish(checker: &mut Checker) {
         for (span, read, with_point) in std::mem::take(&mut checker.points.bare) {
             checker.find(What::BareNumber { read, with_point }, span);
         }
+        checker.findings.count(Rule::BareNumber, checker.points.more);
     }
 }
