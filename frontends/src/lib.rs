@@ -11,7 +11,7 @@ pub mod pieces;
 pub mod siemens;
 pub mod word;
 
-use ncc_dialects::{Family, Settings};
+use ncc_dialects::{Dialect, Family, Settings};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::Num;
@@ -125,9 +125,9 @@ pub enum Word<'t> {
 
 /// Tells the words of one line by the dialect's own lexer, comments left out, whether they make sense or
 /// not. It stops at what is no word. Lines of families without a dictionary of words have none.
-pub fn words(settings: &Settings, line: &[u8], found: &mut dyn FnMut(Word)) {
-    match settings.dialect.family {
-        Family::Word => word::words::words(settings, line, found),
+pub fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
+    match dialect.family {
+        Family::Word => word::words::words(dialect, line, found),
         Family::Sinumerik => siemens::words::words(line, found),
         Family::Canon | Family::Ir => {}
     }

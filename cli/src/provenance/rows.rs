@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use ncc_dialects::{Dialect, PatternRow, Settings};
+use ncc_dialects::{Dialect, PatternRow};
 use ncc_frontends::Word;
 use serde::Serialize;
 
@@ -30,7 +30,7 @@ pub(crate) struct RowOf {
 /// The rows of one dictionary that were met, each with a number.
 #[derive(Debug)]
 pub(crate) struct Met {
-    settings: Settings,
+    dialect: &'static Dialect,
     /// Number of the first row.
     rows: Vec<RowOf>,
     numbers: HashMap<(Table, &'static str), usize>,
@@ -47,8 +47,8 @@ enum Table {
 }
 
 impl Met {
-    pub(crate) fn new(settings: &Settings) -> Met {
-        Met { settings: settings.clone(), rows: Vec::new(), numbers: HashMap::new() }
+    pub(crate) fn new(dialect: &'static Dialect) -> Met {
+        Met { dialect, rows: Vec::new(), numbers: HashMap::new() }
     }
 
     /// The rows met so far.
@@ -59,9 +59,8 @@ impl Met {
     /// Numbers of the rows behind a line, each once, in the order of the line.
     pub(crate) fn line(&mut self, line: &[u8], found: &mut Vec<usize>) {
         found.clear();
-        let settings = self.settings.clone();
-        let dialect = settings.dialect;
-        ncc_frontends::words(&settings, line, &mut |word| self.word(dialect, word, found));
+        let dialect = self.dialect;
+        ncc_frontends::words(dialect, line, &mut |word| self.word(dialect, word, found));
     }
 
     fn word(&mut self, d: &'static Dialect, word: Word, found: &mut Vec<usize>) {

@@ -1,20 +1,20 @@
 //! Words of a line, by its tokens alone: for somebody who asks which rows of the dictionary stand behind
 //! it. Not here: what the words mean together.
 
-use ncc_dialects::Settings;
+use ncc_dialects::Dialect;
 
 use super::block::Digits;
 use super::token::{Signs, Token, Tokens};
 use crate::Word;
 
 /// Tells the words of a line, with or without its end.
-pub(crate) fn words(settings: &Settings, line: &[u8], found: &mut dyn FnMut(Word)) {
+pub(crate) fn words(dialect: &Dialect, line: &[u8], found: &mut dyn FnMut(Word)) {
     let line = line.trim_ascii_end();
-    let frame = settings.dialect.program.frame.as_bytes();
+    let frame = dialect.program.frame.as_bytes();
     if !frame.is_empty() && line.starts_with(frame) {
         return;
     }
-    let signs = Signs::new(settings.dialect);
+    let signs = Signs::new(dialect);
     let mut comments = Vec::new();
     let mut from = 0;
     loop {
