@@ -110,6 +110,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         refuse: None,
         group: String::new(),
         words: String::new(),
+        blocks: String::new(),
         feed_stays: false,
         dwell: Vec::new(),
         write: true,

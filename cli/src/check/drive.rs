@@ -278,13 +278,16 @@ impl<'d> Drive<'d> {
             Fault::MacroLanguage { what } => {
                 self.jumps |= what.as_bytes().windows(4).any(|word| word.eq_ignore_ascii_case(b"GOTO"));
             }
-            Fault::NotSupported { code, .. } => match row(self.dialect, code) {
-                Some(row) if row.means == Some(Meaning::Return) => self.subprogram = true,
-                Some(row) if switches_compensation(self.dialect, row) => {
-                    self.modes.push_back((span.start, LeftOn::Compensation));
+            Fault::NotSupported { code, .. } => {
+                if let Some(row) = row(self.dialect, code) {
+                    // It may lead to a block: a return of a main program too.
+                    self.jumps |= !row.blocks.is_empty();
+                    self.subprogram |= row.means == Some(Meaning::Return);
+                    if switches_compensation(self.dialect, row) {
+                        self.modes.push_back((span.start, LeftOn::Compensation));
+                    }
                 }
-                Some(_) | None => {}
-            },
+            }
             _ => {}
         }
         // Some are told by several steps.

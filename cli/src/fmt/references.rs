@@ -3,11 +3,8 @@
 //! What names a block:
 //! - `GOTO n` of the macro languages (Fanuc 16i/18i-PB, custom macro), `GOTO`, `GOTOF`, `GOTOB`, `GOTOC`
 //!   with a number, `CALL BLOCK n TO m` (Sinumerik, Job Planning);
-//! - `M97 P`: a block of the same program (Haas VF manual, p. 217);
-//! - `M99 P`: the block at which the *caller* goes on (Fanuc 16i/18i-PB; in a main program a block of its
-//!   own);
-//! - `P` and `Q` of G70 to G73 where these are the turning cycles, first and last block of a contour
-//!   (Fanuc 0i-T), which they are not in a dictionary that has another meaning for the code.
+//! - the `blocks` of a code's row in the dictionary: `M97 P`, a block of the same program, and of a return
+//!   the block at which the *caller* goes on, `M99 P`.
 //!
 //! What may name one and cannot be known to, is a [`Doubt`]. Not here: new numbers (`number`).
 
@@ -251,46 +248,44 @@ impl Look<'_> {
         computed: &BTreeSet<u8>,
     ) {
         let word = |letter: u8| words.iter().find(|w| w.letter == letter).copied();
-        let has = |letter: u8, value: u32| words.iter().any(|w| w.letter == letter && w.value == value);
+        let row = |w: &Whole| {
+            let tenths = w.value.checked_mul(10)?;
+            matches!(w.letter, b'G' | b'M').then(|| self.dialect.code_row(w.letter, tenths)).flatten()
+        };
         let mut known = Vec::new();
-        if has(b'M', 97) || has(b'M', 99) {
-            match word(b'P') {
-                Some(p) => {
-                    self.reference(base, p.value, p.start, p.end, has(b'M', 99));
+        for row in words.iter().filter_map(row) {
+            for letter in row.blocks.bytes() {
+                match word(letter) {
+                    Some(w) => {
+                        let of_callers = row.means == Some(Meaning::Return);
+                        self.reference(base, w.value, w.start, w.end, of_callers);
+                        known.push(w.start);
+                    }
+                    None if computed.contains(&letter) => {
+                        self.doubt(format!("a block named by a variable ({})", letter as char), None);
+                    }
+                    None => {}
+                }
+            }
+            if row.means == Some(Meaning::Call) {
+                let packed = 10u32.checked_pow(self.dialect.program.packed_call_digits).filter(|p| *p > 1);
+                // As the front-end takes them: the first letter names the program.
+                if let Some(p) = row.words.bytes().next().and_then(word) {
+                    let program = packed.filter(|by| p.value >= *by).map_or(p.value, |by| p.value % by);
+                    self.found.calls.insert((self.scope, program));
                     known.push(p.start);
                 }
-                None if computed.contains(&b'P') => self.doubt("a block named by a variable (P)", None),
-                None => {}
-            }
-        }
-        if has(b'M', 98) {
-            let packed = 10u32.checked_pow(self.dialect.program.packed_call_digits).filter(|p| *p > 1);
-            if let Some(p) = word(b'P') {
-                let program = packed.filter(|packed| p.value >= *packed).map_or(p.value, |by| p.value % by);
-                self.found.calls.insert((self.scope, program));
-                known.push(p.start);
-            }
-            for letter in [b'Q', b'H'] {
-                if word(letter).is_some() || computed.contains(&letter) {
-                    let what = format!("a call with {}: it may name a block", letter as char);
-                    self.doubt(what, None);
+                for letter in [b'Q', b'H'] {
+                    if word(letter).is_some() || computed.contains(&letter) {
+                        let what = format!("a call with {}: it may name a block", letter as char);
+                        self.doubt(what, None);
+                    }
                 }
-            }
-        }
-        let translated = |letter: u8, value: u32| {
-            let row = value.checked_mul(10).and_then(|tenths| self.dialect.code_row(letter, tenths));
-            row.and_then(|row| row.means)
-        };
-        let turning = (70..=73).any(|code| has(b'G', code) && translated(b'G', code).is_none());
-        if let (true, Some(p), Some(q)) = (turning, word(b'P'), word(b'Q')) {
-            for w in [p, q] {
-                self.reference(base, w.value, w.start, w.end, false);
-                known.push(w.start);
             }
         }
         let is_code = |w: &&Whole| matches!(w.letter, b'G' | b'M');
         let means: Vec<Option<Meaning>> =
-            words.iter().filter(is_code).map(|w| translated(w.letter, w.value)).collect();
+            words.iter().filter(is_code).map(|w| row(w).and_then(|row| row.means)).collect();
         let strange = means.iter().any(Option::is_none)
             || pieces.windows(2).any(|p| p[0].text(line) == b"G" && p[1].text(line).contains(&b'.'));
         let uses_letters = means

@@ -43,9 +43,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
         }
-        Fault::NotSupported { .. } => {
-            own("write this place another way, or finish it by hand after translating the rest")
-        }
+        Fault::NotSupported { .. } => own("write this place another way, or see to it by hand"),
         Fault::CodesExclude { .. } => {
             own("put them into blocks of their own, in the order in which they shall act")
         }
@@ -82,7 +80,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }
         Fault::FramesExpanded | Fault::CycleFolded { .. } | Fault::PatternFolded { .. } => Vec::new(),
-        Fault::MacroLanguage { .. } => own("write the values out, or translate the blocks around it alone"),
+        Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
         Fault::NoToolSelected => own("say the tool number in this block or before it"),
         Fault::NoFeed => own("say the feed in this block or before it"),
         Fault::NoCycle => own("call the cycle up before the positions"),
@@ -91,9 +89,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NotExecuted { what } if what.starts_with("an unknown ") => own(
             "state it: `--from-option NAME=VALUE` where the dialect has such an option, or [options] of a machine profile",
         ),
-        Fault::NotExecuted { .. } => {
-            own("`--to ir` keeps it; for another target it has to be written another way")
-        }
+        Fault::NotExecuted { .. } => own("write it another way; a translation with `--to ir` keeps it"),
 
         Fault::AssumedMode { fact, .. } => match fact {
             ModeName::WorkOffset | ModeName::LengthOffset | ModeName::OriginShift => {

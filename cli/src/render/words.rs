@@ -72,8 +72,8 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             (format!("{} is unknown", quoted(code)), format!("not in the dictionary of {from}"))
         }
         Fault::NotSupported { code, name } => (
-            format!("{} is not translated: {}", quoted(code), plain(name)),
-            "this version does not translate it".into(),
+            format!("{} is not supported: {}", quoted(code), plain(name)),
+            "this version does nothing with it".into(),
         ),
         Fault::CodesExclude { first, second } => (
             format!("{} and {} in one block", quoted(first), quoted(second)),
@@ -131,7 +131,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             (format!("two programs are called {}", quoted(name)), "the second one".into())
         }
         Fault::MacroLanguage { what } => (
-            format!("the macro language is not translated: {}", plain(what)),
+            format!("the macro language is not supported: {}", plain(what)),
             "a variable, an expression or a jump".into(),
         ),
         Fault::NoToolSelected => {

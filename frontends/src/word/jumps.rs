@@ -1,10 +1,12 @@
-//! Jumps and block numbers of a text, by its tokens alone: for somebody who looks where a program that
-//! is not translated can go. Not here: what any block means.
+//! Jumps and block numbers of a text, by its tokens and the `blocks` of its codes alone: for somebody who
+//! looks where a program that is not translated can go. Not here: what any block means otherwise.
 
-use ncc_dialects::Settings;
+use ncc_dialects::{Dialect, Meaning, Settings};
 use ncc_ir::source::Span;
 
+use super::block::Digits;
 use super::token::{Signs, Token, Tokens};
+use super::words::tenths;
 use crate::Flow;
 
 /// Tells every program, block and jump of a text.
@@ -25,7 +27,7 @@ pub(crate) fn jumps(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow
         loop {
             comments.clear();
             let mut tokens = Tokens::new(line, from, signs, &mut comments);
-            block(&mut tokens, start, program.number, program.number_also, signs.number, found);
+            block(&mut tokens, start, settings.dialect, signs.number, found);
             match tokens.next_block() {
                 Some(at) => from = at,
                 None => break,
@@ -34,20 +36,16 @@ pub(crate) fn jumps(settings: &Settings, text: &[u8], found: &mut dyn FnMut(Flow
     }
 }
 
-fn block(
-    tokens: &mut Tokens,
-    base: u32,
-    number: Option<char>,
-    number_also: Option<char>,
-    block_number: u8,
-    found: &mut dyn FnMut(Flow),
-) {
+fn block(tokens: &mut Tokens, base: u32, dialect: &Dialect, block_number: u8, found: &mut dyn FnMut(Flow)) {
+    let (number, number_also) = (dialect.program.number, dialect.program.number_also);
     let span = |start: usize, end: usize| Span::new(base + start as u32, base + end as u32);
     let mut whole: Option<Span> = None;
     let mut label: Option<String> = None;
     let (mut says, mut decides, mut frames, mut skipped) = (false, false, false, false);
     let mut before: Option<Token> = None;
     let mut jumps = Vec::new();
+    let mut words = Vec::new();
+    let mut begun = 0;
     for token in tokens.by_ref() {
         // A block that is none says something all the same.
         let Ok((l, token, r)) = token else {
@@ -56,6 +54,11 @@ fn block(
         };
         let at = whole.map_or(span(l, r), |whole| Span::new(whole.start, base + r as u32));
         let first = whole.replace(at).is_none();
+        if let Some(Token::Letter(letter)) = before {
+            let digits = if let Token::Number(digits) = token { Some(digits) } else { None };
+            words.push((letter, digits, span(begun, r)));
+        }
+        begun = l;
         match (before, token) {
             (Some(Token::Letter(letter)), Token::Number(digits))
                 if letter == block_number && label.is_none() =>
@@ -81,5 +84,25 @@ fn block(
     found(Flow::Block { label, at, says, frames });
     for (to, at) in jumps {
         found(Flow::Jump { to, at, always: !decides && !skipped, quiet: false });
+    }
+    named(dialect, block_number, &words, found);
+}
+
+/// Blocks that words of a code name. Nothing says that the control goes there for good; where a return goes
+/// is the caller's matter.
+fn named(
+    dialect: &Dialect,
+    block_number: u8,
+    words: &[(u8, Option<Digits>, Span)],
+    found: &mut dyn FnMut(Flow),
+) {
+    for (letter, digits, _) in words.iter().filter(|word| matches!(word.0, b'G' | b'M')) {
+        let row = digits.and_then(tenths).and_then(|tenths| dialect.code_row(*letter, tenths));
+        let Some(row) = row else { continue };
+        let quiet = row.means == Some(Meaning::Return);
+        for (_, digits, at) in words.iter().filter(|word| row.blocks.as_bytes().contains(&word.0)) {
+            let to = digits.map(|digits| format!("{}{}", block_number as char, digits.mantissa));
+            found(Flow::Jump { to, at: *at, always: false, quiet });
+        }
     }
 }

@@ -107,6 +107,9 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         if row.means == Some(Meaning::Pattern) && dialect.pattern_row(&row.code).is_none() {
             return Err(wrong("has no [[pattern]] row"));
         }
+        if !row.blocks.bytes().all(|letter| letter.is_ascii_uppercase()) {
+            return Err(wrong("has `blocks` that are no letters"));
+        }
         if row.source.is_empty() {
             return Err(wrong("names no source"));
         }

@@ -416,6 +416,10 @@ pub struct CodeRow {
     /// Letters of its own words, besides those that stand for themselves.
     #[serde(default)]
     pub words: String,
+    /// Letters whose numbers name blocks: of the program that it stands in, and in a return of the one
+    /// that has called it. They may be words of a code that is refused.
+    #[serde(default)]
+    pub blocks: String,
     /// Whether a code of units leaves the feed in the machine's basic system.
     #[serde(default)]
     pub feed_stays: bool,

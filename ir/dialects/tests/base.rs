@@ -114,6 +114,11 @@ fn faults_point_into_the_file() {
         ("[block]\nblank = true\n", (5, 1), "unknown field `blank`"),
         ("[[code]]\ncode = \"M24\"\nsource = \"s\"\n", (5, 8), "row M24: needs either `means` or `refuse`"),
         (
+            "[[code]]\ncode = \"M97\"\nrefuse = \"a call\"\nblocks = \"p\"\nsource = \"s\"\n",
+            (5, 8),
+            "row M97: has `blocks` that are no letters",
+        ),
+        (
             "[[code]]\ncode = \"M8\"\nsource = \"s\"\n[[code]]\ncode = \"M08\"\n",
             (8, 8),
             "row M08: stands twice",
