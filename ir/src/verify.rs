@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::canon::{AXES, Axis, same_point};
+use crate::canon::{AXES, Axis, Turn, same_point};
 use crate::exec::{Event, Kind, State};
 use crate::expr::Expr;
 use crate::num::{Nanos, POW10};
@@ -133,6 +133,40 @@ struct Measured {
     farthest: Option<Deviation>,
     /// Whether more than half a unit of the last digit was met.
     beyond: bool,
+    /// What the target's own digits resolve, where the comparison is coarser.
+    own: Option<Resolution>,
+    /// Whether more than half a unit of the target's own last digit was met.
+    coarse: bool,
+}
+
+/// What of a turn an arc goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    /// Less than a quarter.
+    Little,
+    /// More than three quarters, and not all of it.
+    Nearly,
+    /// Something between; or all of it; or no arc.
+    Other,
+}
+
+/// What of a turn an event goes that starts there.
+fn part(event: &Event, start: &[Nanos; AXES]) -> Part {
+    let Kind::Arc { plane, turn, full: false, centre } = &event.kind else { return Part::Other };
+    let (first, second, _) = plane.axes();
+    let from_centre = |p: &[Nanos; AXES]| {
+        [(first, centre[0]), (second, centre[1])]
+            .map(|(axis, c)| i128::from(p[axis as usize]) - i128::from(c))
+    };
+    let ([a, b], [c, d]) = (from_centre(start), from_centre(&event.end));
+    // Twice the triangle's area, positive where the end lies counterclockwise of the start.
+    let area = if *turn == Turn::Counterclockwise { a * d - b * c } else { b * c - a * d };
+    match area.signum() {
+        _ if a * c + b * d <= 0 => Part::Other,
+        1 => Part::Little,
+        -1 => Part::Nearly,
+        _ => Part::Other,
+    }
 }
 
 /// A comparison in progress.
@@ -140,6 +174,8 @@ struct Measured {
 pub struct Comparison {
     resolution: Resolution,
     half: [Nanos; 2],
+    /// Whether everything is compared as what stands in inches is.
+    as_inches: bool,
     source_at: [Nanos; AXES],
     target_at: [Nanos; AXES],
     /// What the source calls the target's tools, where that may be another number.
@@ -161,6 +197,7 @@ impl Comparison {
         Comparison {
             resolution,
             half,
+            as_inches: false,
             source_at: start,
             target_at: start,
             tools: None,
@@ -196,6 +233,22 @@ impl Comparison {
         self.measured.get_or_insert_default();
     }
 
+    /// Notes too whether anything is found equal that is further apart than half a unit of the target's
+    /// own last digit, which is what a translation is held to.
+    pub fn measure_by(&mut self, own: Resolution) {
+        self.measured.get_or_insert_default().own = Some(own);
+    }
+
+    /// Whether that was met.
+    pub fn coarse(&self) -> bool {
+        self.measured.is_some_and(|measured| measured.coarse)
+    }
+
+    /// From now on everything is compared as what stands in inches is: the source has inches.
+    pub fn as_inches(&mut self) {
+        self.as_inches = true;
+    }
+
     /// The largest deviation met, and whether any was more than half a unit of the last digit; nothing
     /// unless it is measured, and where all places are the same.
     pub fn deviation(&self) -> Option<(Deviation, bool)> {
@@ -205,22 +258,40 @@ impl Comparison {
     /// Notes how far apart the ends, and the centres of arcs, of two events are that were found equal.
     #[cold]
     fn note(&mut self, a: &Event, b: &Event, ends: [&[Nanos; AXES]; 2]) {
-        let half = self.half[usize::from(b.inch)];
+        let half = self.half[usize::from(b.inch || self.as_inches)];
         let Some(measured) = &mut self.measured else { return };
-        let mut note = |axis: Axis, x: Nanos, y: Nanos, half: Nanos| {
+        let own = measured.own.map_or(half, |own| own.lengths(b.inch));
+        let mut note = |axis: Axis, x: Nanos, y: Nanos, [half, own]: [Nanos; 2]| {
             let by = Nanos::try_from(x.abs_diff(y)).unwrap_or(Nanos::MAX);
             measured.beyond |= by > half;
+            measured.coarse |= by > own;
             if by > measured.farthest.map_or(0, |farthest| farthest.by) {
                 measured.farthest = Some(Deviation { by, axis, source: a.span, target: b.span });
             }
         };
         for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
-            note(axis, ends[0][axis as usize], ends[1][axis as usize], half);
+            note(axis, ends[0][axis as usize], ends[1][axis as usize], [half, own]);
         }
         if let (Kind::Arc { plane, centre, .. }, Kind::Arc { centre: other, .. }) = (&a.kind, &b.kind) {
             let (first, second, _) = plane.axes();
-            note(first, centre[0], other[0], half * 3 / 2);
-            note(second, centre[1], other[1], half * 3 / 2);
+            let most = [half, own].map(|half| half * 3 / 2);
+            note(first, centre[0], other[0], most);
+            note(second, centre[1], other[1], most);
+        }
+        let Some(own) = measured.own else { return };
+        let mut angles = Axis::ALL.into_iter().filter(|axis| axis.is_rotary());
+        let degree = Resolution::half(own.degree, false) as u64;
+        measured.coarse |=
+            angles.any(|axis| ends[0][axis as usize].abs_diff(ends[1][axis as usize]) > degree);
+    }
+
+    /// Notes whether feeds and seconds of two events that were found equal are the same to the target's
+    /// own last digit.
+    fn note_values(&mut self, a: &Event, b: &Event) {
+        let Some(Measured { own: Some(own), coarse, .. }) = &mut self.measured else { return };
+        *coarse |= a.rate.abs_diff(b.rate) > own.feeds(b.inch) as u64;
+        if let (Kind::Dwell(x), Kind::Dwell(y)) = (&a.kind, &b.kind) {
+            *coarse |= x.abs_diff(*y) > Resolution::half(own.second, false) as u64;
         }
     }
 
@@ -276,6 +347,7 @@ impl Comparison {
                         self.events += 1;
                         if self.measured.is_some() {
                             self.note(a, b, [&a.end, &b.end]);
+                            self.note_values(a, b);
                         }
                         if let Some(pairs) = &mut self.pairs {
                             pairs.push(Pair { kind: a.kind.clone(), source: a.span, target: b.span });
@@ -327,6 +399,15 @@ impl Comparison {
         matches!(event.kind, Kind::Traverse | Kind::Feed) && self.end(&event.end, other, event.inch).is_none()
     }
 
+    /// Whether one of two arcs is nearly nothing and the other nearly a whole circle: their ends and
+    /// centres may be as good as the same.
+    fn other_way_round(&self, a: &Event, b: &Event) -> bool {
+        matches!(
+            (part(a, &self.source_at), part(b, &self.target_at)),
+            (Part::Little, Part::Nearly) | (Part::Nearly, Part::Little)
+        )
+    }
+
     /// The axis in which two points differ.
     #[inline]
     fn end(&self, a: &[Nanos; AXES], b: &[Nanos; AXES], inch: bool) -> Option<Axis> {
@@ -338,7 +419,7 @@ impl Comparison {
             let half = if axis.is_rotary() {
                 Resolution::half(self.resolution.degree, false)
             } else {
-                self.half[usize::from(inch)].max(self.within)
+                self.half[usize::from(inch || self.as_inches)].max(self.within)
             };
             off > half as u64
         })
@@ -355,8 +436,8 @@ impl Comparison {
             ) => {
                 // The centre follows from the rounded start and a rounded word, so it may be off by
                 // up to one and a half times what an end point may.
-                let half = (self.half[usize::from(b.inch)] * 3 / 2).max(self.within);
-                let same = plane == p2 && turn == t2 && full == f2;
+                let half = (self.half[usize::from(b.inch || self.as_inches)] * 3 / 2).max(self.within);
+                let same = plane == p2 && turn == t2 && full == f2 && !self.other_way_round(a, b);
                 if !same || !near(centre[0], c2[0], half) || !near(centre[1], c2[1], half) {
                     return Some(Aspect::Arc);
                 }
@@ -372,7 +453,7 @@ impl Comparison {
         if let Some(axis) = self.end(&a.end, &b.end, b.inch) {
             return Some(Aspect::End(axis));
         }
-        if a.rate != b.rate && !near(a.rate, b.rate, self.resolution.feeds(b.inch)) {
+        if a.rate != b.rate && !near(a.rate, b.rate, self.resolution.feeds(b.inch || self.as_inches)) {
             return Some(Aspect::Feed);
         }
         (!self.same_state(&a.state, &b.state)).then_some(Aspect::State)

@@ -60,7 +60,11 @@ impl World {
             })),
             units: fixed.units.or(Some(if odd_one { Units::Inch } else { Units::Mm })),
             plane: fixed.plane.or(Some(if odd_one { Plane::Yz } else { Plane::Zx })),
-            feed_mode: Some(FeedMode::PerMinute),
+            feed_mode: fixed.feed_mode.or(Some(if odd_one {
+                FeedMode::PerRevolution
+            } else {
+                FeedMode::PerMinute
+            })),
             return_level: fixed.return_level.or(Some(if odd_one {
                 ReturnLevel::Initial
             } else {

@@ -53,6 +53,120 @@ fn what_is_left_unsaid() {
     write(&folder, "units.nc", &OTHER.replace("G21 ", ""));
     let units = run(&["mach9:good.cn", "fanuc:units.nc"]).exits(1).out;
     assert!(units.contains("never says its units") && units.contains("nothing settles it: units"), "{units}");
+    // Feeds may count turns of the spindle.
+    write(&folder, "feeds.nc", &OTHER.replace(" G94", ""));
+    let feeds = run(&["mach9:good.cn", "fanuc:feeds.nc"]).exits(1).out;
+    assert!(feeds.contains("never says its feed mode"), "{feeds}");
+    run(&["fanuc:feeds.nc", "fanuc:other.nc"]).exits(0);
+}
+
+/// Ends and centres of two arcs are the same to the tolerance, and the one is nearly a whole circle.
+#[test]
+fn an_arc_is_not_the_rest_of_its_circle() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    for (name, end) in [("little.nc", "Y0.004"), ("more.nc", "Y0.006"), ("nearly.nc", "Y-0.004")] {
+        write(&folder, name, &OTHER.replace("N9 ", &format!("G3 X10. {end} I-10. J0.\nN9 ")));
+    }
+    run(&["fanuc:little.nc", "fanuc:more.nc", "--tolerance", "0.01"]).exits(0);
+    let told = run(&["fanuc:little.nc", "fanuc:nearly.nc", "--tolerance", "0.01"]).exits(1).out;
+    assert!(told.contains("nearly a whole circle in the other"), "{told}");
+    run(&["fanuc:nearly.nc", "fanuc:little.nc", "--tolerance", "0.01"]).exits(1);
+}
+
+/// Two profiles of one name are not one control where they state other things of it.
+#[test]
+fn a_name_does_not_make_one_control() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    let profile = |plane: &str| {
+        format!("id = \"m\"\ntitle = \"t\"\ndialect = \"fanuc\"\n[power_on]\nplane = \"{plane}\"\n")
+    };
+    write(&folder, "a.toml", &profile("xy"));
+    write(&folder, "b.toml", &profile(""));
+    let arc = OTHER.replace(" G17", "").replace("N9 ", "G3 X10. Y0. I-10. J0.\nN9 ");
+    write(&folder, "arc.nc", &arc);
+    let same = ["fanuc:arc.nc", "fanuc:arc.nc", "--machine-from", "a.toml", "--machine-to"];
+    run(&[&same[..], &["a.toml"]].concat()).exits(0);
+    let told = run(&[&same[..], &["b.toml"]].concat()).exits(5).out;
+    // In the plane of one of the worlds the arc is none.
+    assert!(told.contains("output cannot be executed"), "{told}");
+}
+
+/// Every value of a certificate that anybody alters, and every row that is left out or put in twice, keeps it
+/// from holding; but for the names of files, which ncc made it, and what it says was asked for where the
+/// answer is the same.
+#[test]
+fn a_certificate_that_was_tampered_with() {
+    let folder = pair();
+    let run = |arguments: &[&str]| ncc(folder.path(), &[&["verify"], arguments].concat());
+    write(&folder, "off.nc", &OTHER.replace("X10.", "X10.004").replace("N2 G54\n", ""));
+    write(&folder, "shop.toml", "id = \"shop\"\ntitle = \"A shop's\"\nbase = \"fanuc\"\n");
+    let calls: [&[&str]; 3] = [
+        &["mach9:good.cn", "fanuc:other.nc", "--tolerance", "0.01"],
+        &["fanuc:off.nc", "shop:other.nc", "--dialect", "shop.toml", "--machine-from", "fanuc-vmc"],
+        &["mach9:good.cn", "fanuc:good.cn"],
+    ];
+    for call in calls {
+        run(&[call, &["--cert", "c.json"]].concat());
+        let certificate: serde_json::Value = serde_json::from_str(&read(&folder, "c.json")).unwrap();
+        let mut altered = Vec::new();
+        alter(&certificate, String::new(), &mut altered);
+        assert!(altered.len() > 60, "{}", altered.len());
+        for (at, value) in altered {
+            let mut other = certificate.clone();
+            *other.pointer_mut(&at).unwrap() = value.clone();
+            if other == certificate {
+                continue;
+            }
+            // An option that is chosen as the dictionary would choose it was asked for too.
+            let asked = at.starts_with("/asked/") || at.ends_with("/chosen");
+            let name = at.ends_with("/file") || at.ends_with("/machine") || at == "/ncc_version";
+            // The whole of a row is another thing than its name.
+            let name = name && value.is_string();
+            write(&folder, "t.json", &other.to_string());
+            let told = run(&["--cert", "t.json"]);
+            let holds = told.out.starts_with("t.json: holds");
+            assert!(asked || name || !holds, "{at} = {value}: {}", told.out);
+        }
+    }
+    // What nobody can have asked for.
+    run(&["mach9:good.cn", "fanuc:other.nc", "--tolerance", "0.01", "--cert", "c.json"]).exits(0);
+    for mm in ["-0.01", "1001.0"] {
+        write(&folder, "t.json", &read(&folder, "c.json").replace("_mm\": 0.01", &format!("_mm\": {mm}")));
+        run(&["--cert", "t.json"]).exits(5).says("a tolerance of");
+    }
+}
+
+/// All that can be altered in a document: places, each with another value.
+fn alter(value: &serde_json::Value, at: String, found: &mut Vec<(String, serde_json::Value)>) {
+    use serde_json::{Value, json};
+    match value {
+        Value::Null => found.push((at, json!(1.5))),
+        Value::Bool(is) => found.push((at, json!(!is))),
+        Value::Number(n) => {
+            found.push((at, n.as_u64().map_or_else(|| json!(n.as_f64().unwrap() + 0.001), |n| json!(n + 1))))
+        }
+        Value::String(text) => {
+            found.push((at.clone(), json!(format!("{text}x"))));
+            found.push((at, json!(format!("x/{text}"))));
+        }
+        Value::Array(rows) => {
+            for (i, row) in rows.iter().enumerate() {
+                let twice: Vec<&Value> = rows.iter().chain([row]).collect();
+                found.push((at.clone(), json!(twice)));
+                let without: Vec<&Value> =
+                    rows.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, row)| row).collect();
+                found.push((at.clone(), json!(without)));
+                alter(row, format!("{at}/{i}"), found);
+            }
+        }
+        Value::Object(fields) => {
+            for (key, value) in fields {
+                alter(value, format!("{at}/{key}"), found);
+            }
+        }
+    }
 }
 
 #[test]

@@ -125,14 +125,14 @@ impl Exec {
             }
             CycleKind::Bore { dwell: d, feed_out } => Way::Bore {
                 dwell: dwell(d)?,
-                feed_out: feed_out.as_ref().map(|f| self.value(f, span)).transpose()?,
+                feed_out: feed_out.as_ref().map(|f| self.feed_of(f, span)).transpose()?,
             },
         };
         let return_plane = match &cycle.return_plane {
             Some(word) => Some(self.target(word, retract, span)?),
             None => None,
         };
-        let feed = cycle.feed.as_ref().map(|f| self.value(f, span)).transpose()?;
+        let feed = cycle.feed.as_ref().map(|f| self.feed_of(f, span)).transpose()?;
         self.feed = feed.unwrap_or(self.feed);
         self.modes.motion = Motion::Cycle;
         self.cycle = Some(InForce {

@@ -30,6 +30,9 @@ use holes::InForce;
 
 const Z: usize = Axis::Z as usize;
 
+/// Turns a minute of the spindle, as far as a feed goes of which nobody has said what it counts.
+const TURNS: Nanos = 737;
+
 /// A control that executes statements one by one.
 #[derive(Clone, Debug)]
 pub struct Exec {
@@ -77,6 +80,8 @@ struct InModes {
     distance: Distance,
     inch: bool,
     plane: Plane,
+    /// Whether feeds are per minute; else only the world knows what they are.
+    per_minute: bool,
     return_level: ReturnLevel,
     work_offset: u16,
     length: Length,
@@ -111,6 +116,7 @@ impl Exec {
             distance: p.distance.unwrap_or(Distance::Absolute),
             inch: p.units == Some(Units::Inch),
             plane: p.plane.unwrap_or(Plane::Xy),
+            per_minute: p.feed_mode.is_none_or(|mode| mode == FeedMode::PerMinute),
             return_level: p.return_level.unwrap_or(ReturnLevel::Initial),
             work_offset: p.work_offset.unwrap_or(1),
             length: Length::Entry(p.length_offset.unwrap_or(0)),
@@ -179,6 +185,8 @@ impl Exec {
             self.modes.shifted = !n;
             self.said |= SHIFT;
         }
+        // The one mode that is executed: it is never unsaid again.
+        self.modes.per_minute |= facts.feed_mode == Some(FeedMode::PerMinute);
         self.reframe(here);
     }
 
@@ -373,6 +381,13 @@ impl Exec {
         }
     }
 
+    /// A feed's value in nanos of mm/min; where nobody has said that it is one, it is like no other.
+    #[inline]
+    fn feed_of(&self, value: &Expr, span: Span) -> Result<Nanos, Diagnostic> {
+        let value = self.value(value, span)?;
+        Ok(if self.modes.per_minute { value } else { value.saturating_mul(TURNS) })
+    }
+
     #[inline]
     fn whole(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
         match value.literal().and_then(|n| n.whole()) {
@@ -461,7 +476,7 @@ impl Exec {
                 Motion::Cycle => self.hole(&m.to, span, out),
             },
             Op::SetFeedRate(f) => {
-                self.feed = self.value(f, span)?;
+                self.feed = self.feed_of(f, span)?;
                 self.tell(Attribute::FeedRate(self.feed), span, out)
             }
             _ => self.other(stmt, out),
@@ -527,7 +542,7 @@ impl Exec {
                 self.modes.plane = *plane;
                 self.said |= PLANE;
             }
-            Op::SetFeedMode(FeedMode::PerMinute) => {}
+            Op::SetFeedMode(FeedMode::PerMinute) => self.modes.per_minute = true,
             Op::SetFeedMode(FeedMode::PerRevolution) => return self.not_executed("feed per turn", span),
             Op::SetFeedMode(FeedMode::InverseTime) => return self.not_executed("inverse-time feed", span),
             Op::SetReturnLevel(level) => {

@@ -13,7 +13,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict as Became};
 use ncc_ir::num::{Nanos, POW10};
 use ncc_ir::source::Span;
-use ncc_ir::verify::Difference;
+use ncc_ir::verify::{Aspect, Difference};
 use serde::{Deserialize, Serialize};
 
 use super::pair::{Found, Verdict, job_of};
@@ -32,6 +32,10 @@ pub const VERSION: u32 = 1;
 pub const KIND: &str = "ncc verification of a pair of programs";
 /// Its JSON Schema.
 pub const SCHEMA: &str = include_str!("../../../schema/certificate.schema.json");
+
+/// What is told where the rule of a translation is stricter than what was found.
+pub const FINER: &str =
+    "not the same to the output's own last digit, which the source does not resolve: a translation would be";
 
 /// Differences that are listed; further ones are counted.
 const MOST: usize = 100;
@@ -287,6 +291,9 @@ impl Document {
         self.summary = match (account.equal, unsaid.is_empty()) {
             (false, _) => account.summary.clone(),
             (true, false) => format!("the output never says its {unsaid}"),
+            (true, true) if difference.aspect == Aspect::Arc => {
+                "an arc is nearly nothing in one of them and nearly a whole circle in the other".to_owned()
+            }
             (true, true) => {
                 "not in what the programs themselves say: in offsets, lengths or tools of the machines"
                     .to_owned()
@@ -337,6 +344,9 @@ fn compared(found: &Found, sides: &[Side; 2]) -> Compared {
         let without = sides.iter().find(|side| !side.dialect().caps.messages);
         let id = without.map_or("", |side| side.dialect().id.as_str());
         notes.push(format!("messages are not compared: {id} has none"));
+    }
+    if found.coarse && found.verdict == Verdict::Equal {
+        notes.push(FINER.to_owned());
     }
     if found.parameters {
         notes.push("the source control's parameters of cycles hold for both".to_owned());
@@ -439,8 +449,7 @@ fn holds(facts: &Modes, fact: ModeName) -> bool {
         ModeName::Distance => facts.distance.is_some(),
         ModeName::Units => facts.units.is_some(),
         ModeName::Plane => facts.plane.is_some(),
-        // Every world has feeds per minute.
-        ModeName::FeedMode => true,
+        ModeName::FeedMode => facts.feed_mode.is_some(),
         ModeName::ReturnLevel => facts.return_level.is_some(),
         ModeName::WorkOffset => facts.work_offset.is_some(),
         ModeName::LengthOffset => facts.length_offset.is_some(),

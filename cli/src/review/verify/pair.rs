@@ -68,6 +68,8 @@ pub(crate) struct Found {
     pub(crate) inches: bool,
     /// The largest deviation.
     pub(crate) deviation: Option<Deviation>,
+    /// Whether something is further apart than half a unit of the output's own last digit.
+    pub(crate) coarse: bool,
     /// The first difference, and the switches of the source's control under which it shows.
     pub(crate) first: Option<(Difference, u16)>,
     /// Whether messages were left out, because one control has none.
@@ -112,6 +114,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         resolution: coarser(&resolution(&job.from), &resolution(&job.to)),
         inches: in_inches[0] || in_inches[1],
         deviation: None,
+        coarse: false,
         first: None,
         muted: muted && says,
         parameters: courses.iter().any(|course| course.has.chips),
@@ -138,6 +141,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         in_inches: in_inches[0],
         tolerance,
         resolution: found.resolution,
+        own: resolution(&job.to),
         tools: job.machines.renaming().tools,
     };
     let mut beyond = false;
@@ -145,6 +149,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         found.settings += 1;
         let done = once(sides, &plan, skip)?;
         found.events += done.events;
+        found.coarse |= done.coarse;
         if let Some((deviation, over)) = done.deviation {
             beyond |= over;
             if deviation.by > found.deviation.map_or(0, |farthest| farthest.by) {
@@ -169,7 +174,8 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
 }
 
 /// Whether both programs are for one control: the same dialect with the same options, and the same
-/// machine, if one is named. What neither says is then one and the same fact.
+/// machine, if one is named. What neither says is then one and the same fact. (Two profiles may have one
+/// name: what they state of the control at power-on must be the same too.)
 fn same_control(sides: &[Side; 2]) -> bool {
     let [a, b] = sides;
     let machine = |side: &Side| side.job.machines.from.as_ref().map(|machine| machine.id().to_owned());
@@ -177,6 +183,7 @@ fn same_control(sides: &[Side; 2]) -> bool {
     let mut options = own.dialect.option.iter();
     own.dialect.id == other.dialect.id
         && machine(a) == machine(b)
+        && fixed(own.dialect) == fixed(other.dialect)
         && options.all(|option| own.get(&option.name) == other.get(&option.name))
 }
 
@@ -276,6 +283,8 @@ struct Plan {
     in_inches: bool,
     tolerance: Nanos,
     resolution: Resolution,
+    /// What the output's own digits resolve.
+    own: Resolution,
     tools: Option<std::collections::BTreeMap<u32, u32>>,
 }
 
@@ -299,6 +308,10 @@ impl Plan {
             let mut comparison = Comparison::new(self.resolution, *start);
             comparison.rename_tools(self.tools.clone());
             comparison.measure(self.tolerance);
+            comparison.measure_by(self.own);
+            if self.in_inches {
+                comparison.as_inches();
+            }
             comparison
         };
         self.starts.iter().map(comparison).collect()
@@ -317,6 +330,7 @@ struct Piece {
 struct Done {
     events: u64,
     deviation: Option<(Deviation, bool)>,
+    coarse: bool,
     difference: Option<Box<Difference>>,
     /// What the execution of either side refused.
     refused: [Vec<Diagnostic>; 2],
@@ -329,7 +343,7 @@ fn once(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2]) -> io::Result<Done> 
     thread::scope(|scope| {
         let first = scope.spawn(move || hand_over(a, Unsaid::Taken, plan.controls(0, skip[0]), &to_a));
         let second = scope.spawn(move || hand_over(b, plan.unsaid, plan.controls(1, skip[1]), &to_b));
-        let (comparisons, difference) = together([from_a, from_b], plan);
+        let (comparisons, difference, over) = together([from_a, from_b], plan);
         let joined = |course: thread::Result<io::Result<Course>>| -> io::Result<Vec<Diagnostic>> {
             let course = course.unwrap_or_else(|_| Err(io::Error::other("a side's execution broke off")))?;
             let errors = course.diagnostics.into_iter();
@@ -339,6 +353,8 @@ fn once(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2]) -> io::Result<Done> 
         let mut refused = [joined(first.join())?, joined(second.join())?];
         if difference.is_some() {
             refused = [Vec::new(), Vec::new()];
+        } else if !over && refused.iter().all(Vec::is_empty) {
+            return Err(io::Error::other("a side's execution broke off"));
         }
         let deviations = comparisons.iter().filter_map(Comparison::deviation);
         Ok(Done {
@@ -347,6 +363,7 @@ fn once(sides: &mut [Side; 2], plan: &Plan, skip: [u16; 2]) -> io::Result<Done> 
                 let farthest = if b.0.by > a.0.by { b.0 } else { a.0 };
                 (farthest, a.1 || b.1)
             }),
+            coarse: comparisons.iter().any(Comparison::coarse),
             difference,
             refused,
         })
@@ -379,8 +396,8 @@ fn hand_over(
 }
 
 /// Compares the events of both sides as they come; ends with the first difference, or where a side ends
-/// without being over.
-fn together(from: [Receiver<Piece>; 2], plan: &Plan) -> (Vec<Comparison>, Option<Box<Difference>>) {
+/// without being over. Says last whether both are over, so that all of both was compared.
+fn together(from: [Receiver<Piece>; 2], plan: &Plan) -> (Vec<Comparison>, Option<Box<Difference>>, bool) {
     let mut comparisons = plan.comparisons();
     let mut waiting: Vec<[Vec<Event>; 2]> = vec![Default::default(); comparisons.len()];
     let mut over = [false; 2];
@@ -389,12 +406,9 @@ fn together(from: [Receiver<Piece>; 2], plan: &Plan) -> (Vec<Comparison>, Option
             if over[side] || waiting.iter().all(|events| !events[side].is_empty()) {
                 continue;
             }
-            let Ok(piece) = from[side].recv() else { return (comparisons, None) };
+            let Ok(piece) = from[side].recv() else { return (comparisons, None, false) };
             over[side] = piece.over;
             for (events, mut new) in waiting.iter_mut().zip(piece.events) {
-                if side == 1 && plan.in_inches {
-                    new.iter_mut().for_each(|event| event.inch = true);
-                }
                 events[side].append(&mut new);
             }
         }
@@ -405,11 +419,11 @@ fn together(from: [Receiver<Piece>; 2], plan: &Plan) -> (Vec<Comparison>, Option
                 if rest { comparison.advance(source, target, true) } else { Ok(()) }
             });
             if let Err(difference) = compared {
-                return (comparisons, Some(difference));
+                return (comparisons, Some(difference), false);
             }
         }
         if over == [true; 2] {
-            return (comparisons, None);
+            return (comparisons, None, true);
         }
     }
 }
