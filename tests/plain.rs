@@ -40,6 +40,13 @@ pub enum Happening {
         sweep: f64,
         radius: f64,
     },
+    /// In step with the spindle: millimetres in a turn, and whether a chuck makes good the rest.
+    Thread {
+        pitch: f64,
+        chuck: bool,
+    },
+    /// The spindle stopped at an angle, degrees.
+    Orient(f64),
     Dwell(f64),
     ToolChange,
     Coolant,
@@ -179,6 +186,8 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 let radius = (from[first] - centre[0]).hypot(from[second] - centre[1]);
                 Happening::Arc { normal, centre, sweep, radius }
             }
+            Kind::Synchronised { pitch, chuck } => Happening::Thread { pitch: mm(*pitch), chuck: *chuck },
+            Kind::Orient(angle) => Happening::Orient(mm(*angle)),
             Kind::Dwell(seconds) => Happening::Dwell(mm(*seconds)),
             Kind::ToolChange => Happening::ToolChange,
             Kind::Coolant => Happening::Coolant,

@@ -251,6 +251,15 @@ impl Checker {
                 feed::cut(self, event, self.last);
                 self.moved(step, event);
             }
+            Kind::Synchronised { .. } => {
+                spindle::cut(self, event, self.last);
+                self.moved(step, event);
+            }
+            Kind::Orient(_) => {
+                self.seen.spindle = Known::Said;
+                self.spindle = spindle::Met::default();
+                self.seen.switch_off(LeftOn::Spindle);
+            }
             Kind::ToolChange => length::changed(self, event),
             Kind::ProgramEnd => {
                 left::on(self, event.span);

@@ -33,6 +33,10 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
                 number(centre[1]),
             )
         }
+        Kind::Synchronised { pitch, chuck } => {
+            format!("a thread of pitch {} mm{}", number(*pitch), if *chuck { " in a chuck" } else { "" })
+        }
+        Kind::Orient(angle) => format!("the spindle stopped at {} degrees", number(*angle)),
         Kind::Dwell(seconds) => format!("a dwell of {} s", number(*seconds)),
         Kind::ToolChange => format!("a change to tool {}", event.state.tool),
         Kind::MachineFunction(name) => format!("the machine function {name}"),

@@ -215,3 +215,21 @@ impl Modes {
         }
     }
 }
+
+impl Turn {
+    /// The spindle turning in this sense.
+    pub const fn spindle(self) -> Spindle {
+        match self {
+            Turn::Clockwise => Spindle::Clockwise,
+            Turn::Counterclockwise => Spindle::Counterclockwise,
+        }
+    }
+
+    /// The other sense.
+    pub const fn back(self) -> Turn {
+        match self {
+            Turn::Clockwise => Turn::Counterclockwise,
+            Turn::Counterclockwise => Turn::Clockwise,
+        }
+    }
+}

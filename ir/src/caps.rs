@@ -1,6 +1,8 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
-use crate::canon::ReturnLevel;
+use crate::canon::{ReturnLevel, Spindle, Turn};
+use crate::cycle::{CycleKind, Shift, Tap};
+use crate::program::Pitch;
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -83,10 +85,80 @@ pub struct Caps {
     pub flat: bool,
     /// Positions that a subprogram's caller gives the meaning to.
     pub inherits_motion: bool,
+    /// Straight moves in step with the spindle.
+    pub synchronised: bool,
     /// Messages to the operator.
     pub messages: bool,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
+}
+
+/// How a cycle that drives the spindle is said.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CycleForm {
+    /// In any way.
+    #[default]
+    Any,
+    /// By the spindle, feed and speed in force and parameters of the control: the spindle turns as it
+    /// does; a tap's pitch follows from feed and speed, its dwell is made at both ends; a bore is left
+    /// in the control's own direction at its own angle, and the spindle then turns clockwise. After a
+    /// rigid tap it stands.
+    Control,
+    /// By its words: sense, angle, shift and pitch; the dwell is at the bottom alone; after boring the
+    /// spindle stands.
+    Stated,
+}
+
+impl CycleForm {
+    /// Whether a cycle is said so, but for what [`CycleCap`] says of its kind; the pitch is another
+    /// matter, since one follows from the other.
+    pub fn says(self, kind: &CycleKind) -> bool {
+        let tap = |tap: &Tap| {
+            let after = match (self, tap.chuck) {
+                (CycleForm::Control, false) => tap.after == Spindle::Stopped,
+                (CycleForm::Control, true) => tap.after == tap.turn.spindle(),
+                (CycleForm::Stated | CycleForm::Any, _) => true,
+            };
+            let dwells = match self {
+                CycleForm::Control => tap.settle == tap.dwell,
+                CycleForm::Stated => tap.settle.is_none(),
+                CycleForm::Any => true,
+            };
+            let pitch = match self {
+                CycleForm::Control => tap.pitch == Pitch::Feed,
+                CycleForm::Stated => tap.chuck || tap.pitch != Pitch::Feed,
+                CycleForm::Any => true,
+            };
+            after && dwells && pitch
+        };
+        let turns = |turn: Option<Turn>, after: Option<Spindle>| match self {
+            CycleForm::Any => true,
+            CycleForm::Control => turn.is_none() && after == Some(Spindle::Clockwise),
+            CycleForm::Stated => turn.is_some() && after == Some(Spindle::Stopped),
+        };
+        match kind {
+            CycleKind::Tap(t) => tap(t),
+            CycleKind::FineBore(bore) => {
+                turns(bore.turn, bore.after)
+                    && match self {
+                        CycleForm::Any => true,
+                        CycleForm::Control => {
+                            bore.angle.is_none() && matches!(bore.shift, Shift::Parameter(_))
+                        }
+                        CycleForm::Stated => bore.angle.is_some() && matches!(bore.shift, Shift::Stated(_)),
+                    }
+            }
+            CycleKind::BoreStop(bore) => {
+                turns(bore.turn, bore.after)
+                    && (self == CycleForm::Any || bore.stop == (self == CycleForm::Stated))
+            }
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Bore { .. } => true,
+        }
+    }
 }
 
 /// A cycle that a target has words for.
@@ -107,6 +179,10 @@ pub struct CycleCap {
     pub strokes: bool,
     /// Whether it can say another feed on the way out.
     pub feed_out: bool,
+    /// How tapping and the boring cycles that stop the spindle are said.
+    pub form: CycleForm,
+    /// Senses of the threads that it cuts.
+    pub turns: Vec<Turn>,
     /// Whether the lift that breaks a chip is at feed (`true`) or rapid; `None` if either.
     pub lift_at_feed: Option<bool>,
 }

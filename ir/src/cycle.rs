@@ -3,10 +3,10 @@
 //! A cycle is called up by a statement, then made at each following hole position until it is
 //! ended. `passes::expand_cycles` is the definition of its moves.
 
-use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel};
+use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn};
 use crate::expr::Expr;
 use crate::num::Nanos;
-use crate::program::{Coord, Point};
+use crate::program::{Coord, Pitch, Point};
 
 /// A hole-making cycle, complete: a back-end needs no earlier block to write it.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,6 +87,71 @@ pub enum CycleKind {
         /// not known.
         feed_out: Option<Expr>,
     },
+    /// Cut a thread with a tap: in at the pitch, dwell, out with the spindle turned round.
+    ///
+    /// Without a chuck the control turns the spindle itself: it stands on the way to the hole and out
+    /// of it, whatever the program has said before.
+    Tap(Box<Tap>),
+    /// Feed to the bottom, dwell, stop the spindle in an orientation, shift the tool off the wall, rapid
+    /// out, shift back.
+    FineBore(Box<FineBore>),
+    /// Feed to the bottom, dwell, stop the spindle, rapid out.
+    BoreStop(BoreStop),
+}
+
+/// What tapping needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tap {
+    /// Sense in which the spindle turns on the way in: clockwise makes a right-hand thread.
+    pub turn: Turn,
+    /// The thread's pitch.
+    pub pitch: Pitch,
+    /// Whether a compensating chuck makes good what feed and spindle are apart, and the spindle turns
+    /// already; else the axis goes in step with it.
+    pub chuck: bool,
+    /// Seconds at the bottom, if any.
+    pub dwell: Option<Expr>,
+    /// Seconds at the retract plane on the way out, if any.
+    pub settle: Option<Expr>,
+    /// What the spindle does after the hole.
+    pub after: Spindle,
+}
+
+/// What fine boring needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FineBore {
+    /// Sense in which the spindle turns for it, if the cycle says it; else as it does.
+    pub turn: Option<Turn>,
+    /// Seconds at the bottom, if any.
+    pub dwell: Option<Expr>,
+    /// Orientation of the spindle in degrees; `None` is the machine's own.
+    pub angle: Option<Expr>,
+    /// How the tool goes off the wall.
+    pub shift: Shift,
+    /// What the spindle does after the hole; `None` is what it did before.
+    pub after: Option<Spindle>,
+}
+
+/// What boring with a stopped spindle needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoreStop {
+    /// Sense in which the spindle turns for it, if the cycle says it; else as it does.
+    pub turn: Option<Turn>,
+    /// Seconds at the bottom, if any.
+    pub dwell: Option<Expr>,
+    /// Whether the program stops too, until the operator starts it.
+    pub stop: bool,
+    /// What the spindle does after the hole; `None` is what it did before.
+    pub after: Option<Spindle>,
+}
+
+/// How a tool goes off the wall of a bore.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shift {
+    /// By so much along X, Y and Z.
+    Stated([Option<Expr>; 3]),
+    /// By so much, in the direction that a parameter of the control says.
+    Parameter(Expr),
 }
 
 /// A distance that some controls have as a word and others as a machine parameter.
@@ -125,14 +190,47 @@ impl Approach {
 
 /// Names used by the text form and by dictionaries.
 impl CycleKind {
-    /// A short name: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`.
-    pub const fn name(&self) -> &'static str {
+    /// A short name: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`, `tap`, `tap-rigid`,
+    /// `bore-fine`, `bore-stop`.
+    pub fn name(&self) -> &'static str {
         match self {
             CycleKind::Drill => "drill",
             CycleKind::DrillDwell { .. } => "drill-dwell",
             CycleKind::DrillPeck { .. } => "drill-peck",
             CycleKind::DrillBreak { .. } => "drill-break",
             CycleKind::Bore { .. } => "bore",
+            CycleKind::Tap(tap) if tap.chuck => "tap",
+            CycleKind::Tap(_) => "tap-rigid",
+            CycleKind::FineBore(_) => "bore-fine",
+            CycleKind::BoreStop(_) => "bore-stop",
+        }
+    }
+}
+
+impl CycleKind {
+    /// Whether it starts, stops or turns the spindle.
+    pub fn drives_spindle(&self) -> bool {
+        matches!(self, CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_))
+    }
+
+    /// Calls something for each length that tapping and the boring cycles with a stop say: pitches and
+    /// shifts.
+    pub fn each_length<E>(&mut self, mut each: impl FnMut(&mut Expr) -> Result<(), E>) -> Result<(), E> {
+        match self {
+            CycleKind::Tap(tap) => match &mut tap.pitch {
+                Pitch::Stated(pitch) => each(pitch),
+                Pitch::Feed => Ok(()),
+            },
+            CycleKind::FineBore(bore) => match &mut bore.shift {
+                Shift::Stated(words) => words.iter_mut().flatten().try_for_each(each),
+                Shift::Parameter(amount) => each(amount),
+            },
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Bore { .. }
+            | CycleKind::BoreStop(_) => Ok(()),
         }
     }
 }

@@ -224,6 +224,8 @@ faults! {
     LabelUnknown { name: Box<str> } = 228, Error;
     /// An arc by angle, through a point or tangent, and no circle fits its words.
     NoArc = 229, Error;
+    /// A move in step with a spindle that has no speed.
+    NoSpeed = 230, Error;
 
     // NC03xx: assumptions.
     /// The program relies on a state at power-on that it never says.

@@ -19,6 +19,7 @@ macro_rules! miscellaneous {
             | $crate::program::Op::StartSpindleClockwise
             | $crate::program::Op::StartSpindleCounterclockwise
             | $crate::program::Op::StopSpindleTurning
+            | $crate::program::Op::OrientSpindle(_)
             | $crate::program::Op::MachineFunction(_)
             | $crate::program::Op::FloodOn
             | $crate::program::Op::MistOn
@@ -65,6 +66,7 @@ macro_rules! moves {
     () => {
         $crate::program::Op::StraightTraverse(_)
             | $crate::program::Op::StraightFeed(_)
+            | $crate::program::Op::SynchronisedFeed(_)
             | $crate::program::Op::ArcFeed(_)
             | $crate::program::Op::ArcForm(_)
     };

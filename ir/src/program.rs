@@ -119,6 +119,30 @@ pub struct Move {
     pub said: bool,
 }
 
+/// A straight move in step with the spindle, as threads are cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Synchronised {
+    /// Where to.
+    pub to: Point,
+    /// How far the axis goes in a turn.
+    pub pitch: Pitch,
+    /// Whether feed and spindle each go on their own, and a compensating chuck makes good what they
+    /// are apart.
+    pub chuck: bool,
+    /// The sense in which the control turns the spindle for this move, to hold it after; without, it
+    /// turns as it does.
+    pub turn: Option<Turn>,
+}
+
+/// How far an axis goes in one turn of the spindle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pitch {
+    /// So far, positive.
+    Stated(Expr),
+    /// As feed and speed in force say.
+    Feed,
+}
+
 /// An arc or helix.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arc {
@@ -354,6 +378,8 @@ pub enum Op {
     StartSpindleCounterclockwise,
     /// `STOP_SPINDLE_TURNING`
     StopSpindleTurning,
+    /// `ORIENT_SPINDLE`: stops it at an angle in degrees; `None` is the machine's own.
+    OrientSpindle(Option<Expr>),
     /// `MACHINE_FUNCTION`: switches something of the machine that no dialect has a word for, by a name
     /// that means the same on every machine. No axis moves, no tool changes.
     MachineFunction(Text),
@@ -370,6 +396,9 @@ pub enum Op {
     StraightTraverse(Move),
     /// `STRAIGHT_FEED`
     StraightFeed(Move),
+    /// `SYNCHRONISED_FEED`: NIST's `START_SPEED_FEED_SYNCH`, `STRAIGHT_FEED` and `STOP_SPEED_FEED_SYNCH`
+    /// at once.
+    SynchronisedFeed(Box<Synchronised>),
     /// `ARC_FEED`
     ArcFeed(Box<Arc>),
     /// `ARC_BY_ANGLE`, `ARC_ABOUT_BY_ANGLE`, `ARC_ABOUT`, `ARC_THROUGH`, `ARC_TANGENT`: arcs in other
@@ -445,6 +474,7 @@ impl Op {
             Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
             Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
             Op::StopSpindleTurning => "STOP_SPINDLE_TURNING",
+            Op::OrientSpindle(_) => "ORIENT_SPINDLE",
             Op::MachineFunction(_) => "MACHINE_FUNCTION",
             Op::FloodOn => "FLOOD_ON",
             Op::MistOn => "MIST_ON",
@@ -452,6 +482,7 @@ impl Op {
             Op::Dwell(_) => "DWELL",
             Op::StraightTraverse(_) => "STRAIGHT_TRAVERSE",
             Op::StraightFeed(_) => "STRAIGHT_FEED",
+            Op::SynchronisedFeed(_) => "SYNCHRONISED_FEED",
             Op::ArcFeed(_) => "ARC_FEED",
             Op::ArcForm(arc) => arc.shape.name(),
             Op::Position(_) => "POSITION",

@@ -3,8 +3,8 @@
 //! An abstract execution in program coordinates: an axis is known or it is not. For passes and
 //! back-ends, which have no world. Nothing is taken for granted beyond the entry facts given.
 
-use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Units};
-use crate::cycle::{Cycle, Pattern};
+use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
+use crate::cycle::{Cycle, CycleKind, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
 use crate::kinds::{flow, miscellaneous};
@@ -30,6 +30,8 @@ pub struct Tracker {
     pub tool: Option<i64>,
     /// Whether a frame of the chain may be in force.
     pub framed: bool,
+    /// What the spindle does, if it is known.
+    pub spindle: Option<Spindle>,
     /// Whether the next straight move is in machine coordinates.
     pub raw: bool,
 }
@@ -238,6 +240,7 @@ impl Tracker {
         self.cycle_in_doubt |= other.cycle_in_doubt;
         both(&mut self.selected, &other.selected);
         both(&mut self.tool, &other.tool);
+        both(&mut self.spindle, &other.spindle);
         self.framed |= other.framed;
         self.raw |= other.raw;
     }
@@ -247,6 +250,14 @@ impl Tracker {
         match op {
             Op::StraightTraverse(m) => self.go(&m.to, Motion::Traverse),
             Op::StraightFeed(m) => self.go(&m.to, Motion::Feed),
+            Op::SynchronisedFeed(m) => {
+                self.go(&m.to, Motion::Feed);
+                // What a block without a code does after it is another thing on each control.
+                self.modes.motion = None;
+                if m.turn.is_some() {
+                    self.spindle = Some(Spindle::Stopped);
+                }
+            }
             Op::ArcFeed(arc) => self.go(&arc.to, Motion::Arc(arc.turn)),
             Op::ArcForm(arc) => self.go_form(arc),
             Op::Position(m) => match self.modes.motion {
@@ -338,7 +349,13 @@ impl Tracker {
             Op::ChangeTool => self.tool = self.selected,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
             flow!() => self.forget(),
-            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | miscellaneous!() => {}
+            miscellaneous!() => match op {
+                Op::StartSpindleClockwise => self.spindle = Some(Spindle::Clockwise),
+                Op::StartSpindleCounterclockwise => self.spindle = Some(Spindle::Counterclockwise),
+                Op::StopSpindleTurning | Op::OrientSpindle(_) => self.spindle = Some(Spindle::Stopped),
+                _ => {}
+            },
+            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) => {}
         }
     }
 
@@ -416,6 +433,16 @@ impl Tracker {
             return;
         };
         in_force.drilled = true;
+        match &in_force.cycle.kind {
+            CycleKind::Tap(tap) => self.spindle = Some(tap.after),
+            CycleKind::FineBore(bore) => self.spindle = bore.after.or(self.spindle),
+            CycleKind::BoreStop(bore) => self.spindle = bore.after.or(self.spindle),
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Bore { .. } => {}
+        }
         let level = match (in_force.return_plane, in_force.cycle.return_level.known()) {
             (Some(plane), _) => Some(plane),
             (None, _) if in_force.cycle.return_plane.is_some() => None,

@@ -10,9 +10,12 @@ use std::collections::BTreeMap;
 use crate::canon::{AXES, Axis, Turn, same_point};
 use crate::exec::{Event, Kind, State};
 use crate::expr::Expr;
-use crate::num::{Nanos, POW10};
+use crate::num::{Nanos, ONE, POW10};
 use crate::program::{Op, Point, Stmt};
 use crate::source::Span;
+
+/// Half a unit of the sixth digit of a pitch in millimetres.
+const FINEST_PITCH: Nanos = 500;
 
 /// What the target resolves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -396,7 +399,8 @@ impl Comparison {
 
     /// Whether a straight move goes nowhere, as seen from where the other machine stands.
     fn vanishes(&self, event: &Event, other: &[Nanos; AXES]) -> bool {
-        matches!(event.kind, Kind::Traverse | Kind::Feed) && self.end(&event.end, other, event.inch).is_none()
+        matches!(event.kind, Kind::Traverse | Kind::Feed | Kind::Synchronised { .. })
+            && self.end(&event.end, other, event.inch).is_none()
     }
 
     /// Whether one of two arcs is nearly nothing and the other nearly a whole circle: their ends and
@@ -447,13 +451,32 @@ impl Comparison {
                     return Some(Aspect::Kind);
                 }
             }
+            (Kind::Synchronised { pitch, chuck }, Kind::Synchronised { pitch: p2, chuck: c2 }) => {
+                // Where a pitch is said by feed and speed, it is as fine as the feed.
+                let finest = if b.state.speed == 0 {
+                    0
+                } else {
+                    let feeds = i128::from(self.resolution.feeds(b.inch || self.as_inches)) * i128::from(ONE);
+                    Nanos::try_from(feeds / i128::from(b.state.speed)).unwrap_or(0)
+                };
+                if chuck != c2 || !near(*pitch, *p2, finest.max(FINEST_PITCH)) {
+                    return Some(Aspect::Kind);
+                }
+            }
+            (Kind::Orient(x), Kind::Orient(y)) => {
+                if !near(*x, *y, Resolution::half(self.resolution.degree, false)) {
+                    return Some(Aspect::Kind);
+                }
+            }
             (x, y) if x == y => {}
             _ => return Some(Aspect::Kind),
         }
         if let Some(axis) = self.end(&a.end, &b.end, b.inch) {
             return Some(Aspect::End(axis));
         }
-        if a.rate != b.rate && !near(a.rate, b.rate, self.resolution.feeds(b.inch || self.as_inches)) {
+        let synchronised = matches!(a.kind, Kind::Synchronised { .. });
+        let most = self.resolution.feeds(b.inch || self.as_inches);
+        if a.rate != b.rate && !synchronised && !near(a.rate, b.rate, most) {
             return Some(Aspect::Feed);
         }
         (!self.same_state(&a.state, &b.state)).then_some(Aspect::State)

@@ -22,11 +22,44 @@ pub struct World {
     pub peck_clearance: Nanos,
     /// The control's own lift of the chip-breaking cycle, in millimetres.
     pub break_lift: Nanos,
+    /// Angle at which the spindle stops where nothing else is said, degrees.
+    pub orientation: Nanos,
+    /// Direction in which the control shifts a tool off the wall of a bore.
+    pub bore_shift: Sideways,
     /// What is known of its tables; the rest is the world's own.
     pub tables: Tables,
     /// What is called otherwise here than in the world of the same seed that it is compared with:
     /// the same tool, by another number, has the same length.
     pub renaming: Renaming,
+}
+
+/// A direction along an axis of the plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sideways {
+    /// Along the plane's second axis; else the first.
+    pub second: bool,
+    /// Towards minus.
+    pub minus: bool,
+}
+
+impl Sideways {
+    /// All four, each with its name.
+    pub const ALL: [(&'static str, Sideways); 4] = [
+        ("+1", Sideways { second: false, minus: false }),
+        ("-1", Sideways { second: false, minus: true }),
+        ("+2", Sideways { second: true, minus: false }),
+        ("-2", Sideways { second: true, minus: true }),
+    ];
+
+    /// Its name: the sign, and which axis of the plane.
+    pub const fn name(self) -> &'static str {
+        match (self.second, self.minus) {
+            (false, false) => "+1",
+            (false, true) => "-1",
+            (true, false) => "+2",
+            (true, true) => "-2",
+        }
+    }
 }
 
 /// Marks what the other machine does not have: no value there is like it.
@@ -80,12 +113,15 @@ impl World {
             start: [0; AXES],
             peck_clearance: 0,
             break_lift: 0,
+            orientation: 0,
+            bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },
             tables: Tables::default(),
             renaming: Renaming::default(),
         };
         world.start = std::array::from_fn(|axis| world.odd(50_000 + axis as u32, 400));
         world.peck_clearance = ONE / 2 + world.odd(60_000, 1).abs() / 2;
         world.break_lift = ONE / 2 + world.odd(60_001, 1).abs() / 2;
+        world.orientation = world.odd(60_002, 180).abs();
         world
     }
 

@@ -48,6 +48,8 @@ pub enum Change {
     Arc,
     /// Another kind of move to the same place.
     Kind(What, What),
+    /// The spindle stopped at another angle, degrees in nanos.
+    Orient(Nanos, Nanos),
     /// A dwell of other length, seconds in nanos.
     Dwell(Nanos, Nanos),
     /// Another text for the operator, or another function of the machine.
@@ -390,6 +392,7 @@ fn between(a: &Record, b: &Record, measure: &Measure, shift: &Shift, [first, sec
         if off.abs() <= most { 0 } else { off }
     });
     match (a.what, b.what) {
+        (What::Orient, What::Orient) => Change::Orient(a.more[0], b.more[0]),
         (What::Dwell, What::Dwell) => Change::Dwell(a.more[0], b.more[0]),
         (x, y) if x != y => Change::Kind(x, y),
         (x, _) if !x.moves() => Change::Text,

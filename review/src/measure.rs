@@ -66,7 +66,7 @@ impl Measure {
         }
         let near = |x: Nanos, y: Nanos, by: Nanos, most: Nanos| y.wrapping_sub(x).abs_diff(by) <= most as u64;
         match a.what {
-            What::Traverse | What::Feed | What::Arc => {
+            What::Traverse | What::Feed | What::Thread | What::Arc => {
                 // Both ends of a shift are rounded.
                 let most = self.length(a, b) << u8::from(shift.on);
                 if !(0..3).all(|i| near(a.end[i], b.end[i], shift.by[i], most)) {
@@ -82,6 +82,7 @@ impl Measure {
                 a.more == b.more && !shift.on
                     || (0..3).all(|i| near(a.more[i], b.more[i], shift.by[3 + i], self.degrees))
             }
+            What::Orient => near(a.more[0], b.more[0], 0, self.degrees),
             What::Dwell => near(a.more[0], b.more[0], 0, self.seconds),
             What::Function | What::Message => a.more[0] == b.more[0],
             What::ToolChange | What::Stop | What::OptionalStop | What::End | What::TextEnd => true,

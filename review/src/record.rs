@@ -20,8 +20,10 @@ pub const WORLDS: usize = 2;
 pub enum What {
     Traverse,
     Feed,
+    Thread,
     Arc,
     Dwell,
+    Orient,
     ToolChange,
     Function,
     Stop,
@@ -34,7 +36,7 @@ pub enum What {
 impl What {
     /// Whether the tool goes somewhere.
     pub fn moves(self) -> bool {
-        matches!(self, What::Traverse | What::Feed | What::Arc)
+        matches!(self, What::Traverse | What::Feed | What::Thread | What::Arc)
     }
 }
 
@@ -44,7 +46,7 @@ pub struct Record {
     /// Where X Y Z stand after it in the plain world, nanos.
     pub end: [Nanos; 3],
     /// Of a straight move, where A B C stand; of an arc, its centre in its plane; of a dwell, its
-    /// seconds; of a text, its hash and its place in the list of texts.
+    /// seconds; of an orientation, its degrees; of a text, its hash and its place in the list of texts.
     pub more: [Nanos; 3],
     /// Which [`Style`].
     pub style: u32,
@@ -54,7 +56,7 @@ pub struct Record {
     pub hole: u32,
     /// What it is.
     pub what: What,
-    /// Of an arc: plane, sense, and whether it is a whole circle.
+    /// Of an arc: plane, sense, and whether it is a whole circle; of a thread, whether it has a chuck.
     form: u8,
     /// In which world alone it happens; 0 is in all.
     pub world: u8,
@@ -247,7 +249,7 @@ impl Recorder {
         let Some(what) = what(&plain.kind) else { return };
         let ends = [&plain.end, &one.end, &two.end];
         let nowhere = ends.iter().zip(&self.stood).all(|(end, stood)| same_point(end, stood));
-        if nowhere && matches!(what, What::Traverse | What::Feed) {
+        if nowhere && matches!(what, What::Traverse | What::Feed | What::Thread) {
             return;
         }
         self.stood = [plain.end, one.end, two.end];
@@ -291,6 +293,8 @@ impl Recorder {
                 } | u8::from(*turn == Turn::Counterclockwise) << 2
                     | u8::from(*full) << 3;
             }
+            Kind::Synchronised { chuck, .. } => form = u8::from(*chuck),
+            Kind::Orient(angle) => more = [*angle, 0, 0],
             Kind::Dwell(seconds) => more = [*seconds, 0, 0],
             Kind::Message(text) | Kind::MachineFunction(text) => {
                 more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
@@ -333,6 +337,8 @@ fn what(kind: &Kind) -> Option<What> {
     Some(match kind {
         Kind::Traverse => What::Traverse,
         Kind::Feed => What::Feed,
+        Kind::Synchronised { .. } => What::Thread,
+        Kind::Orient(_) => What::Orient,
         Kind::Arc { .. } => What::Arc,
         Kind::Dwell(_) => What::Dwell,
         Kind::ToolChange => What::ToolChange,

@@ -24,7 +24,7 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
             let linear = path.change[..3].iter().any(|change| *change != 0.0);
             rapid(if linear { path.length } else { 0.0 }, &path.change, machine)
         }
-        Kind::Feed | Kind::Arc { .. } => {
+        Kind::Feed | Kind::Synchronised { .. } | Kind::Arc { .. } => {
             let rate = units(act.event.rate);
             match path(&act.event, &act.from).length {
                 0.0 => 0.0,
@@ -37,7 +37,7 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
             known(machine.tool_change)
         }
         Kind::Attribute(Attribute::StartSpindle(_)) => known(machine.spindle_start),
-        Kind::Attribute(Attribute::StopSpindle) => known(machine.spindle_stop),
+        Kind::Orient(_) | Kind::Attribute(Attribute::StopSpindle) => known(machine.spindle_stop),
         Kind::MachineFunction(name) => known(machine.function(name)),
         Kind::ToolChange
         | Kind::Coolant

@@ -285,6 +285,8 @@ impl Writer {
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
+            | Op::SynchronisedFeed(_)
+            | Op::OrientSpindle(_)
             | Op::RepeatBlocks(_)
             | Op::StartCycle(_)
             | Op::Hole(_)

@@ -1,10 +1,13 @@
 //! Statements of the `ir` text, each without its block's marks.
 
-use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row};
+use ncc_ir::canon::{
+    Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, Turn, Units,
+};
+use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{
-    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Frame, FrameSlot, FrameStep, Op, Point, Shape,
+    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Frame, FrameSlot, FrameStep, Op, Pitch, Point,
+    Shape,
 };
 
 use super::expr::{expr, var};
@@ -45,6 +48,8 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::StartSpindleClockwise
         | Op::StartSpindleCounterclockwise
         | Op::StopSpindleTurning
+        | Op::SynchronisedFeed(_)
+        | Op::OrientSpindle(_)
         | Op::MachineFunction(_)
         | Op::FloodOn
         | Op::MistOn
@@ -93,6 +98,14 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
             point(&m.to, b"", out);
         }
+        Op::SynchronisedFeed(m) => {
+            point(&m.to, b", ", out);
+            put("pitch ", out);
+            pitch(&m.pitch, out);
+            put(if m.chuck { ", chuck" } else { "" }, out);
+            further_turn(m.turn, out);
+        }
+        Op::OrientSpindle(angle) => angle.iter().for_each(|angle| expr(angle, out)),
         Op::ArcFeed(a) => arc(a, out),
         Op::ArcForm(a) => arc_form(a, out),
         Op::StartCycle(c) => cycle(c, out),
@@ -341,6 +354,33 @@ fn details(words: &[(&str, Option<&Expr>)], out: &mut Vec<u8>) {
     put(")", out);
 }
 
+fn pitch(p: &Pitch, out: &mut Vec<u8>) {
+    match p {
+        Pitch::Stated(e) => expr(e, out),
+        Pitch::Feed => put("feed", out),
+    }
+}
+
+fn further_turn(sense: Option<Turn>, out: &mut Vec<u8>) {
+    if let Some(sense) = sense {
+        put(", ", out);
+        put(turn(sense), out);
+    }
+}
+
+fn spindle(s: Spindle) -> &'static str {
+    match s {
+        Spindle::Stopped => "stopped",
+        Spindle::Clockwise => turn(Turn::Clockwise),
+        Spindle::Counterclockwise => turn(Turn::Counterclockwise),
+    }
+}
+
+fn after(s: Option<Spindle>, out: &mut Vec<u8>) {
+    put("after ", out);
+    put(s.map_or("as-before", spindle), out);
+}
+
 fn clearance(c: &Clearance, out: &mut Vec<u8>) {
     match c {
         Clearance::Stated(e) => expr(e, out),
@@ -379,6 +419,56 @@ fn cycle(c: &Cycle, out: &mut Vec<u8>) {
             let words =
                 [(", first ", first.as_ref()), (", pause ", pause.as_ref()), (", dwell ", dwell.as_ref())];
             details(&words, out);
+        }
+        CycleKind::Tap(tap) => {
+            put("(", out);
+            put(turn(tap.turn), out);
+            put(", pitch ", out);
+            pitch(&tap.pitch, out);
+            for (word, value) in [(", dwell ", &tap.dwell), (", settle ", &tap.settle)] {
+                if let Some(value) = value {
+                    put(word, out);
+                    expr(value, out);
+                }
+            }
+            put(", after ", out);
+            put(spindle(tap.after), out);
+            put(")", out);
+        }
+        CycleKind::FineBore(bore) => {
+            put("(shift ", out);
+            match &bore.shift {
+                Shift::Parameter(amount) => {
+                    put("parameter ", out);
+                    expr(amount, out);
+                }
+                Shift::Stated(words) => {
+                    put("along (", out);
+                    let words = Axis::ALL.into_iter().zip(words);
+                    let words = words.filter_map(|(axis, word)| Some((axis, word.as_ref()?)));
+                    for (place, (axis, value)) in words.enumerate() {
+                        put(if place > 0 { ", " } else { "" }, out);
+                        out.push(axis.letter());
+                        out.push(b' ');
+                        expr(value, out);
+                    }
+                    put(")", out);
+                }
+            }
+            put(", ", out);
+            after(bore.after, out);
+            further_turn(bore.turn, out);
+            details(&[(", dwell ", bore.dwell.as_ref()), (", angle ", bore.angle.as_ref())], out);
+        }
+        CycleKind::BoreStop(bore) => {
+            put("(", out);
+            after(bore.after, out);
+            further_turn(bore.turn, out);
+            if let Some(dwell) = &bore.dwell {
+                put(", dwell ", out);
+                expr(dwell, out);
+            }
+            put(if bore.stop { ", program-stop)" } else { ")" }, out);
         }
     }
     put(", ", out);

@@ -152,6 +152,9 @@ impl Writer {
             CycleKind::DrillDwell { .. } => CallKind::DrillDwell,
             CycleKind::DrillPeck { .. } | CycleKind::DrillBreak { .. } => CallKind::DrillPeck,
             CycleKind::Bore { .. } => CallKind::Bore,
+            CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {
+                return Err(cannot(format!("the cycle {}", kind.name())));
+            }
         };
         self.dialect.call_for(call).ok_or_else(|| cannot(format!("the cycle {}", kind.name())))
     }
@@ -169,7 +172,7 @@ impl Writer {
         let mut to = Arguments::new(row);
         self.planes(&planes, &mut to, span, sink)?;
         match &cycle.kind {
-            CycleKind::Drill => {}
+            CycleKind::Drill | CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {}
             CycleKind::DrillDwell { dwell } => self.argument(&mut to, Role::Dwell, dwell, span, sink)?,
             CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell } => {
                 self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;

@@ -44,6 +44,8 @@ impl Writer {
             | Op::SelectTool(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
+            | Op::SynchronisedFeed(_)
+            | Op::OrientSpindle(_)
             | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn

@@ -173,6 +173,9 @@ impl Writer {
                 dwell.as_ref()
             }
             CycleKind::Bore { dwell, .. } => dwell.as_ref(),
+            CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {
+                return Err(cannot(format!("the cycle {}", cycle.kind.name())));
+            }
         };
         let code = self.codes.cycle(cycle.kind.name(), dwell.is_some());
         code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
@@ -288,6 +291,7 @@ impl Writer {
                 (Some(peck), dwell.as_ref())
             }
             CycleKind::Bore { dwell, .. } => (None, dwell.as_ref()),
+            CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => (None, None),
         };
         // A change keeps code and plane, and needs a word that makes a hole.
         let moves = at.is_some_and(|p| !p.is_empty());

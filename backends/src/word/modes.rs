@@ -54,6 +54,8 @@ impl Setting {
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
+            | Op::SynchronisedFeed(_)
+            | Op::OrientSpindle(_)
             | Op::RepeatBlocks(_)
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)

@@ -48,6 +48,8 @@ impl Writer {
             Op::UseMachineCoordinates => Err(cannot("machine coordinates")),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
+            Op::SynchronisedFeed(_) => Err(cannot("a move in step with the spindle")),
+            Op::OrientSpindle(_) => Err(cannot("a spindle stopped at an angle")),
             Op::RepeatBlocks(_) => Err(cannot("a repetition of blocks")),
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::SetSpindleSpeed(speed) => {

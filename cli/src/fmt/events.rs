@@ -100,7 +100,8 @@ fn take(event: &Event, into: &mut DefaultHasher) {
     std::mem::discriminant(kind).hash(into);
     match kind {
         Kind::Arc { plane, turn, full, centre } => (plane, turn, full, centre).hash(into),
-        Kind::Dwell(seconds) => seconds.hash(into),
+        Kind::Synchronised { pitch, chuck } => (pitch, chuck).hash(into),
+        Kind::Dwell(value) | Kind::Orient(value) => value.hash(into),
         Kind::MachineFunction(text) | Kind::Message(text) => text.hash(into),
         Kind::Traverse
         | Kind::Feed

@@ -39,7 +39,7 @@ const MOST_STRETCHES: usize = 1000;
 const MOST_PLACES: usize = 1000;
 
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
-pub const KINDS: [&str; 12] = [
+pub const KINDS: [&str; 14] = [
     "STRAIGHT_TRAVERSE",
     "STRAIGHT_FEED",
     "ARC_FEED",
@@ -52,6 +52,8 @@ pub const KINDS: [&str; 12] = [
     "PROGRAM_END",
     "TEXT_END",
     "MESSAGE",
+    "SYNCHRONISED_FEED",
+    "ORIENT_SPINDLE",
 ];
 
 /// A kind's place in [`KINDS`]; `None` is no event of a comparison.
@@ -69,6 +71,8 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::ProgramEnd => 9,
         Kind::TextEnd => 10,
         Kind::Message(_) => 11,
+        Kind::Synchronised { .. } => 12,
+        Kind::Orient(_) => 13,
         Kind::Attribute(_) => return None,
     })
 }

@@ -83,6 +83,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::MacroLanguage { .. } => own("write the values out, or see to this place by hand"),
         Fault::NoToolSelected => own("say the tool number in this block or before it"),
         Fault::NoFeed => own("say the feed in this block or before it"),
+        Fault::NoSpeed => own("say the speed of the spindle before it"),
         Fault::NoCycle => own("call the cycle up before the positions"),
         Fault::CycleUpsideDown => own("check the signs of the bottom and of the retract plane"),
         Fault::EntryFactNeeded { .. } => own("say it in the subprogram itself"),

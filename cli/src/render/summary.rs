@@ -239,6 +239,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::MacroLanguage { .. }
         | Fault::NoToolSelected
         | Fault::NoFeed
+        | Fault::NoSpeed
         | Fault::NoCycle
         | Fault::CycleUpsideDown
         | Fault::EntryFactNeeded { .. }

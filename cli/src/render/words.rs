@@ -138,6 +138,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             ("tool change without a tool".into(), "no tool number has been said before".into())
         }
         Fault::NoFeed => ("move at feed without a feed".into(), "no feed has been said before".into()),
+        Fault::NoSpeed => ("a thread without a speed".into(), "no spindle speed has been said before".into()),
         Fault::NoCycle => {
             ("hole positions without a cycle".into(), "no cycle is in force to be made here".into())
         }

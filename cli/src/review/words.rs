@@ -94,6 +94,8 @@ pub(crate) fn event(record: &Record, style: &Style, texts: &[Text]) -> String {
                 number(style.rate)
             )
         }
+        What::Thread => format!("thread {at} F{}", number(style.rate)),
+        What::Orient => format!("spindle stopped at {}°", number(record.more[0])),
         What::Dwell => format!("dwell {} s", number(record.more[0])),
         What::ToolChange => format!("tool T{}", style.state.tool),
         What::Function => format!("function {}", text()),

@@ -51,6 +51,8 @@ impl Columns {
                 "STRAIGHT_TRAVERSE"
             }
             Kind::Feed => "STRAIGHT_FEED",
+            Kind::Synchronised { .. } => "SYNCHRONISED_FEED",
+            Kind::Orient(_) => "ORIENT_SPINDLE",
             Kind::Arc { .. } => "ARC_FEED",
             Kind::Dwell(_) => "DWELL",
             Kind::ToolChange => "CHANGE_TOOL",

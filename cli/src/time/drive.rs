@@ -18,7 +18,7 @@ use ncc_ir::maps::Renaming;
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
-use ncc_ir::world::{Tables, World};
+use ncc_ir::world::{Sideways, Tables, World};
 use ncc_machines::reading::Told;
 use ncc_pictures::Turned;
 use ncc_timeline::{Act, Clock, Machine, Model, Place, Timed};
@@ -501,7 +501,10 @@ impl<'d> Drive<'d> {
             | CycleKind::DrillDwell { .. }
             | CycleKind::DrillPeck { .. }
             | CycleKind::DrillBreak { .. }
-            | CycleKind::Bore { .. } => return,
+            | CycleKind::Bore { .. }
+            | CycleKind::Tap(_)
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => return,
         };
         let said = parameter(self.plan.job, option).and_then(|value| value.nanos(false));
         match said.or(self.plan.parameters[usize::from(!drill)]) {
@@ -553,6 +556,8 @@ fn world(plan: &Plan) -> World {
         start: [0; AXES],
         peck_clearance: value(PECK_CLEARANCE),
         break_lift: value(BREAK_LIFT),
+        orientation: 0,
+        bore_shift: Sideways::default(),
         tables: plan.tables.clone(),
         renaming: Renaming::default(),
     }

@@ -2,11 +2,11 @@
 //! them, in mm, degrees and seconds, from program zero.
 
 use ncc_ir::canon::{AXES, Axis, Plane, Turn};
-use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
+use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::exec::{Exec, Kind};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Nanos;
-use ncc_ir::program::{Coord, Op, Point};
+use ncc_ir::program::{Coord, Op, Pitch, Point};
 use ncc_timeline::Act;
 use serde_json::{Map, Value};
 
@@ -91,6 +91,21 @@ fn start(cycle: &Cycle, exec: &Exec) -> Parameters {
             dwell.iter().for_each(|value| put("dwell", value));
             feed_out.iter().for_each(|value| put("feed_out", value));
         }
+        CycleKind::Tap(tap) => {
+            if let Pitch::Stated(pitch) = &tap.pitch {
+                put("pitch", pitch);
+            }
+            let words = [("dwell", &tap.dwell), ("settle", &tap.settle)];
+            words.into_iter().for_each(|(name, value)| value.iter().for_each(|value| put(name, value)));
+        }
+        CycleKind::FineBore(bore) => {
+            let words = [("dwell", &bore.dwell), ("angle", &bore.angle)];
+            words.into_iter().for_each(|(name, value)| value.iter().for_each(|value| put(name, value)));
+            if let Shift::Parameter(amount) = &bore.shift {
+                put("shift", amount);
+            }
+        }
+        CycleKind::BoreStop(bore) => bore.dwell.iter().for_each(|value| put("dwell", value)),
     }
     if let Some((plane, retract, depth)) = exec.cycle_levels() {
         // The drilling axis' letter; of most programs, z.

@@ -180,6 +180,8 @@ impl<W: Write> Sink for Payload<'_, W> {
             Kind::Message(text) => parameters::one("text", (&**text).into()),
             Kind::Traverse
             | Kind::Feed
+            | Kind::Synchronised { .. }
+            | Kind::Orient(_)
             | Kind::ToolChange
             | Kind::Coolant
             | Kind::MachineFunction(_)

@@ -151,6 +151,7 @@ impl State {
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
+            | Op::SynchronisedFeed(_)
             | Op::UseToolLengthOffset(_) => {
                 self.stands = [None; AXES];
             }
@@ -168,6 +169,7 @@ impl State {
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
+            | Op::OrientSpindle(_)
             | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn

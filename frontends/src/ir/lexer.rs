@@ -349,6 +349,30 @@ pub(crate) enum Token {
     DrillPeck,
     #[token("bore")]
     Bore,
+    #[token("tap")]
+    Tap,
+    #[token("tap-rigid")]
+    TapRigid,
+    #[token("bore-fine")]
+    BoreFine,
+    #[token("bore-stop")]
+    BoreStop,
+    #[token("chuck")]
+    Chuck,
+    #[token("after")]
+    After,
+    #[token("as-before")]
+    AsBefore,
+    #[token("stopped")]
+    Stopped,
+    #[token("program-stop")]
+    ProgramStopWord,
+    #[token("along")]
+    AlongWord,
+    #[token("SYNCHRONISED_FEED")]
+    SynchronisedFeed,
+    #[token("ORIENT_SPINDLE")]
+    OrientSpindle,
     #[token("dwell")]
     DwellWord,
     #[token("peck")]

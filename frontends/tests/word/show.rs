@@ -117,6 +117,9 @@ fn cycle(c: &Cycle) -> String {
             assert_eq!((lift, dwell), (&Clearance::Parameter, &None));
             format!(" break {}", expr(peck))
         }
+        other @ (CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_)) => {
+            format!(" {other:?}")
+        }
         CycleKind::Bore { dwell, .. } => {
             dwell.as_ref().map_or(String::new(), |d| format!(" dwell {}", expr(d)))
         }

@@ -1,7 +1,7 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
-use ncc_ir::canon::ReturnLevel;
-use ncc_ir::caps::{Caps, CycleCap};
+use ncc_ir::canon::{ReturnLevel, Turn};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm};
 
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
@@ -24,7 +24,17 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
     });
     Caps {
         cycles: if everything {
-            let all = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
+            let all = [
+                "drill",
+                "drill-dwell",
+                "drill-peck",
+                "drill-break",
+                "bore",
+                "tap",
+                "tap-rigid",
+                "bore-fine",
+                "bore-stop",
+            ];
             let cap = |kind: &str| CycleCap {
                 kind: kind.to_owned(),
                 returns: vec![ReturnLevel::Initial, ReturnLevel::Retract],
@@ -33,6 +43,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 parameter: true,
                 strokes: true,
                 feed_out: true,
+                form: CycleForm::Any,
+                turns: Vec::new(),
                 lift_at_feed: None,
             };
             all.into_iter().map(cap).collect()
@@ -45,6 +57,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 parameter: true,
                 strokes: false,
                 feed_out: false,
+                form: CycleForm::Control,
+                turns: Vec::new(),
                 lift_at_feed: Some(false),
             };
             let called = |row: &CallRow| {
@@ -57,6 +71,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     parameter: !has(ParameterRole::Clearance),
                     strokes: has(ParameterRole::RelativeFirstDepth),
                     feed_out: has(ParameterRole::FeedOut),
+                    form: CycleForm::Stated,
+                    turns: vec![Turn::Clockwise, Turn::Counterclockwise],
                     lift_at_feed: Some(has(ParameterRole::Lift)),
                 });
                 caps.collect::<Vec<_>>()
@@ -124,6 +140,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         inch: true,
         flat: dialect.can.flat,
         inherits_motion: everything || dialect.can.inherits_motion,
+        synchronised: everything,
         messages: everything || dialect.can.flat || names(NameMeaning::Message),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
     }

@@ -12,7 +12,8 @@ pub struct Event {
     pub kind: Kind,
     /// Where the axes stand after it, machine coordinates in nanos.
     pub end: [Nanos; AXES],
-    /// Feed of a cutting move, mm/min in nanos; 0 of others.
+    /// Feed of a cutting move, mm/min in nanos; 0 of others. Of a synchronised move it follows from pitch
+    /// and speed, and is not compared.
     pub rate: Nanos,
     /// What is on.
     pub state: State,
@@ -29,6 +30,13 @@ pub enum Kind {
     Traverse,
     /// Straight at feed.
     Feed,
+    /// Straight, in step with the spindle.
+    Synchronised {
+        /// How far it goes in one turn, nanos of a millimetre.
+        pitch: Nanos,
+        /// Whether a compensating chuck makes good what feed and spindle are apart.
+        chuck: bool,
+    },
     /// Arc or helix at feed.
     Arc {
         /// Its plane.
@@ -44,6 +52,8 @@ pub enum Kind {
     Dwell(Nanos),
     /// The selected tool is put in.
     ToolChange,
+    /// The spindle is stopped at an angle, degrees in nanos.
+    Orient(Nanos),
     /// Coolant was switched.
     Coolant,
     /// Something of the machine was switched that no dialect has a word for.
@@ -90,12 +100,13 @@ impl Kind {
     pub fn moves(&self) -> Option<Movement> {
         match self {
             Kind::Traverse => Some(Movement::Rapid),
-            Kind::Feed => Some(Movement::Feed),
+            Kind::Feed | Kind::Synchronised { .. } => Some(Movement::Feed),
             Kind::Arc { plane, turn, full, centre } => {
                 Some(Movement::Arc { plane: *plane, turn: *turn, full: *full, centre: *centre })
             }
             Kind::Dwell(_)
             | Kind::ToolChange
+            | Kind::Orient(_)
             | Kind::Coolant
             | Kind::MachineFunction(_)
             | Kind::ProgramStop

@@ -4,8 +4,8 @@
 //! tests holds the two together.
 
 use super::{Attribute, Event, Exec, Kind};
-use crate::canon::{AXES, Motion, Plane, ReturnLevel};
-use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern};
+use crate::canon::{AXES, Motion, Plane, ReturnLevel, Spindle, Turn};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Shift};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::Nanos;
@@ -41,10 +41,43 @@ impl InForce {
 /// How the hole is made.
 #[derive(Clone, Copy, Debug)]
 enum Way {
-    Drill { dwell: Option<Nanos> },
-    Peck { strokes: Strokes, clearance: Nanos, settle: Option<Nanos> },
-    Break { strokes: Strokes, lift: Nanos, at_feed: bool },
-    Bore { dwell: Option<Nanos>, feed_out: Option<Nanos> },
+    Drill {
+        dwell: Option<Nanos>,
+    },
+    Peck {
+        strokes: Strokes,
+        clearance: Nanos,
+        settle: Option<Nanos>,
+    },
+    Break {
+        strokes: Strokes,
+        lift: Nanos,
+        at_feed: bool,
+    },
+    Bore {
+        dwell: Option<Nanos>,
+        feed_out: Option<Nanos>,
+    },
+    Tap {
+        turn: Turn,
+        pitch: Option<Nanos>,
+        chuck: bool,
+        dwell: [Option<Nanos>; 2],
+        after: Spindle,
+    },
+    Fine {
+        turn: Option<Turn>,
+        dwell: Option<Nanos>,
+        angle: Option<Nanos>,
+        shift: [Nanos; 3],
+        after: Option<Spindle>,
+    },
+    Stop {
+        turn: Option<Turn>,
+        dwell: Option<Nanos>,
+        stop: bool,
+        after: Option<Spindle>,
+    },
 }
 
 /// Pecks of a hole.
@@ -127,6 +160,23 @@ impl Exec {
                 dwell: dwell(d)?,
                 feed_out: feed_out.as_ref().map(|f| self.feed_of(f, span)).transpose()?,
             },
+            CycleKind::Tap(tap) => Way::Tap {
+                turn: tap.turn,
+                pitch: self.stated_pitch(&tap.pitch, span)?,
+                chuck: tap.chuck,
+                dwell: [dwell(&tap.dwell)?, dwell(&tap.settle)?],
+                after: tap.after,
+            },
+            CycleKind::FineBore(bore) => Way::Fine {
+                turn: bore.turn,
+                dwell: dwell(&bore.dwell)?,
+                angle: dwell(&bore.angle)?,
+                shift: self.off_the_wall(&bore.shift, plane, span)?,
+                after: bore.after,
+            },
+            CycleKind::BoreStop(bore) => {
+                Way::Stop { turn: bore.turn, dwell: dwell(&bore.dwell)?, stop: bore.stop, after: bore.after }
+            }
         };
         let return_plane = match &cycle.return_plane {
             Some(word) => Some(self.target(word, retract, span)?),
@@ -147,6 +197,26 @@ impl Exec {
             way,
         });
         Ok(())
+    }
+
+    /// How far fine boring shifts the tool along X, Y and Z.
+    fn off_the_wall(&self, shift: &Shift, plane: Plane, span: Span) -> Result<[Nanos; 3], Diagnostic> {
+        let mut by = [0; 3];
+        match shift {
+            Shift::Stated(words) => {
+                for (by, word) in by.iter_mut().zip(words) {
+                    *by = word.as_ref().map_or(Ok(0), |word| self.value(word, span))?;
+                }
+            }
+            Shift::Parameter(amount) => {
+                let amount = self.value(amount, span)?;
+                let direction = self.world.bore_shift;
+                let (first, second, _) = plane.axes();
+                let along = if direction.second { second } else { first };
+                by[along as usize] = if direction.minus { -amount } else { amount };
+            }
+        }
+        Ok(by)
     }
 
     fn strokes(&self, words: [&Expr; 2], way: Nanos, span: Span) -> Result<Strokes, Diagnostic> {
@@ -215,6 +285,10 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         let normal = cycle.plane.axes().2 as usize;
         self.heading = super::Heading::None;
+        let turned = self.state.spindle;
+        if matches!(cycle.way, Way::Tap { chuck: false, .. }) {
+            self.turn_spindle(Spindle::Stopped, span, out)?;
+        }
         if cycle.approach.retracts(self.position[normal], cycle.retract) {
             self.go_to_level(normal, cycle.retract, false, span, out)?;
         }
@@ -267,13 +341,77 @@ impl Exec {
                 self.go_to_level(normal, cycle.retract, true, span, out)?;
                 self.feed = feed_in;
             }
+            Way::Tap { turn, pitch, chuck, dwell, after } => {
+                if !chuck {
+                    self.turn_spindle(turn.spindle(), span, out)?;
+                }
+                self.position[normal] = cycle.depth;
+                self.in_step(pitch, chuck, span, out)?;
+                if !chuck {
+                    self.turn_spindle(Spindle::Stopped, span, out)?;
+                }
+                self.dwell(dwell[0], span, out)?;
+                self.turn_spindle(turn.back().spindle(), span, out)?;
+                self.position[normal] = cycle.retract;
+                self.in_step(pitch, chuck, span, out)?;
+                if !chuck {
+                    self.turn_spindle(Spindle::Stopped, span, out)?;
+                }
+                self.dwell(dwell[1], span, out)?;
+                if chuck {
+                    self.turn_spindle(after, span, out)?;
+                }
+            }
+            Way::Fine { turn, dwell, angle, shift, .. } => {
+                if let Some(turn) = turn {
+                    self.turn_spindle(turn.spindle(), span, out)?;
+                }
+                self.go_to_level(normal, cycle.depth, true, span, out)?;
+                self.dwell(dwell, span, out)?;
+                let angle = angle.unwrap_or(self.world.orientation);
+                self.state.spindle = Spindle::Stopped;
+                self.emit(Kind::Orient(angle), span, out)?;
+                for (at, by) in self.position.iter_mut().zip(shift) {
+                    *at += by;
+                }
+                self.emit_move(false, span, out)?;
+            }
+            Way::Stop { turn, dwell, stop, .. } => {
+                if let Some(turn) = turn {
+                    self.turn_spindle(turn.spindle(), span, out)?;
+                }
+                self.go_to_level(normal, cycle.depth, true, span, out)?;
+                self.dwell(dwell, span, out)?;
+                self.turn_spindle(Spindle::Stopped, span, out)?;
+                if stop {
+                    self.emit(Kind::ProgramStop, span, out)?;
+                }
+            }
         }
         let level = || match cycle.return_level.unwrap_or(self.modes.return_level) {
             ReturnLevel::Retract => cycle.retract,
             ReturnLevel::Initial => cycle.initial,
         };
         let out_to = cycle.return_plane.unwrap_or_else(level);
-        self.go_to_level(normal, out_to, false, span, out)
+        self.go_to_level(normal, out_to, false, span, out)?;
+        match cycle.way {
+            Way::Tap { chuck: false, after, .. } => self.turn_spindle(after, span, out),
+            Way::Fine { shift, after, .. } => {
+                for (axis, by) in shift.iter().enumerate() {
+                    if axis != normal {
+                        self.position[axis] -= by;
+                    }
+                }
+                self.emit_move(false, span, out)?;
+                self.turn_spindle(after.unwrap_or(turned), span, out)
+            }
+            Way::Stop { after, .. } => self.turn_spindle(after.unwrap_or(turned), span, out),
+            Way::Tap { chuck: true, .. }
+            | Way::Drill { .. }
+            | Way::Peck { .. }
+            | Way::Break { .. }
+            | Way::Bore { .. } => Ok(()),
+        }
     }
 
     fn go_to_level(

@@ -10,6 +10,7 @@ mod event;
 mod frame;
 mod holes;
 mod run;
+mod thread;
 
 pub use event::{Attribute, Event, Kind, Movement, State};
 pub(crate) use frame::Chain;
@@ -21,10 +22,10 @@ use crate::canon::{
 };
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::num::{Nanos, Unit};
+use crate::num::{Nanos, ONE, Unit};
 use crate::program::{Coord, FrameSlot, Op, Point, Stmt};
 use crate::source::Span;
-use crate::world::World;
+use crate::world::{Sideways, World};
 use arcs::Heading;
 use holes::InForce;
 
@@ -308,6 +309,16 @@ impl Exec {
         self.world.break_lift = lift;
     }
 
+    /// Sets the angle at which the control stops the spindle where nothing else is said, degrees in nanos.
+    pub fn set_orientation(&mut self, angle: Nanos) {
+        self.world.orientation = angle;
+    }
+
+    /// Sets the direction in which the control shifts a tool off the wall of a bore.
+    pub fn set_bore_shift(&mut self, direction: Sideways) {
+        self.world.bore_shift = direction;
+    }
+
     /// Sets the block-skip switches: bit n is level n.
     pub fn set_skip(&mut self, skip: u16) {
         self.skip = skip;
@@ -450,7 +461,14 @@ impl Exec {
             self.counted += 1;
             return Ok(());
         }
-        let rate = if cutting { self.feed } else { 0 };
+        let rate = match kind {
+            Kind::Synchronised { pitch, .. } => {
+                let rate = i128::from(pitch) * i128::from(self.state.speed) / i128::from(ONE);
+                Nanos::try_from(rate).unwrap_or(Nanos::MAX)
+            }
+            _ if cutting => self.feed,
+            _ => 0,
+        };
         out.push(Event { kind, end: self.last, rate, state: self.state, inch: self.modes.inch, span });
         Ok(())
     }
@@ -597,10 +615,9 @@ impl Exec {
             }
             Op::StartSpindleClockwise => self.turn_spindle(Spindle::Clockwise, span, out)?,
             Op::StartSpindleCounterclockwise => self.turn_spindle(Spindle::Counterclockwise, span, out)?,
-            Op::StopSpindleTurning => {
-                self.state.spindle = Spindle::Stopped;
-                self.tell(Attribute::StopSpindle, span, out)?;
-            }
+            Op::StopSpindleTurning => self.turn_spindle(Spindle::Stopped, span, out)?,
+            Op::SynchronisedFeed(m) => self.synchronised(m, span, out)?,
+            Op::OrientSpindle(angle) => self.orient(angle.as_ref(), span, out)?,
             Op::MachineFunction(name) => self.emit(Kind::MachineFunction(name.clone()), span, out)?,
             Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
             Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
@@ -634,7 +651,8 @@ impl Exec {
 
     fn turn_spindle(&mut self, to: Spindle, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         self.state.spindle = to;
-        self.tell(Attribute::StartSpindle(to), span, out)
+        let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };
+        self.tell(what, span, out)
     }
 
     fn coolant(

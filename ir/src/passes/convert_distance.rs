@@ -35,6 +35,7 @@ fn run(program: &mut Program, entry: &Tracker, to: Distance, diags: &mut Vec<Dia
             let point = match op {
                 Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Hole(m) => &mut m.to,
                 Op::ArcFeed(arc) => &mut arc.to,
+                Op::SynchronisedFeed(m) => &mut m.to,
                 Op::SetDistanceMode(distance) => {
                     *distance = to;
                     continue;

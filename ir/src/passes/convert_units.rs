@@ -14,7 +14,7 @@ use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, miscellaneous, tooling};
 use crate::num::{Num, Unit};
-use crate::program::{Centre, Coord, FrameStep, Op, Point, Program, Shape, Stmt};
+use crate::program::{Centre, Coord, FrameStep, Op, Pitch, Point, Program, Shape, Stmt};
 use crate::track::Tracker;
 
 /// Everything in millimetres.
@@ -61,6 +61,12 @@ impl Converter<'_> {
         match &mut stmt.op {
             Op::UseLengthUnits(units) => *units = self.to,
             Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => self.point(&mut m.to)?,
+            Op::SynchronisedFeed(m) => {
+                self.point(&mut m.to)?;
+                if let Pitch::Stated(pitch) = &mut m.pitch {
+                    self.whole(pitch)?;
+                }
+            }
             // The tool comes out at another level than the words say.
             Op::Hole(m) => self.hole(&mut m.to)?,
             Op::ArcFeed(arc) => {
@@ -219,7 +225,8 @@ impl Converter<'_> {
             CycleKind::Bore { feed_out, .. } => {
                 feed_out.iter_mut().try_for_each(|feed| self.loose(feed))?;
             }
-            CycleKind::Drill | CycleKind::DrillDwell { .. } => {}
+            kind @ (CycleKind::Tap(_) | CycleKind::FineBore(_)) => kind.each_length(|e| self.whole(e))?,
+            CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::BoreStop(_) => {}
         }
         Ok(())
     }

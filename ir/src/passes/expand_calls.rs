@@ -14,7 +14,9 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
 use crate::kinds::{flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
-use crate::program::{Call, Centre, Control, Coord, FrameStep, Op, Point, Procedure, Program, Shape, Stmt};
+use crate::program::{
+    Call, Centre, Control, Coord, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Stmt,
+};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -193,6 +195,12 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
             settle_point(&mut m.to, here);
         }
+        Op::SynchronisedFeed(m) => {
+            settle_point(&mut m.to, here);
+            if let Pitch::Stated(pitch) = &mut m.pitch {
+                settle_expr(pitch, here);
+            }
+        }
         Op::ArcFeed(arc) => {
             settle_fact(&mut arc.plane, here.modes.plane);
             settle_point(&mut arc.to, here);
@@ -220,7 +228,14 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
                 CycleKind::Bore { feed_out, .. } => {
                     feed_out.iter_mut().for_each(|f| settle_expr(f, here));
                 }
-                CycleKind::Drill | CycleKind::DrillDwell { .. } => {}
+                kind @ (CycleKind::Tap(_) | CycleKind::FineBore(_)) => {
+                    let settled: Result<(), std::convert::Infallible> = kind.each_length(|e| {
+                        settle_expr(e, here);
+                        Ok(())
+                    });
+                    settled.unwrap_or_else(|never| match never {});
+                }
+                CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::BoreStop(_) => {}
             }
         }
         Op::Pattern(pattern) => match &mut **pattern {

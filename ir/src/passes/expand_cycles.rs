@@ -17,14 +17,14 @@
 use super::walk::Walk;
 use super::write::{Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of};
 use super::{Target, each_body, expand_patterns};
-use crate::canon::{Axis, Motion, ReturnLevel};
-use crate::caps::CycleCap;
-use crate::cycle::{Approach, Clearance, Cycle, CycleKind, absolute};
+use crate::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Spindle};
+use crate::caps::{Caps, CycleCap, CycleForm};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Shift, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, moves};
 use crate::num::{Nanos, Num};
-use crate::program::{Coord, Op, Point, Program, Stmt};
+use crate::program::{Coord, Op, Point, Program, Stmt, Synchronised};
 use crate::source::Span;
 use crate::track::{InForce, Tracker};
 
@@ -245,6 +245,19 @@ fn told(stmt: &Stmt, target: &Target, diags: &mut Vec<Diagnostic>) {
         CycleKind::DrillBreak { lift: Clearance::Parameter, .. } => {
             ("lift of chip-breaking drilling", target.break_lift)
         }
+        CycleKind::FineBore(bore) => {
+            if let (None, Some(angle)) = (&bore.angle, target.orientation) {
+                let (parameter, degrees) = ("orientation of the spindle".into(), angle.nanos(false));
+                let value = format!("{} degrees", degrees.unwrap_or(0) as f64 / 1e9).into();
+                diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+            }
+            if let (Shift::Parameter(_), Some(direction)) = (&bore.shift, target.bore_shift) {
+                let parameter = "direction of the shift of fine boring".into();
+                let value = direction.name().into();
+                diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, stmt.span));
+            }
+            return;
+        }
         _ => return,
     };
     if let Some(value) = value {
@@ -283,6 +296,15 @@ pub(super) fn sayable(
             (dwell.is_some(), says_pecks(&cap, lift, strokes) && way)
         }
         CycleKind::Bore { dwell, feed_out } => (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out)),
+        CycleKind::Tap(tap) => {
+            let turns = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
+            (
+                tap.dwell.is_some(),
+                driven(caps, cycle) && caps.cycles.iter().any(|c| c.kind == kind && turns(c)),
+            )
+        }
+        CycleKind::FineBore(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
+        CycleKind::BoreStop(bore) => (bore.dwell.is_some(), driven(caps, cycle)),
     };
     if !details || caps.return_planes.is_some_and(|p| p != cycle.return_plane.is_some()) {
         return false;
@@ -301,6 +323,12 @@ pub(super) fn sayable(
             initial || retract
         }
     }
+}
+
+/// Whether the target says what a cycle does with the spindle in the way that it does it.
+fn driven(caps: &Caps, cycle: &Cycle) -> bool {
+    let kind = cycle.kind.name();
+    caps.cycles.iter().any(|c| c.kind == kind && c.form.says(&cycle.kind))
 }
 
 /// Whether the target can say how a hole is pecked.
@@ -421,6 +449,9 @@ pub(super) fn hole(
         (Approach::RaiseFirst | Approach::RetractFirst, None) => true,
     };
     let to_retract = now.is_none() || now != in_force.retract || walk.waiting;
+    if matches!(&cycle.kind, CycleKind::Tap(tap) if !tap.chuck) {
+        moves.push((false, Op::StopSpindleTurning));
+    }
     if raise {
         moves.push((false, traverse(retract.clone())));
     }
@@ -441,11 +472,14 @@ pub(super) fn hole(
     if let Some(feed) = feed {
         moves.push((false, Op::SetFeedRate(feed.clone())));
     }
+    if cycle.kind.drives_spindle() {
+        return with_spindle(walk, in_force, to, [retract, depth], out, target, moves);
+    }
     pecks(walk, in_force, normal, target, stated, moves)?;
     let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));
     moves.push((stated && first_cut, cut(depth)));
     let dwell = match &cycle.kind {
-        CycleKind::Drill => None,
+        CycleKind::Drill | CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => None,
         CycleKind::DrillDwell { dwell } => Some(dwell),
         CycleKind::DrillPeck { dwell, .. }
         | CycleKind::DrillBreak { dwell, .. }
@@ -469,6 +503,156 @@ pub(super) fn hole(
         (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),
     }
     Ok(())
+}
+
+/// The moves of a hole in which the cycle drives the spindle, from the retract plane on.
+fn with_spindle(
+    walk: &Walk,
+    in_force: &InForce,
+    to: &Point,
+    [retract, depth]: [Point; 2],
+    out: Option<Point>,
+    target: &Target,
+    moves: &mut Vec<(bool, Op)>,
+) -> Result<(), Fault> {
+    let plane =
+        walk.at.plane(in_force.cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+    let normal = plane.axes().2;
+    let dwell = |seconds: &Option<Expr>, moves: &mut Vec<(bool, Op)>| {
+        if let Some(seconds) = seconds.as_ref().filter(|seconds| lasts(seconds)) {
+            moves.push((false, Op::Dwell(seconds.clone())));
+        }
+    };
+    let turn_it = |to: Spindle| {
+        (
+            false,
+            match to {
+                Spindle::Stopped => Op::StopSpindleTurning,
+                Spindle::Clockwise => Op::StartSpindleClockwise,
+                Spindle::Counterclockwise => Op::StartSpindleCounterclockwise,
+            },
+        )
+    };
+    let turned = |after: Option<Spindle>| match after.or(walk.at.spindle) {
+        Some(spindle) => Ok(turn_it(spindle)),
+        None => {
+            let what = "a cycle after which the spindle turns as before, which is not known";
+            Err(Fault::CannotSay { what: what.into() })
+        }
+    };
+    match &in_force.cycle.kind {
+        CycleKind::Tap(tap) => {
+            if !target.caps.synchronised {
+                return Err(Fault::CannotSay {
+                    what: format!("the cycle {}", in_force.cycle.kind.name()).into(),
+                });
+            }
+            let step = |to: &Point, turn| {
+                let (to, pitch) = (to.clone(), tap.pitch.clone());
+                let turn = (!tap.chuck).then_some(turn);
+                (false, Op::SynchronisedFeed(Box::new(Synchronised { to, pitch, chuck: tap.chuck, turn })))
+            };
+            moves.push(step(&depth, tap.turn));
+            dwell(&tap.dwell, moves);
+            if tap.chuck {
+                moves.push(turn_it(tap.turn.back().spindle()));
+            }
+            moves.push(step(&retract, tap.turn.back()));
+            dwell(&tap.settle, moves);
+            if tap.chuck {
+                moves.push(turn_it(tap.after));
+            }
+            moves.extend(out.map(|out| (false, traverse(out))));
+            if !tap.chuck && tap.after != Spindle::Stopped {
+                moves.push(turn_it(tap.after));
+            }
+        }
+        CycleKind::FineBore(bore) => {
+            moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
+            moves.push((false, cut(depth)));
+            dwell(&bore.dwell, moves);
+            let angle = bore.angle.clone().or_else(|| target.orientation.map(Expr::Num));
+            moves.push((false, Op::OrientSpindle(angle)));
+            let by = off_the_wall(&bore.shift, plane, target)?;
+            let (mut aside, mut back) = (Point::default(), Point::default());
+            for axis in [Axis::X, Axis::Y, Axis::Z] {
+                let Some(by) = &by[axis as usize] else { continue };
+                let (Some(by), Expr::Num(num)) = (walk.at.nanos(by), by) else {
+                    return Err(Fault::CannotSay { what: "a computed shift".into() });
+                };
+                if by == 0 {
+                    continue;
+                }
+                let word =
+                    |num: Num| Coord { value: num.into(), distance: Fact::Known(Distance::Incremental) };
+                let unit = unit_of(axis, walk.unit());
+                let foot = match (axis == normal, to.get(axis)) {
+                    (true, _) => in_force.depth,
+                    (false, Some(word)) => walk.at.resolve(word, walk.at.position[axis as usize]),
+                    (false, None) => walk.at.position[axis as usize],
+                };
+                aside.set(
+                    axis,
+                    match foot.and_then(|foot| foot.checked_add(by)) {
+                        Some(place) => absolute(exact(place, unit)),
+                        None => word(*num),
+                    },
+                );
+                if axis != normal {
+                    back.set(
+                        axis,
+                        match foot {
+                            Some(foot) => absolute(exact(foot, unit)),
+                            None => word(Num { mantissa: -num.mantissa, ..*num }),
+                        },
+                    );
+                }
+            }
+            if !aside.is_empty() {
+                moves.push((false, traverse(aside)));
+            }
+            moves.push((false, traverse(out.unwrap_or(retract))));
+            if !back.is_empty() {
+                moves.push((false, traverse(back)));
+            }
+            moves.push(turned(bore.after)?);
+        }
+        CycleKind::BoreStop(bore) => {
+            moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
+            moves.push((false, cut(depth)));
+            dwell(&bore.dwell, moves);
+            moves.push((false, Op::StopSpindleTurning));
+            if bore.stop {
+                moves.push((false, Op::ProgramStop));
+            }
+            moves.push((false, traverse(out.unwrap_or(retract))));
+            moves.push(turned(bore.after)?);
+        }
+        CycleKind::Drill
+        | CycleKind::DrillDwell { .. }
+        | CycleKind::DrillPeck { .. }
+        | CycleKind::DrillBreak { .. }
+        | CycleKind::Bore { .. } => {}
+    }
+    Ok(())
+}
+
+/// How far fine boring shifts the tool along X, Y and Z.
+fn off_the_wall(shift: &Shift, plane: Plane, target: &Target) -> Result<[Option<Expr>; 3], Fault> {
+    match shift {
+        Shift::Stated(words) => Ok(words.clone()),
+        Shift::Parameter(amount) => {
+            let what = "fine boring whose direction of shift is a parameter of the control";
+            let cannot = || Fault::CannotSay { what: what.into() };
+            let (direction, amount) = target.bore_shift.zip(amount.literal()).ok_or_else(cannot)?;
+            let (first, second, _) = plane.axes();
+            let along = if direction.second { second } else { first };
+            let mantissa = if direction.minus { -amount.mantissa } else { amount.mantissa };
+            let mut by = [None, None, None];
+            by[along as usize] = Some(Expr::Num(Num { mantissa, ..amount }));
+            Ok(by)
+        }
+    }
 }
 
 /// What comes between two pecks.
@@ -515,7 +699,12 @@ fn pecks(
             };
             (peck, first, pause, Between::Up { lift, at_feed: *lift_at_feed })
         }
-        CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::Bore { .. } => return Ok(()),
+        CycleKind::Drill
+        | CycleKind::DrillDwell { .. }
+        | CycleKind::Bore { .. }
+        | CycleKind::Tap(_)
+        | CycleKind::FineBore(_)
+        | CycleKind::BoreStop(_) => return Ok(()),
     };
     let (Some(retract), Some(depth)) = (in_force.retract, in_force.depth) else { return Err(unknown) };
     let peck = length(peck)?.checked_abs().unwrap_or(0);

@@ -19,7 +19,9 @@ use crate::expr::Expr;
 use crate::kinds::{flow, frames, miscellaneous, modes, tooling};
 use crate::num::{Nanos, Num, ONE, POW10, Unit};
 use crate::places::Places;
-use crate::program::{Arc, Centre, CentreFrom, Coord, Frame, FrameSlot, Move, Op, Point, Program, Stmt};
+use crate::program::{
+    Arc, Centre, CentreFrom, Coord, Frame, FrameSlot, Move, Op, Point, Program, Stmt, Synchronised,
+};
 use crate::track::Tracker;
 
 /// Less than this is no share of an axis.
@@ -222,6 +224,12 @@ impl Frames<'_> {
             Op::StraightTraverse(_) | Op::StraightFeed(_) if at.raw => return Ok(Vec::new()),
             Op::StraightTraverse(m) => Op::StraightTraverse(self.moved(m)?),
             Op::StraightFeed(m) => Op::StraightFeed(self.moved(m)?),
+            Op::SynchronisedFeed(m) => {
+                if self.chain.turn().is_some() {
+                    return Err(cannot("a thread in a turned or scaled frame"));
+                }
+                Op::SynchronisedFeed(Box::new(Synchronised { to: self.point(&m.to)?, ..(**m).clone() }))
+            }
             Op::Position(m) => Op::Position(self.moved(m)?),
             Op::Hole(m) => Op::Hole(self.moved(m)?),
             Op::ArcFeed(arc) => Op::ArcFeed(Box::new(self.arc(arc)?)),

@@ -51,7 +51,7 @@ pub(super) fn again(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, ta
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         let cuts = match &stmt.op {
-            Op::StraightFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
+            Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
             Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
             Op::StartCycle(cycle) => cycle.feed.is_none(),
             _ => false,

@@ -64,6 +64,7 @@ fn flatten(stmt: &mut Stmt, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
     walk.step(stmt);
     let to = match &mut stmt.op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) => &mut m.to,
+        Op::SynchronisedFeed(m) => &mut m.to,
         Op::ArcFeed(arc) => &mut arc.to,
         _ => return,
     };

@@ -490,6 +490,7 @@ fn interest(stmt: &Stmt) -> u16 {
     skip | match &stmt.op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
         Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
+        Op::SynchronisedFeed(_) => ARC,
         Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
         Op::Pattern(_) => PATTERN | CYCLE,
         Op::UseToolLengthOffset(_) => LENGTH | TABLE,

@@ -49,6 +49,7 @@ use crate::diag::Diagnostic;
 use crate::num::{Num, Unit};
 use crate::program::{Program, Stmt};
 use crate::track::Tracker;
+use crate::world::Sideways;
 use walk::Walk;
 
 /// Most statements that a program may grow to by being written out.
@@ -67,6 +68,10 @@ pub struct Target {
     pub peck_clearance: Option<Num>,
     /// Lift of a chip-breaking cycle whose own control has it as a parameter, likewise.
     pub break_lift: Option<Num>,
+    /// The source control's direction in which a tool is shifted off the wall of a bore.
+    pub bore_shift: Option<Sideways>,
+    /// The angle at which the source control stops the spindle where nothing else is said, degrees.
+    pub orientation: Option<Num>,
     /// The entry of its length table that has the length of edge 1 of a tool, where that is not the
     /// entry with the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,

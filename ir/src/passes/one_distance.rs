@@ -28,6 +28,7 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
         let span = stmt.span;
         let to = match &mut stmt.op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => &mut m.to,
+            Op::SynchronisedFeed(m) => &mut m.to,
             Op::ArcFeed(arc) => &mut arc.to,
             Op::ArcForm(arc) => &mut arc.to,
             _ => continue,
@@ -46,6 +47,7 @@ pub(super) fn may_mix(op: &Op) -> bool {
 fn words(op: &Op) -> Option<&Point> {
     match op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => Some(&m.to),
+        Op::SynchronisedFeed(m) => Some(&m.to),
         Op::ArcFeed(arc) => Some(&arc.to),
         Op::ArcForm(arc) => Some(&arc.to),
         _ => None,

@@ -50,10 +50,7 @@ fn by_planes(body: &mut [Stmt], walk: &mut Walk) {
 
 /// Whether the cycle that has just been called up surely ends before the return level is another.
 fn keeps_level(after: &[Stmt]) -> bool {
-    let ends = |s: &&Stmt| {
-        matches!(s.op, Op::EndCycle | Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::ProgramEnd)
-            && s.skip.is_none()
-    };
+    let ends = |s: &&Stmt| matches!(s.op, Op::EndCycle | Op::ProgramEnd | moves!()) && s.skip.is_none();
     let changes = |s: &&Stmt| matches!(s.op, Op::SetReturnLevel(_) | flow!());
     let end = after.iter().position(|s| ends(&s));
     let change = after.iter().position(|s| changes(&s));

@@ -31,7 +31,12 @@ pub(super) fn over(body: &mut [Stmt], target: &Target, diags: &mut Vec<Diagnosti
                 (clearance, target.peck_clearance, "clearance of peck drilling")
             }
             CycleKind::DrillBreak { lift, .. } => (lift, target.break_lift, "lift of chip-breaking drilling"),
-            CycleKind::Drill | CycleKind::DrillDwell { .. } | CycleKind::Bore { .. } => continue,
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::Bore { .. }
+            | CycleKind::Tap(_)
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => continue,
         };
         if let (Clearance::Parameter, Some(value)) = (&clearance, value) {
             *clearance = Clearance::Stated(value.into());

@@ -152,6 +152,7 @@ impl Walk {
         };
         match op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) => m.to.get(Axis::Z).is_some(),
+            Op::SynchronisedFeed(m) => m.to.get(Axis::Z).is_some(),
             Op::ArcFeed(arc) => arc.to.get(Axis::Z).is_some(),
             Op::ArcForm(arc) => arc.to.get(Axis::Z).is_some(),
             Op::Position(m) => {

@@ -27,6 +27,8 @@ pub(super) fn everything(decimals: u8) -> Target {
         strokes: true,
         feed_out: true,
         lift_at_feed: None,
+        form: ncc_ir::caps::CycleForm::Any,
+        turns: Vec::new(),
     };
     let caps = Caps {
         cycles: ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"].map(cycle).into(),

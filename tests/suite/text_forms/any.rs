@@ -168,6 +168,28 @@ fn cycle() -> BoxedStrategy<Cycle> {
             }
         ),
         (of(expr()), of(expr())).prop_map(|(dwell, feed_out)| CycleKind::Bore { dwell, feed_out }),
+        (turn(), pitch(), any::<bool>(), of(expr()), of(expr()), select(spindles())).prop_map(
+            |(turn, pitch, chuck, dwell, settle, after)| CycleKind::Tap(Box::new(Tap {
+                turn,
+                pitch,
+                chuck,
+                dwell,
+                settle,
+                after
+            }))
+        ),
+        (of(turn()), of(expr()), of(expr()), shift(), of(select(spindles()))).prop_map(
+            |(turn, dwell, angle, shift, after)| CycleKind::FineBore(Box::new(FineBore {
+                turn,
+                dwell,
+                angle,
+                shift,
+                after
+            }))
+        ),
+        (of(turn()), of(expr()), any::<bool>(), of(select(spindles()))).prop_map(
+            |(turn, dwell, stop, after)| CycleKind::BoreStop(BoreStop { turn, dwell, stop, after })
+        ),
     ];
     let approach = select(Approach::ALL.to_vec());
     (kind, fact(planes()), coord(), coord(), fact(levels()), of(coord()), approach, of(expr()))
@@ -182,6 +204,22 @@ fn cycle() -> BoxedStrategy<Cycle> {
             feed,
         })
         .boxed()
+}
+
+fn spindles() -> Vec<Spindle> {
+    vec![Spindle::Stopped, Spindle::Clockwise, Spindle::Counterclockwise]
+}
+
+fn pitch() -> BoxedStrategy<Pitch> {
+    of(expr()).prop_map(|pitch| pitch.map_or(Pitch::Feed, Pitch::Stated)).boxed()
+}
+
+fn shift() -> BoxedStrategy<Shift> {
+    prop_oneof![
+        expr().prop_map(Shift::Parameter),
+        [of(expr()), of(expr()), of(expr())].prop_map(Shift::Stated),
+    ]
+    .boxed()
 }
 
 fn row() -> BoxedStrategy<Row> {
@@ -279,6 +317,10 @@ fn simple() -> BoxedStrategy<Op> {
         moves().prop_map(Op::StraightTraverse),
         moves().prop_map(Op::StraightFeed),
         moves().prop_map(Op::Position),
+        (point(), pitch(), any::<bool>(), of(turn())).prop_map(|(to, pitch, chuck, turn)| {
+            Op::SynchronisedFeed(Box::new(Synchronised { to, pitch, chuck, turn }))
+        }),
+        of(expr()).prop_map(Op::OrientSpindle),
         moves().prop_map(Op::Hole),
         (fact(planes()), turn(), point(), centre(), 0u32..3, any::<bool>()).prop_map(
             |(plane, turn, to, centre, turns, said)| Op::ArcFeed(Box::new(Arc {

@@ -243,6 +243,7 @@ fn kind(change: &Change) -> &'static str {
         Change::Moved(_) => "moved",
         Change::Arc => "arc",
         Change::Kind(..) => "kind",
+        Change::Orient(..) => "orientation",
         Change::Dwell(..) => "dwell",
         Change::Text => "text",
         Change::Gap => "gap",
@@ -254,7 +255,7 @@ fn kind(change: &Change) -> &'static str {
 fn values(change: &Change) -> Option<[String; 2]> {
     Some(match change {
         Change::Feed(a, b) => [rounded(*a, 3), rounded(*b, 3)],
-        Change::Speed(a, b) | Change::Dwell(a, b) => [number(*a), number(*b)],
+        Change::Speed(a, b) | Change::Dwell(a, b) | Change::Orient(a, b) => [number(*a), number(*b)],
         Change::Spindle(a, b) => [*a, *b].map(|s| spindle(s).to_owned()),
         Change::Tool(a, b) => [*a, *b].map(tool_name),
         Change::Coolant(a, b) => [*a, *b].map(|[flood, mist]| coolant(flood, mist).to_owned()),
@@ -275,6 +276,8 @@ fn name(what: What) -> &'static str {
     match what {
         What::Traverse => "rapid",
         What::Feed => "feed move",
+        What::Thread => "thread",
+        What::Orient => "stop of the spindle at an angle",
         What::Arc => "arc",
         What::Dwell => "dwell",
         What::ToolChange => "tool change",
@@ -301,6 +304,7 @@ fn changed(change: &Change) -> String {
         Change::Coolant(..) => arrow("coolant", change),
         Change::WorkOffset(..) => arrow("work offset", change),
         Change::Length(..) => arrow("tool length", change),
+        Change::Orient(..) => arrow("angle of the spindle", change),
         Change::Dwell(a, b) => format!("dwell {} s → {} s", number(*a), number(*b)),
         Change::Kind(..) => arrow("other kind of move:", change),
         Change::Frame => "another place on the machine at the same coordinates".to_owned(),
@@ -373,7 +377,7 @@ fn title(group: &Group) -> String {
             1 => format!("an arc{} with another centre or sense", of_tool(group.tool)),
             n => format!("{n} arcs{} with another centre or sense", of_tool(group.tool)),
         },
-        Change::Kind(..) | Change::Dwell(..) | Change::Text => what,
+        Change::Kind(..) | Change::Orient(..) | Change::Dwell(..) | Change::Text => what,
         Change::Gap => {
             let side = |side: usize| match (group.holes[side], group.moves[side], group.count[side]) {
                 (0, 0, n) => many(n, "event", "events"),
@@ -404,6 +408,7 @@ fn summary(groups: &[Group], differences: &[Difference], left_out: u64) -> Strin
         | Change::Spindle(..)
         | Change::Tool(..)
         | Change::Coolant(..)
+        | Change::Orient(..)
         | Change::Dwell(..)
         | Change::Text => false,
     };

@@ -181,6 +181,9 @@ fn cycle(c: &Cycle) -> String {
             option("pause", pause),
             option("dwell", dwell)
         ),
+        other @ (CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_)) => {
+            format!(" {other:?}")
+        }
         CycleKind::Bore { dwell, feed_out } => option("dwell", dwell) + &option("out", feed_out),
     };
     let feed = option("F", &c.feed).replace("F ", "F");

@@ -21,7 +21,10 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
             | CycleKind::Drill
             | CycleKind::DrillDwell { .. }
             | CycleKind::DrillPeck { .. }
-            | CycleKind::DrillBreak { .. } => cycle.feed.as_ref().map_or(before, Expr::literal),
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Tap(_)
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => cycle.feed.as_ref().map_or(before, Expr::literal),
         },
         Op::UseLengthUnits(_) | Op::SetFeedMode(_) | flow!() => None,
         Op::SetDistanceMode(_)
@@ -49,6 +52,7 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             Op::ProgramEnd if stmt.skip.is_none() => return false,
             Op::StartCycle(cycle) if cycle.feed.is_some() && stmt.skip.is_none() => return false,
             Op::StraightFeed(_)
+            | Op::SynchronisedFeed(_)
             | Op::ArcFeed(_)
             | Op::ArcForm(_)
             | Op::Position(_)

@@ -1,0 +1,94 @@
+//! Execution of what goes in step with the spindle, and of what a cycle does with the spindle.
+//!
+//! Not here: how a hole is reached and left (`holes`).
+
+use super::{Event, Exec, Kind};
+use crate::canon::{Motion, Spindle, same_point};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::num::{Nanos, ONE};
+use crate::program::{Pitch, Synchronised};
+use crate::source::Span;
+
+impl Exec {
+    /// A straight move in step with the spindle, said by the program.
+    pub(super) fn synchronised(
+        &mut self,
+        m: &Synchronised,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if std::mem::take(&mut self.raw) {
+            return self.not_executed("a thread in machine coordinates", span);
+        }
+        let stated = self.stated_pitch(&m.pitch, span)?;
+        self.set_axes(&m.to, span)?;
+        self.heading = super::Heading::None;
+        self.modes.motion = Motion::Feed;
+        self.said |= super::MOTION;
+        self.cycle = None;
+        if let Some(turn) = m.turn {
+            self.turn_spindle(turn.spindle(), span, out)?;
+        }
+        self.in_step(stated, m.chuck, span, out)?;
+        if m.turn.is_some() {
+            self.turn_spindle(Spindle::Stopped, span, out)?;
+        }
+        Ok(())
+    }
+
+    /// A pitch that is stated; nothing where feed and speed say it.
+    pub(super) fn stated_pitch(&self, pitch: &Pitch, span: Span) -> Result<Option<Nanos>, Diagnostic> {
+        let Pitch::Stated(pitch) = pitch else { return Ok(None) };
+        match self.value(pitch, span)? {
+            pitch if pitch > 0 => Ok(Some(pitch)),
+            _ => self.fault(Fault::OutOfRange { word: "pitch".into() }, span),
+        }
+    }
+
+    /// Emits a move to the present position in step with the spindle as it turns.
+    pub(super) fn in_step(
+        &mut self,
+        stated: Option<Nanos>,
+        chuck: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let speed = self.state.speed;
+        if speed <= 0 {
+            return self.fault(Fault::NoSpeed, span);
+        }
+        let pitch = match stated {
+            Some(pitch) => pitch,
+            None if self.feed == 0 => return self.fault(Fault::NoFeed, span),
+            None => self.feed_of_a_turn(speed),
+        };
+        let end = self.machine();
+        if same_point(&end, &self.last) && !self.every_move && !self.narrating {
+            return Ok(());
+        }
+        self.last = end;
+        self.emit(Kind::Synchronised { pitch, chuck }, span, out)
+    }
+
+    /// How far the feed in force goes in one turn.
+    fn feed_of_a_turn(&self, speed: Nanos) -> Nanos {
+        let (feed, speed) = (i128::from(self.feed) * i128::from(ONE), i128::from(speed));
+        Nanos::try_from((feed + speed / 2) / speed).unwrap_or(Nanos::MAX)
+    }
+
+    /// Stops the spindle at an angle.
+    pub(super) fn orient(
+        &mut self,
+        angle: Option<&Expr>,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let angle = match angle {
+            Some(angle) => self.value(angle, span)?,
+            None => self.world.orientation,
+        };
+        self.state.spindle = Spindle::Stopped;
+        self.emit(Kind::Orient(angle), span, out)
+    }
+}
