@@ -228,9 +228,11 @@ impl Both<'_, '_> {
             let mut kept = Vec::with_capacity(records.len());
             for record in records {
                 let style = tape.styles.get(record.style as usize);
-                if !style.is_some_and(|style| self.rules.measure.stays(record, style, &stands)) {
-                    kept.push(*record);
+                if style.is_some_and(|style| self.rules.measure.stays(record, style, &stands)) {
+                    // The next is measured from the same place: many short moves are a way.
+                    continue;
                 }
+                kept.push(*record);
                 stands = tape.place(record);
             }
             kept

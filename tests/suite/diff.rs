@@ -142,6 +142,19 @@ fn an_edit_is_told_as_what_it_is() {
     failures.finish();
 }
 
+/// Moves of which each is shorter than what counts as the same go somewhere together.
+#[test]
+fn a_way_in_very_short_moves_is_no_rounding() {
+    let depths = (1..=1000).chain((0..1000).rev());
+    let plunge: String = depths.map(|n| format!("Z-1.{:04}\n", 4 * n)).collect();
+    let other = PART.replacen("F300.\nX10.", &format!("F300.\n{plunge}X10."), 1);
+    let document = diff(("fanuc", PART.as_bytes()), ("fanuc", other.as_bytes())).expect("executed");
+    assert_eq!(document["equal"], false, "{}", summary(&document));
+    let still = PART.replacen("F300.\nX10.", "F300.\nZ-1.0004\nZ-1.\nX10.", 1);
+    let document = diff(("fanuc", PART.as_bytes()), ("fanuc", still.as_bytes())).expect("executed");
+    assert_eq!(document["equal"], true, "{}", summary(&document));
+}
+
 /// Units that are others are told as that.
 #[test]
 fn lost_units_are_noted() {
