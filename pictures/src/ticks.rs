@@ -1,13 +1,19 @@
 //! Where an axis has its marks, and what they say.
 
-/// Marks of a length or a number between two values, at most so many: steps of 1, 2 or 5 times a
-/// power of ten. Gives the marks and their step.
+/// Marks of a length or a number between two values, at most so many (one more where both values are
+/// marks): steps of 1, 2 or 5 times a power of ten. One mark alone says nothing about how long an axis
+/// is: there, steps are made smaller until there are two. Gives the marks and their step.
 pub(crate) fn marks(low: f64, high: f64, most: usize) -> (Vec<f64>, f64) {
     let rough = ((high - low) / most.max(1) as f64).max(1e-9);
     let power = 10f64.powf(rough.log10().floor());
-    let times = [1.0, 2.0, 5.0, 10.0].into_iter().find(|n| n * power >= rough * (1.0 - 1e-9));
-    let step = times.unwrap_or(10.0) * power;
-    (multiples(low, high, step), step)
+    let first = [1.0, 2.0, 5.0].into_iter().position(|n| n * power >= rough * (1.0 - 1e-9));
+    // Places in the row 1, 2, 5, 10, 20, …
+    let step = |place: i32| [1.0, 2.0, 5.0][place.rem_euclid(3) as usize] * 10f64.powi(place.div_euclid(3));
+    let coarse = power.log10().round() as i32 * 3 + first.map_or(3, |at| at as i32);
+    let shown = |place: i32| (multiples(low, high, step(place)), step(place));
+    // The third is at most half as long as the axis, so that two of its multiples lie on it.
+    let finer = (0..3).map(|by| shown(coarse - by)).find(|(marks, _)| marks.len() > 1);
+    finer.filter(|_| high > low).unwrap_or_else(|| shown(coarse))
 }
 
 /// Marks of a time, seconds: steps that a clock knows. Gives the marks and their step.
@@ -100,6 +106,18 @@ mod tests {
         assert_eq!(clock_marks(0.0, 131.5, 10), ((0..9).map(|n| n as f64 * 15.0).collect(), 15.0));
         assert_eq!(clock_marks(0.0, 7300.0, 10).1, 900.0);
         assert_eq!(power_marks(150.0, 15000.0, 8), [200.0, 500.0, 1000.0, 2000.0, 5000.0, 10000.0]);
+        assert_eq!(marks(-2.3, 4.5, 3), (vec![-2.0, 0.0, 2.0, 4.0], 2.0));
+        for low in [-7.3, -2.3, -0.4, 0.6, 11.0] {
+            for long in [0.011, 0.3, 1.0, 6.8, 95.0] {
+                for most in 1..9 {
+                    let (all, step) = marks(low, low + long, most);
+                    assert!(
+                        (2..=(most + 1).max(5)).contains(&all.len()),
+                        "{low} {long} {most}: {all:?} {step}"
+                    );
+                }
+            }
+        }
         for most in 1..20 {
             for high in [1e-6, 0.3, 7.0, 99.9, 1e6] {
                 assert!(marks(0.0, high, most).0.len() <= most + 1, "{high} {most}");
