@@ -9,7 +9,6 @@ use ncc::render::About;
 use ncc::render::human::{self, Loudness};
 use ncc_dialects::{Settings, builtin};
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::program::{Procedure, Program};
@@ -26,19 +25,8 @@ pub fn settings(id: &str) -> Settings {
 /// A translation of a file of that name.
 pub fn job(from: &str, to: &str, file: &str) -> Job {
     Job {
-        from: settings(from),
-        to: settings(to),
-        machines: ncc::machines::pair::Machines::default(),
         layout: ncc_backends::Layout { numbering: ncc_backends::Numbering::Keep, crlf: false },
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: true,
-        start: [None; AXES],
-        program_number: None,
-        source_name: file.to_owned(),
-        allow: Vec::new(),
-        deny: Vec::new(),
+        ..Job::new(settings(from), settings(to), file)
     }
 }
 

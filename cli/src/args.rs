@@ -12,7 +12,7 @@ use ncc_ir::diag::Verdict;
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::passes::Pass;
 
-use crate::setting::Telling;
+use crate::setting::{Lines, Standing, Telling};
 
 /// `ncc` and its verbs.
 #[derive(Debug, Parser)]
@@ -143,16 +143,9 @@ pub struct Translate {
     /// Decide a question that the target's dictionary leaves open
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What to translate")]
     pub to_option: Vec<(String, String)>,
-    /// Where the tool stands before the first block, in program coordinates, mm and degrees:
-    /// `X-9,Y15.588,Z3`
-    #[arg(
-        long,
-        value_name = "AXES",
-        value_parser = start,
-        allow_hyphen_values = true,
-        help_heading = "What to translate"
-    )]
-    pub start: Option<Start>,
+    /// Where it begins.
+    #[command(flatten, next_help_heading = "What to translate")]
+    pub standing: Standing,
 
     /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
     #[arg(long, value_name = "NAME", value_parser = pass, help_heading = "What to translate")]
@@ -195,15 +188,9 @@ pub struct Translate {
         help_heading = "How the result looks"
     )]
     pub number: Option<Numbering>,
-    /// Line ends; `keep` is those of the source's first line [default: keep]
-    #[arg(
-        long,
-        value_name = "keep|lf|crlf",
-        value_enum,
-        hide_possible_values = true,
-        help_heading = "How the result looks"
-    )]
-    pub eol: Option<Eol>,
+    /// Its lines.
+    #[command(flatten, next_help_heading = "How the result looks")]
+    pub lines: Lines,
     /// Program number, where the target has one; of several programs, the first one's, counted up
     #[arg(
         long,

@@ -53,6 +53,26 @@ pub struct Job {
 }
 
 impl Job {
+    /// A translation as it is done where nothing else is asked for: no machines, no passes, no program
+    /// number, nothing known of where the axes stand; verified, and with a head.
+    pub fn new(from: Settings, to: Settings, source_name: impl Into<String>) -> Job {
+        Job {
+            from,
+            to,
+            machines: Machines::default(),
+            layout: Layout::default(),
+            passes: Vec::new(),
+            fold: None,
+            verify: true,
+            head: true,
+            start: [None; AXES],
+            program_number: None,
+            source_name: source_name.into(),
+            allow: Vec::new(),
+            deny: Vec::new(),
+        }
+    }
+
     /// Whether long-hand text is folded. A list of events is, unless the target is one as well.
     pub fn folds(&self) -> bool {
         let (from, to) = (&self.from.dialect.caps, &self.to.dialect.caps);

@@ -63,7 +63,7 @@ impl Order {
 
     /// Line ends, as far as they are the same for all.
     pub(crate) fn eol(&self, args: &Translate) -> Eol {
-        args.eol.unwrap_or(self.machines.eol())
+        args.lines.eol.unwrap_or(self.machines.eol())
     }
 
     /// The translation of one program in the dialect that is named or was recognised.
@@ -90,7 +90,7 @@ impl Order {
             fold: args.optimise.map(|level| level > 0),
             verify: !args.no_verify,
             head: !args.no_head,
-            start: args.start.unwrap_or_default(),
+            start: args.standing.start.unwrap_or_default(),
             program_number: args.program_number,
             source_name: source_name.to_owned(),
             allow: args.allow.clone(),

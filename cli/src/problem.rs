@@ -5,6 +5,8 @@ use std::io::{self, Write};
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use serde::Serialize;
 
+use crate::job::Failure;
+
 /// Exit codes, as the help names them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -23,6 +25,15 @@ pub enum Exit {
 }
 
 impl Exit {
+    /// That of a translation, by whether its output may be used.
+    pub(crate) fn of(release: Result<(), Failure>) -> Exit {
+        match release {
+            Ok(()) => Exit::Done,
+            Err(Failure::Refused) => Exit::Refused,
+            Err(Failure::VerificationFailed) => Exit::VerificationFailed,
+        }
+    }
+
     /// That of two files of one command: the higher one.
     pub(crate) fn and(self, other: Exit) -> Exit {
         if other as u8 > self as u8 { other } else { self }

@@ -43,7 +43,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
     };
     let (arguments, arrow) = match honour(rewrite(arguments), &known) {
         Ok(both) => both,
-        Err(problem) => return fail(&problem, &mut err, false),
+        Err(problem) => return fail(&problem, &mut err, as_json),
     };
     let cli = match Cli::try_parse_from(&arguments) {
         Ok(cli) => cli,
@@ -247,11 +247,7 @@ fn translated(
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.telling.quiet) {
         let _ = say_where(to, &job, &source.shown, args.format, err);
     }
-    Ok(match outcome.release {
-        Ok(()) => Exit::Done,
-        Err(Failure::Refused) => Exit::Refused,
-        Err(Failure::VerificationFailed) => Exit::VerificationFailed,
-    })
+    Ok(Exit::of(outcome.release))
 }
 
 /// Tells of a translation on `err`.

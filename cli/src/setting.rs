@@ -1,34 +1,82 @@
-//! What several verbs are asked alike: how a program is executed and timed, and how much is told of it.
-//! The colour of messages is asked of all verbs at once, in `args`.
+//! What several verbs are asked alike: how a program is read, executed and timed, and how much is told of
+//! it. A heading of the help is the verb's. The colour of messages is asked of all verbs at once, in `args`.
 
 use clap::Args;
+use ncc_ir::num::Nanos;
 use ncc_timeline::{Model, ToolChangeOn};
 
-use crate::args::{Start, start};
+use crate::args::{Eol, Start, decimal, pair, start};
 use crate::render::human::Loudness;
 
-/// How a program is executed and timed.
+/// In which dialect programs are read.
 #[derive(Clone, Debug, Args)]
-pub struct Setting {
+pub struct Reading {
+    /// Dialect of the programs, or `auto` to recognise each [default: the machine's, else auto]
+    #[arg(long, value_name = "DIALECT")]
+    pub from: Option<String>,
+    /// Decide a question that the dialect's dictionary leaves open
+    #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
+    pub from_option: Vec<(String, String)>,
+}
+
+/// Where a program begins. What is taken for granted without, a verb adds to the help.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Standing {
     /// Where the tool stands before the first block, in program coordinates, mm and degrees:
-    /// `X-9,Y15.588,Z3` [default: program zero]
-    #[arg(
-        long,
-        value_name = "AXES",
-        value_parser = start,
-        allow_hyphen_values = true,
-        help_heading = "What is executed"
-    )]
+    /// `X-9,Y15.588,Z3`
+    #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
     pub start: Option<Start>,
+}
+
+/// How the control's switches stand.
+#[derive(Clone, Debug, Args)]
+pub struct Switches {
     /// Block-skip switches that are on, by level; the others are off
     #[arg(
         long,
         value_name = "LEVELS",
         value_delimiter = ',',
-        value_parser = clap::value_parser!(u8).range(1..=10),
-        help_heading = "What is executed"
+        value_parser = clap::value_parser!(u8).range(1..=10)
     )]
     pub skip: Vec<u8>,
+}
+
+impl Switches {
+    /// The levels that are on, a bit each.
+    pub(crate) fn on(&self) -> u16 {
+        self.skip.iter().fold(0, |on, level| on | 1 << level)
+    }
+}
+
+/// What counts as the same.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Nearness {
+    /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
+    #[arg(long, value_name = "MM", value_parser = millimetres)]
+    pub tolerance: Option<Nanos>,
+}
+
+/// The lines of a program that is written.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Lines {
+    /// Line ends; `keep` is those of the source's first line [default: keep]
+    #[arg(long, value_name = "keep|lf|crlf", value_enum, hide_possible_values = true)]
+    pub eol: Option<Eol>,
+}
+
+/// How a program is executed and timed.
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("start", |start| start.help(
+    "Where the tool stands before the first block, in program coordinates, mm and degrees: \
+     `X-9,Y15.588,Z3` [default: program zero]"
+)))]
+pub struct Setting {
+    /// Where it begins.
+    #[command(flatten, next_help_heading = "What is executed")]
+    pub standing: Standing,
+    /// Which of its blocks are skipped.
+    #[command(flatten, next_help_heading = "What is executed")]
+    pub switches: Switches,
 
     /// The machine: a profile's name or file
     #[arg(short, long, value_name = "MACHINE", help_heading = "How it is timed")]
@@ -86,6 +134,13 @@ fn tool_change_on(text: &str) -> Result<ToolChangeOn, String> {
         "select" => Ok(ToolChangeOn::Select),
         "change" => Ok(ToolChangeOn::Change),
         _ => Err("it is `select` or `change`".to_owned()),
+    }
+}
+
+fn millimetres(text: &str) -> Result<Nanos, String> {
+    match decimal(text) {
+        Some(nanos) if (0..=1_000_000_000_000).contains(&nanos) => Ok(nanos),
+        Some(_) | None => Err("write millimetres as a decimal, 0 to 1000".to_owned()),
     }
 }
 

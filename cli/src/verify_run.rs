@@ -534,7 +534,6 @@ fn different(difference: &Difference, last: Span) -> Stop {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ncc_backends::Layout;
     use ncc_dialects::builtin;
 
     const FIRST: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 H1 Z5.\nG01 Z-1. F100.\n";
@@ -542,21 +541,7 @@ mod tests {
 
     fn job() -> Job {
         let settings = Settings::new(builtin("fanuc").expect("a built-in dialect"));
-        Job {
-            from: settings.clone(),
-            to: settings,
-            machines: crate::machines::pair::Machines::default(),
-            layout: Layout::default(),
-            passes: Vec::new(),
-            fold: None,
-            verify: true,
-            head: true,
-            start: [None; AXES],
-            program_number: None,
-            source_name: "piece.nc".to_owned(),
-            allow: Vec::new(),
-            deny: Vec::new(),
-        }
+        Job::new(settings.clone(), settings, "piece.nc")
     }
 
     /// Verifies a first piece as it is, and a second one of which the output says something else.

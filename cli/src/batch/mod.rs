@@ -2,7 +2,8 @@
 //!
 //! Each program is translated as it is by itself, on one of several threads; reports come in the order
 //! of the files. A program that comes to nothing does not stop the others. No output has the name of a
-//! source or of another program's output: such programs are refused before anything is written.
+//! source or of another program's output, nor that of a subprogram which is there and another: such
+//! programs are refused before anything is written.
 //!
 //! Refused here: programs of several files, which are not put together; one report, map or program on
 //! stdin for several.
@@ -233,8 +234,13 @@ fn write_all(
         .flat_map(|(by, all)| all.iter().map(move |held| (by, held)))
         .map(|(by, held)| Claim { by, path: held.path.clone(), shared: held.shared })
         .collect();
-    let refused = names::refused(&claims, sources, &|by| rows[by].file.clone());
+    let shown = |by: usize| rows[by].file.clone();
+    let mut refused = names::at_odds_with_the_folder(&claims, &shown);
+    refused.extend(names::refused(&claims, sources, &shown));
     for (at, held) in held.iter().enumerate() {
+        if !refused.contains_key(&at) {
+            say_anew(args, held, err);
+        }
         // The main program comes last: what it calls is there when it is.
         let written = match refused.get(&at) {
             Some(problem) => Err(problem.clone()),
@@ -243,6 +249,21 @@ fn write_all(
         if let (Err(problem), Some(row)) = (written, rows.get_mut(at)) {
             row.fails(Came::NotWritten, &problem);
             say(args, &problem, err);
+        }
+    }
+}
+
+/// Tells which subprograms become others: programs that are not of this command may call them too.
+fn say_anew(args: &Translate, held: &[Held], err: &mut dyn WriteColor) {
+    if args.format != Format::Human || args.telling.quiet {
+        return;
+    }
+    for held in held {
+        if held.shared.is_some_and(|own| names::holds_another(&held.path, &own)) {
+            let path = held.path.display();
+            // Nothing depends on whether somebody reads it.
+            let _ =
+                writeln!(as_write(err), "{path} becomes another; whatever calls it there calls the new one");
         }
     }
 }

@@ -1,9 +1,13 @@
-//! The names of a batch's outputs: none is that of a source, and no two programs have one.
+//! The names of a batch's outputs: none is that of a source, no two programs have one, and none is that of
+//! a subprogram which programs translated before call.
 //!
 //! Names that differ in capitals alone are one name: a folder on the machine may not tell them apart.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
 
 use super::gather::{Identity, identity};
 use crate::problem::{Exit, Problem};
@@ -60,6 +64,38 @@ pub(super) fn refused(
     refused
 }
 
+/// The programs whose subprograms have names of files that are there with something else in them. What
+/// calls those was verified with them, and would call another text. A program that is there itself is
+/// written anew, with what it calls.
+pub(super) fn at_odds_with_the_folder(
+    claims: &[Claim],
+    shown: &dyn Fn(usize) -> String,
+) -> BTreeMap<usize, Problem> {
+    let there = claims.iter().filter(|claim| claim.shared.is_none() && claim.path.exists());
+    let again: BTreeSet<usize> = there.map(|claim| claim.by).collect();
+    let theirs = claims.iter().filter(|claim| again.contains(&claim.by));
+    let anew: BTreeSet<String> = theirs.map(|claim| key(&claim.path)).collect();
+    let mut refused = BTreeMap::new();
+    for claim in claims.iter().filter(|claim| !anew.contains(&key(&claim.path))) {
+        if !claim.shared.is_some_and(|own| holds_another(&claim.path, &own)) {
+            continue;
+        }
+        let message = format!(
+            "{}: its subprogram {} is there already, and is another",
+            shown(claim.by),
+            claim.path.display()
+        );
+        let help = "programs of that folder may call it; translate into another one, or take it away first";
+        refused.entry(claim.by).or_insert_with(|| usage(message, help));
+    }
+    refused
+}
+
+/// Whether a file is there, and is not a subprogram of that hash.
+pub(super) fn holds_another(path: &Path, own: &[u8; 32]) -> bool {
+    fs::read(path).is_ok_and(|text| Sha256::digest(&text)[..] != own[..])
+}
+
 fn usage(message: String, help: &str) -> Problem {
     Problem { exit: Exit::Usage, message, help: vec![help.to_owned()] }
 }
@@ -87,6 +123,28 @@ mod tests {
             who(&[claim(0, "o/a.nc", None), claim(1, "o/A.NC", None), claim(2, "o/b.nc", None)]),
             [0, 1]
         );
+    }
+
+    #[test]
+    fn a_subprogram_of_others_is_not_written_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let hash = |text: &[u8]| Some(Sha256::digest(text).into());
+        let claims = |new: &str, text: &[u8]| {
+            let main = Claim { by: 0, path: path(new), shared: None };
+            vec![main, Claim { by: 0, path: path("L1.SPF"), shared: hash(text) }]
+        };
+        let odds = |claims: &[Claim]| at_odds_with_the_folder(claims, &|by| by.to_string()).len();
+        assert_eq!(odds(&claims("B.MPF", b"new")), 0);
+        fs::write(path("A.MPF"), "").unwrap();
+        fs::write(path("L1.SPF"), "old").unwrap();
+        assert_eq!(odds(&claims("B.MPF", b"old")), 0, "the same");
+        assert_eq!(odds(&claims("B.MPF", b"new")), 1);
+        assert_eq!(odds(&claims("A.MPF", b"new")), 0, "its own");
+        // A program that is there takes along one that is new, where both have the subprogram.
+        let mut both = claims("A.MPF", b"new");
+        both.extend(claims("B.MPF", b"new").into_iter().map(|claim| Claim { by: 1, ..claim }));
+        assert_eq!(odds(&both), 0);
     }
 
     #[test]

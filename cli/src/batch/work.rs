@@ -178,11 +178,7 @@ impl Bench<'_> {
             (Err(Failure::Refused), _) => Came::Refused,
             (Err(Failure::VerificationFailed), _) => Came::VerificationFailed,
         };
-        row.exit = match outcome.release {
-            Ok(()) => Exit::Done,
-            Err(Failure::Refused) => Exit::Refused,
-            Err(Failure::VerificationFailed) => Exit::VerificationFailed,
-        };
+        row.exit = Exit::of(outcome.release);
         row.events = outcome.verified.filter(|_| outcome.release.is_ok()).map(|v| v.events);
         row.program_number = outcome.program_number.filter(|_| outcome.release.is_ok());
         let warns = |gravity: Gravity| match gravity {

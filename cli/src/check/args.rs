@@ -6,8 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use ncc_ir::num::Nanos;
 
-use crate::args::pair;
-use crate::setting::Telling;
+use crate::setting::{Reading, Switches, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,27 +28,18 @@ pub struct Check {
     /// The programs, as PATH or DIALECT:PATH; `-` for stdin
     #[arg(value_name = "FILE", required_unless_present = "schema")]
     pub files: Vec<String>,
-    /// Dialect of the programs, or `auto` to recognise each [default: the machine's, else auto]
-    #[arg(long, value_name = "DIALECT", help_heading = "What is checked")]
-    pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is checked")]
-    pub from_option: Vec<(String, String)>,
+    /// In which dialect they are.
+    #[command(flatten, next_help_heading = "What is checked")]
+    pub reading: Reading,
     /// The machine: a profile's name or file
     #[arg(short, long, value_name = "MACHINE", help_heading = "What is checked")]
     pub machine: Option<String>,
     /// Plane below which no rapid may go: Z in program coordinates, mm
     #[arg(long, value_name = "Z", value_parser = plane, allow_hyphen_values = true, help_heading = "What is checked")]
     pub rapid_plane: Option<Nanos>,
-    /// Block-skip switches that are on, by level; the others are off
-    #[arg(
-        long,
-        value_name = "LEVELS",
-        value_delimiter = ',',
-        value_parser = clap::value_parser!(u8).range(1..=10),
-        help_heading = "What is checked"
-    )]
-    pub skip: Vec<u8>,
+    /// Which of their blocks are skipped.
+    #[command(flatten, next_help_heading = "What is checked")]
+    pub switches: Switches,
 
     /// Do not tell of these rules or messages
     #[arg(

@@ -11,11 +11,12 @@ mod text;
 mod told;
 mod words;
 
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 
 use codespan_reporting::term::termcolor::{Ansi, NoColor, WriteColor};
 use ncc_check::Limits;
+use ncc_dialects::Settings;
 use ncc_ir::canon::AXES;
 use ncc_ir::num::{Nanos, ONE};
 use ncc_machines::Profile;
@@ -25,12 +26,12 @@ pub use self::json::SCHEMA;
 use self::args::{Check, Form};
 use self::told::Program;
 use crate::args::Color;
-use crate::files::{self, Destination};
+use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::Output;
 use crate::known::Known;
+use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
-use crate::render::human::Loudness;
 use crate::review::side::{Asked, Side, open_one};
 
 /// Runs the verb.
@@ -45,7 +46,7 @@ pub fn run(args: &Check, known: &Known, color: Color, err: &mut dyn WriteColor) 
     if args.files.iter().filter(|file| *file == "-" || file.ends_with(":-")).count() > 1 {
         return Err(Problem::usage("stdin can be read only once", "name a file"));
     }
-    if let Some(id) = args.from.as_deref().filter(|id| *id != "auto") {
+    if let Some(id) = args.reading.from.as_deref().filter(|id| *id != "auto") {
         known.dialect(id)?;
     }
     let profile = match &args.machine {
@@ -83,9 +84,9 @@ fn one(
 ) -> Result<Program, Problem> {
     let asked = Asked {
         operand: file,
-        from: args.from.as_deref(),
-        machine: args.machine.as_deref().filter(|_| args.from.is_none()),
-        options: &args.from_option,
+        from: args.reading.from.as_deref(),
+        machine: args.machine.as_deref().filter(|_| args.reading.from.is_none()),
+        options: &args.reading.from_option,
         start: None,
     };
     let say = !args.telling.quiet && args.format == Form::Text;
@@ -93,10 +94,9 @@ fn one(
     if let Some(output) = destination(args) {
         source.guard(Some(output))?;
     }
-    let skip = args.skip.iter().fold(0, |skip, level| skip | 1 << level);
     let shown = source.shown.clone();
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
-    let course = drive::drive(&job, limits.clone(), skip, &mut source).map_err(wrong)?;
+    let course = drive::drive(&job, limits.clone(), args.switches.on(), &mut source).map_err(wrong)?;
     let doubtful = course.diagnostics.len() > 2;
     let program = told::tell(args, &job, &mut source, course).map_err(wrong)?;
     if say
@@ -115,27 +115,43 @@ fn destination(args: &Check) -> Option<&Path> {
 }
 
 fn write(args: &Check, programs: Vec<Program>, color: Color) -> Result<(), Problem> {
-    let loudness: Loudness = args.telling.loudness();
     let destination =
         destination(args).map_or(Destination::Stdout, |name| Destination::File(name.to_owned()));
     let mut output = Output::new();
+    let color = matches!(destination, Destination::Stdout) && is_colored(color);
+    let written = formed(args, programs, color).and_then(|text| output.push(&text));
+    written.map_err(|e| Problem::file("write", "the findings", &e))?;
+    destination.release(&mut output)
+}
+
+/// The findings in the form that is asked for.
+fn formed(args: &Check, programs: Vec<Program>, color: bool) -> io::Result<Vec<u8>> {
     let mut text = Vec::new();
-    let written = match args.format {
-        Form::Json => json::write(&mut text, programs),
-        Form::Sarif => sarif::write(&mut text, &programs),
+    match args.format {
+        Form::Json => json::write(&mut text, programs)?,
+        Form::Sarif => sarif::write(&mut text, &programs)?,
         Form::Text => {
-            let color = is_colored(color) && matches!(destination, Destination::Stdout);
+            let loudness = args.telling.loudness();
             let mut plain = NoColor::new(Vec::new());
             let mut colored = Ansi::new(Vec::new());
             let out: &mut dyn WriteColor = if color { &mut colored } else { &mut plain };
-            let written = programs.iter().try_for_each(|program| text::write(out, program, loudness));
+            programs.iter().try_for_each(|program| text::write(out, program, loudness))?;
             text = if color { colored.into_inner() } else { plain.into_inner() };
-            written
         }
-    };
-    let written = written.and_then(|()| output.push(&text));
-    written.map_err(|e| Problem::file("write", "the findings", &e))?;
-    destination.release(&mut output)
+    }
+    Ok(text)
+}
+
+/// What is found in a text, without a process, for tests, in the form that is asked for.
+///
+/// # Errors
+/// Anonymous files.
+pub fn of_text(args: &Check, from: Settings, profile: Option<&Profile>, text: &[u8]) -> io::Result<Vec<u8>> {
+    let mut file = tempfile::tempfile()?;
+    file.write_all(text)?;
+    let Side { mut source, job } = Side::of(Source::of(file, "text"), from, Machines::default(), None);
+    let course = drive::drive(&job, limits(args, profile), args.switches.on(), &mut source)?;
+    formed(args, vec![told::tell(args, &job, &mut source, course)?], false)
 }
 
 /// Whether findings on stdout are coloured.

@@ -15,13 +15,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use codespan_reporting::term::termcolor::StandardStream;
-use ncc_backends::{Layout, Numbering};
 use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_machines::Profile;
 use ncc_machines::reading::{Place, Side, UNNAMED};
 
-use crate::args::{Start, pair, start};
+use crate::args::pair;
 use crate::files;
 use crate::job::{Job, Rest};
 use crate::known::Known;
@@ -30,7 +29,7 @@ use crate::problem::{Exit, Problem};
 use crate::render::About;
 use crate::render::human::{self, Loudness};
 use crate::run::{INTO_WHAT, recognise, settings};
-use crate::setting::Telling;
+use crate::setting::{Standing, Telling};
 use crate::translate;
 use question::{Question, questions};
 
@@ -67,9 +66,9 @@ pub struct Doctor {
     /// Decide a question that the target's dictionary leaves open
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair)]
     pub to_option: Vec<(String, String)>,
-    /// Where the tool stands before the first block, in program coordinates: `X-9,Y15.588,Z3`
-    #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
-    pub start: Option<Start>,
+    /// Where it begins.
+    #[command(flatten)]
+    pub standing: Standing,
     /// Write a profile of the source's machine with the questions, to be filled in; a new file
     #[arg(long, value_name = "FILE")]
     pub write_from: Option<PathBuf>,
@@ -82,7 +81,7 @@ pub struct Doctor {
     pub telling: Telling,
 }
 
-/// Runs it. Exit code 0 if the program can be translated, whatever is asked.
+/// Runs it. Exit code 0 if the program can be translated, whatever is asked; else that of the translation.
 ///
 /// # Errors
 /// Wrong usage, or a file.
@@ -107,25 +106,14 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.telling.quiet, known, err)?,
     };
-    let mut job = Job {
-        from: settings(machines.settings(Side::From, from), &args.from_option)?,
-        to: settings(machines.settings(Side::To, to), &args.to_option)?,
-        machines,
-        layout: Layout { numbering: Numbering::Off, crlf: false },
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: true,
-        start: args.start.unwrap_or_default(),
-        program_number: None,
-        source_name: source.name.clone(),
-        allow: Vec::new(),
-        deny: Vec::new(),
-    };
+    let said = settings(machines.settings(Side::From, from), &args.from_option)?;
+    let into = settings(machines.settings(Side::To, to), &args.to_option)?;
+    let start = args.standing.start.unwrap_or_default();
+    let mut job = Job { machines, start, ..Job::new(said, into, &source.name) };
     source.rewind()?;
     let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
     let mut outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
-    let exit = if outcome.release.is_ok() { Exit::Done } else { Exit::Refused };
+    let exit = Exit::of(outcome.release);
     let codes = outcome.rests.iter().filter_map(|rest| match &rest.place {
         Place::Code(code) => Some(code.clone()),
         _ => None,

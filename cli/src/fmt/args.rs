@@ -3,8 +3,8 @@
 use clap::Args;
 use ncc_backends::Numbering;
 
-use crate::args::{Eol, Start, numbering, pair, start};
-use crate::setting::Telling;
+use crate::args::numbering;
+use crate::setting::{Lines, Reading, Standing, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -29,25 +29,15 @@ pub struct Fmt {
     /// The programs, as PATH or DIALECT:PATH; `-` for stdin, which goes to stdout
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<String>,
-    /// Dialect of the programs, or `auto` to recognise each [default: the machine's, else auto]
-    #[arg(long, value_name = "DIALECT", help_heading = "What is laid out")]
-    pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is laid out")]
-    pub from_option: Vec<(String, String)>,
+    /// In which dialect they are.
+    #[command(flatten, next_help_heading = "What is laid out")]
+    pub reading: Reading,
     /// The machine: a profile's name or file; its blanks, line ends and block numbers are used
     #[arg(short, long, value_name = "MACHINE", help_heading = "What is laid out")]
     pub machine: Option<String>,
-    /// Where the tool stands before the first block, in program coordinates, mm and degrees:
-    /// `X-9,Y15.588,Z3`
-    #[arg(
-        long,
-        value_name = "AXES",
-        value_parser = start,
-        allow_hyphen_values = true,
-        help_heading = "What is laid out"
-    )]
-    pub start: Option<Start>,
+    /// Where they begin.
+    #[command(flatten, next_help_heading = "What is laid out")]
+    pub standing: Standing,
 
     /// Write nothing; list the files that would change, and exit with 1 if there is one
     #[arg(long, help_heading = "What is written")]
@@ -71,15 +61,9 @@ pub struct Fmt {
         help_heading = "How the result looks"
     )]
     pub number: Option<Numbering>,
-    /// Line ends; `keep` is those of the file's first line [default: keep]
-    #[arg(
-        long,
-        value_name = "keep|lf|crlf",
-        value_enum,
-        hide_possible_values = true,
-        help_heading = "How the result looks"
-    )]
-    pub eol: Option<Eol>,
+    /// Their lines.
+    #[command(flatten, next_help_heading = "How the result looks")]
+    pub lines: Lines,
 
     /// How much is told.
     #[command(flatten)]

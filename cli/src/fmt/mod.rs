@@ -19,9 +19,9 @@ mod text;
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
-use codespan_reporting::term::termcolor::WriteColor;
-use ncc_backends::Numbering;
-use ncc_dialects::Family;
+use codespan_reporting::term::termcolor::{Buffer, WriteColor};
+use ncc_backends::{Layout, Numbering};
+use ncc_dialects::{Family, Settings};
 use ncc_machines::schema::BlockNumbers;
 
 use self::args::Fmt;
@@ -87,15 +87,15 @@ struct Done {
 fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let asked = Asked {
         operand: file,
-        from: args.from.as_deref(),
+        from: args.reading.from.as_deref(),
         machine: args.machine.as_deref(),
-        options: &args.from_option,
-        start: args.start,
+        options: &args.reading.from_option,
+        start: args.standing.start,
     };
     let loudness = args.telling.loudness();
     let say = loudness != Loudness::Quiet;
     let Side { mut source, mut job } = open_one(&asked, say, known, err)?;
-    let eol = match args.eol.unwrap_or(job.machines.eol()) {
+    let eol = match args.lines.eol.unwrap_or(job.machines.eol()) {
         Eol::Lf => false,
         Eol::Crlf => true,
         Eol::Keep => source.is_crlf()?,
@@ -109,7 +109,7 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
             "leave --number out",
         ));
     }
-    let done = laid_out(args, &job, &mut source, known, err)?;
+    let done = laid_out(loudness, &job, &mut source, known, err)?;
     tell(&done, &source, say, err);
     if args.executed && !done.executed {
         return Err(Problem {
@@ -119,6 +119,23 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
         });
     }
     write(args, file, known, &mut source, done)
+}
+
+/// A text laid out without a process, for tests.
+///
+/// # Errors
+/// What keeps it from being laid out.
+pub fn of_text(from: Settings, layout: Layout, text: &[u8], known: &Known) -> Result<Vec<u8>, Problem> {
+    let memory = |e: io::Error| Problem::file("use", "an anonymous file", &e);
+    let mut source = tempfile::tempfile().map_err(memory)?;
+    source.write_all(text).and_then(|()| source.rewind()).map_err(memory)?;
+    let job = Job { layout, ..Job::new(from.clone(), from, "text") };
+    let mut nowhere = Buffer::no_color();
+    let mut source = Source::of(source, "text");
+    let mut done = laid_out(Loudness::Quiet, &job, &mut source, known, &mut nowhere)?;
+    let mut written = Vec::new();
+    done.file.rewind().and_then(|()| done.file.read_to_end(&mut written)).map_err(memory)?;
+    Ok(written)
 }
 
 /// Block numbers, as the machine's profile has them; else they are kept.
@@ -132,7 +149,7 @@ fn numbering(job: &Job) -> Numbering {
 
 /// Lays a text out.
 fn laid_out(
-    args: &Fmt,
+    loudness: Loudness,
     job: &Job,
     source: &mut Source,
     known: &Known,
@@ -179,7 +196,7 @@ fn laid_out(
                 });
             }
             if let Some(first) = first.as_ref()
-                && args.telling.loudness() == Loudness::Verbose
+                && loudness == Loudness::Verbose
             {
                 let mut about = About { job, name: &shown, source: &mut source.file };
                 // What cannot be told changes nothing about what was done.

@@ -9,7 +9,6 @@ use std::sync::Arc;
 use codespan_reporting::term::termcolor::Buffer;
 use ncc_backends::Layout;
 use ncc_dialects::{Settings, builtin};
-use ncc_ir::canon::AXES;
 use ncc_machines::Profile;
 use ncc_machines::reading::Side;
 
@@ -122,21 +121,9 @@ fn events(n: u64) -> String {
 /// wrong.
 fn translated(text: &str, from: Settings, machines: Machines) -> Result<(u64, String), String> {
     let Some(to) = &machines.to else { return Err("no machine".to_owned()) };
-    let job = Job {
-        from,
-        to: machines.settings(Side::To, to.dialect),
-        layout: Layout { numbering: machines.numbering(), crlf: false },
-        machines,
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: false,
-        start: [None; AXES],
-        program_number: None,
-        source_name: "sample".to_owned(),
-        allow: Vec::new(),
-        deny: Vec::new(),
-    };
+    let to = machines.settings(Side::To, to.dialect);
+    let layout = Layout { numbering: machines.numbering(), crlf: false };
+    let job = Job { machines, layout, head: false, ..Job::new(from, to, "sample") };
     let cannot = |error: std::io::Error| error.to_string();
     let mut outcome = translate(&job, &mut text.as_bytes()).map_err(cannot)?;
     if outcome.release.is_err() {

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use ncc_pictures::{Chart, View};
 
 use crate::args::pair;
-use crate::setting::{Setting, Telling};
+use crate::setting::{Reading, Setting, Telling};
 use crate::time::args::{Form, Stage, Time};
 
 const EXAMPLES: &str = "\
@@ -80,8 +80,7 @@ impl Plot {
         };
         Time {
             files: Vec::new(),
-            from,
-            from_option: self.from_option.clone(),
+            reading: Reading { from, from_option: self.from_option.clone() },
             setting: self.setting.clone(),
             form: Form::Summary,
             stage: Stage::After,

@@ -8,9 +8,8 @@ use std::io::{self, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_backends::{Layout, Numbering};
+use ncc_backends::Layout;
 use ncc_dialects::Dialect;
-use ncc_ir::canon::AXES;
 
 use super::args::Why;
 use super::map;
@@ -19,7 +18,6 @@ use super::trace::Asked;
 use crate::files::{self, Source};
 use crate::job::Job;
 use crate::known::Known;
-use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::render::About;
 use crate::report::hex;
@@ -135,24 +133,10 @@ fn again(
     };
     let from: &'static Dialect = dialect(&args.from, &mut source, err)?;
     let to: &'static Dialect = dialect(&args.to, output, err)?;
-    let machines = Machines::default();
     let crlf = output.is_crlf()?;
     let own = |dialect: &'static Dialect| settings(ncc_dialects::Settings::new(dialect), &[]);
-    let job = Job {
-        from: own(from)?,
-        to: own(to)?,
-        machines,
-        layout: Layout { numbering: Numbering::Off, crlf },
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: true,
-        start: [None; AXES],
-        program_number: None,
-        source_name: source.name.clone(),
-        allow: Vec::new(),
-        deny: Vec::new(),
-    };
+    let job =
+        Job { layout: Layout { crlf, ..Layout::default() }, ..Job::new(own(from)?, own(to)?, &source.name) };
     source.rewind()?;
     let wrong = |e: &io::Error| Problem::file("translate", &path.display().to_string(), e);
     let asked = Asked { map: true, annotate: false };

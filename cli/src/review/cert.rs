@@ -187,8 +187,8 @@ fn said_otherwise(args: &Verify) -> Option<&'static str> {
         ("--machine-to", args.machine_to.is_some()),
         ("--from-option", !args.from_option.is_empty()),
         ("--to-option", !args.to_option.is_empty()),
-        ("--start", args.start.is_some()),
-        ("--tolerance", args.tolerance.is_some()),
+        ("--start", args.standing.start.is_some()),
+        ("--tolerance", args.nearness.tolerance.is_some()),
     ];
     said.into_iter().find(|(_, is)| *is).map(|(name, _)| name)
 }

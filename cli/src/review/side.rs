@@ -9,7 +9,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_backends::{Layout, Numbering};
 use ncc_dialects::{Dialect, Settings};
 use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
@@ -210,21 +209,8 @@ impl Opened {
 impl Side {
     /// A program of a dialect with its options.
     pub(crate) fn of(source: Source, from: Settings, machines: Machines, start: Option<Start>) -> Side {
-        let job = Job {
-            to: from.clone(),
-            from,
-            machines,
-            layout: Layout { numbering: Numbering::Off, crlf: false },
-            passes: Vec::new(),
-            fold: None,
-            verify: true,
-            head: true,
-            start: start.unwrap_or_default(),
-            program_number: None,
-            source_name: source.name.clone(),
-            allow: Vec::new(),
-            deny: Vec::new(),
-        };
+        let job =
+            Job { machines, start: start.unwrap_or_default(), ..Job::new(from.clone(), from, &source.name) };
         Side { source, job }
     }
 }

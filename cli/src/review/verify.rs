@@ -20,7 +20,7 @@ pub use self::document::SCHEMA;
 use self::document::{Document, Word};
 use super::cert;
 use super::side::{Asked, Side, open, operand};
-use crate::args::{Format, Start, decimal, pair, start};
+use crate::args::{Format, pair};
 use crate::files::{self, Source};
 use crate::guess::{Guess, guess};
 use crate::job::Job;
@@ -28,7 +28,7 @@ use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::render::{About, human};
-use crate::setting::Telling;
+use crate::setting::{Nearness, Standing, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -53,7 +53,10 @@ Exit code: 0 equal, or equal within the tolerance, and if a certificate is check
 #[derive(Debug, Args)]
 #[command(
     after_help = EXAMPLES,
-    override_usage = "ncc verify [OPTIONS] SRC OUT\n       ncc verify --cert FILE [--recheck SRC OUT]"
+    override_usage = "ncc verify [OPTIONS] SRC OUT\n       ncc verify --cert FILE [--recheck SRC OUT]",
+    mut_arg("start", |start| start.help(
+        "Where the tool stands before the first block, in the coordinates of SRC, mm and degrees"
+    ))
 )]
 pub struct Verify {
     /// What was meant, and what shall do the same: `PATH` or `DIALECT:PATH`; `-` for stdin
@@ -77,18 +80,12 @@ pub struct Verify {
     /// Decide a question that the dictionary of OUT leaves open
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
     pub to_option: Vec<(String, String)>,
-    /// Where the tool stands before the first block, in the coordinates of SRC, mm and degrees
-    #[arg(
-        long,
-        value_name = "AXES",
-        value_parser = start,
-        allow_hyphen_values = true,
-        help_heading = "What is compared"
-    )]
-    pub start: Option<Start>,
-    /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
-    #[arg(long, value_name = "MM", value_parser = millimetres, help_heading = "What is compared")]
-    pub tolerance: Option<Nanos>,
+    /// Where SRC begins.
+    #[command(flatten, next_help_heading = "What is compared")]
+    pub standing: Standing,
+    /// What counts as the same.
+    #[command(flatten, next_help_heading = "What is compared")]
+    pub nearness: Nearness,
 
     /// With SRC and OUT, write a certificate to this file; without, check the certificate in it again
     #[arg(long, value_name = "FILE", help_heading = "Certificates")]
@@ -164,7 +161,7 @@ fn verify(
             from: args.from.as_deref(),
             machine: args.machine_from.as_deref(),
             options: &args.from_option,
-            start: args.start,
+            start: args.standing.start,
         },
         Asked {
             operand: &files[1],
@@ -191,7 +188,7 @@ fn verify(
     let call = Call {
         files: [named(&files[0])?, named(&files[1])?],
         machines: [args.machine_from.as_deref(), args.machine_to.as_deref()],
-        tolerance: args.tolerance,
+        tolerance: args.nearness.tolerance,
         known,
     };
     let document = compare(args, &mut sides, &call, err)?;
@@ -314,13 +311,6 @@ pub fn of_texts(
     };
     let found = pair::compare(&mut sides, tolerance.unwrap_or_default())?;
     Document::of(&found, &mut sides, &call)
-}
-
-fn millimetres(text: &str) -> Result<Nanos, String> {
-    match decimal(text) {
-        Some(nanos) if (0..=1_000_000_000_000).contains(&nanos) => Ok(nanos),
-        Some(_) | None => Err("write millimetres as a decimal, 0 to 1000".to_owned()),
-    }
 }
 
 /// Whether a path is stdin.

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use crate::args::pair;
-use crate::setting::{Setting, Telling};
+use crate::setting::{Reading, Setting, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -28,12 +27,9 @@ pub struct Time {
     /// The programs; `-` for stdin
     #[arg(value_name = "FILE", required_unless_present = "schema")]
     pub files: Vec<PathBuf>,
-    /// Dialect of the programs, or `auto` to recognise each [default: the machine's, else auto]
-    #[arg(long, value_name = "DIALECT", help_heading = "What is executed")]
-    pub from: Option<String>,
-    /// Decide a question that the dialect's dictionary leaves open
-    #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is executed")]
-    pub from_option: Vec<(String, String)>,
+    /// In which dialect they are.
+    #[command(flatten, next_help_heading = "What is executed")]
+    pub reading: Reading,
     /// How it is executed and timed.
     #[command(flatten)]
     pub setting: Setting,

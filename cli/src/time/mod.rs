@@ -26,7 +26,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use codespan_reporting::term::termcolor::WriteColor;
-use ncc_backends::{Layout, Numbering};
 use ncc_dialects::Settings;
 use ncc_ir::canon::Axis;
 use ncc_ir::num::{Nanos, ONE};
@@ -162,7 +161,7 @@ impl Lost {
 
 /// What options mean together.
 fn check(args: &Time, known: &Known) -> Result<(), Problem> {
-    if let Some(id) = args.from.as_deref().filter(|id| *id != "auto") {
+    if let Some(id) = args.reading.from.as_deref().filter(|id| *id != "auto") {
         known.dialect(id)?;
     }
     if args.files.iter().filter(|file| *file == Path::new("-")).count() > 1 {
@@ -216,7 +215,7 @@ pub(crate) fn job(
     err: &mut dyn WriteColor,
 ) -> Result<Job, Problem> {
     let own = shop.profile.as_ref();
-    let named = match (args.from.as_deref(), own) {
+    let named = match (args.reading.from.as_deref(), own) {
         (Some("auto"), _) | (None, None) => None,
         (Some(id), _) => Some(known.dialect(id)?),
         (None, Some(profile)) => Some(profile.dialect),
@@ -233,22 +232,12 @@ pub(crate) fn job(
         }
         None => Machines::default(),
     };
-    let from = settings(machines.settings(Side::From, dialect), &args.from_option)?;
+    let from = settings(machines.settings(Side::From, dialect), &args.reading.from_option)?;
     source.rewind()?;
     Ok(Job {
-        to: from.clone(),
-        from,
         machines,
-        layout: Layout { numbering: Numbering::Off, crlf: false },
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: true,
-        start: args.setting.start.unwrap_or_default(),
-        program_number: None,
-        source_name: source.name.clone(),
-        allow: Vec::new(),
-        deny: Vec::new(),
+        start: args.setting.standing.start.unwrap_or_default(),
+        ..Job::new(from.clone(), from, &source.name)
     })
 }
 
@@ -259,7 +248,7 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         tables: shop.profile.as_ref().map(Profile::tables).unwrap_or_default(),
         parameters: [PECK_CLEARANCE, BREAK_LIFT].map(|option| own_parameter(shop.profile.as_ref()?, option)),
         model: args.setting.model,
-        skip: args.setting.skip.iter().fold(0, |skip, level| skip | 1 << level),
+        skip: args.setting.switches.on(),
         start_time: args.setting.start_time,
         stage: args.stage,
     }
@@ -442,8 +431,7 @@ fn stream(
         }
         Form::Canon => match canonical(args, shop, &plan, source, &mut out, err)? {
             Ok(course) => course,
-            Err(Failure::Refused) => return Ok(Exit::Refused),
-            Err(Failure::VerificationFailed) => return Ok(Exit::VerificationFailed),
+            Err(failure) => return Ok(Exit::of(Err(failure))),
         },
         Form::Payload | Form::Ndjson | Form::Summary | Form::Json | Form::Markdown | Form::Tools => {
             let header =

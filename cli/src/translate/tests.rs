@@ -4,9 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use ncc_backends::Layout;
 use ncc_dialects::{Settings, builtin};
-use ncc_ir::canon::AXES;
 use ncc_ir::maps::Maps;
 use ncc_machines::Profile;
 
@@ -28,21 +26,7 @@ fn job() -> Job {
     let to = machine(
         "[[tool]]\nnumber = 7\nname = \"drill\"\nlength_entry = 27\n[[tool]]\nnumber = 3\nname = \"mill\"\n[[work_offset]]\nnumber = 2\nname = \"vice\"\n[[work_offset]]\nnumber = 3\nname = \"plate\"\n",
     );
-    Job {
-        from: settings.clone(),
-        to: settings,
-        machines: Machines { from, to },
-        layout: Layout::default(),
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: true,
-        start: [None; AXES],
-        program_number: None,
-        source_name: "part.nc".to_owned(),
-        allow: Vec::new(),
-        deny: Vec::new(),
-    }
+    Job { machines: Machines { from, to }, ..Job::new(settings.clone(), settings, "part.nc") }
 }
 
 /// Translates with maps in the pass that are not the verifier's.

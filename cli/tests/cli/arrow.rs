@@ -159,3 +159,11 @@ fn a_wrong_program_leaves_the_file_empty() {
         assert_eq!(read(folder, "fanuc"), "");
     });
 }
+
+/// Whoever asked for JSON gets it, of an arrow that leads nowhere too.
+#[test]
+fn a_doubt_is_told_in_the_form_that_is_asked_for() {
+    let folder = folder();
+    let done = ncc(folder.path(), &["mach9", "-", "good.cn", "--format", "json"]).exits(2);
+    assert!(done.err.starts_with('{') && done.err.contains("stdout is not a file"), "{}", done.err);
+}

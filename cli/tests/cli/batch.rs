@@ -234,6 +234,29 @@ fn each_is_translated_as_by_itself() {
     assert_eq!(names, ["good.nc", "part.nc", "two/part.nc"]);
 }
 
+/// A folder is filled by several commands: what one wrote, another does not change unasked.
+#[test]
+fn a_subprogram_of_an_earlier_batch_stays_what_it_was() {
+    let folder = shop();
+    let run = |program: &str| {
+        let options = ["fanuc", "to", "siemens", program, "-o", "out/"];
+        ncc(folder.path(), &[&options[..], &["--split"]].concat())
+    };
+    let made = || files(&folder.path().join("out"));
+    run("fanuc/plate.nc").exits(0);
+    let first = made();
+    run("fanuc/other/lid.nc").exits(2).says("L300.SPF is there already, and is another");
+    assert_eq!(made(), first);
+    // The same subprogram is nobody's own.
+    run("fanuc/cover.nc").exits(0);
+    assert_eq!(made().len(), first.len() + 1);
+    // A program that is translated again brings its own along, and that is told.
+    let plate = fs::read_to_string(folder.path().join("fanuc/plate.nc")).unwrap();
+    fs::write(folder.path().join("fanuc/plate.nc"), plate.replace("Z-1.", "Z-3.")).unwrap();
+    run("fanuc/plate.nc").exits(0).says("L300.SPF becomes another");
+    assert_ne!(made()[0], first[0]);
+}
+
 #[test]
 fn what_makes_no_sense_is_exit_2_and_writes_nothing() {
     let folder = shop();

@@ -19,20 +19,19 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_dialects::Settings;
-use ncc_ir::num::Nanos;
 
 pub use self::json::SCHEMA;
 use self::motion::{Motion, motion};
 use self::tell::Account;
 use self::text::Texts;
 use super::side::{Asked, Side, open};
-use crate::args::{Start, pair, start};
+use crate::args::pair;
 use crate::files::{self, Source};
 use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::render::{About, human};
-use crate::setting::Telling;
+use crate::setting::{Nearness, Standing, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -49,7 +48,12 @@ usage, 4 a file could not be read, 5 could not be compared, because a program ha
 
 /// `ncc diff`.
 #[derive(Debug, Args)]
-#[command(after_help = EXAMPLES)]
+#[command(
+    after_help = EXAMPLES,
+    mut_arg("start", |start| start.help(
+        "Where the tool stands before the first block of both, in program coordinates"
+    ))
+)]
 pub struct Diff {
     /// The first program, as `PATH` or `DIALECT:PATH`; `-` for stdin
     #[arg(value_name = "A", required_unless_present = "schema")]
@@ -72,18 +76,12 @@ pub struct Diff {
     /// Decide a question that the dictionary of B leaves open
     #[arg(long, value_name = "NAME=VALUE", value_parser = pair, help_heading = "What is compared")]
     pub b_option: Vec<(String, String)>,
-    /// Where the tool stands before the first block of both, in program coordinates
-    #[arg(
-        long,
-        value_name = "AXES",
-        value_parser = start,
-        allow_hyphen_values = true,
-        help_heading = "What is compared"
-    )]
-    pub start: Option<Start>,
-    /// How far lengths may be apart, in mm [default: half a unit of the coarser side's last digit]
-    #[arg(long, value_name = "MM", value_parser = millimetres, help_heading = "What is compared")]
-    pub tolerance: Option<Nanos>,
+    /// Where both begin.
+    #[command(flatten, next_help_heading = "What is compared")]
+    pub standing: Standing,
+    /// What counts as the same.
+    #[command(flatten, next_help_heading = "What is compared")]
+    pub nearness: Nearness,
     /// Compare the text, block by block, instead of what it does
     #[arg(long, help_heading = "What is compared")]
     pub text: bool,
@@ -174,7 +172,8 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         return Err(Problem::usage("two programs are compared", "ncc diff A B"));
     };
     let from = args.from.as_deref();
-    let asked = |operand, machine, options| Asked { operand, from, machine, options, start: args.start };
+    let asked =
+        |operand, machine, options| Asked { operand, from, machine, options, start: args.standing.start };
     let a = asked(a, args.a_machine.as_deref(), args.a_option.as_slice());
     let b = asked(b, args.b_machine.as_deref(), args.b_option.as_slice());
     let mut sides = open([&a, &b], args.telling.verbose, known, err)?;
@@ -190,7 +189,7 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         texts = Some(found);
         account
     } else {
-        let found = motion(&mut sides, args.tolerance).map_err(|e| cannot(&e))?;
+        let found = motion(&mut sides, args.nearness.tolerance).map_err(|e| cannot(&e))?;
         let _ = say(args, &mut sides, &found, known, err);
         if found.refused() {
             return Ok(Exit::NotCompared);
@@ -294,11 +293,4 @@ fn say(
         }
     }
     err.flush()
-}
-
-fn millimetres(text: &str) -> Result<Nanos, String> {
-    match text.parse::<f64>() {
-        Ok(mm) if (0.0..=1000.0).contains(&mm) => Ok((mm * 1e9).round() as Nanos),
-        Ok(_) | Err(_) => Err("write millimetres as a decimal, 0 to 1000".to_owned()),
-    }
 }
