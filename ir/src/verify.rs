@@ -143,8 +143,8 @@ struct Measured {
 }
 
 /// What of a turn an arc goes.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
     /// Less than a quarter.
     Little,
     /// More than three quarters, and not all of it.
@@ -153,8 +153,9 @@ enum Part {
     Other,
 }
 
-/// What of a turn an event goes that starts there.
-fn part(event: &Event, start: &[Nanos; AXES]) -> Part {
+/// What of a turn an event goes that starts there, in machine coordinates. Within a tolerance, of two arcs
+/// with one centre and one end the one can be nearly nothing and the other nearly all of the circle.
+pub fn part(event: &Event, start: &[Nanos; AXES]) -> Part {
     let Kind::Arc { plane, turn, full: false, centre } = &event.kind else { return Part::Other };
     let (first, second, _) = plane.axes();
     let from_centre = |p: &[Nanos; AXES]| {

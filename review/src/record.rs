@@ -10,6 +10,7 @@ use ncc_ir::canon::{AXES, Axis, Plane, Turn, same_point};
 use ncc_ir::exec::{Attribute, Event, Exec, Kind, State};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::Text;
+use ncc_ir::verify::{Part, part};
 
 /// Generated worlds beside the plain one.
 pub const WORLDS: usize = 2;
@@ -66,6 +67,10 @@ pub struct Record {
 const INCH: u8 = 1;
 const INCREMENTAL: u8 = 2;
 
+// Bits of the form of an arc, behind plane, sense and whether it is whole.
+const LITTLE: u8 = 16;
+const NEARLY: u8 = 32;
+
 impl Record {
     /// Where all axes stand after it. Of an arc, turning axes are in its style.
     pub fn place(&self, style: &Style) -> [Nanos; AXES] {
@@ -95,9 +100,11 @@ impl Record {
         (plane, turn, self.form & 8 != 0)
     }
 
-    /// Whether two arcs have one plane, sense and form; true of anything else.
+    /// Whether two arcs have one plane, sense and form, and not one goes hardly any of the circle and the
+    /// other nearly all; true of anything else.
     pub fn same_form(&self, other: &Record) -> bool {
-        self.form == other.form
+        let parts = LITTLE | NEARLY;
+        (self.form ^ other.form) & !parts == 0 && (self.form | other.form) & parts != parts
     }
 }
 
@@ -252,9 +259,9 @@ impl Recorder {
         if nowhere && matches!(what, What::Traverse | What::Feed | What::Thread) {
             return;
         }
-        self.stood = [plain.end, one.end, two.end];
+        let start = std::mem::replace(&mut self.stood, [plain.end, one.end, two.end])[0];
         let apart = [one.end, two.end].map(|w| std::array::from_fn(|axis| w[axis] - plain.end[axis]));
-        self.push(plain, what, terms, apart, incremental, hole, 0);
+        self.push(plain, &start, what, terms, apart, incremental, hole, 0);
     }
 
     fn alone(&mut self, event: &Event, world: usize, terms: (u16, Length), incremental: bool) {
@@ -263,14 +270,15 @@ impl Recorder {
         if same_point(stood, &event.end) && matches!(what, What::Traverse | What::Feed) {
             return;
         }
-        *stood = event.end;
-        self.push(event, what, terms, [[0; AXES]; WORLDS], incremental, 0, 1 + world as u8);
+        let start = std::mem::replace(stood, event.end);
+        self.push(event, &start, what, terms, [[0; AXES]; WORLDS], incremental, 0, 1 + world as u8);
     }
 
     #[allow(clippy::too_many_arguments)] // The fields of one record.
     fn push(
         &mut self,
         event: &Event,
+        start: &[Nanos; AXES],
         what: What,
         (offset, length): (u16, Length),
         apart: [[Nanos; AXES]; WORLDS],
@@ -291,7 +299,12 @@ impl Recorder {
                     Plane::Zx => 1,
                     Plane::Yz => 2,
                 } | u8::from(*turn == Turn::Counterclockwise) << 2
-                    | u8::from(*full) << 3;
+                    | u8::from(*full) << 3
+                    | match part(event, start) {
+                        Part::Little => LITTLE,
+                        Part::Nearly => NEARLY,
+                        Part::Other => 0,
+                    };
             }
             Kind::Synchronised { chuck, .. } => form = u8::from(*chuck),
             Kind::Orient(angle) => more = [*angle, 0, 0],

@@ -125,7 +125,7 @@ fn an_edit_is_told_as_what_it_is() {
         (
             "G02 X20. Y0. I10. J0.",
             "G03 X20. Y0. I10. J0.",
-            "an arc of T3 with another centre or sense at line 23",
+            "an arc of T3 with another centre, sense or sweep at line 23",
         ),
         ("G02 X20. Y0. I10. J0.", "G01 X20. Y0.", "other kind of move: arc → feed move at line 23"),
         ("M05\nM30\n", "M05\n", "same path;"),

@@ -374,8 +374,8 @@ fn title(group: &Group) -> String {
             holes => format!("{}{} {what}", of_holes(holes), of_tool(group.tool)),
         },
         Change::Arc => match group.count[0] {
-            1 => format!("an arc{} with another centre or sense", of_tool(group.tool)),
-            n => format!("{n} arcs{} with another centre or sense", of_tool(group.tool)),
+            1 => format!("an arc{} with another centre, sense or sweep", of_tool(group.tool)),
+            n => format!("{n} arcs{} with another centre, sense or sweep", of_tool(group.tool)),
         },
         Change::Kind(..) | Change::Orient(..) | Change::Dwell(..) | Change::Text => what,
         Change::Gap => {
@@ -485,7 +485,7 @@ fn classes(groups: &[Group]) -> Vec<String> {
         ("shift", "a tail is shifted"),
         ("moved", "off"),
         ("gap", ""),
-        ("arc", "arcs with another centre or sense"),
+        ("arc", "arcs with another centre, sense or sweep"),
         ("kind", "another kind of move"),
         ("work-offset", "another work offset"),
         ("length", "another tool length"),

@@ -13,7 +13,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName, Verdict as Became};
 use ncc_ir::num::{Nanos, POW10};
 use ncc_ir::source::Span;
-use ncc_ir::verify::{Aspect, Difference};
+use ncc_ir::verify::Difference;
 use serde::{Deserialize, Serialize};
 
 use super::pair::{Found, Verdict, job_of};
@@ -291,9 +291,6 @@ impl Document {
         self.summary = match (account.equal, unsaid.is_empty()) {
             (false, _) => account.summary.clone(),
             (true, false) => format!("the output never says its {unsaid}"),
-            (true, true) if difference.aspect == Aspect::Arc => {
-                "an arc is nearly nothing in one of them and nearly a whole circle in the other".to_owned()
-            }
             (true, true) => {
                 "not in what the programs themselves say: in offsets, lengths or tools of the machines"
                     .to_owned()
