@@ -131,6 +131,10 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let mut target = World::generate(seed, &to);
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
+    // A control without a word for it takes corners in its one way.
+    let caps = &job.to.dialect.caps;
+    let path = caps.only_path.filter(|mode| !caps.says_path(*mode));
+    (source.path, target.path) = (path, path);
     same_at_power_on(&source, &mut target, &from, &to);
     [source, target]
 }
@@ -143,6 +147,7 @@ impl Verifier {
                 let [source, target] = worlds_of(job, seed);
                 let mut comparison = Comparison::new(resolution(&job.to), source.start);
                 comparison.rename_tools(renaming.tools.clone());
+                comparison.see(job.to.dialect.caps.seen());
                 Run {
                     skip: 0,
                     comparison,

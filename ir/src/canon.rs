@@ -102,6 +102,172 @@ pub enum FeedMode {
     InverseTime,
 }
 
+/// How the corners between moves are taken. From [`PathMode::Continuous`] on the control rounds them;
+/// by how much is its own where the mode does not say it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PathMode {
+    /// Stops at the end of every move at feed until the axes are there.
+    ExactStop,
+    /// Goes through every end point, and need not stop.
+    ExactPath,
+    /// Rounds corners as the control sees fit.
+    Continuous,
+    /// Leaves the programmed path by no more than a stated length.
+    Tolerance,
+    /// Begins to round at a stated distance before a corner.
+    Distance,
+    /// Rounds within tolerances of the axes.
+    AxisTolerances,
+    /// Rounds within tolerances, inside of the blocks.
+    WithinBlocks,
+    /// Rounds so that the axes go as fast as they can.
+    Dynamics,
+    /// As [`PathMode::AxisTolerances`], and where two moves meet without a corner too.
+    Tangential,
+}
+
+impl PathMode {
+    /// All modes with their names in text.
+    pub const ALL: [(PathMode, &'static str); 9] = [
+        (PathMode::ExactStop, "exact-stop"),
+        (PathMode::ExactPath, "exact-path"),
+        (PathMode::Continuous, "continuous"),
+        (PathMode::Tolerance, "tolerance"),
+        (PathMode::Distance, "distance"),
+        (PathMode::AxisTolerances, "axis-tolerances"),
+        (PathMode::WithinBlocks, "within-blocks"),
+        (PathMode::Dynamics, "dynamics"),
+        (PathMode::Tangential, "tangential"),
+    ];
+
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        PathMode::ALL[self as usize].1
+    }
+
+    /// The mode of a name.
+    pub fn named(name: &str) -> Option<PathMode> {
+        PathMode::ALL.iter().find(|(_, n)| *n == name).map(|(mode, _)| *mode)
+    }
+
+    /// Whether it rounds in a way of its own, beyond [`PathMode::Continuous`].
+    pub const fn is_rounding(self) -> bool {
+        !matches!(self, PathMode::ExactStop | PathMode::ExactPath | PathMode::Continuous)
+    }
+
+    /// The mode that is left of it where the way of rounding cannot be said.
+    pub const fn plain(self) -> PathMode {
+        if self.is_rounding() { PathMode::Continuous } else { self }
+    }
+}
+
+/// What a speed of the spindle counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SpindleMode {
+    /// Turns a minute.
+    #[default]
+    Turns,
+    /// Metres a minute (feet a minute in inches) at the tool's edge: constant surface speed.
+    Surface,
+}
+
+/// What a word may advise a control of that changes neither where the tool goes nor how fast it is
+/// told to: each kind has the values of [`AdviceKind::values`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum AdviceKind {
+    /// Blocks are looked at ahead of time.
+    LookAhead,
+    /// Contours of many short lines are watched for their accelerations.
+    ContourControl,
+    /// The same with a processor of its own.
+    HighPrecision,
+    /// The drives are told the speed ahead, so that they do not lag.
+    FeedForward,
+    /// How the axes accelerate.
+    Acceleration,
+    /// Many short lines are made one curve, within the control's tolerances.
+    Compressor,
+    /// Which set of limits of speed and acceleration is used.
+    Dynamics,
+    /// When an exact stop counts as reached.
+    ExactStopWindow,
+    /// Whether orientations of the tool are those of the workpiece or of the machine.
+    Orientation,
+    /// The programmed limits of the working area are watched.
+    WorkingArea,
+    /// The stored limits of the strokes are watched.
+    StrokeCheck,
+    /// Which stage of machining follows, and within which tolerance.
+    PathTolerance,
+    /// What of a compensated contour the feed counts for.
+    CompensatedFeed,
+}
+
+impl AdviceKind {
+    /// All kinds with their names in text.
+    pub const ALL: [(AdviceKind, &'static str); 13] = [
+        (AdviceKind::LookAhead, "look-ahead"),
+        (AdviceKind::ContourControl, "contour-control"),
+        (AdviceKind::HighPrecision, "high-precision"),
+        (AdviceKind::FeedForward, "feed-forward"),
+        (AdviceKind::Acceleration, "acceleration"),
+        (AdviceKind::Compressor, "compressor"),
+        (AdviceKind::Dynamics, "dynamics"),
+        (AdviceKind::ExactStopWindow, "exact-stop-window"),
+        (AdviceKind::Orientation, "orientation"),
+        (AdviceKind::WorkingArea, "working-area"),
+        (AdviceKind::StrokeCheck, "stroke-check"),
+        (AdviceKind::PathTolerance, "path-tolerance"),
+        (AdviceKind::CompensatedFeed, "compensated-feed"),
+    ];
+
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        AdviceKind::ALL[self as usize].1
+    }
+
+    /// The kind of a name.
+    pub fn named(name: &str) -> Option<AdviceKind> {
+        AdviceKind::ALL.iter().find(|(_, n)| *n == name).map(|(kind, _)| *kind)
+    }
+
+    /// What it can be, by names in text; at most 14.
+    pub const fn values(self) -> &'static [&'static str] {
+        match self {
+            AdviceKind::LookAhead
+            | AdviceKind::ContourControl
+            | AdviceKind::HighPrecision
+            | AdviceKind::FeedForward
+            | AdviceKind::WorkingArea
+            | AdviceKind::StrokeCheck => &["off", "on"],
+            AdviceKind::Acceleration => &["stepped", "soft", "reduced"],
+            AdviceKind::Compressor => &["off", "lines", "curves", "cad", "surface"],
+            AdviceKind::Dynamics => {
+                &["normal", "positioning", "roughing", "semi-finishing", "finishing", "precision"]
+            }
+            AdviceKind::ExactStopWindow => &["fine", "coarse", "set-point"],
+            AdviceKind::Orientation => &["workpiece", "machine"],
+            AdviceKind::PathTolerance => &["off", "roughing", "semi-finishing", "finishing"],
+            AdviceKind::CompensatedFeed => &["contour", "centre", "inside"],
+        }
+    }
+
+    /// The value of a name.
+    pub fn value(self, name: &str) -> Option<u8> {
+        self.values().iter().position(|n| *n == name).map(|at| at as u8)
+    }
+
+    /// Whether a length belongs to it.
+    pub const fn has_amount(self) -> bool {
+        matches!(self, AdviceKind::PathTolerance)
+    }
+
+    /// Its place among the values of all kinds: where they begin, in bits; each has four.
+    pub const fn bits(self) -> u32 {
+        self as u32 * 4
+    }
+}
+
 /// Where a canned cycle leaves the tool.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ReturnLevel {

@@ -1,7 +1,9 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
-use crate::canon::{ReturnLevel, Spindle, Turn};
+use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::cycle::{CycleKind, Shift, Tap};
+use crate::exec::Seen;
+use crate::passes::seen_advice;
 use crate::program::Pitch;
 
 /// Capabilities of a target, filled from its dictionary.
@@ -89,6 +91,16 @@ pub struct Caps {
     pub synchronised: bool,
     /// Messages to the operator.
     pub messages: bool,
+    /// Modes of taking corners, a bit each.
+    pub path_modes: u16,
+    /// Whether the length of rounding can be another one in rapids.
+    pub path_in_rapids: bool,
+    /// How it always takes corners, where it has no word for that.
+    pub only_path: Option<PathMode>,
+    /// An exact stop of one move.
+    pub exact_stop: bool,
+    /// Advice that it has words for, each with its value.
+    pub advice: Vec<(AdviceKind, u8)>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
 }
@@ -188,6 +200,29 @@ pub struct CycleCap {
 }
 
 impl Caps {
+    /// Whether a mode of taking corners can be written.
+    pub fn says_path(&self, mode: PathMode) -> bool {
+        self.path_modes >> mode as u16 & 1 == 1
+    }
+
+    /// Whether advice can be written.
+    pub fn advises(&self, kind: AdviceKind, value: u8) -> bool {
+        self.advice.contains(&(kind, value))
+    }
+
+    /// What of a machine's state its words tell apart.
+    pub fn seen(&self) -> Seen {
+        let rounds = |(mode, _): &(PathMode, &str)| mode.is_rounding();
+        let rounding =
+            PathMode::ALL.iter().filter(|mode| rounds(mode)).all(|(mode, _)| self.says_path(*mode));
+        Seen {
+            exact_path: self.says_path(PathMode::ExactPath),
+            rounding: rounding && self.path_in_rapids,
+            path: true,
+            advice: seen_advice(self),
+        }
+    }
+
     /// Whether a cycle of this kind can be written, returning there.
     pub fn cycle(&self, kind: &str, level: Option<ReturnLevel>, dwell: bool) -> bool {
         self.cycles

@@ -251,6 +251,9 @@ faults! {
     /// The length of edge 1 of a tool is the entry of the length table with the tool's number.
     AssumedEdge { tool: u32 } = 310, verdict(Verdict::Assumed);
 
+    /// The target has no word for how corners are taken: it is taken to do it always in this way.
+    AssumedPath { path: Box<str> } = 311, verdict(Verdict::Assumed);
+
     // NC04xx: what became of it.
     /// A comment in the target's characters.
     CommentReformatted = 401, verdict(Verdict::Reformatted);
@@ -287,6 +290,11 @@ faults! {
 
     /// A subprogram or a label whose name the target cannot have.
     NameChanged { from: Box<str>, to: Box<str> } = 416, verdict(Verdict::Reformatted);
+
+    /// A way of taking corners that the target has no word for, and the one that was written for it.
+    PathRelaxed { from: Box<str>, to: Box<str> } = 417, verdict(Verdict::WithinTolerance);
+    /// Advice to the control of a kind that the target has no word for.
+    AdviceLeftOut { kind: Box<str> } = 418, verdict(Verdict::Reformatted);
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.

@@ -6,9 +6,9 @@
 //!
 //! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
 
-/// Beside the way: remarks, spindle, coolant, functions of the machine, pauses. Without axis words,
-/// lengths or a feed; what is in force for the moves that follow, where the axes stand and which tool
-/// is meant stay as they are.
+/// Beside the way: remarks, spindle, coolant, functions of the machine, pauses.
+/// Without axis words, lengths or a feed; what the words of the moves that
+/// follow mean, where the axes stand and which tool is meant stay as they are.
 macro_rules! miscellaneous {
     () => {
         $crate::program::Op::Comment(_)
@@ -16,6 +16,8 @@ macro_rules! miscellaneous {
             | $crate::program::Op::Blank
             | $crate::program::Op::StopCutterRadiusCompensation
             | $crate::program::Op::SetSpindleSpeed(_)
+            | $crate::program::Op::SetSpindleMode(_)
+            | $crate::program::Op::LimitSpindleSpeed(_)
             | $crate::program::Op::StartSpindleClockwise
             | $crate::program::Op::StartSpindleCounterclockwise
             | $crate::program::Op::StopSpindleTurning
@@ -27,6 +29,16 @@ macro_rules! miscellaneous {
             | $crate::program::Op::Dwell(_)
             | $crate::program::Op::ProgramStop
             | $crate::program::Op::OptionalProgramStop
+    };
+}
+
+/// How the control conducts its moves: corners, and advice. What the words of the moves that follow
+/// mean, where the axes stand and which tool is meant stay as they are. Lengths may belong to it.
+macro_rules! conduct {
+    () => {
+        $crate::program::Op::SetMotionControlMode(_)
+            | $crate::program::Op::ExactStop
+            | $crate::program::Op::Advise(_)
     };
 }
 
@@ -45,6 +57,7 @@ macro_rules! modes {
 macro_rules! tooling {
     () => {
         $crate::program::Op::SelectTool(_)
+            | $crate::program::Op::SelectToolByName(_)
             | $crate::program::Op::ChangeTool
             | $crate::program::Op::UseToolLengthOffset(_)
             | $crate::program::Op::UseToolEdge { .. }
@@ -85,4 +98,4 @@ macro_rules! flow {
     };
 }
 
-pub(crate) use {flow, frames, miscellaneous, modes, moves, tooling};
+pub(crate) use {conduct, flow, frames, miscellaneous, modes, moves, tooling};

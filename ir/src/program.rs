@@ -10,7 +10,10 @@
 //!
 //! Not here: block layout, number formats, the spelling of any control.
 
-use crate::canon::{AXES, Axis, Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
+use crate::canon::{
+    AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn,
+    Units,
+};
 use crate::cycle::{Cycle, Pattern};
 use crate::expr::{Expr, Var};
 use crate::source::Span;
@@ -264,6 +267,42 @@ pub enum FrameStep {
     Mirror([bool; 3]),
 }
 
+/// How corners are taken from here on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PathControl {
+    /// The mode.
+    pub mode: PathMode,
+    /// How far from a corner, or from the path, where the mode says that.
+    pub within: Option<Expr>,
+    /// The same for rapids, where it is another one.
+    pub rapids: Option<Expr>,
+}
+
+impl PathControl {
+    /// A mode without lengths of its own.
+    pub fn plain(mode: PathMode) -> PathControl {
+        PathControl { mode, within: None, rapids: None }
+    }
+}
+
+/// A word that advises the control, and changes nothing of what the program says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Advice {
+    /// What of.
+    pub kind: AdviceKind,
+    /// Which of the kind's values.
+    pub value: u8,
+    /// The length that belongs to it, if it has one.
+    pub amount: Option<Expr>,
+}
+
+impl Advice {
+    /// The name of its value.
+    pub fn value_name(&self) -> &'static str {
+        self.kind.values().get(usize::from(self.value)).copied().unwrap_or("off")
+    }
+}
+
 /// Blocks that are executed again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RepeatBlocks {
@@ -351,13 +390,27 @@ pub enum Op {
     UseMachineCoordinates,
     /// `STOP_CUTTER_RADIUS_COMPENSATION`
     StopCutterRadiusCompensation,
+    /// `SET_MOTION_CONTROL_MODE`: how corners are taken from here on.
+    SetMotionControlMode(Box<PathControl>),
+    /// `EXACT_STOP`: the move that follows in this block ends in an exact stop.
+    ExactStop,
+    /// `ADVISE`: a word for the control's own conduct, without effect on what the program says.
+    Advise(Box<Advice>),
 
-    /// `SET_FEED_RATE`: mm/min or inch/min under [`FeedMode::PerMinute`].
+    /// `SET_FEED_RATE`: mm/min or inch/min under [`FeedMode::PerMinute`], mm or inch a turn under
+    /// [`FeedMode::PerRevolution`], turns of the clock's minute (a pure number) under
+    /// [`FeedMode::InverseTime`], and then for one move. A change of the feed mode takes the feed away.
     SetFeedRate(Expr),
-    /// `SET_SPINDLE_SPEED`: rev/min.
+    /// `SET_SPINDLE_SPEED`: rev/min, or the surface speed under [`SpindleMode::Surface`].
     SetSpindleSpeed(Expr),
+    /// `SET_SPINDLE_MODE`: what the speed counts.
+    SetSpindleMode(SpindleMode),
+    /// `LIMIT_SPINDLE_SPEED`: no more than so many rev/min from here on.
+    LimitSpindleSpeed(Expr),
     /// `SELECT_TOOL`
     SelectTool(Expr),
+    /// `SELECT_TOOL_BY_NAME`
+    SelectToolByName(Text),
     /// `CHANGE_TOOL`: to the selected tool.
     ChangeTool,
     /// `USE_TOOL_LENGTH_OFFSET`: entry of the length table, 0 for none. Moves nothing; taken up
@@ -466,9 +519,15 @@ impl Op {
             Op::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
             Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
+            Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",
+            Op::ExactStop => "EXACT_STOP",
+            Op::Advise(_) => "ADVISE",
             Op::SetFeedRate(_) => "SET_FEED_RATE",
             Op::SetSpindleSpeed(_) => "SET_SPINDLE_SPEED",
+            Op::SetSpindleMode(_) => "SET_SPINDLE_MODE",
+            Op::LimitSpindleSpeed(_) => "LIMIT_SPINDLE_SPEED",
             Op::SelectTool(_) => "SELECT_TOOL",
+            Op::SelectToolByName(_) => "SELECT_TOOL_BY_NAME",
             Op::ChangeTool => "CHANGE_TOOL",
             Op::UseToolLengthOffset(_) => "USE_TOOL_LENGTH_OFFSET",
             Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",

@@ -7,7 +7,7 @@ use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel
 use crate::cycle::{Cycle, CycleKind, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
-use crate::kinds::{flow, miscellaneous};
+use crate::kinds::{conduct, flow, miscellaneous};
 use crate::num::Nanos;
 use crate::places::{Here, Places};
 use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Stmt};
@@ -347,6 +347,7 @@ impl Tracker {
                 self.modes.length_offset = entry;
             }
             Op::ChangeTool => self.tool = self.selected,
+            Op::SelectToolByName(_) => self.selected = None,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
             flow!() => self.forget(),
             miscellaneous!() => match op {
@@ -355,7 +356,7 @@ impl Tracker {
                 Op::StopSpindleTurning | Op::OrientSpindle(_) => self.spindle = Some(Spindle::Stopped),
                 _ => {}
             },
-            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) => {}
+            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | conduct!() => {}
         }
     }
 

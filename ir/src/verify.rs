@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::canon::{AXES, Axis, Turn, same_point};
-use crate::exec::{Event, Kind, State};
+use crate::exec::{Event, Kind, Seen, State};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, POW10};
 use crate::program::{Op, Point, Stmt};
@@ -182,6 +182,8 @@ pub struct Comparison {
     as_inches: bool,
     source_at: [Nanos; AXES],
     target_at: [Nanos; AXES],
+    /// What of the machine's state the target has words for.
+    seen: Option<Seen>,
     /// What the source calls the target's tools, where that may be another number.
     tools: Option<BTreeMap<u32, u32>>,
     /// Pairs of events found equal.
@@ -204,6 +206,7 @@ impl Comparison {
             as_inches: false,
             source_at: start,
             target_at: start,
+            seen: None,
             tools: None,
             events: 0,
             pairs: None,
@@ -216,6 +219,11 @@ impl Comparison {
     /// target's. One that is not among them is none of the source's.
     pub fn rename_tools(&mut self, tools: Option<BTreeMap<u32, u32>>) {
         self.tools = tools;
+    }
+
+    /// The target has words for so much of the machine's state alone: the rest does not count.
+    pub fn see(&mut self, seen: Seen) {
+        self.seen = (seen != Seen::default()).then_some(seen);
     }
 
     /// Says whether the pairs are kept from now on, until they are taken.
@@ -299,8 +307,17 @@ impl Comparison {
         }
     }
 
-    /// Whether tool, spindle and coolant are the same.
+    /// Whether tool, spindle, coolant and modes are the same.
+    #[inline]
     fn same_state(&self, a: &State, b: &State) -> bool {
+        match &self.seen {
+            None => self.same_tooled(a, b),
+            Some(seen) => self.same_tooled(&seen.of(a), &seen.of(b)),
+        }
+    }
+
+    #[inline]
+    fn same_tooled(&self, a: &State, b: &State) -> bool {
         let Some(tools) = &self.tools else { return a.same(b) };
         // The tool that nobody named is the same on both.
         let tool = match u32::try_from(b.tool) {
@@ -478,6 +495,9 @@ impl Comparison {
         let synchronised = matches!(a.kind, Kind::Synchronised { .. });
         let most = self.resolution.feeds(b.inch || self.as_inches);
         if a.rate != b.rate && !synchronised && !near(a.rate, b.rate, most) {
+            return Some(Aspect::Feed);
+        }
+        if a.rate != 0 && !synchronised && a.state.feed_mode != b.state.feed_mode {
             return Some(Aspect::Feed);
         }
         (!self.same_state(&a.state, &b.state)).then_some(Aspect::State)

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
+use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 
@@ -16,6 +16,9 @@ pub struct World {
     pub seed: u32,
     /// Modes at power-on. Every fact is known to a world.
     pub power_on: Modes,
+    /// How corners are taken at power-on, where the control compared has no word for it; `None` is as
+    /// the control at hand does.
+    pub path: Option<PathMode>,
     /// Where the axes stand, in machine coordinates.
     pub start: [Nanos; AXES],
     /// The control's own clearance of the peck-drilling cycle, in millimetres.
@@ -110,6 +113,7 @@ impl World {
         let mut world = World {
             seed,
             power_on,
+            path: None,
             start: [0; AXES],
             peck_clearance: 0,
             break_lift: 0,
@@ -162,7 +166,8 @@ impl World {
     /// start. Edge 1 is an entry of the table, in general the one with the tool's number.
     pub fn edge_length(&self, tool: i64, edge: u32) -> Nanos {
         let known = u32::try_from(tool);
-        let entry = known.unwrap_or(97);
+        // A tool with a name has a length of its own.
+        let entry = known.unwrap_or(if tool == -1 { 97 } else { tool as u32 | FOREIGN });
         match edge {
             0 => 0,
             1 if entry != 0 && known.is_ok() => self.tool_length(self.edge_entry(entry)),

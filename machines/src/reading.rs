@@ -103,6 +103,9 @@ pub const EDGE_IS_ENTRY: &str = "edge-1-is-length-entry";
 /// cycle is in force again after it.
 pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
 
+/// Key of the reading that a control without a word for it always takes corners in one way.
+pub const CORNERS: &str = "corners";
+
 /// What follows the name of a pattern whose order of holes is the one that is written.
 const ORDER: &str = "-order";
 
@@ -150,6 +153,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         // Where the target wants the offset with a Z word, it is still the source that takes it up so.
         Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
         Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
+        Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
         Fault::AssumedEdge { .. } => {
             let side = if edges(to) { Side::To } else { Side::From };
             (side, Place::Confirmed(EDGE_IS_ENTRY.to_owned()))
@@ -211,7 +215,7 @@ fn slug(words: &str) -> String {
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
-    if [OFFSET_WITH_Z, BARE_NUMBERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, LENGTH_CONST].contains(&key) {
+    if [OFFSET_WITH_Z, BARE_NUMBERS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, LENGTH_CONST].contains(&key) {
         return true;
     }
     let call = |name: &str| dialect.call_row(name).is_some();

@@ -11,7 +11,9 @@ mod arguments;
 pub(crate) mod text;
 
 use ncc_dialects::{Quantity, Settings};
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, Turn, Units};
+use ncc_ir::canon::{
+    AXES, Axis, Distance, FeedMode, Modes, Motion, PathMode, Plane, SpindleMode, Turn, Units,
+};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Nanos, Unit};
@@ -237,7 +239,42 @@ impl Writer {
                 self.open(s, out);
                 self.value(value, "F", s.span, out, diags).map_err(here)?;
             }
-            Op::SetSpindleSpeed(value) | Op::Dwell(value) => {
+            Op::SetMotionControlMode(control) => {
+                let within = control.within.as_ref().map(arguments::literal).transpose().map_err(here)?;
+                if let Some(within) = within {
+                    self.use_units(within.unit, out);
+                }
+                self.open(s, out);
+                out.extend_from_slice(match control.mode {
+                    PathMode::ExactStop => b"CANON_EXACT_STOP",
+                    PathMode::ExactPath => b"CANON_EXACT_PATH",
+                    PathMode::Continuous | PathMode::Tolerance => b"CANON_CONTINUOUS",
+                    PathMode::Distance
+                    | PathMode::AxisTolerances
+                    | PathMode::WithinBlocks
+                    | PathMode::Dynamics
+                    | PathMode::Tangential => return Err(here(cannot(&s.op))),
+                });
+                if let Some(within) = within {
+                    out.extend_from_slice(b", ");
+                    self.value(within, "tolerance", s.span, out, diags).map_err(here)?;
+                }
+            }
+            Op::SetSpindleMode(mode) => {
+                self.open(s, out);
+                out.extend_from_slice(match mode {
+                    SpindleMode::Turns => b"CANON_TURNS_PER_MINUTE",
+                    SpindleMode::Surface => b"CANON_SURFACE_SPEED",
+                });
+            }
+            Op::OrientSpindle(angle) => {
+                let angle = angle.as_ref().map(arguments::literal).transpose().map_err(here)?;
+                self.open(s, out);
+                if let Some(angle) = angle {
+                    self.value(angle, "angle", s.span, out, diags).map_err(here)?;
+                }
+            }
+            Op::SetSpindleSpeed(value) | Op::LimitSpindleSpeed(value) | Op::Dwell(value) => {
                 let value = arguments::literal(value).map_err(here)?;
                 self.open(s, out);
                 self.value(value, s.op.name(), s.span, out, diags).map_err(here)?;
@@ -262,7 +299,7 @@ impl Writer {
                     whole(tool, out);
                 }
             }
-            Op::Message(text) | Op::MachineFunction(text) => {
+            Op::Message(text) | Op::MachineFunction(text) | Op::SelectToolByName(text) => {
                 self.open(s, out);
                 if quote(text, out) {
                     diags.push(Diagnostic::new(Fault::CommentReformatted, s.span));
@@ -270,6 +307,7 @@ impl Writer {
             }
             Op::ClearFrame(FrameSlot::Shift) => self.begin(s, "CLEAR_ORIGIN_SHIFT", out),
             Op::StopCutterRadiusCompensation
+            | Op::ExactStop
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
@@ -282,11 +320,11 @@ impl Writer {
 
             Op::ClearFrame(_)
             | Op::SetFrame(_)
+            | Op::Advise(_)
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)
-            | Op::OrientSpindle(_)
             | Op::RepeatBlocks(_)
             | Op::StartCycle(_)
             | Op::Hole(_)

@@ -1,7 +1,7 @@
 //! Statements of the `ir` text, each without its block's marks.
 
 use ncc_ir::canon::{
-    Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, Turn, Units,
+    Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units,
 };
 use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::expr::Expr;
@@ -40,9 +40,15 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::UseMachineCoordinates
         | Op::RepeatBlocks(_)
         | Op::StopCutterRadiusCompensation
+        | Op::SetMotionControlMode(_)
+        | Op::ExactStop
+        | Op::Advise(_)
         | Op::SetFeedRate(_)
         | Op::SetSpindleSpeed(_)
+        | Op::SetSpindleMode(_)
+        | Op::LimitSpindleSpeed(_)
         | Op::SelectTool(_)
+        | Op::SelectToolByName(_)
         | Op::ChangeTool
         | Op::UseToolLengthOffset(_)
         | Op::StartSpindleClockwise
@@ -78,9 +84,29 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
 
 fn arguments(op: &Op, out: &mut Vec<u8>) {
     match op {
-        Op::Comment(text) | Op::NoEffect(text) | Op::Message(text) | Op::MachineFunction(text) => {
-            text_argument(text, out);
+        Op::Comment(text)
+        | Op::NoEffect(text)
+        | Op::Message(text)
+        | Op::MachineFunction(text)
+        | Op::SelectToolByName(text) => text_argument(text, out),
+        Op::SetMotionControlMode(control) => {
+            text_argument(control.mode.name(), out);
+            let lengths: Vec<Expr> = control.within.iter().chain(&control.rapids).cloned().collect();
+            further(&lengths, out);
         }
+        Op::Advise(advice) => {
+            text_argument(advice.kind.name(), out);
+            put(", ", out);
+            text_argument(advice.value_name(), out);
+            further(advice.amount.as_slice(), out);
+        }
+        Op::SetSpindleMode(mode) => text_argument(
+            match mode {
+                SpindleMode::Turns => "turns",
+                SpindleMode::Surface => "surface",
+            },
+            out,
+        ),
         Op::UseLengthUnits(u) => put(units(*u), out),
         Op::SetDistanceMode(d) => put(distance(*d), out),
         Op::SelectPlane(p) => put(plane(*p), out),
@@ -92,6 +118,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::UseToolEdge { edge: e, .. }
         | Op::SetFeedRate(e)
         | Op::SetSpindleSpeed(e)
+        | Op::LimitSpindleSpeed(e)
         | Op::SelectTool(e)
         | Op::UseToolLengthOffset(e)
         | Op::Dwell(e) => expr(e, out),
@@ -123,6 +150,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         }
         Op::Blank
         | Op::UseMachineCoordinates
+        | Op::ExactStop
         | Op::StopCutterRadiusCompensation
         | Op::ChangeTool
         | Op::StartSpindleClockwise

@@ -40,8 +40,14 @@ impl Writer {
             | Op::SetFeedMode(_)
             | Op::SetOriginOffsets(_)
             | Op::StopCutterRadiusCompensation
+            | Op::SetMotionControlMode(_)
+            | Op::ExactStop
+            | Op::Advise(_)
             | Op::SetSpindleSpeed(_)
+            | Op::SetSpindleMode(_)
+            | Op::LimitSpindleSpeed(_)
             | Op::SelectTool(_)
+            | Op::SelectToolByName(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::SynchronisedFeed(_)

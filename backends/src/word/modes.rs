@@ -55,11 +55,17 @@ impl Setting {
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)
-            | Op::OrientSpindle(_)
             | Op::RepeatBlocks(_)
+            | Op::SetMotionControlMode(_)
+            | Op::ExactStop
+            | Op::Advise(_)
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)
+            | Op::SetSpindleMode(_)
+            | Op::LimitSpindleSpeed(_)
+            | Op::OrientSpindle(_)
             | Op::SelectTool(_)
+            | Op::SelectToolByName(_)
             | Op::ChangeTool
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise

@@ -97,6 +97,10 @@ fn address(role: NameRole) -> Said {
             return Said::new("said ARC_THROUGH(ZX, X 19mm, Z 30mm, through(X 9mm, Z 45mm))")
                 .after("SELECT_PLANE(ZX)");
         }
+        NameRole::Rounding => "SET_MOTION_CONTROL_MODE(\"distance\", 0.5mm)",
+        NameRole::RoundingInRapids => "SET_MOTION_CONTROL_MODE(\"distance\", 0.5mm, 1.25mm)",
+        NameRole::SpindleLimit => "LIMIT_SPINDLE_SPEED(2500)",
+        NameRole::SpindleAngle => "ORIENT_SPINDLE(45deg)",
         NameRole::PlaneAngle => "SET_FRAME(rotate, XY, 12.5deg)",
     })
 }

@@ -76,6 +76,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } => Vec::new(),
         Fault::LabelUnknown { .. } => own("put the label before the block that repeats from it"),
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),
+        Fault::AssumedPath { .. } => own("compare corners on the machine with what the program wants"),
+        Fault::PathRelaxed { .. } => own("check corners and their tolerance on the machine"),
         Fault::AssumedEdge { .. } => {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }
@@ -130,6 +132,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::CallExpanded { .. }
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }
+        | Fault::AdviceLeftOut { .. }
         | Fault::NameAsComment
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),

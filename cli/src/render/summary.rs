@@ -176,6 +176,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedRow { .. }
         | Fault::AssumedHoleOrder { .. }
         | Fault::AssumedEdge { .. }
+        | Fault::AssumedPath { .. }
         | Fault::AssumedParameter { .. } => {
             assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)
         }
@@ -194,6 +195,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         }
         Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
         Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
+        Fault::PathRelaxed { from, to } => format!("corners by {} as {}", plain(from), plain(to)),
+        Fault::AdviceLeftOut { kind } => format!("advice on {} left out", plain(kind)),
         Fault::NumbersLeftOut { count } => {
             format!("{count} block {} left out", plural(u64::from(*count), "number"))
         }

@@ -161,6 +161,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{}: order of the holes as written assumed", plain(pattern)),
             "a control may begin at another corner or end, by where the tool stands".into(),
         ),
+        Fault::AssumedPath { path } => (
+            format!("corners taken by {} assumed", plain(path)),
+            format!("{to} has no word for it, and is taken to do it always"),
+        ),
         Fault::AssumedEdge { tool } => (
             format!("edge 1 of tool {tool} = entry {tool} of the length table assumed"),
             "one control has lengths by edge, the other by entry".into(),
@@ -234,6 +238,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::SkipLevelLost { level } => (
             format!("block-skip level {level} lost"),
             format!("{to} cannot tell this switch from the others"),
+        ),
+        Fault::PathRelaxed { from, to: mode } => (
+            format!("corners by {} written as {}", plain(from), plain(mode)),
+            format!("{to} has no word for this way of taking corners"),
+        ),
+        Fault::AdviceLeftOut { kind } => (
+            format!("advice on {} left out", plain(kind)),
+            format!("{to} has no word of this kind; the programmed moves stay"),
         ),
         Fault::NumbersLeftOut { count } => (
             format!("{count} block {} left out", plural(u64::from(*count), "number")),

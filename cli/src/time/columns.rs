@@ -52,7 +52,6 @@ impl Columns {
             }
             Kind::Feed => "STRAIGHT_FEED",
             Kind::Synchronised { .. } => "SYNCHRONISED_FEED",
-            Kind::Orient(_) => "ORIENT_SPINDLE",
             Kind::Arc { .. } => "ARC_FEED",
             Kind::Dwell(_) => "DWELL",
             Kind::ToolChange => "CHANGE_TOOL",
@@ -61,6 +60,10 @@ impl Columns {
                 State { mist: true, .. } if !before.mist => "MIST_ON",
                 State { .. } => "COOLANT_OFF",
             },
+            Kind::Orient(_) => {
+                self.speed = 0;
+                "ORIENT_SPINDLE"
+            }
             Kind::ProgramStop => "PROGRAM_STOP",
             Kind::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Kind::ProgramEnd => "PROGRAM_END",

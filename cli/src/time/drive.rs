@@ -553,6 +553,7 @@ fn world(plan: &Plan) -> World {
     World {
         seed: 0,
         power_on: Modes { no_origin_shift: Some(true), ..fixed },
+        path: None,
         start: [0; AXES],
         peck_clearance: value(PECK_CLEARANCE),
         break_lift: value(BREAK_LIFT),

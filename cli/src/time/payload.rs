@@ -177,11 +177,11 @@ impl<W: Write> Sink for Payload<'_, W> {
         block.parameters = match &act.event.kind {
             Kind::Arc { .. } => parameters::arc(act),
             Kind::Dwell(seconds) => parameters::one("seconds", micro(units(*seconds)).into()),
+            Kind::Orient(angle) => parameters::one("angle", micro(units(*angle)).into()),
             Kind::Message(text) => parameters::one("text", (&**text).into()),
             Kind::Traverse
             | Kind::Feed
             | Kind::Synchronised { .. }
-            | Kind::Orient(_)
             | Kind::ToolChange
             | Kind::Coolant
             | Kind::MachineFunction(_)

@@ -1,14 +1,14 @@
 //! From a call to a statement: names, numbers of arguments, what each argument is.
 
-use ncc_ir::canon::{Axis, Fact, FeedMode, Plane, Turn, Units};
+use ncc_ir::canon::{Axis, Fact, FeedMode, PathMode, Plane, SpindleMode, Turn, Units};
 use ncc_ir::cycle::absolute;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Arc, Centre, CentreFrom, FrameSlot, Move, Op, Point, Text};
+use ncc_ir::program::{Arc, Centre, CentreFrom, FrameSlot, Move, Op, PathControl, Point, Text};
 
 use super::lexer::Argument;
-use super::{Call, Placed, State};
+use super::{Call, Placed, Selected, State};
 
 /// A fault and its place in the line.
 type Refused = (Fault, usize, usize);
@@ -125,7 +125,10 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
             if name == "STRAIGHT_FEED" { Op::StraightFeed(m) } else { Op::StraightTraverse(m) }
         }
         "ARC_FEED" => Op::ArcFeed(Box::new(arc(&mut args, length, state)?)),
-        "SET_FEED_RATE" => Op::SetFeedRate(args.number("rate", length)?),
+        "SET_FEED_RATE" => {
+            let inverse = state.feed_mode == Some(FeedMode::InverseTime);
+            Op::SetFeedRate(args.number("rate", if inverse { Unit::One } else { length })?)
+        }
         "SET_SPINDLE_SPEED" => Op::SetSpindleSpeed(args.number("speed", Unit::One)?),
         "DWELL" => Op::Dwell(args.number("seconds", Unit::Second)?),
         "SELECT_TOOL" => {
@@ -161,6 +164,36 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
                 ("CANON_INVERSE_TIME", FeedMode::InverseTime),
             ],
         )?),
+        "SET_MOTION_CONTROL_MODE" => {
+            let mode = args.one_of(
+                "mode",
+                &[
+                    ("CANON_EXACT_STOP", PathMode::ExactStop),
+                    ("CANON_EXACT_PATH", PathMode::ExactPath),
+                    ("CANON_CONTINUOUS", PathMode::Continuous),
+                ],
+            )?;
+            let within = match args.rest.len() > 0 && mode == PathMode::Continuous {
+                true => Some(args.number("tolerance", length)?),
+                false => None,
+            };
+            let mode = if within.is_some() { PathMode::Tolerance } else { mode };
+            Op::SetMotionControlMode(Box::new(PathControl { mode, within, rapids: None }))
+        }
+        "EXACT_STOP" => Op::ExactStop,
+        "SET_SPINDLE_MODE" => Op::SetSpindleMode(args.one_of(
+            "mode",
+            &[("CANON_TURNS_PER_MINUTE", SpindleMode::Turns), ("CANON_SURFACE_SPEED", SpindleMode::Surface)],
+        )?),
+        "LIMIT_SPINDLE_SPEED" => Op::LimitSpindleSpeed(args.number("speed", Unit::One)?),
+        "ORIENT_SPINDLE" => Op::OrientSpindle(match args.rest.len() > 0 {
+            true => Some(args.number("angle", Unit::Degree)?),
+            false => None,
+        }),
+        "SELECT_TOOL_BY_NAME" => {
+            state.selected = Selected::Unsure;
+            Op::SelectToolByName(args.text()?)
+        }
         "COMMENT" => Op::Comment(args.text()?),
         "MESSAGE" => Op::Message(args.text()?),
         "MACHINE_FUNCTION" => Op::MachineFunction(args.text()?),

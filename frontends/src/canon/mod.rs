@@ -12,6 +12,10 @@
 //! STOP_CUTTER_RADIUS_COMPENSATION()
 //! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
 //! MACHINE_FUNCTION("name")                        ours: what no dialect has a word for
+//! SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP | CANON_EXACT_PATH | CANON_CONTINUOUS [, tolerance])
+//! EXACT_STOP()                                    ours: the move that follows ends in one
+//! SET_SPINDLE_MODE(CANON_TURNS_PER_MINUTE | CANON_SURFACE_SPEED)  LIMIT_SPINDLE_SPEED(s)     ours
+//! ORIENT_SPINDLE([angle])  SELECT_TOOL_BY_NAME("name")                                       ours
 //! FLOOD_ON()  MIST_ON()  COOLANT_OFF()             ours: both at once
 //! STRAIGHT_TRAVERSE(x, y, z [, a, b, c])  STRAIGHT_FEED(x, y, z [, a, b, c])
 //! ARC_FEED(first_end, second_end, first_axis, second_axis, rotation, axis_end_point [, a, b, c])
@@ -91,6 +95,7 @@ enum Selected {
 struct State {
     units: Option<Units>,
     plane: Option<Plane>,
+    feed_mode: Option<FeedMode>,
     selected: Selected,
     /// Where the axes stand, as far as their words say.
     stands: [Option<Num>; AXES],
@@ -144,6 +149,7 @@ impl State {
                 set(&mut self.units, *units, skipped);
                 self.stands = [None; AXES];
             }
+            Op::SetFeedMode(mode) => set(&mut self.feed_mode, *mode, skipped),
             Op::SelectPlane(plane) => set(&mut self.plane, *plane, skipped),
             Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
@@ -159,7 +165,6 @@ impl State {
             | Op::NoEffect(_)
             | Op::Blank
             | Op::SetDistanceMode(_)
-            | Op::SetFeedMode(_)
             | Op::SetReturnLevel(_)
             | Op::StopCutterRadiusCompensation
             | Op::SetFeedRate(_)
@@ -169,7 +174,13 @@ impl State {
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::StopSpindleTurning
+            | Op::SetMotionControlMode(_)
+            | Op::ExactStop
+            | Op::Advise(_)
+            | Op::SetSpindleMode(_)
+            | Op::LimitSpindleSpeed(_)
             | Op::OrientSpindle(_)
+            | Op::SelectToolByName(_)
             | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn
@@ -230,6 +241,7 @@ impl Reader {
             state: State {
                 units: Some(Units::Mm),
                 plane: Some(Plane::Xy),
+                feed_mode: Some(FeedMode::PerMinute),
                 selected: Selected::None,
                 stands: [None; AXES],
             },

@@ -57,6 +57,7 @@ pub(crate) struct Form(pub(crate) &'static str);
 pub(crate) enum Valued {
     SetFeedRate,
     SetSpindleSpeed,
+    LimitSpindleSpeed,
     SelectTool,
     UseToolLengthOffset,
     Dwell,
@@ -70,6 +71,7 @@ pub(crate) enum Worded {
     NoEffect,
     Message,
     MachineFunction,
+    SelectToolByName,
 }
 
 /// A function of an expression.
@@ -166,11 +168,13 @@ pub(crate) enum Token {
     #[token("OPTIONAL_PROGRAM_STOP", |_| Box::new(Op::OptionalProgramStop))]
     #[token("PROGRAM_END", |_| Box::new(Op::ProgramEnd))]
     #[token("USE_MACHINE_COORDINATES", |_| Box::new(Op::UseMachineCoordinates))]
+    #[token("EXACT_STOP", |_| Box::new(Op::ExactStop))]
     #[token("RETURN", |_| Box::new(Op::Return))]
     /// A function without arguments; in a box, since most words are small.
     Bare(Box<Op>),
     #[token("SET_FEED_RATE", |_| Valued::SetFeedRate)]
     #[token("SET_SPINDLE_SPEED", |_| Valued::SetSpindleSpeed)]
+    #[token("LIMIT_SPINDLE_SPEED", |_| Valued::LimitSpindleSpeed)]
     #[token("SELECT_TOOL", |_| Valued::SelectTool)]
     #[token("USE_TOOL_LENGTH_OFFSET", |_| Valued::UseToolLengthOffset)]
     #[token("DWELL", |_| Valued::Dwell)]
@@ -179,7 +183,14 @@ pub(crate) enum Token {
     #[token("NO_EFFECT", |_| Worded::NoEffect)]
     #[token("MESSAGE", |_| Worded::Message)]
     #[token("MACHINE_FUNCTION", |_| Worded::MachineFunction)]
+    #[token("SELECT_TOOL_BY_NAME", |_| Worded::SelectToolByName)]
     Worded(Worded),
+    #[token("SET_MOTION_CONTROL_MODE")]
+    SetMotionControlMode,
+    #[token("ADVISE")]
+    Advise,
+    #[token("SET_SPINDLE_MODE")]
+    SetSpindleMode,
     #[token("USE_LENGTH_UNITS")]
     UseLengthUnits,
     #[token("SET_DISTANCE_MODE")]

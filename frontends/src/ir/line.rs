@@ -2,11 +2,11 @@
 //!
 //! Not here: how lines nest.
 
-use ncc_ir::canon::{Axis, Modes};
+use ncc_ir::canon::{AdviceKind, Axis, Modes, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::Num;
-use ncc_ir::program::{Coord, Point, Procedure, ProgramName, Shape, Stmt, Text};
+use ncc_ir::program::{Advice, Coord, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::lexer::{LexFault, Literal};
@@ -90,6 +90,45 @@ pub(crate) fn name(n: Literal, l: usize, r: usize) -> Parsed<Text> {
         Some(n) => Ok(n.to_string().into()),
         None => refuse(l, r, Fault::OutOfRange { word: "name".into() }),
     }
+}
+
+/// A way of taking corners by its name.
+pub(crate) fn path(name: &str, lengths: Vec<Expr>, l: usize, r: usize) -> Parsed<PathControl> {
+    let names = PathMode::ALL.map(|(_, name)| name);
+    let Some(mode) = PathMode::named(name) else { return no_name(name, &names, l, r) };
+    let mut lengths = lengths.into_iter();
+    let control = PathControl { mode, within: lengths.next(), rapids: lengths.next() };
+    match lengths.next() {
+        Some(_) => refuse(l, r, Fault::WordUnused { word: "a third length".into() }),
+        None => Ok(control),
+    }
+}
+
+/// What a spindle speed counts, by its name.
+pub(crate) fn spindle(name: &str, l: usize, r: usize) -> Parsed<SpindleMode> {
+    match name {
+        "turns" => Ok(SpindleMode::Turns),
+        "surface" => Ok(SpindleMode::Surface),
+        _ => no_name(name, &["turns", "surface"], l, r),
+    }
+}
+
+/// Advice by the names of its kind and its value.
+pub(crate) fn advice(kind: &str, value: &str, amount: Option<Expr>, l: usize, r: usize) -> Parsed<Advice> {
+    let names = AdviceKind::ALL.map(|(_, name)| name);
+    let Some(kind) = AdviceKind::named(kind) else { return no_name(kind, &names, l, r) };
+    match kind.value(value) {
+        None => no_name(value, kind.values(), l, r),
+        Some(_) if amount.is_some() && !kind.has_amount() => {
+            refuse(l, r, Fault::WordUnused { word: "amount".into() })
+        }
+        Some(value) => Ok(Advice { kind, value, amount }),
+    }
+}
+
+fn no_name<T>(found: &str, names: &[&str], l: usize, r: usize) -> Parsed<T> {
+    let expected = format!("one of {}", names.join(", ")).into();
+    refuse(l, r, Fault::Syntax { found: found.into(), expected })
 }
 
 /// The axis words of a move.

@@ -218,6 +218,8 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::ClearFrame(_) => 6,
         Meaning::SetReturnLevel(_) => 7,
         Meaning::StopCutterRadiusCompensation => 8,
+        Meaning::SetMotionControlMode(_) | Meaning::Advise(..) => 9,
+        Meaning::SetSpindleMode(_) | Meaning::LimitSpindleSpeed => 9,
         // Feed, speed and tool words.
         Meaning::ChangeTool => RANK_WORDS,
         Meaning::StartSpindleClockwise | Meaning::StartSpindleCounterclockwise => 11,
@@ -225,6 +227,8 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::Dwell | Meaning::MachineFunction(_) => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
         Meaning::UseMachineCoordinates => 15,
+        Meaning::OrientSpindle => 16,
+        Meaning::ExactStop => 17,
         Meaning::EndCycle => RANK_MOTION,
         Meaning::StraightTraverse | Meaning::StraightFeed | Meaning::ArcFeed(_) => 21,
         Meaning::StartCycle | Meaning::Pattern => 22,

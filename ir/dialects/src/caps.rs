@@ -1,6 +1,6 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
-use ncc_ir::canon::{ReturnLevel, Turn};
+use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Turn};
 use ncc_ir::caps::{Caps, CycleCap, CycleForm};
 
 use crate::meaning::Meaning;
@@ -142,6 +142,34 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         inherits_motion: everything || dialect.can.inherits_motion,
         synchronised: everything,
         messages: everything || dialect.can.flat || names(NameMeaning::Message),
+        path_modes: match (everything, dialect.can.flat) {
+            (true, _) => u16::MAX,
+            (false, true) => {
+                let modes =
+                    [PathMode::ExactStop, PathMode::ExactPath, PathMode::Continuous, PathMode::Tolerance];
+                modes.into_iter().fold(0, |bits, mode| bits | 1 << mode as u16)
+            }
+            (false, false) => PathMode::ALL
+                .iter()
+                .filter(|(mode, _)| says(Meaning::SetMotionControlMode(*mode)))
+                .fold(0, |bits, (mode, _)| bits | 1 << *mode as u16),
+        },
+        path_in_rapids: everything || dialect.name_with(NameRole::RoundingInRapids).is_some(),
+        only_path: dialect.can.only_path.map(Into::into),
+        exact_stop: everything || dialect.can.flat || says(Meaning::ExactStop),
+        advice: AdviceKind::ALL
+            .iter()
+            .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
+            .filter(|(kind, value)| everything || says_advice(dialect, *kind, *value))
+            .collect(),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
     }
+}
+
+/// Whether a code, a word or a call gives this advice.
+fn says_advice(dialect: &Dialect, kind: AdviceKind, value: u8) -> bool {
+    let meaning = Meaning::Advise(kind, Some(value));
+    let by_word =
+        value < 2 && kind.values().len() == 2 && dialect.code_for(Meaning::Advise(kind, None)).is_some();
+    by_word || dialect.code_for(meaning).is_some() || dialect.name_for(NameMeaning::Code(meaning)).is_some()
 }

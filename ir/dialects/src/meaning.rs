@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
 use ncc_ir::program::FrameSlot;
 use serde::{Deserialize, Deserializer};
 
@@ -25,6 +25,16 @@ pub enum Meaning {
     ClearFrame(FrameSlot),
     UseMachineCoordinates,
     StopCutterRadiusCompensation,
+    SetMotionControlMode(PathMode),
+    ExactStop,
+    /// Advice of a kind; without its value, a word of the block says it: 0 is off, and another number,
+    /// which the row has, is on.
+    Advise(AdviceKind, Option<u8>),
+    SetSpindleMode(SpindleMode),
+    /// The speed word of the block is the highest one, and axes have no words in it.
+    LimitSpindleSpeed,
+    /// Stops the spindle at the control's own angle, or at that of a word of the block.
+    OrientSpindle,
     /// Takes up the length entry that a word of the block names.
     UseToolLengthOffset,
     /// No length offset.
@@ -84,6 +94,19 @@ impl fmt::Display for Meaning {
             }
             Meaning::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
+            Meaning::SetMotionControlMode(mode) => {
+                return write!(f, "SET_MOTION_CONTROL_MODE {}", mode.name());
+            }
+            Meaning::ExactStop => "EXACT_STOP",
+            Meaning::Advise(kind, None) => return write!(f, "ADVISE {}", kind.name()),
+            Meaning::Advise(kind, Some(value)) => {
+                let value = kind.values().get(usize::from(*value)).unwrap_or(&"off");
+                return write!(f, "ADVISE {} {value}", kind.name());
+            }
+            Meaning::SetSpindleMode(SpindleMode::Turns) => "SET_SPINDLE_MODE turns",
+            Meaning::SetSpindleMode(SpindleMode::Surface) => "SET_SPINDLE_MODE surface",
+            Meaning::LimitSpindleSpeed => "LIMIT_SPINDLE_SPEED",
+            Meaning::OrientSpindle => "ORIENT_SPINDLE",
             Meaning::UseToolLengthOffset => "USE_TOOL_LENGTH_OFFSET",
             Meaning::CancelToolLengthOffset => "USE_TOOL_LENGTH_OFFSET 0",
             Meaning::StartCycle => "START_CYCLE",
@@ -136,6 +159,22 @@ impl FromStr for Meaning {
             ("CLEAR_FRAME", "shift") => Meaning::ClearFrame(FrameSlot::Shift),
             ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates,
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
+            ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(
+                PathMode::named(mode).ok_or_else(|| format!("no way of taking corners: {text}"))?,
+            ),
+            ("EXACT_STOP", "") => Meaning::ExactStop,
+            ("ADVISE", advice) => {
+                let (kind, value) = advice.split_once(' ').unwrap_or((advice, ""));
+                let kind = AdviceKind::named(kind).ok_or_else(|| format!("no advice: {text}"))?;
+                match kind.value(value) {
+                    None if !value.is_empty() => return Err(format!("no advice: {text}")),
+                    value => Meaning::Advise(kind, value),
+                }
+            }
+            ("SET_SPINDLE_MODE", "turns") => Meaning::SetSpindleMode(SpindleMode::Turns),
+            ("SET_SPINDLE_MODE", "surface") => Meaning::SetSpindleMode(SpindleMode::Surface),
+            ("LIMIT_SPINDLE_SPEED", "") => Meaning::LimitSpindleSpeed,
+            ("ORIENT_SPINDLE", "") => Meaning::OrientSpindle,
             ("USE_TOOL_LENGTH_OFFSET", "") => Meaning::UseToolLengthOffset,
             ("USE_TOOL_LENGTH_OFFSET", "0") => Meaning::CancelToolLengthOffset,
             ("START_CYCLE", "") => Meaning::StartCycle,

@@ -153,6 +153,14 @@ pub enum NameRole {
     ThroughZ,
     /// Angle of a rotation in the plane in force.
     PlaneAngle,
+    /// Distance before a corner where rounding begins.
+    Rounding,
+    /// The same in rapids.
+    RoundingInRapids,
+    /// Highest speed of the spindle.
+    SpindleLimit,
+    /// Angle at which the spindle is stopped.
+    SpindleAngle,
 }
 
 /// A cycle or a pattern that is called by name with arguments.

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Units};
+use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Units};
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
 use serde::Deserialize;
@@ -513,6 +513,8 @@ pub struct Can {
     pub circle_centre_at_zero_only: bool,
     /// A subprogram's positions may mean what the caller has in force.
     pub inherits_motion: bool,
+    /// How corners are always taken, if there is no word for it.
+    pub only_path: Option<PathName>,
     /// Any structure of the IR can be carried (the text form).
     pub everything: bool,
 }
@@ -546,6 +548,8 @@ names! {
     ReturnLevelName => ReturnLevel { Initial, Retract }
     /// An [`Approach`] in a data file.
     ApproachName => Approach { PlaneFirst, RaiseFirst, RetractFirst }
+    /// A [`PathMode`] in a data file.
+    PathName => PathMode { ExactStop, ExactPath, Continuous }
     /// A motion in a data file.
     MotionName => ncc_ir::canon::Motion { Traverse, Feed }
 }

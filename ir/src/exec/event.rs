@@ -1,6 +1,6 @@
 //! Events of the canonical stream.
 
-use crate::canon::{AXES, Plane, Spindle, Turn};
+use crate::canon::{AXES, AdviceKind, FeedMode, PathMode, Plane, Spindle, SpindleMode, Turn};
 use crate::num::Nanos;
 use crate::program::Text;
 use crate::source::Span;
@@ -12,8 +12,8 @@ pub struct Event {
     pub kind: Kind,
     /// Where the axes stand after it, machine coordinates in nanos.
     pub end: [Nanos; AXES],
-    /// Feed of a cutting move, mm/min in nanos; 0 of others. Of a synchronised move it follows from pitch
-    /// and speed, and is not compared.
+    /// Feed of a cutting move in nanos of its mode's unit (mm/min, mm a turn, 1/min); 0 of others. Of a
+    /// synchronised move it follows from pitch and speed, and is not compared.
     pub rate: Nanos,
     /// What is on.
     pub state: State,
@@ -142,12 +142,25 @@ pub enum Attribute {
 /// What is on while an event happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct State {
-    /// Tool in the spindle; -1 is the one that was there at the start.
+    /// Tool in the spindle; -1 is the one that was there at the start, less than that one with a name.
     pub tool: i64,
-    /// Spindle speed in rev/min, nanos; counts only while the spindle turns.
+    /// Spindle speed in the unit of its mode (rev/min, m/min), nanos; counts only while the spindle
+    /// turns.
     pub speed: Nanos,
+    /// Advice in force, four bits a kind: its value and one, or 0 where none was given.
+    pub advice: u64,
+    /// Highest spindle speed in thousandths of a turn a minute; counts only while the spindle turns.
+    pub limit: u32,
+    /// Lengths that belong to the path mode, to it in rapids, and to advice: tenths of a micrometre.
+    pub within: [i32; 3],
     /// Sense of the spindle.
     pub spindle: Spindle,
+    /// What the speed counts.
+    pub spindle_mode: SpindleMode,
+    /// What the feed counts; compared with it.
+    pub feed_mode: FeedMode,
+    /// How corners are taken; `None` is as at the start.
+    pub path: Option<PathMode>,
     /// Flood coolant.
     pub flood: bool,
     /// Mist coolant.
@@ -156,7 +169,19 @@ pub struct State {
 
 impl Default for State {
     fn default() -> State {
-        State { tool: -1, speed: 0, spindle: Spindle::Stopped, flood: false, mist: false }
+        State {
+            tool: -1,
+            speed: 0,
+            advice: 0,
+            limit: u32::MAX,
+            within: [0; 3],
+            spindle: Spindle::Stopped,
+            spindle_mode: SpindleMode::Turns,
+            feed_mode: FeedMode::PerMinute,
+            path: None,
+            flood: false,
+            mist: false,
+        }
     }
 }
 
@@ -166,8 +191,66 @@ impl State {
     pub fn same(&self, other: &State) -> bool {
         self.tool == other.tool
             && self.spindle == other.spindle
-            && (self.speed == other.speed || self.spindle == Spindle::Stopped)
+            && (self.spindle == Spindle::Stopped
+                || self.speed == other.speed
+                    && self.spindle_mode == other.spindle_mode
+                    && self.limit == other.limit)
             && self.flood == other.flood
             && self.mist == other.mist
+            && self.path == other.path
+            && self.advice == other.advice
+            && self.within == other.within
+    }
+}
+
+/// What of a [`State`] a control has words for: the rest does not count in a comparison with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Seen {
+    /// Whether going through an end point is told from stopping at it.
+    pub exact_path: bool,
+    /// Whether ways of rounding corners are told from each other.
+    pub rounding: bool,
+    /// Whether an exact stop is told from rounding at all.
+    pub path: bool,
+    /// Kinds of advice, four bits each.
+    pub advice: u64,
+}
+
+impl Default for Seen {
+    fn default() -> Seen {
+        Seen { exact_path: true, rounding: true, path: true, advice: u64::MAX }
+    }
+}
+
+impl Seen {
+    /// What both of two controls have words for.
+    pub fn both(self, other: Seen) -> Seen {
+        Seen {
+            exact_path: self.exact_path && other.exact_path,
+            rounding: self.rounding && other.rounding,
+            path: self.path && other.path,
+            advice: self.advice & other.advice,
+        }
+    }
+
+    /// What is seen of a state.
+    pub fn of(&self, state: &State) -> State {
+        let path = state.path.map(|mode| match mode {
+            PathMode::ExactPath if !self.exact_path => PathMode::ExactStop,
+            mode if !self.rounding => mode.plain(),
+            mode => mode,
+        });
+        let tolerance = AdviceKind::PathTolerance.bits();
+        let lengths = self.rounding && self.path;
+        State {
+            path: path.filter(|_| self.path),
+            advice: state.advice & self.advice,
+            within: [
+                if lengths { state.within[0] } else { 0 },
+                if lengths { state.within[1] } else { 0 },
+                if self.advice >> tolerance & 15 == 15 { state.within[2] } else { 0 },
+            ],
+            ..*state
+        }
     }
 }

@@ -158,7 +158,7 @@ impl Exec {
             }
             CycleKind::Bore { dwell: d, feed_out } => Way::Bore {
                 dwell: dwell(d)?,
-                feed_out: feed_out.as_ref().map(|f| self.feed_of(f, span)).transpose()?,
+                feed_out: feed_out.as_ref().map(|f| self.value(f, span)).transpose()?,
             },
             CycleKind::Tap(tap) => Way::Tap {
                 turn: tap.turn,
@@ -182,7 +182,7 @@ impl Exec {
             Some(word) => Some(self.target(word, retract, span)?),
             None => None,
         };
-        let feed = cycle.feed.as_ref().map(|f| self.feed_of(f, span)).transpose()?;
+        let feed = cycle.feed.as_ref().map(|f| self.value(f, span)).transpose()?;
         self.feed = feed.unwrap_or(self.feed);
         self.modes.motion = Motion::Cycle;
         self.cycle = Some(InForce {

@@ -12,13 +12,14 @@ mod holes;
 mod run;
 mod thread;
 
-pub use event::{Attribute, Event, Kind, Movement, State};
+pub use event::{Attribute, Event, Kind, Movement, Seen, State};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
 
 use crate::canon::{
-    AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, Units, same_point,
+    AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle, Units,
+    same_point,
 };
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -30,9 +31,6 @@ use arcs::Heading;
 use holes::InForce;
 
 const Z: usize = Axis::Z as usize;
-
-/// Turns a minute of the spindle, as far as a feed goes of which nobody has said what it counts.
-const TURNS: Nanos = 737;
 
 /// A control that executes statements one by one.
 #[derive(Clone, Debug)]
@@ -55,6 +53,8 @@ pub struct Exec {
     heading: Heading,
     /// The next straight move is in machine coordinates.
     raw: bool,
+    /// How corners are taken after the next move, which ends in an exact stop.
+    after_stop: Option<Option<PathMode>>,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
     feed: Nanos,
@@ -81,8 +81,6 @@ struct InModes {
     distance: Distance,
     inch: bool,
     plane: Plane,
-    /// Whether feeds are per minute; else only the world knows what they are.
-    per_minute: bool,
     return_level: ReturnLevel,
     work_offset: u16,
     length: Length,
@@ -107,6 +105,7 @@ const RETURN: u16 = 16;
 const WORK: u16 = 32;
 const LENGTH: u16 = 64;
 const SHIFT: u16 = 128;
+const FEED_MODE: u16 = 256;
 
 impl Exec {
     /// A control at power-on in a world, with these block-skip switches on (bit n is level n).
@@ -117,7 +116,6 @@ impl Exec {
             distance: p.distance.unwrap_or(Distance::Absolute),
             inch: p.units == Some(Units::Inch),
             plane: p.plane.unwrap_or(Plane::Xy),
-            per_minute: p.feed_mode.is_none_or(|mode| mode == FeedMode::PerMinute),
             return_level: p.return_level.unwrap_or(ReturnLevel::Initial),
             work_offset: p.work_offset.unwrap_or(1),
             length: Length::Entry(p.length_offset.unwrap_or(0)),
@@ -134,10 +132,15 @@ impl Exec {
             last: world.start,
             heading: Heading::None,
             raw: false,
+            after_stop: None,
             waiting: None,
             feed: 0,
             selected: -1,
-            state: State::default(),
+            state: State {
+                feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
+                path: world.path,
+                ..State::default()
+            },
             cycle: None,
             ended: false,
             muted: false,
@@ -186,8 +189,10 @@ impl Exec {
             self.modes.shifted = !n;
             self.said |= SHIFT;
         }
-        // The one mode that is executed: it is never unsaid again.
-        self.modes.per_minute |= facts.feed_mode == Some(FeedMode::PerMinute);
+        if let (Some(f), true) = (facts.feed_mode, fresh(self.said, FEED_MODE)) {
+            self.state.feed_mode = f;
+            self.said |= FEED_MODE;
+        }
         self.reframe(here);
     }
 
@@ -242,6 +247,7 @@ impl Exec {
             && self.last == other.last
             && self.heading == other.heading
             && self.raw == other.raw
+            && self.after_stop == other.after_stop
             && self.waiting == other.waiting
             && self.feed == other.feed
             && self.selected == other.selected
@@ -261,6 +267,7 @@ impl Exec {
         self.last = other.last;
         self.heading = other.heading;
         self.raw = other.raw;
+        self.after_stop = other.after_stop;
         self.waiting = other.waiting;
         self.feed = other.feed;
         self.selected = other.selected;
@@ -392,13 +399,6 @@ impl Exec {
         }
     }
 
-    /// A feed's value in nanos of mm/min; where nobody has said that it is one, it is like no other.
-    #[inline]
-    fn feed_of(&self, value: &Expr, span: Span) -> Result<Nanos, Diagnostic> {
-        let value = self.value(value, span)?;
-        Ok(if self.modes.per_minute { value } else { value.saturating_mul(TURNS) })
-    }
-
     #[inline]
     fn whole(&self, value: &Expr, span: Span) -> Result<i64, Diagnostic> {
         match value.literal().and_then(|n| n.whole()) {
@@ -459,17 +459,21 @@ impl Exec {
         }
         if self.quiet {
             self.counted += 1;
-            return Ok(());
+        } else {
+            let rate = match kind {
+                Kind::Synchronised { pitch, .. } => {
+                    let rate = i128::from(pitch) * i128::from(self.state.speed) / i128::from(ONE);
+                    Nanos::try_from(rate).unwrap_or(Nanos::MAX)
+                }
+                _ if cutting => self.feed,
+                _ => 0,
+            };
+            out.push(Event { kind, end: self.last, rate, state: self.state, inch: self.modes.inch, span });
         }
-        let rate = match kind {
-            Kind::Synchronised { pitch, .. } => {
-                let rate = i128::from(pitch) * i128::from(self.state.speed) / i128::from(ONE);
-                Nanos::try_from(rate).unwrap_or(Nanos::MAX)
-            }
-            _ if cutting => self.feed,
-            _ => 0,
-        };
-        out.push(Event { kind, end: self.last, rate, state: self.state, inch: self.modes.inch, span });
+        if cutting && self.state.feed_mode == FeedMode::InverseTime {
+            // The time of one move says nothing of the next.
+            self.feed = 0;
+        }
         Ok(())
     }
 
@@ -482,6 +486,34 @@ impl Exec {
         if self.ended || stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1) {
             return Ok(());
         }
+        if self.after_stop.is_some() {
+            return self.step_and_stop(stmt, out);
+        }
+        self.do_step(stmt, out)
+    }
+
+    /// Executes a statement; if it moves, it ends in an exact stop.
+    #[cold]
+    fn step_and_stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let done = self.do_step(stmt, out);
+        let moves = matches!(
+            stmt.op,
+            Op::StraightFeed(_)
+                | Op::StraightTraverse(_)
+                | Op::ArcFeed(_)
+                | Op::ArcForm(_)
+                | Op::Position(_)
+                | Op::Hole(_)
+                | Op::Pattern(_)
+        );
+        if moves && let Some(path) = self.after_stop.take() {
+            self.state.path = path;
+        }
+        done
+    }
+
+    #[inline]
+    fn do_step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
         match &stmt.op {
             Op::StraightFeed(m) => self.straight(&m.to, true, span, out),
@@ -494,7 +526,7 @@ impl Exec {
                 Motion::Cycle => self.hole(&m.to, span, out),
             },
             Op::SetFeedRate(f) => {
-                self.feed = self.feed_of(f, span)?;
+                self.feed = self.value(f, span)?;
                 self.tell(Attribute::FeedRate(self.feed), span, out)
             }
             _ => self.other(stmt, out),
@@ -560,9 +592,50 @@ impl Exec {
                 self.modes.plane = *plane;
                 self.said |= PLANE;
             }
-            Op::SetFeedMode(FeedMode::PerMinute) => self.modes.per_minute = true,
-            Op::SetFeedMode(FeedMode::PerRevolution) => return self.not_executed("feed per turn", span),
-            Op::SetFeedMode(FeedMode::InverseTime) => return self.not_executed("inverse-time feed", span),
+            Op::SetFeedMode(mode) => {
+                // What a feed said before would count now, nobody knows.
+                if self.state.feed_mode != *mode {
+                    self.state.feed_mode = *mode;
+                    self.feed = 0;
+                }
+                self.said |= FEED_MODE;
+            }
+            Op::SetMotionControlMode(control) => {
+                let within =
+                    [self.length_within(&control.within, span)?, self.length_within(&control.rapids, span)?];
+                self.state.within[..2].copy_from_slice(&within);
+                match &mut self.after_stop {
+                    Some(after) => *after = Some(control.mode),
+                    None => self.state.path = Some(control.mode),
+                }
+            }
+            Op::ExactStop => {
+                if self.after_stop.is_none() {
+                    self.after_stop = Some(self.state.path);
+                    self.state.path = Some(PathMode::ExactStop);
+                }
+            }
+            Op::Advise(advice) => {
+                let bits = advice.kind.bits();
+                self.state.advice &= !(15 << bits);
+                self.state.advice |= u64::from(advice.value.min(13) + 1) << bits;
+                if advice.kind.has_amount() {
+                    self.state.within[2] = self.length_within(&advice.amount, span)?;
+                }
+            }
+            Op::SetSpindleMode(mode) => {
+                if self.state.spindle_mode != *mode {
+                    self.state.spindle_mode = *mode;
+                    self.state.speed = 0;
+                }
+            }
+            Op::LimitSpindleSpeed(limit) => {
+                let limit = u32::try_from(self.value(limit, span)? / (ONE / 1000));
+                let Ok(limit) = limit else {
+                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                };
+                self.state.limit = limit;
+            }
             Op::SetReturnLevel(level) => {
                 self.modes.return_level = *level;
                 self.said |= RETURN;
@@ -591,8 +664,12 @@ impl Exec {
                 self.selected = self.whole(tool, span)?;
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
+            Op::SelectToolByName(name) => {
+                self.selected = named_tool(name);
+                self.tell(Attribute::SelectTool(self.selected), span, out)?;
+            }
             Op::ChangeTool => {
-                if self.selected < 0 {
+                if self.selected == -1 {
                     return self.fault(Fault::NoToolSelected, span);
                 }
                 self.state.tool = self.selected;
@@ -674,7 +751,25 @@ impl Exec {
         self.fault(Fault::NotExecuted { what: what.into() }, span)
     }
 
+    /// A length of the path mode or of advice; none is 0.
+    fn length_within(&self, length: &Option<Expr>, span: Span) -> Result<i32, Diagnostic> {
+        let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
+        match i32::try_from((nanos + 50_000) / 100_000) {
+            Ok(tenths) => Ok(tenths),
+            Err(_) => self.fault(Fault::OutOfRange { word: "".into() }, span),
+        }
+    }
+
     fn plane_of(&self, plane: Fact<Plane>) -> Plane {
         plane.or(self.modes.plane)
     }
+}
+
+/// The number by which a tool with a name is told from others: less than -1, the same wherever the name
+/// is met.
+fn named_tool(name: &str) -> i64 {
+    let hash = name
+        .bytes()
+        .fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+    -((hash >> 2) as i64) - 2
 }

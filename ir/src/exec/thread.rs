@@ -3,7 +3,7 @@
 //! Not here: how a hole is reached and left (`holes`).
 
 use super::{Event, Exec, Kind};
-use crate::canon::{Motion, Spindle, same_point};
+use crate::canon::{FeedMode, Motion, Spindle, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
@@ -73,6 +73,9 @@ impl Exec {
 
     /// How far the feed in force goes in one turn.
     fn feed_of_a_turn(&self, speed: Nanos) -> Nanos {
+        if self.state.feed_mode == FeedMode::PerRevolution {
+            return self.feed;
+        }
         let (feed, speed) = (i128::from(self.feed) * i128::from(ONE), i128::from(speed));
         Nanos::try_from((feed + speed / 2) / speed).unwrap_or(Nanos::MAX)
     }

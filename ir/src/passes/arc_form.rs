@@ -11,7 +11,7 @@ use crate::cycle::absolute;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
-use crate::kinds::miscellaneous;
+use crate::kinds::{conduct, miscellaneous};
 use crate::num::Nanos;
 use crate::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt};
 use crate::round::{Around, Round, round};
@@ -127,6 +127,7 @@ fn keeps(op: &Op) -> bool {
             | Op::SetFeedMode(_)
             | Op::Message(_)
             | miscellaneous!()
+            | conduct!()
     )
 }
 

@@ -90,6 +90,13 @@ impl Converter<'_> {
                     Shape::Angle { .. } | Shape::Tangent => {}
                 }
             }
+            Op::SetMotionControlMode(control) => {
+                [&mut control.within, &mut control.rapids]
+                    .into_iter()
+                    .flatten()
+                    .try_for_each(|length| self.loose(length))?;
+            }
+            Op::Advise(advice) => advice.amount.iter_mut().try_for_each(|length| self.loose(length))?,
             Op::SetFeedRate(feed) => self.loose(feed)?,
             Op::StartCycle(cycle) => self.cycle(cycle)?,
             Op::Pattern(pattern) => self.pattern(pattern)?,
@@ -98,7 +105,8 @@ impl Converter<'_> {
                     words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
                 }
             }
-            Op::SetDistanceMode(_)
+            Op::ExactStop
+            | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
             | Op::SetReturnLevel(_)

@@ -14,7 +14,7 @@ use super::fold_cycles::feed;
 use super::walk::Walk;
 use super::write::rebuild;
 use super::{Target, each_body};
-use crate::canon::{Axis, Modes, Motion};
+use crate::canon::{Axis, FeedMode, Modes, Motion};
 use crate::diag::Diagnostic;
 use crate::kinds::{flow, moves};
 use crate::num::Num;
@@ -39,6 +39,8 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk) {
         said.enter(stmt.skip);
         let needless = stmt.skip.is_none()
             && match &stmt.op {
+                // A time counts for one move.
+                Op::SetFeedRate(_) if walk.at.modes.feed_mode == Some(FeedMode::InverseTime) => false,
                 Op::SetFeedRate(rate) => feed.is_some() && rate.literal().map(Num::trimmed) == feed,
                 Op::SetSpindleSpeed(s) => speed.is_some() && s.literal().map(Num::trimmed) == speed,
                 Op::EndCycle => moved && walk.at.cycle.is_none() && !walk.at.cycle_in_doubt,
@@ -106,7 +108,7 @@ fn shorten(walk: &Walk, stmt: &mut Stmt) {
 fn speed_after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
     let now = match &stmt.op {
         Op::SetSpindleSpeed(speed) => speed.literal().map(Num::trimmed),
-        Op::ChangeTool | Op::ProgramStop | Op::OptionalProgramStop | flow!() => None,
+        Op::ChangeTool | Op::SetSpindleMode(_) | Op::ProgramStop | Op::OptionalProgramStop | flow!() => None,
         _ => before,
     };
     if stmt.skip.is_some() && now != before { None } else { now }

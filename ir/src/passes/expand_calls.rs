@@ -12,7 +12,7 @@ use crate::canon::{Fact, Motion};
 use crate::cycle::{Clearance, CycleKind, First, Pattern};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
-use crate::kinds::{flow, miscellaneous, modes, tooling};
+use crate::kinds::{conduct, flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{
     Call, Centre, Control, Coord, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Stmt,
@@ -283,6 +283,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::Message(_)
         | Op::Assign(..)
         | miscellaneous!()
+        | conduct!()
         | modes!()
         | tooling!()
         | flow!() => {}

@@ -16,7 +16,7 @@ use crate::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::Chain;
 use crate::expr::Expr;
-use crate::kinds::{flow, frames, miscellaneous, modes, tooling};
+use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling};
 use crate::num::{Nanos, Num, ONE, POW10, Unit};
 use crate::places::Places;
 use crate::program::{
@@ -246,6 +246,7 @@ impl Frames<'_> {
             | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
+            | conduct!()
             | modes!()
             | tooling!()
             | frames!()

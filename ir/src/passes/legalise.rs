@@ -10,40 +10,43 @@ use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance,
-    origin_shift, return_plane, skip_levels, specialise_procedures, state_clearance, tool_edge, work_offset,
+    origin_shift, path_control, return_plane, skip_levels, specialise_procedures, state_clearance, tool_edge,
+    work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault, Gravity};
-use crate::kinds::{miscellaneous, modes};
+use crate::exec::Seen;
+use crate::kinds::{conduct, miscellaneous, modes};
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
 
 // What a statement may need, and a target may lack.
-const PATTERN: u16 = 1;
-const CYCLE: u16 = 2;
-const LENGTH: u16 = 4;
-const WORK: u16 = 8;
-const ARC: u16 = 16;
-const CONTROL: u16 = 32;
-const MESSAGE: u16 = 64;
-const SKIP: u16 = 128;
-const EVERY: u16 = 256;
-const CALL: u16 = 512;
-const SHIFT: u16 = 1024;
-const EDGE: u16 = 2048;
-const FRAME: u16 = 4096;
-const MACHINE: u16 = 8192;
-const TABLE: u16 = 16384;
-const MEASURE: u16 = 32768;
+const PATTERN: u32 = 1;
+const CYCLE: u32 = 2;
+const LENGTH: u32 = 4;
+const WORK: u32 = 8;
+const ARC: u32 = 16;
+const CONTROL: u32 = 32;
+const MESSAGE: u32 = 64;
+const SKIP: u32 = 128;
+const EVERY: u32 = 256;
+const CALL: u32 = 512;
+const SHIFT: u32 = 1024;
+const EDGE: u32 = 2048;
+const FRAME: u32 = 4096;
+const MACHINE: u32 = 8192;
+const TABLE: u32 = 16384;
+const MEASURE: u32 = 32768;
+const PATH: u32 = 1 << 16;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
 pub struct Legaliser {
     target: Target,
     /// What the target lacks.
-    lacks: u16,
+    lacks: u32,
     /// Whether words of the source may have a measure of their own that the target's cannot have.
     measures: bool,
     /// Whether any pass wants to know where the tool is.
@@ -53,6 +56,7 @@ pub struct Legaliser {
     length: offset_with_z::State,
     work: work_offset::State,
     shift: origin_shift::State,
+    path: path_control::State,
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
@@ -81,6 +85,7 @@ impl Legaliser {
             length: offset_with_z::State::default(),
             work: work_offset::State::default(),
             shift: origin_shift::State::default(),
+            path: path_control::State::default(),
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
@@ -155,7 +160,7 @@ impl Legaliser {
     }
 
     /// What further statements need that the target lacks.
-    fn needs(&self, stmts: &[Stmt]) -> u16 {
+    fn needs(&self, stmts: &[Stmt]) -> u32 {
         let mut found = self.lacks & EVERY;
         for stmt in stmts {
             found |= interest(stmt);
@@ -177,6 +182,9 @@ impl Legaliser {
             let apart = |op: &Op| one_distance::may_mix(op) || feed_unit::differs(op, units) || changes(op);
             needs |= if stmts.iter().any(|stmt| apart(&stmt.op)) { MEASURE } else { 0 };
         }
+        if self.path.is_busy() {
+            needs |= PATH;
+        }
         if self.frames.is_busy() {
             needs |= FRAME;
         }
@@ -190,7 +198,7 @@ impl Legaliser {
     fn mend(
         &mut self,
         stmts: &mut Vec<Stmt>,
-        needs: u16,
+        needs: u32,
         start: &Walk,
         assumed: &Modes,
         diags: &mut Vec<Diagnostic>,
@@ -203,6 +211,9 @@ impl Legaliser {
         }
         if needs & SHIFT != 0 {
             origin_shift::over(stmts, &mut self.shift, diags);
+        }
+        if needs & PATH != 0 {
+            path_control::over(stmts, &mut self.path, &self.target, diags);
         }
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);
@@ -330,6 +341,7 @@ impl Legaliser {
             self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
             self.edge.start_over();
+            self.path.start_over();
             self.arcs = arc_form::State::default();
             self.frames.start_over();
             self.run(&mut procedure.body, &Modes::default(), diags);
@@ -435,7 +447,7 @@ fn is_helix(arc: &Arc, here: &Tracker) -> bool {
 }
 
 /// What a target lacks.
-fn lacks(caps: &Caps) -> u16 {
+fn lacks(caps: &Caps) -> u32 {
     let levels = [ReturnLevel::Initial, ReturnLevel::Retract];
     let kinds = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
     let says_all = |kind: &str| {
@@ -460,7 +472,7 @@ fn lacks(caps: &Caps) -> u16 {
         && !caps.circle_centre_at_zero_only
         && !caps.flat;
     let mut lacks = 0;
-    let mut needs = |what: u16, has: bool| {
+    let mut needs = |what: u32, has: bool| {
         if !has {
             lacks |= what;
         }
@@ -480,12 +492,13 @@ fn lacks(caps: &Caps) -> u16 {
     needs(TABLE, caps.tool_edges != Some(true));
     needs(MACHINE, caps.machine_coordinates);
     needs(FRAME, caps.frames);
+    needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
 }
 
 /// What a statement may need.
 #[inline]
-fn interest(stmt: &Stmt) -> u16 {
+fn interest(stmt: &Stmt) -> u32 {
     let skip = if stmt.skip.is_some() { SKIP } else { 0 };
     skip | match &stmt.op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
@@ -503,6 +516,12 @@ fn interest(stmt: &Stmt) -> u16 {
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,
-        Op::SelectTool(_) | Op::ProgramEnd | Op::Assign(..) | miscellaneous!() | modes!() => 0,
+        conduct!() => PATH,
+        Op::SelectTool(_)
+        | Op::SelectToolByName(_)
+        | Op::ProgramEnd
+        | Op::Assign(..)
+        | miscellaneous!()
+        | modes!() => 0,
     }
 }

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{miscellaneous, modes, moves};
+use crate::kinds::{conduct, miscellaneous, modes, moves};
 use crate::maps::{Maps, Numbered};
 use crate::program::{Control, Op, Program, ProgramName, Stmt, Text};
 use crate::source::Span;
@@ -20,9 +20,11 @@ use crate::source::Span;
 macro_rules! unnumbered {
     () => {
         miscellaneous!()
+            | conduct!()
             | modes!()
             | moves!()
             | Op::ChangeTool
+            | Op::SelectToolByName(_)
             | Op::UseToolEdge { .. }
             | Op::ClearFrame(_)
             | Op::SetFrame(_)

@@ -30,6 +30,7 @@ pub mod number_names;
 pub mod offset_with_z;
 pub mod one_distance;
 pub mod origin_shift;
+mod path_control;
 mod pattern_forms;
 pub mod return_plane;
 pub mod skip_levels;
@@ -41,6 +42,7 @@ pub mod work_offset;
 mod write;
 
 pub use legalise::Legaliser;
+pub use path_control::seen_advice;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -133,6 +135,11 @@ pub const PASSES: &[Pass] = &[
         name: "skip-levels",
         about: "makes block-skip levels that the target cannot tell apart one",
         run: skip_levels::run,
+    },
+    Pass {
+        name: "path-control",
+        about: "says how corners are taken, and advice to the control, in the target's words",
+        run: path_control::run,
     },
     Pass { name: "feed-unit", about: "writes feeds in the unit of length in force", run: feed_unit::run },
     Pass { name: "one-distance", about: "measures the words of a block in one way", run: one_distance::run },

@@ -4,7 +4,7 @@
 //! afterwards is what holds on both ways; within the stretch nothing is in doubt.
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
-use crate::kinds::{flow, frames, miscellaneous, modes, tooling};
+use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{Coord, Move, Op, Point, Stmt};
 use crate::track::Tracker;
@@ -168,6 +168,7 @@ impl Walk {
             | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
+            | conduct!()
             | modes!()
             | tooling!()
             | frames!()

@@ -294,6 +294,9 @@ fn simple() -> BoxedStrategy<Op> {
         Op::ProgramEnd,
         Op::Return,
         Op::UseMachineCoordinates,
+        Op::ExactStop,
+        Op::SetSpindleMode(SpindleMode::Turns),
+        Op::SetSpindleMode(SpindleMode::Surface),
     ]);
     let setting = prop_oneof![
         select(units()).prop_map(Op::UseLengthUnits),
@@ -309,6 +312,15 @@ fn simple() -> BoxedStrategy<Op> {
     let valued = prop_oneof![
         expr().prop_map(Op::SetFeedRate),
         expr().prop_map(Op::SetSpindleSpeed),
+        expr().prop_map(Op::LimitSpindleSpeed),
+        (select(PathMode::ALL.to_vec()), of(expr()), of(expr())).prop_map(|((mode, _), within, rapids)| {
+            let rapids = rapids.filter(|_| within.is_some());
+            Op::SetMotionControlMode(Box::new(PathControl { mode, within, rapids }))
+        }),
+        (select(AdviceKind::ALL.to_vec()), 0u8..6, of(expr())).prop_map(|((kind, _), value, amount)| {
+            let (value, amount) = (value % kind.values().len() as u8, amount.filter(|_| kind.has_amount()));
+            Op::Advise(Box::new(Advice { kind, value, amount }))
+        }),
         expr().prop_map(Op::SelectTool),
         expr().prop_map(Op::UseToolLengthOffset),
         expr().prop_map(Op::Dwell),
@@ -349,6 +361,7 @@ fn simple() -> BoxedStrategy<Op> {
         text().prop_map(Op::NoEffect),
         text().prop_map(Op::Message),
         text().prop_map(Op::MachineFunction),
+        text().prop_map(Op::SelectToolByName),
         name().prop_map(Op::Goto),
         name().prop_map(Op::Label),
         (var(), expr()).prop_map(|(v, e)| Op::Assign(v, e)),

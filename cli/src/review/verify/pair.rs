@@ -15,7 +15,7 @@ use std::thread;
 use ncc_dialects::SafeStart;
 use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Gravity};
-use ncc_ir::exec::{Event, Exec};
+use ncc_ir::exec::{Event, Exec, Seen};
 use ncc_ir::num::Nanos;
 use ncc_ir::verify::{Comparison, Deviation, Difference, Resolution};
 use ncc_ir::world::World;
@@ -143,6 +143,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         resolution: found.resolution,
         own: resolution(&job.to),
         tools: job.machines.renaming().tools,
+        seen: job.from.dialect.caps.seen().both(job.to.dialect.caps.seen()),
     };
     let mut beyond = false;
     for skip in settings {
@@ -286,6 +287,7 @@ struct Plan {
     /// What the output's own digits resolve.
     own: Resolution,
     tools: Option<std::collections::BTreeMap<u32, u32>>,
+    seen: Seen,
 }
 
 impl Plan {
@@ -308,6 +310,7 @@ impl Plan {
             let mut comparison = Comparison::new(self.resolution, *start);
             comparison.rename_tools(self.tools.clone());
             comparison.measure(self.tolerance);
+            comparison.see(self.seen);
             comparison.measure_by(self.own);
             if self.in_inches {
                 comparison.as_inches();

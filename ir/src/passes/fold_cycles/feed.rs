@@ -2,7 +2,7 @@
 
 use crate::cycle::CycleKind;
 use crate::expr::Expr;
-use crate::kinds::{flow, frames, miscellaneous, moves, tooling};
+use crate::kinds::{conduct, flow, frames, miscellaneous, moves, tooling};
 use crate::num::Num;
 use crate::program::{Op, Stmt};
 
@@ -38,6 +38,7 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
         | Op::Message(_)
         | Op::Assign(..)
         | miscellaneous!()
+        | conduct!()
         | tooling!()
         | frames!()
         | moves!() => before,
@@ -72,6 +73,7 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | Op::EndCycle
             | Op::Message(_)
             | miscellaneous!()
+            | conduct!()
             | tooling!()
             | frames!() => {}
         }

@@ -1,0 +1,142 @@
+//! `path-control`: how corners are taken, and advice, in the words that the target has.
+//!
+//! Ways of rounding that it cannot say become its plain rounding, going through an end point becomes
+//! stopping at it, and an exact stop of one move becomes a mode for it where the mode before is known.
+//! A mode that the target is always in is left out, and told; another is not, so that its writer
+//! refuses it. Advice that it has no word for is left out and told, once for each kind.
+
+use super::write::{Rebuild, rebuild};
+use super::{Target, each_body};
+use crate::canon::{AdviceKind, PathMode};
+use crate::caps::Caps;
+use crate::diag::{Diagnostic, Fault};
+use crate::kinds::flow;
+use crate::program::{Op, PathControl, Program, Stmt};
+use crate::source::Span;
+use crate::track::Tracker;
+
+/// What the pass remembers from piece to piece of a program.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    /// The mode that the program has said last.
+    said: Option<PathControl>,
+    /// The mode that is to be said again before the next block.
+    again: Option<PathControl>,
+    /// What was told, a bit each: kinds of advice, then modes.
+    told: u64,
+}
+
+impl State {
+    /// Whether a mode waits to be said again.
+    pub(super) fn is_busy(&self) -> bool {
+        self.again.is_some()
+    }
+
+    /// What is in force is not known any more: the body of a procedure.
+    pub(super) fn start_over(&mut self) {
+        (self.said, self.again) = (None, None);
+    }
+
+    fn first_time(&mut self, bit: u32) -> bool {
+        let fresh = self.told >> bit & 1 == 0;
+        self.told |= 1 << bit;
+        fresh
+    }
+}
+
+/// Brings modes and advice into the target's words.
+pub(super) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    let mut state = State::default();
+    each_body(program, entry, |body, _| {
+        state.start_over();
+        over(body, &mut state, target, diags);
+    });
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, diags: &mut Vec<Diagnostic>) {
+    let caps = &target.caps;
+    rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
+        if !stmt.joined
+            && let Some(control) = state.again.take()
+        {
+            let op = Op::SetMotionControlMode(Box::new(control));
+            made.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op) });
+        }
+        match &stmt.op {
+            Op::SetMotionControlMode(control) => {
+                let control = sayable(control, caps, stmt.span, state, diags);
+                state.said = stmt.skip.is_none().then(|| control.clone());
+                if caps.only_path == Some(control.mode) && !caps.says_path(control.mode) {
+                    if state.first_time(32) {
+                        let path = control.mode.name().into();
+                        diags.push(Diagnostic::new(Fault::AssumedPath { path }, stmt.span));
+                    }
+                    return made.leave_out(stmt);
+                }
+                made.push(Stmt { op: Op::SetMotionControlMode(Box::new(control)), ..stmt });
+            }
+            Op::ExactStop if !caps.exact_stop && caps.says_path(PathMode::ExactStop) => match &state.said {
+                Some(control) => {
+                    if control.mode != PathMode::ExactStop {
+                        state.again = Some(control.clone());
+                    }
+                    let stop = PathControl::plain(PathMode::ExactStop);
+                    made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
+                }
+                None => {
+                    let what = "an exact stop of one move, where the mode before it is not known".into();
+                    diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    made.leave_out(stmt);
+                }
+            },
+            Op::Advise(advice) if !caps.advises(advice.kind, advice.value) => {
+                if state.first_time(advice.kind as u32) {
+                    let kind = advice.kind.name().into();
+                    diags.push(Diagnostic::new(Fault::AdviceLeftOut { kind }, stmt.span));
+                }
+                made.leave_out(stmt);
+            }
+            flow!() => {
+                state.said = None;
+                made.push(stmt);
+            }
+            _ => made.push(stmt),
+        }
+    });
+}
+
+/// The mode in words that the target has, as far as there are any.
+fn sayable(
+    control: &PathControl,
+    caps: &Caps,
+    at: Span,
+    state: &mut State,
+    diags: &mut Vec<Diagnostic>,
+) -> PathControl {
+    let mut own = control.clone();
+    if !caps.says_path(own.mode) {
+        let plain = match own.mode.plain() {
+            PathMode::ExactPath if !caps.says_path(PathMode::ExactPath) => PathMode::ExactStop,
+            mode => mode,
+        };
+        own = PathControl::plain(plain);
+    }
+    if own.rapids.is_some() && !caps.path_in_rapids {
+        own.rapids = None;
+    }
+    if own != *control && state.first_time(40 + control.mode as u32) {
+        let (from, to) = (control.mode.name().into(), own.mode.name().into());
+        diags.push(Diagnostic::new(Fault::PathRelaxed { from, to }, at));
+    }
+    own
+}
+
+/// Bits of the advice that a target has words for, as [`State::advice`](crate::exec::State::advice) has
+/// them.
+pub fn seen_advice(caps: &Caps) -> u64 {
+    let kinds = AdviceKind::ALL.into_iter().map(|(kind, _)| kind);
+    // Of a kind of which it has not all values, what is left out cannot be told from what stays.
+    let whole = |kind: &AdviceKind| (0..kind.values().len() as u8).all(|value| caps.advises(*kind, value));
+    kinds.filter(whole).fold(0, |bits, kind| bits | 15 << kind.bits())
+}
