@@ -10,21 +10,7 @@ fuzz_target!(|data: &[u8]| {
     let [from, to, text @ ..] = data else { return };
     let dialects: Vec<_> = builtins().collect();
     let pick = |byte: u8| Settings::new(dialects[usize::from(byte) % dialects.len()]);
-    let job = Job {
-        from: pick(*from),
-        to: pick(*to),
-        machines: ncc::machines::pair::Machines::default(),
-        layout: ncc_backends::Layout::default(),
-        passes: Vec::new(),
-        fold: None,
-        verify: true,
-        head: true,
-        start: [None; 6],
-        program_number: None,
-        source_name: "fuzz".to_owned(),
-        allow: Vec::new(),
-        deny: Vec::new(),
-    };
+    let job = Job::new(pick(*from), pick(*to), "fuzz");
     let outcome = ncc::translate::translate(&job, &mut &text[..]).expect("reading from memory");
     assert_ne!(
         outcome.release,
