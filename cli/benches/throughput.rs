@@ -36,21 +36,7 @@ fn settings(id: &str) -> Settings {
 }
 
 fn job(from: &str, to: &str, verify: bool) -> Job {
-    Job {
-        from: settings(from),
-        to: settings(to),
-        machines: ncc::machines::pair::Machines::default(),
-        layout: Layout::default(),
-        passes: Vec::new(),
-        fold: None,
-        verify,
-        head: true,
-        start: [None; 6],
-        program_number: None,
-        source_name: "workload.nc".to_owned(),
-        allow: Vec::new(),
-        deny: Vec::new(),
-    }
+    Job { verify, ..Job::new(settings(from), settings(to), "workload.nc") }
 }
 
 /// Pieces of whole lines, as the pipeline makes them.

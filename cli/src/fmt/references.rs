@@ -317,6 +317,11 @@ impl Look<'_> {
         for (at, piece) in pieces.iter().enumerate().skip(head) {
             let value = pieces.get(at + 1).and_then(|next| whole(next, line));
             let jumps = at > 0 && text(at - 1).starts_with(b"GOTO") && pieces[at - 1].kind == Kind::Key;
+            if at == head && numbered && text(at) == b"N" {
+                // Whichever of them is taken away, the other one is the block's.
+                self.doubt("a block with two numbers", None);
+                continue;
+            }
             let names_block = piece.kind == Kind::Address && text(at) == b"N" || jumps && text(at) == b":";
             match (piece.kind, value) {
                 (_, Some(value)) if names_block => {
