@@ -257,6 +257,16 @@ fn a_subprogram_of_an_earlier_batch_stays_what_it_was() {
     assert_ne!(made()[0], first[0]);
 }
 
+/// A main program is there only if all that it calls is.
+#[test]
+fn without_its_subprogram_a_program_is_not_written() {
+    let folder = shop();
+    fs::create_dir_all(folder.path().join("out/L300.SPF")).unwrap();
+    let way = ["fanuc", "to", "siemens", "fanuc/plate.nc", "-o", "out", "--split"];
+    ncc(folder.path(), &way).exits(4).says("L300.SPF");
+    assert_eq!(files(&folder.path().join("out")), []);
+}
+
 #[test]
 fn what_makes_no_sense_is_exit_2_and_writes_nothing() {
     let folder = shop();
