@@ -519,7 +519,7 @@ impl<'j> Line<'j> {
         let mut text = Vec::new();
         let mut found = Vec::new();
         let head = Head { name: own, lines: self.head_lines(&hash) };
-        let program_number = head.name.number.filter(|_| self.job.to.dialect.program.number.is_some());
+        let program_number = head.name.number.filter(|_| self.job.to.dialect.program.main_number().is_some());
         self.writer.head(&head, &mut text, &mut found);
         self.take(found, Told::Writer);
         if self.verifier.is_some() {
@@ -561,7 +561,7 @@ impl<'j> Line<'j> {
     /// none, one made from the file's name.
     fn name(&mut self) -> ProgramName {
         let mut name = self.renumbering.name(&self.batch.name);
-        if self.job.to.dialect.program.number.is_some() {
+        if self.job.to.dialect.program.main_number().is_some() {
             // The lowest number that no subprogram has.
             let free = (1..).find(|n| !self.numbers.contains(n));
             name.number = self.job.program_number.or(name.number).or(free);

@@ -186,6 +186,15 @@ impl Approach {
             Approach::RetractFirst => level != retract,
         }
     }
+
+    /// The level to which a tool returns that shall go to its initial level: a control that goes up to
+    /// the retract plane first does not go below it again (NIST RS274/NGC, 3.5.20).
+    pub fn initial(self, initial: Nanos, retract: Nanos) -> Nanos {
+        match self {
+            Approach::RaiseFirst => initial.max(retract),
+            Approach::PlaneFirst | Approach::RetractFirst => initial,
+        }
+    }
 }
 
 /// Names used by the text form and by dictionaries.

@@ -449,7 +449,10 @@ impl Tracker {
             (None, _) if in_force.cycle.return_plane.is_some() => None,
             (None, level) => match level.or(self.modes.return_level) {
                 Some(ReturnLevel::Retract) => in_force.retract,
-                Some(ReturnLevel::Initial) => in_force.initial,
+                Some(ReturnLevel::Initial) => {
+                    let levels = in_force.initial.zip(in_force.retract);
+                    levels.map(|(initial, r)| in_force.cycle.approach.initial(initial, r))
+                }
                 None => None,
             },
         };

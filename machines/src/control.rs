@@ -112,6 +112,8 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         words: String::new(),
         blocks: String::new(),
         feed_stays: false,
+        other_machine: false,
+        own_tool: false,
         dwell: Vec::new(),
         write: true,
         sure: true,

@@ -57,7 +57,7 @@ struct Entry {
 }
 
 fn sources() -> String {
-    ["schema.rs", "names.rs"]
+    ["schema.rs", "names.rs", "power_on.rs"]
         .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
         .join("\n")
 }

@@ -144,6 +144,11 @@ impl Block {
         self.letters & bit(letter) != 0
     }
 
+    /// Whether a code of these modal groups stands in it.
+    pub(crate) fn says(&self, groups: u64) -> bool {
+        self.groups & groups != 0
+    }
+
     /// Whether the block can take a statement and still be read in the order of its statements.
     pub(crate) fn fits(&self, need: &Need) -> bool {
         let Some(rank) = self.rank else { return true };

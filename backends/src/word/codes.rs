@@ -5,7 +5,7 @@
 
 use ncc_dialects::{Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
 use ncc_ir::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::program::FrameSlot;
+use ncc_ir::program::{CentreFrom, FrameSlot};
 
 use super::number::Format;
 
@@ -109,6 +109,10 @@ pub(crate) struct Codes {
     pub no_compensation: Option<Code>,
     pub length: Option<Code>,
     pub no_length: Option<Code>,
+    /// Centres are measured from the start point.
+    pub centre_from_start: Option<Code>,
+    /// Letter of an arc's turns.
+    pub turns: Option<Letter>,
     pub end_cycle: Option<Code>,
     pub spindle_clockwise: Option<Code>,
     pub spindle_counterclockwise: Option<Code>,
@@ -295,6 +299,8 @@ impl Codes {
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             length: code(Meaning::UseToolLengthOffset),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
+            centre_from_start: code(Meaning::SetCentreMode(CentreFrom::Start)),
+            turns: dialect.arc.turns.and_then(|letter| find.letter(letter, Quantity::Integer)),
             end_cycle: code(Meaning::EndCycle),
             spindle_clockwise: code(Meaning::StartSpindleClockwise),
             spindle_counterclockwise: code(Meaning::StartSpindleCounterclockwise),

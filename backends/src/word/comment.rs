@@ -13,6 +13,9 @@ pub(crate) struct Comments {
     upper_ascii: bool,
     signs: String,
     longest: usize,
+    /// How comments begin that do something.
+    active: Vec<String>,
+    message: String,
     shown: String,
 }
 
@@ -24,8 +27,22 @@ impl Comments {
             upper_ascii: rules.upper_ascii,
             signs: rules.signs.clone(),
             longest: rules.longest,
+            active: rules.active.iter().chain([&rules.message]).filter(|w| !w.is_empty()).cloned().collect(),
+            message: rules.message.clone(),
             shown: String::new(),
         }
+    }
+
+    /// Appends a message to the operator to `line`. Returns whether it reads otherwise than the text.
+    pub(crate) fn message(&mut self, text: &str, line: &mut Vec<u8>) -> bool {
+        self.shown.clear();
+        for c in text.chars() {
+            self.show(c);
+        }
+        for part in [&self.open, &self.message, &self.shown, &self.close] {
+            line.extend_from_slice(part.as_bytes());
+        }
+        self.shown != text
     }
 
     /// Appends a comment to `line`, and to `after`, one line each, what is too long for it.
@@ -34,6 +51,10 @@ impl Comments {
         self.shown.clear();
         for c in text.chars() {
             self.show(c);
+        }
+        if self.active.iter().any(|word| begins(&self.shown, word)) {
+            // What was only read elsewhere must not do anything here.
+            self.shown.insert(0, '.');
         }
         let mut changed = self.shown != text;
         let mut rest = self.shown.as_str();
@@ -81,6 +102,12 @@ impl Comments {
     fn shows(&self, c: char) -> bool {
         c.is_ascii_uppercase() || c.is_ascii_digit() || c == ' ' || self.signs.contains(c)
     }
+}
+
+/// Whether a text begins with a word, blanks and the size of letters apart.
+fn begins(text: &str, word: &str) -> bool {
+    let mut rest = text.chars().filter(|c| !c.is_whitespace());
+    word.chars().all(|c| rest.next().is_some_and(|r| r.eq_ignore_ascii_case(&c)))
 }
 
 /// The first piece of a text, at a blank if there is one in its second half, and what remains.
@@ -207,7 +234,7 @@ mod tests {
             upper_ascii: true,
             signs: ".,=_-+/*:".into(),
             longest,
-            source: String::new(),
+            ..CommentRules::default()
         })
     }
 

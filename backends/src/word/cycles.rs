@@ -37,6 +37,8 @@ pub(crate) struct Held {
 
 /// Words of a cycle's call; of a change of the cycle in force, those that change.
 struct CallWords {
+    /// Letter of the bottom.
+    depth_letter: u8,
     code: Option<Code>,
     level: Option<Code>,
     depth: Option<(Letter, Coord)>,
@@ -110,6 +112,11 @@ impl Writer {
     }
 
     fn hole_words(&mut self, to: &Point, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if self.dialect.cycles.no_rotary
+            && [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| to.get(axis).is_some())
+        {
+            return Err(cannot("a rotary axis in a canned cycle"));
+        }
         let mut inserted = Inserted::default();
         self.need_distance(to.axes.iter().flatten(), &mut inserted)?;
         let need = self.point_need(Need::new(Rank::Motion), to)?;
@@ -186,7 +193,7 @@ impl Writer {
         if !self.dialect.cycles.hole_on_definition || self.held.as_ref().is_none_or(|h| h.in_text) {
             return Ok(());
         }
-        if self.dialect.cycles.repeat.is_none() {
+        if self.dialect.cycles.repeat.is_none() || self.dialect.cycles.repeat_once {
             return Err(cannot("a cycle that is called up without a hole"));
         }
         let Some(held) = self.held.take() else { return Ok(()) };
@@ -222,7 +229,7 @@ impl Writer {
             need = need.letter(*letter);
         }
         if let Some(at) = at {
-            let depth = self.cycle_code(&held.cycle)?.depth.letter;
+            let depth = words.depth_letter;
             let along = |axis: &Axis| at.get(*axis).is_some() && axis.letter() == depth;
             if Axis::ALL.iter().any(along) {
                 return Err(cannot("a hole position along the drilling axis"));
@@ -230,7 +237,8 @@ impl Writer {
             need = self.point_need(need, at)?;
         }
         // Where the call makes a hole, none is made by counting to zero.
-        let none = match (at, self.dialect.cycles.hole_on_definition, self.dialect.cycles.repeat) {
+        let repeat = self.dialect.cycles.repeat.filter(|_| !self.dialect.cycles.repeat_once);
+        let none = match (at, self.dialect.cycles.hole_on_definition, repeat) {
             (None, true, Some(letter)) => Some(letter as u8),
             _ => None,
         };
@@ -280,9 +288,18 @@ impl Writer {
     ) -> Result<CallWords, Fault> {
         let cycle = &held.cycle;
         let row = self.cycle_code(cycle)?.clone();
-        let plane = cycle.plane.known().or(self.force.plane);
-        if plane.is_some_and(|p| p.axes().2 != Axis::Z) {
-            return Err(cannot("a cycle along another axis than Z"));
+        let mut row = row;
+        let normal = cycle.plane.known().or(self.force.plane).map(|p| p.axes().2.letter());
+        if let Some(normal) = normal.filter(|normal| *normal != row.depth.letter) {
+            if !self.dialect.cycles.any_plane {
+                return Err(cannot("a cycle along another axis than Z"));
+            }
+            row.depth.letter = normal;
+        }
+        if self.dialect.cycles.no_rotary
+            && at.is_some_and(|to| [Axis::A, Axis::B, Axis::C].into_iter().any(|a| to.get(a).is_some()))
+        {
+            return Err(cannot("a rotary axis in a canned cycle"));
         }
         let (peck, dwell) = match &cycle.kind {
             CycleKind::Drill => (None, None),
@@ -329,6 +346,7 @@ impl Writer {
             Some(_) | None => self.level_code(cycle.return_level)?,
         };
         Ok(CallWords {
+            depth_letter: row.depth.letter,
             code: before.is_none().then_some(row.code),
             level,
             depth: (!same_depth).then(|| (row.depth, cycle.depth.clone())),

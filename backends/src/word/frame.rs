@@ -22,12 +22,13 @@ impl Writer {
             out.extend_from_slice(self.eol);
         }
         let title = head.name.title.as_deref();
-        if let Some(letter) = rules.number {
+        let letter = rules.main_number();
+        if let Some(letter) = letter {
             let number = head.name.number.unwrap_or(FIRST_PROGRAM);
             self.program_line(letter, number, title.filter(|_| rules.title), out);
         }
-        if rules.number.is_none() || !rules.title {
-            let number = head.name.number.filter(|_| rules.number.is_none());
+        if letter.is_none() || !rules.title {
+            let number = head.name.number.filter(|_| letter.is_none());
             let kept = match (number, title) {
                 (Some(number), Some(title)) => Some(format!("{number} {title}")),
                 (Some(number), None) => Some(number.to_string()),

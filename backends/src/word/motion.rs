@@ -161,9 +161,11 @@ impl Writer {
     pub(crate) fn arc(&mut self, arc: &Arc, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let motion = Motion::Arc(arc.turn);
         let code = self.codes.arcs[arc.turn as usize].ok_or_else(|| cannot("an arc"))?;
-        if arc.turns > 0 {
-            return Err(cannot("an arc of more than one turn"));
-        }
+        let turns = match (arc.turns, self.codes.turns) {
+            (0, _) => None,
+            (_, None) => return Err(cannot("an arc of more than one turn")),
+            (turns, Some(letter)) => Some((letter.letter, u64::from(turns) + 1)),
+        };
         let mut inserted = Inserted::default();
         self.need_distance(arc.to.axes.iter().flatten(), &mut inserted)?;
         self.need_plane(arc.plane, &mut inserted)?;
@@ -176,6 +178,9 @@ impl Writer {
         for (letter, _) in centre.iter().flatten() {
             need = need.letter(*letter);
         }
+        if let Some((letter, _)) = turns {
+            need = need.letter(letter);
+        }
         let says = arc.said || self.force.motion != Some(motion);
         let need = if says { need.code(Some(code)) } else { need };
         self.admit_with(need, inserted, sink)?;
@@ -186,6 +191,9 @@ impl Writer {
         self.point(&arc.to, span, sink)?;
         for (letter, value) in centre.into_iter().flatten() {
             self.block.word(Part::Axes, letter, value);
+        }
+        if let Some((letter, turns)) = turns {
+            self.block.digits(Part::Axes, letter, &turns.to_string());
         }
         self.check_vanished(arc, start)
     }

@@ -102,6 +102,12 @@ impl Writer {
                 SafeStart::NoCompensation => Some(Setting::NoCompensation),
                 SafeStart::NoLengthOffset => Some(Setting::NoLength),
                 SafeStart::NoCycle => Some(Setting::NoCycle),
+                SafeStart::Centre => {
+                    if let Some(code) = self.codes.centre_from_start {
+                        self.start_code(code, sink);
+                    }
+                    None
+                }
                 SafeStart::WorkOffset => {
                     own_block = origin.map(Setting::Origin);
                     None

@@ -76,12 +76,18 @@ impl Writer {
                 self.m_code(Rank::SpindleOn, code, "a counter-clockwise spindle", sink)
             }
             Op::StopSpindleTurning => {
-                self.m_code(Rank::SpindleOff, codes.spindle_stop, "a spindle stop", sink)
+                let before = self.dialect.block.off_before_move;
+                let rank = if before { Rank::SpindleOn } else { Rank::SpindleOff };
+                self.m_code(rank, codes.spindle_stop, "a spindle stop", sink)
             }
             Op::MachineFunction(name) => self.machine_function(name, sink),
             Op::FloodOn => self.m_code(Rank::Coolant, codes.flood, "flood coolant", sink),
             Op::MistOn => self.m_code(Rank::Coolant, codes.mist, "mist coolant", sink),
-            Op::CoolantOff => self.m_code(Rank::CoolantOff, codes.coolant_off, "coolant off", sink),
+            Op::CoolantOff => {
+                let before = self.dialect.block.off_before_move;
+                let rank = if before { Rank::Coolant } else { Rank::CoolantOff };
+                self.m_code(rank, codes.coolant_off, "coolant off", sink)
+            }
             Op::Dwell(seconds) => self.dwell(seconds, span, sink),
             Op::StraightTraverse(to) => self.straight(to, true, span, sink),
             Op::StraightFeed(to) => self.straight(to, false, span, sink),
@@ -94,7 +100,7 @@ impl Writer {
             Op::ProgramStop => self.m_code(Rank::Stop, codes.stop, "a program stop", sink),
             Op::OptionalProgramStop => self.m_code(Rank::Stop, codes.optional_stop, "an optional stop", sink),
             Op::ProgramEnd => self.m_code(Rank::Stop, codes.end, "the program's end", sink),
-            Op::Message(_) => Err(cannot("a message to the operator")),
+            Op::Message(text) => self.message(text, span, sink),
             Op::Call(call) => self.call(call, stmt, sink),
             Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
@@ -143,6 +149,23 @@ impl Writer {
         Ok(())
     }
 
+    /// A message: a comment of its own form, in a line of its own.
+    fn message(&mut self, text: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if self.dialect.comment.message.is_empty() {
+            return Err(cannot("a message to the operator"));
+        }
+        let waits = !self.block.is_empty() || !self.block.comment.is_empty();
+        if waits {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        if self.comments.message(text, &mut self.block.comment) {
+            sink.report(Fault::CommentReformatted, span);
+        }
+        self.flush(false, sink);
+        Ok(())
+    }
+
     fn m_code(&mut self, rank: Rank, code: Option<Code>, what: &str, sink: &mut Sink) -> Result<(), Fault> {
         let code = code.ok_or_else(|| cannot(what))?;
         self.admit(&Need::new(rank).code(Some(code)), sink)?;
@@ -167,6 +190,7 @@ impl Writer {
     pub(crate) fn feed_rate(&mut self, feed: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let letter = self.codes.feed_word.ok_or_else(|| cannot("a feed"))?;
         let value = self.value(&letter, feed, span, sink)?;
+        self.feed_apart(sink);
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
         self.block.word(Part::Feed, letter.letter, value);
         // A later feed takes the place of the one that a cycle brought.
@@ -175,6 +199,15 @@ impl Writer {
             held.feed = None;
         }
         Ok(())
+    }
+
+    /// A feed cannot stand in the block that changes its units, if it comes before them there.
+    pub(crate) fn feed_apart(&mut self, sink: &mut Sink) {
+        let groups = self.codes.units.iter().flatten().fold(0, |bits, code| bits | code.group);
+        if self.dialect.block.feed_before_units && self.block.says(groups) {
+            self.flush(false, sink);
+            self.split = true;
+        }
     }
 
     /// A length offset: a code and its entry, or a word that takes it up by itself.
@@ -259,13 +292,15 @@ impl Writer {
         self.call_up_now(stmt, sink)?;
         let number = self.program_number(&call.name)?;
         let packed = self.dialect.program.packed_call_digits as usize;
+        let least = if self.dialect.program.padded_calls { self.dialect.program.number_digits } else { 0 };
+        let padded = format!("{number:0least$}");
         let out_of_range = || Fault::TargetRange { word: call.times.to_string().into() };
         let mut need = Need::new(Rank::Call).code(Some(words.code)).letter(words.number);
         let (digits, count) = match (call.times, packed, words.count) {
             (0, ..) => return Err(cannot("a call that is made no times")),
-            (1, ..) => (number.to_string(), None),
+            (1, ..) => (padded, None),
             (2..=9999, 1.., _) => (format!("{}{number:0>packed$}", call.times), None),
-            (2..=9999, 0, Some(letter)) => (number.to_string(), Some(letter)),
+            (2..=9999, 0, Some(letter)) => (padded, Some(letter)),
             _ => return Err(out_of_range()),
         };
         if let Some(letter) = count {

@@ -3,6 +3,7 @@
 use ncc_dialects::{CodeRow, CycleRow, Dialect, Family, Meaning, NameMeaning, PatternRow, Quantity};
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
+use ncc_ir::program::CentreFrom;
 
 use super::Row;
 use super::proof::{Bench, Said, Tried, in_place, refusal};
@@ -20,6 +21,7 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         let Some(meaning) = row.means else { continue };
         match meaning {
             Meaning::StartCycle => {}
+            Meaning::SetCentreMode(from) => centre(bench, row, from, rows),
             Meaning::Pattern => {}
             Meaning::Dwell => dwells(bench, row, rows),
             _ => {
@@ -106,6 +108,7 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             ReturnLevel::Initial => "SET_RETURN_LEVEL(initial)",
             ReturnLevel::Retract => "SET_RETURN_LEVEL(retract)",
         }),
+        Meaning::SetCentreMode(_) => Vec::new(),
         Meaning::SetOriginOffsets(n) => one(&format!("SET_ORIGIN_OFFSETS({n})")),
         Meaning::ClearFrame(slot) => one(&format!("CLEAR_FRAME({})", format!("{slot:?}").to_lowercase())),
         Meaning::UseMachineCoordinates => one("USE_MACHINE_COORDINATES() & said STRAIGHT_TRAVERSE(Z 0mm)"),
@@ -174,6 +177,19 @@ pub(super) fn arc(d: &Dialect, plane: &str, turn: &str) -> Said {
     Said::new(say).after(place)
 }
 
+/// From where a centre is measured: shown by an arc, which is read only.
+fn centre(bench: &Bench, row: &CodeRow, from: CentreFrom, rows: &mut Vec<Row>) {
+    let said = arc(bench.dialect, "XY", "clockwise");
+    // The writer's own words, from the start point, and what they would be from program zero.
+    let (meant, i, j) = match from {
+        CentreFrom::Start => (said.say.clone(), "I6", "J8"),
+        CentreFrom::Zero => (said.say.replace("start, I 6mm, J 8mm", "zero, I 9mm, J 12mm"), "I9", "J12"),
+    };
+    let put = |text: String| text.replace("I6", &format!("{} {i}", row.code)).replace("J8", j);
+    let tried = must_show(bench.reads(&said, &meant, put), &row.code);
+    rows.push(tried.read_only().row("code", row.code.clone(), row.sure));
+}
+
 fn dwells(bench: &Bench, row: &CodeRow, rows: &mut Vec<Row>) {
     let said = Said::new("DWELL(1.5s)");
     for (at, word) in row.dwell.iter().enumerate() {
@@ -224,9 +240,11 @@ fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
         _ => Vec::new(),
     };
     let own: Vec<String> = own.into_iter().chain(row.dwell.map(|_| dwell)).collect();
+    let retracts = row.feed_to_level;
     let own = if own.is_empty() { String::new() } else { format!("({})", own.join(", ")) };
     let level = match d.cycles.return_level.map(ReturnLevel::from) {
         Some(ReturnLevel::Retract) => "retract",
+        None if retracts => "retract",
         Some(ReturnLevel::Initial) | None => "initial",
     };
     let approach = match Approach::from(d.cycles.approach) {
@@ -287,7 +305,8 @@ fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
         let start = cycle_text(d, row, &usual);
         let hole = "\nHOLE(X 10mm, Y 20mm)";
         let one = Said { after: "END_CYCLE()".to_owned(), ..Said::new(format!("{start}{hole}")) };
-        for times in [0, 3] {
+        let least = usize::from(d.cycles.repeat_once);
+        for times in [least, 3] {
             let put = |text: String| {
                 let line = |l: &str| match in_place(l, &row.code, "") {
                     Some(_) => format!("{l} {letter}{times}\n"),

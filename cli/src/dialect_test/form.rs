@@ -67,7 +67,7 @@ fn block_numbers(bench: &Bench, rows: &mut Vec<Row>) {
 
 fn program_numbers(bench: &Bench, rows: &mut Vec<Row>) {
     let rules = &bench.dialect.program;
-    let Some(letter) = rules.number else { return };
+    let Some(letter) = rules.main_number() else { return };
     let digits = u32::try_from(rules.number_digits.clamp(1, 8)).unwrap_or(4);
     let highest = 10u32.pow(digits) - 1;
     let mut tries = vec![

@@ -33,6 +33,8 @@ struct Evidence {
     conclusive: bool,
     /// Whether a G or M code of the dialect was met.
     codes: bool,
+    /// Whether a block with words was met.
+    begun: bool,
     speaks_for: BTreeMap<String, usize>,
     against: BTreeMap<String, usize>,
 }
@@ -110,7 +112,7 @@ fn evidence(dialect: &Dialect, text: &[u8]) -> Evidence {
             break;
         }
         match dialect.family {
-            Family::Word => word_line(dialect, number, line, &mut evidence),
+            Family::Word => word_line(dialect, number, line, frames > 0, &mut evidence),
             Family::Canon => canon_line(number, line, &mut evidence),
             Family::Sinumerik => names::line(dialect, number, line, &mut evidence),
             Family::Ir => {
@@ -138,7 +140,7 @@ fn canon_line(number: usize, line: &[u8], evidence: &mut Evidence) {
     }
 }
 
-fn word_line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evidence) {
+fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, evidence: &mut Evidence) {
     let frame = dialect.program.frame.as_bytes();
     if line == b"%" {
         match frame == line {
@@ -148,6 +150,25 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut Evide
         return;
     }
     let Some(code) = without_comment(dialect, number, line, evidence) else { return };
+    if !code.trim_ascii().is_empty() && !std::mem::replace(&mut evidence.begun, true) {
+        let first = code.trim_ascii()[0].to_ascii_uppercase();
+        let letters = [dialect.program.number, dialect.program.number_also];
+        let numbered = letters.iter().flatten().any(|letter| *letter as u32 == u32::from(first));
+        match dialect.program.number {
+            Some(_) if first == b':' && !numbered => evidence.con(number, "`:` is no sign of it".to_owned()),
+            Some(letter) if numbered && dialect.program.unnumbered_main => {
+                evidence.con(number, format!("`{letter}` before the main program"));
+            }
+            Some(letter) if framed && !numbered && !dialect.program.unnumbered_main => {
+                evidence.con(number, format!("no `{letter}` behind `%`"));
+            }
+            Some(_) | None => {}
+        }
+    }
+    if dialect.program.macros && code.contains(&b'=') && !code.contains(&b'#') {
+        evidence.con(number, "`=` and no variable".to_owned());
+        return;
+    }
     if dialect.program.macros && code.iter().any(|b| b"#[=".contains(b)) {
         return;
     }
@@ -213,6 +234,9 @@ fn word_of(
         let Some(tenths) = tenths(value) else { return };
         match dialect.code_row(letter, tenths).map(|row| row.means) {
             None => evidence.con(line, format!("`{word}` is unknown")),
+            Some(_) if dialect.code_row(letter, tenths).is_some_and(|row| row.other_machine) => {
+                evidence.con(line, format!("`{word}` is for other machines"));
+            }
             Some(Some(Meaning::UseLengthUnits(_))) => evidence.pro(line, format!("`{word}` says the unit")),
             Some(Some(_)) => {
                 if !std::mem::replace(&mut evidence.codes, true) {
@@ -265,6 +289,9 @@ fn without_comment(
             evidence.con(number, "`(` is no sign of it".to_owned());
             return None;
         }
+        if dialect.comment.line.as_bytes() == &rest[..1] {
+            break;
+        }
         if rest[0] == b';' {
             if dialect.block.end != ";" || rest.iter().any(|b| !b"; ".contains(b)) {
                 evidence.con(number, "`;` before a text".to_owned());
@@ -302,6 +329,7 @@ mod tests {
     #[test]
     fn each_is_recognised() {
         assert_eq!(id("%\nO1 (A)\nG21 G90\nG0 X1. (B)\nM30\n%\n"), Some("fanuc"));
+        assert_eq!(id("%\n(A)\nG21 G90\nG0 X1. (B)\nM2\n%\n"), Some("linuxcnc"));
         assert_eq!(id(";A\nG71\nT1M6\nO1S500M3\nGZ0\nM2\n"), Some("mach9"));
         assert_eq!(id("STRAIGHT_FEED(1.0, 2.0, 3.0)\nPROGRAM_END()\n"), Some("canon"));
         assert_eq!(id("ncc-ir 1\n"), Some("ir"));

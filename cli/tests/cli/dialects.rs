@@ -40,7 +40,7 @@ fn a_shops_dialect_is_a_name_like_any_other() {
     let back = run("shop to shop part.nc --dialect shop.toml --no-head").exits(0).out;
     assert!(back.contains("\nM08\n"), "{back}");
     assert!(run("fanuc to canon part.nc").exits(1).err.contains("`M24` is unknown"));
-    assert!(run("dialects --dialect shop.toml").exits(0).out.contains("shop     Our Fanuc"));
+    assert!(run("dialects --dialect shop.toml").exits(0).out.contains("shop      Our Fanuc"));
     let shown = run("dialects show shop --dialect shop.toml").exits(0).out;
     assert!(shown.contains("builds on: fanuc") && shown.contains("the builder's list"), "{shown}");
     assert!(run("shop to canon part.nc").exits(2).err.contains("there is no dialect `shop`"));

@@ -3,7 +3,7 @@
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
 use ncc_dialects::{CYCLE_APPROACH, CycleRow, Quantity};
-use ncc_ir::canon::{Distance, Fact};
+use ncc_ir::canon::{Distance, Fact, Plane, ReturnLevel};
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -75,7 +75,8 @@ impl Lower {
             self.assume_row(code.row, &code.meaning.to_string(), code.span, out);
         }
         let plane = self.plane(code.span, out);
-        if plane.known().is_some_and(|p| p.axes().2.letter() != row.depth as u8) {
+        let depth_letter = self.depth_letter(row, plane);
+        if depth_letter.is_none() {
             self.fault(refuse("cycle along another axis"), code.span, out);
         }
         let distance = self.distance(code.span, out);
@@ -83,17 +84,24 @@ impl Lower {
             self.fault(refuse("cycle with incremental words"), code.span, out);
         }
         let kept = match &self.state.cycle {
-            InForce::Active(active) if dialect.cycles.retained => Some((**active).clone()),
+            InForce::Active(active)
+                if dialect.cycles.retained && (active.row == index || !dialect.cycles.retained_by_code) =>
+            {
+                Some((**active).clone())
+            }
             InForce::Active(_) | InForce::None | InForce::Lost => None,
         };
         let has_hole_word = self.has_axis_word(words) || words.get(row.retract as u8).is_some();
-        let given = self.cycle_words(row, distance, words, src, out);
+        self.check_rotary(row, block, words, out);
+        self.check_feed_to_level(row, block, out);
+        let depth_letter = depth_letter.unwrap_or(row.depth);
+        let given = self.cycle_words(row, depth_letter, distance, words, src, out);
         let depth = given.depth.or_else(|| kept.as_ref().map(|k| k.depth.clone()));
         let retract = given.retract.or_else(|| kept.as_ref().map(|k| k.retract.clone()));
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
         let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck));
         let blame = !self.now.failed;
-        for (letter, missing) in [(row.depth, depth.is_none()), (row.retract, retract.is_none())] {
+        for (letter, missing) in [(depth_letter, depth.is_none()), (row.retract, retract.is_none())] {
             if missing && blame {
                 self.missing(code, letter, out);
             }
@@ -113,7 +121,7 @@ impl Lower {
         self.state.cycle = InForce::Active(Box::new(active));
         self.call_up(block, out);
         if dialect.cycles.hole_on_definition && has_hole_word {
-            self.hole(true, row, block, words, src, out);
+            self.hole(true, depth_letter, block, words, src, out);
         } else {
             self.repeat(words, src, out);
         }
@@ -133,6 +141,7 @@ impl Lower {
             return;
         };
         let row = &dialect.cycle[active.row];
+        let depth_letter = self.depth_letter(row, active.plane).unwrap_or(row.depth);
         let has_hole_word = !dwell && (self.has_axis_word(words) || words.get(row.retract as u8).is_some());
         if has_hole_word {
             let distance = self.distance(block, out);
@@ -140,15 +149,17 @@ impl Lower {
                 let name = "cycle with incremental words".into();
                 self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
             }
+            self.check_rotary(row, block, words, out);
             if dialect.cycles.retained {
-                self.change_cycle(row, distance, words, src, out);
+                self.change_cycle(row, depth_letter, distance, words, src, out);
             }
         }
         if self.now.recall {
+            self.check_feed_to_level(row, block, out);
             self.call_up(block, out);
         }
         if has_hole_word {
-            self.hole(false, row, block, words, src, out);
+            self.hole(false, depth_letter, block, words, src, out);
         }
     }
 
@@ -156,12 +167,13 @@ impl Lower {
     fn change_cycle(
         &mut self,
         row: &'static CycleRow,
+        depth_letter: char,
         distance: Fact<Distance>,
         words: &mut Words,
         src: Source,
         out: &mut Batch,
     ) {
-        let given = self.cycle_words(row, distance, words, src, out);
+        let given = self.cycle_words(row, depth_letter, distance, words, src, out);
         let InForce::Active(active) = &mut self.state.cycle else {
             return;
         };
@@ -207,14 +219,14 @@ impl Lower {
     fn hole(
         &mut self,
         said: bool,
-        row: &CycleRow,
+        depth_letter: char,
         block: Span,
         words: &mut Words,
         src: Source,
         out: &mut Batch,
     ) {
         let times = self.repeat(words, src, out);
-        let to = self.point(Some(row.depth as u8), block, words, src, out);
+        let to = self.point(Some(depth_letter as u8), block, words, src, out);
         // How the tool comes to a hole elsewhere is open in some dictionaries: it is told.
         self.option(CYCLE_APPROACH, block, out);
         for turn in 0..times {
@@ -243,7 +255,11 @@ impl Lower {
             return 1;
         };
         match self.whole(&word, src, out) {
-            Some(times) if times <= MOST_REPEATS => times,
+            Some(times)
+                if times <= MOST_REPEATS && (times > 0 || !self.settings.dialect.cycles.repeat_once) =>
+            {
+                times
+            }
             Some(_) => {
                 self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
                 0
@@ -252,10 +268,34 @@ impl Lower {
         }
     }
 
+    /// The letter of a cycle's bottom in a plane; `None` if the cycle does not work there.
+    fn depth_letter(&self, row: &CycleRow, plane: Fact<Plane>) -> Option<char> {
+        let Some(plane) = plane.known() else { return Some(row.depth) };
+        let normal = char::from(plane.axes().2.letter());
+        (normal == row.depth || self.settings.dialect.cycles.any_plane).then_some(normal)
+    }
+
+    /// A cycle cannot turn rotary axes on some controls.
+    fn check_rotary(&mut self, row: &CycleRow, block: Span, words: &Words, out: &mut Batch) {
+        if self.settings.dialect.cycles.no_rotary && words.has_any(self.roles.rotary) {
+            let name = "rotary axis in a canned cycle".into();
+            self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
+        }
+    }
+
+    /// A feed that goes on to the initial level is another cycle.
+    fn check_feed_to_level(&mut self, row: &CycleRow, block: Span, out: &mut Batch) {
+        if row.feed_to_level && self.return_level(block, out) != Fact::Known(ReturnLevel::Retract) {
+            let name = "cycle that feeds out to the initial level".into();
+            self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
+        }
+    }
+
     /// The cycle's own words in the block.
     fn cycle_words(
         &mut self,
         row: &CycleRow,
+        depth_letter: char,
         distance: Fact<Distance>,
         words: &mut Words,
         src: Source,
@@ -266,7 +306,7 @@ impl Lower {
             let num = lower.number(&word, Quantity::Length, src, out)?;
             Some(Coord { value: Expr::Num(num), distance })
         };
-        let depth = level(self, row.depth);
+        let depth = level(self, depth_letter);
         let retract = level(self, row.retract);
         let dwell = row.dwell.and_then(|d| {
             let word = words.take(d.letter as u8)?;
@@ -319,6 +359,9 @@ struct Given {
 
 /// The cycle of a row; `Err` with the letter of the word that it lacks.
 fn kind_of(row: &CycleRow, dwell: Option<Num>, peck: Option<Num>) -> Result<CycleKind, char> {
+    if row.dwell_needed && dwell.is_none() {
+        return Err(row.dwell.map_or(' ', |d| d.letter));
+    }
     let bottom = dwell.filter(|_| row.dwell.is_some()).map(Expr::Num);
     Ok(match row.kind.as_str() {
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },

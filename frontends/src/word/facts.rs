@@ -11,7 +11,7 @@ use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel, Units}
 use ncc_ir::cycle::CycleKind;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::Num;
-use ncc_ir::program::Coord;
+use ncc_ir::program::{CentreFrom, Coord};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
@@ -98,6 +98,10 @@ pub(super) struct State {
     /// A cycle has ended without a motion code: whether the motion before it is in force again is
     /// the control's way.
     pub(super) after_cycle: bool,
+    /// No motion is in force: the end of a cycle has taken it away.
+    pub(super) no_motion: bool,
+    /// From where the words of a centre are measured.
+    pub(super) centre: Know<CentreFrom>,
     /// Whether a feed was said.
     pub(super) feed: Know<()>,
     /// Whether a tool was selected.
@@ -121,6 +125,8 @@ impl State {
             no_shift: Know::Lost,
             motion: Know::Lost,
             after_cycle: false,
+            no_motion: false,
+            centre: Know::Lost,
             feed: Know::Lost,
             tool: Know::Lost,
             cycle: InForce::Lost,
@@ -142,6 +148,11 @@ impl State {
         self.feed.join(before.feed);
         self.tool.join(before.tool);
         self.after_cycle |= before.after_cycle;
+        self.centre.join(before.centre);
+        if self.no_motion != before.no_motion {
+            self.no_motion = false;
+            self.motion = Know::Lost;
+        }
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost;
         }
@@ -269,6 +280,10 @@ impl Lower {
     /// # Errors
     /// The program has not said it, and nothing may be taken for granted.
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
+        if self.state.no_motion {
+            out.report(Fault::NoMotionMode, at);
+            return Err(());
+        }
         let power_on = &self.settings.dialect.power_on.motion;
         match self.state.motion {
             Know::Lost => Ok(None),

@@ -69,7 +69,14 @@ impl Lower {
                 || state.no_shift == Know::Unsaid
                 || state.length_offset == Know::Unsaid);
         let no_feed = feed && (state.feed == Know::Unsaid || state.cycle_feed.is_some());
-        if !axes || open || no_feed || state.after_cycle || state.cycle != InForce::None || self.ended {
+        if !axes
+            || open
+            || no_feed
+            || state.after_cycle
+            || state.no_motion
+            || state.cycle != InForce::None
+            || self.ended
+        {
             return None;
         }
         let said = matches!(state.motion, Know::Said(_));

@@ -15,7 +15,7 @@ use super::Source;
 use super::block::{Block, Value, Word};
 use super::facts::{InForce, Know};
 use super::lower::Lower;
-use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words, rank};
+use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words};
 use crate::Batch;
 
 impl Lower {
@@ -29,15 +29,25 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        let first_function = codes.partition_point(|c| rank(c.meaning) < RANK_WORDS);
+        let first_function = codes.partition_point(|c| self.rank(c.meaning) < RANK_WORDS);
         let (settings, functions) = codes.split_at(first_function);
-        let before_motion = functions.partition_point(|c| rank(c.meaning) < RANK_MOTION);
+        let before_motion = functions.partition_point(|c| self.rank(c.meaning) < RANK_MOTION);
         let (before, rest) = functions.split_at(before_motion);
-        let motion_end = rest.partition_point(|c| rank(c.meaning) < RANK_AFTER);
+        let motion_end = rest.partition_point(|c| self.rank(c.meaning) < RANK_AFTER);
         let (motion, after) = rest.split_at(motion_end);
 
+        if self.settings.dialect.block.feed_before_units {
+            // The feed's own mode comes first, then the feed, in the units of the blocks before.
+            for code in settings.iter().filter(|c| matches!(c.meaning, Meaning::SetFeedMode(_))) {
+                self.setting(code, out);
+            }
+            self.feed_word(motion, words, src, out);
+        }
+        let before_feed = self.settings.dialect.block.feed_before_units;
         for code in settings {
-            self.setting(code, out);
+            if !(before_feed && matches!(code.meaning, Meaning::SetFeedMode(_))) {
+                self.setting(code, out);
+            }
         }
         self.feed_word(motion, words, src, out);
         self.speed_and_tool(words, src, out);
@@ -77,14 +87,23 @@ impl Lower {
                 self.now.recall |= self.state.return_level.value() != Some(level);
                 self.state.return_level = Know::Said(level);
             }
+            Meaning::SetCentreMode(from) => self.set_centre_mode(from, out),
             Meaning::SetOriginOffsets(offset) => self.state.work_offset = Know::Said(offset),
             Meaning::ClearFrame(FrameSlot::Shift) => self.state.no_shift = Know::Said(true),
-            Meaning::StraightTraverse => self.state.motion = Know::Said(Motion::Traverse),
-            Meaning::StraightFeed => self.state.motion = Know::Said(Motion::Feed),
-            Meaning::ArcFeed(turn) => self.state.motion = Know::Said(Motion::Arc(turn)),
-            Meaning::EndCycle => self.state.cycle = InForce::None,
+            Meaning::StraightTraverse => self.set_motion(Motion::Traverse),
+            Meaning::StraightFeed => self.set_motion(Motion::Feed),
+            Meaning::ArcFeed(turn) => self.set_motion(Motion::Arc(turn)),
+            Meaning::EndCycle => {
+                self.state.cycle = InForce::None;
+                self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
+            }
             _ => {}
         }
+    }
+
+    pub(super) fn set_motion(&mut self, motion: Motion) {
+        self.state.motion = Know::Said(motion);
+        self.state.no_motion = false;
     }
 
     fn setting(&mut self, code: &Code, out: &mut Batch) {
@@ -171,7 +190,13 @@ impl Lower {
                 }
             }
             Meaning::UseToolLengthOffset => {
-                let Some(word) = words.take(self.roles.length_entry) else {
+                let word = words.take(self.roles.length_entry);
+                if word.is_none() && code.row.own_tool {
+                    self.state.length_offset = Know::Said(());
+                    let edge = Expr::int(1);
+                    return self.push(code.span, Op::UseToolEdge { edge, said: true }, out);
+                }
+                let Some(word) = word else {
                     let word = char::from(self.roles.length_entry).to_string().into();
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);

@@ -18,7 +18,7 @@ use super::Source;
 use super::block::Block;
 use super::facts::{InForce, Know, State};
 use super::fast::Fast;
-use super::number::UnitsSeen;
+use super::number::{CentreSeen, UnitsSeen};
 use super::sort::{Code, Roles, Words};
 use crate::{Batch, refused};
 
@@ -39,6 +39,7 @@ pub(super) struct Lower {
     pub(super) roles: Roles,
     pub(super) state: State,
     pub(super) units_seen: UnitsSeen,
+    pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
@@ -89,6 +90,8 @@ pub(super) struct Now {
     pub(super) feed: Option<Num>,
     /// Whether the cycle in force must be called up again with other data.
     pub(super) recall: bool,
+    /// Whether the last comment is a message.
+    pub(super) message: bool,
 }
 
 impl Lower {
@@ -119,6 +122,7 @@ impl Lower {
             watch: false,
             state: State::default(),
             units_seen: UnitsSeen::default(),
+            centre_seen: CentreSeen::default(),
             sub: None,
             ended: false,
             fast: None,
@@ -155,6 +159,7 @@ impl Lower {
             self.check_tail(block, &codes, out);
         }
         if !self.now.refused {
+            self.message(block, src, out);
             self.functions(block, &codes, &mut words, level, src, out);
             if !self.now.failed {
                 self.check_unused(&words, src, out);
@@ -171,6 +176,27 @@ impl Lower {
             self.state.join(&before);
         }
         self.refresh();
+    }
+
+    /// The last comment of a block may be a message, which comes before all that the block does, or
+    /// something else that acts.
+    fn message(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        let rules = &self.settings.dialect.comment;
+        let Some(&span) = block.comments.last().filter(|_| !rules.message.is_empty()) else { return };
+        let bracketed = src.bytes(Span::new(span.end, span.end + 1)) == rules.close.as_bytes();
+        let bytes = src.bytes(span);
+        if !bracketed {
+            return;
+        }
+        if let Some(at) = begins(bytes, &rules.message) {
+            let text = decode(&bytes[at..]);
+            self.now.message = true;
+            return self.push(span, Op::Message(text), out);
+        }
+        if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
+            let code = format!("{}{name}", rules.open).into();
+            self.fault(Fault::NotSupported { code, name: "comment that does something".into() }, span, out);
+        }
     }
 
     fn check_skip(&mut self, block: &Block, out: &mut Batch) {
@@ -280,7 +306,8 @@ impl Lower {
             self.forgive();
             return;
         }
-        let comment = join_comments(&block.comments, src);
+        let comments = block.comments.len() - usize::from(self.now.message);
+        let comment = join_comments(&block.comments[..comments], src);
         match (comment, self.now.pushed) {
             (None, true) => {}
             (None, false) => self.push(block.span, Op::Blank, out),
@@ -312,6 +339,19 @@ impl Lower {
     pub(super) fn axis_row(&self, axis: Axis) -> Option<&'static Address> {
         self.letters[usize::from(axis.letter() - b'A')].filter(|row| row.role == Role::Axis)
     }
+}
+
+/// Where the rest of a comment begins that begins with a word, blanks and the size of letters apart.
+pub(crate) fn begins(text: &[u8], word: &str) -> Option<usize> {
+    let mut at = 0;
+    for byte in word.bytes() {
+        at += text[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
+        if !text.get(at)?.eq_ignore_ascii_case(&byte) {
+            return None;
+        }
+        at += 1;
+    }
+    Some(at)
 }
 
 /// Comments of one block as one text.

@@ -184,7 +184,16 @@ impl Reader {
         let mut from = 0;
         loop {
             self.block.clear();
-            let next = block::parse(line, from, base, self.signs, &mut self.block);
+            let next = match self.flow(line) {
+                None => block::parse(line, from, base, self.signs, &mut self.block),
+                Some((start, end)) => {
+                    let what = String::from_utf8_lossy(&line[start..end]).into();
+                    let span = Span::new(base + start as u32, base + end as u32);
+                    self.block.faults.push((Fault::MacroLanguage { what }, span));
+                    self.block.span = span;
+                    None
+                }
+            };
             self.block.span = trimmed(src, self.block.span);
             self.check_letters(src);
             self.control_signs(out);
@@ -201,6 +210,37 @@ impl Reader {
                 Some(_) | None => return,
             }
         }
+    }
+
+    /// Where a block of the control's own flow begins and ends: a program number with a word of it.
+    fn flow(&self, line: &[u8]) -> Option<(usize, usize)> {
+        let program = &self.lower.settings.dialect.program;
+        let letter = program.number.filter(|_| !program.flow.is_empty())? as u8;
+        let blanks = |at: usize| at + line[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
+        let digits = |at: usize| at + line[at..].iter().take_while(|b| b.is_ascii_digit()).count();
+        let is = |at: usize, byte: u8| line.get(at).is_some_and(|b| b.eq_ignore_ascii_case(&byte));
+        let mut start = blanks(0);
+        if is(start, b'/') {
+            start = blanks(start + 1);
+        }
+        if self.signs.number != 0 && is(start, self.signs.number) {
+            start = blanks(digits(blanks(start + 1)));
+        }
+        if !is(start, letter) {
+            return None;
+        }
+        let after = blanks(start + 1);
+        let name = match line.get(after)? {
+            b'<' => after + memchr::memchr(b'>', &line[after..])? + 1,
+            b'[' => after + memchr::memchr(b']', &line[after..])? + 1,
+            b'#' => digits(after + 1),
+            _ => digits(after),
+        };
+        let word = blanks(name);
+        let end = word + line[word..].iter().take_while(|b| b.is_ascii_alphabetic()).count();
+        let found = program.flow.iter().any(|w| w.as_bytes().eq_ignore_ascii_case(&line[word..end]));
+        let named = name > after && line.get(after).is_some_and(|b| !b.is_ascii_digit());
+        (found || named).then_some((start, line.trim_ascii_end().len()))
     }
 
     /// A block, whichever way it was read.

@@ -15,6 +15,9 @@ use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
 
+/// Most turns of one arc.
+const MOST_TURNS: u32 = 9999;
+
 impl Lower {
     /// Codes of motion, cycles and patterns, with the block's axis words.
     pub(super) fn motion_codes(
@@ -33,6 +36,7 @@ impl Lower {
             self.push(end.span, Op::EndCycle, out);
             self.state.after_cycle |= self.state.cycle != InForce::None;
             self.state.cycle = InForce::None;
+            self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
         }
         let motion = codes.iter().find_map(|c| Some((c, motion_of(c.meaning)?)));
         if let Some((code, motion)) = motion {
@@ -49,7 +53,7 @@ impl Lower {
                 }
                 self.state.cycle = InForce::None;
             }
-            self.state.motion = Know::Said(motion);
+            self.set_motion(motion);
             self.state.after_cycle = false;
         }
         if let (Some(cycle), Some(pattern)) = (cycle, pattern) {
@@ -171,6 +175,7 @@ impl Lower {
                 self.fault(Fault::NotSupported { code, name }, block, out);
             }
         }
+        let turns = self.turns(words, src, out);
         let radius = words.take(self.roles.radius);
         let mut centre = [None, None, None];
         for (place, letter) in self.roles.centre.into_iter().enumerate() {
@@ -197,13 +202,35 @@ impl Lower {
                 }
             }
             None if by_centre => {
-                let from = if rules.centre_absolute { CentreFrom::Zero } else { CentreFrom::Start };
+                let Some(from) = self.centre_from(block, out) else { return };
+                let complete = rules.centre_complete && from == CentreFrom::Zero;
+                if let (Fact::Known(plane), true, false) = (plane, complete, self.now.failed) {
+                    let (first, second, _) = plane.axes();
+                    if let Some(axis) = [first, second].into_iter().find(|a| centre[*a as usize].is_none()) {
+                        let word = char::from(self.roles.centre[axis as usize]).to_string().into();
+                        let code = "G90.1".into();
+                        return self.fault(Fault::WordMissing { code, word }, block, out);
+                    }
+                }
                 Centre::Point { words: centre, from }
             }
             None if self.now.failed => return,
             None => return self.fault(Fault::ArcWithoutCentre, block, out),
         };
-        self.push(block, Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns: 0, said })), out);
+        self.push(block, Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said })), out);
+    }
+
+    /// Turns of an arc beyond the first, partial one.
+    fn turns(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> u32 {
+        let Some(word) = words.take(self.roles.turns) else { return 0 };
+        match self.whole(&word, src, out) {
+            Some(turns @ 1..=MOST_TURNS) => turns - 1,
+            Some(_) => {
+                self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                0
+            }
+            None => 0,
+        }
     }
 
     /// Whether words are incremental where the dialect's cycles are not known to take them.

@@ -3,14 +3,16 @@
 //! A number without a decimal point is read by the dialect's rule, and a rule that is in doubt is
 //! reported once for each kind of quantity. Nothing is rounded.
 
-use ncc_dialects::{Bare, Quantity};
+use ncc_dialects::{Bare, PointRule, Quantity};
 use ncc_ir::canon::{Fact, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::CentreFrom;
 use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::{Digits, Value, Word};
+use super::facts::Know;
 use super::lower::Lower;
 use crate::{BareNumber, Batch};
 
@@ -23,6 +25,19 @@ pub(super) struct UnitsSeen {
     pub(super) mixed: bool,
     /// The first number that was scaled by `only` though the units in force there are open.
     pub(super) relied: Option<Span>,
+}
+
+/// Whether the text says that centres are measured otherwise than at power-on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CentreSeen {
+    other: bool,
+    /// The first arc that relied on its saying nothing else.
+    relied: Option<Span>,
+}
+
+fn centre_open() -> Fault {
+    let name = "centre of an arc that is measured as other blocks say".into();
+    Fault::NotSupported { code: "I J K".into(), name }
 }
 
 impl Lower {
@@ -51,7 +66,8 @@ impl Lower {
             Quantity::Seconds => (Unit::Second, Fact::Entry),
             Quantity::Factor => (Unit::One, Fact::Entry),
             Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => {
-                if digits.point {
+                let whole = quantity != Quantity::Speed && digits.scale > 0;
+                if digits.point && (rules.point == PointRule::Never || whole) {
                     return self.refuse(Fault::PointNotAllowed { word: src.text(word.span) }, word.span, out);
                 }
                 if quantity == Quantity::Milliseconds {
@@ -111,9 +127,39 @@ impl Lower {
         Some(num)
     }
 
+    /// From where the words of an arc's centre are measured here; `None` if it is refused (reported).
+    pub(super) fn centre_from(&mut self, at: Span, out: &mut Batch) -> Option<CentreFrom> {
+        let dialect = self.settings.dialect;
+        let Some(row) = &dialect.power_on.centre else {
+            return Some(if dialect.arc.centre_absolute { CentreFrom::Zero } else { CentreFrom::Start });
+        };
+        match self.state.centre {
+            Know::Said(from) | Know::Taken(from) => Some(from),
+            Know::Unsaid => Some(row.value.into()),
+            // Open here, but if the whole text says no other, it is that at power-on.
+            Know::Lost if self.centre_seen.other => self.refuse(centre_open(), at, out),
+            Know::Lost => {
+                self.centre_seen.relied.get_or_insert(at);
+                Some(row.value.into())
+            }
+        }
+    }
+
+    /// The program says from where the words of a centre are measured.
+    pub(super) fn set_centre_mode(&mut self, from: CentreFrom, out: &mut Batch) {
+        self.state.centre = Know::Said(from);
+        let first = self.settings.dialect.power_on.centre.as_ref().map(|row| row.value.into());
+        if first != Some(from) {
+            self.centre_seen.other = true;
+            if let Some(at) = self.centre_seen.relied.take() {
+                out.report(centre_open(), at);
+            }
+        }
+    }
+
     /// A whole number of a word, not negative.
     pub(super) fn whole(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<u32> {
-        let num = self.number(word, Quantity::Integer, src, out)?;
+        let num = self.number(word, Quantity::Integer, src, out)?.trimmed();
         match u32::try_from(num.mantissa) {
             Ok(whole) => Some(whole),
             Err(_) => self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),

@@ -25,12 +25,18 @@ pub(super) struct Roles {
     pub(super) centre: [u8; 3],
     /// Letters of axes, a bit each.
     pub(super) axes: u32,
+    /// Letters of rotary axes, a bit each.
+    pub(super) rotary: u32,
+    /// Letter of an arc's turns.
+    pub(super) turns: u8,
 }
 
 impl Roles {
     pub(super) fn new(dialect: &Dialect) -> Roles {
         let letter = |role| dialect.letter_for(role).map_or(0, |c| c as u8);
         let axes = dialect.address.iter().filter(|row| row.role == Role::Axis);
+        let bits =
+            |bits: u32, row: &ncc_dialects::Address| bits | 1 << (row.letter as u8).saturating_sub(b'A');
         Roles {
             feed: letter(Role::Feed),
             speed: letter(Role::Speed),
@@ -39,7 +45,9 @@ impl Roles {
             corrector: letter(Role::Corrector),
             radius: letter(Role::Radius),
             centre: [letter(Role::CentreX), letter(Role::CentreY), letter(Role::CentreZ)],
-            axes: axes.fold(0, |bits, row| bits | 1 << (row.letter as u8).saturating_sub(b'A')),
+            axes: axes.clone().fold(0, bits),
+            rotary: axes.filter(|row| row.quantity == ncc_dialects::Quantity::Angle).fold(0, bits),
+            turns: dialect.arc.turns.map_or(0, |c| c as u8),
         }
     }
 }
@@ -121,6 +129,9 @@ impl Lower {
                     self.code(at, word, codes, src, out);
                 }
                 letter if letter == number_letter => {
+                    if at > 0 && dialect.block.number_first {
+                        self.fault(Fault::WordUnused { word: src.text(word.span) }, word.span, out);
+                    }
                     if self.now.number.is_some() {
                         self.fault(Fault::WordTwice { letter: char::from(letter) }, word.span, out);
                     }
@@ -149,7 +160,16 @@ impl Lower {
                 }
             }
         }
-        codes.sort_by_key(|c| rank(c.meaning));
+        codes.sort_by_key(|c| self.rank(c.meaning));
+    }
+
+    /// When a code's function happens within its block, by this dialect.
+    pub(super) fn rank(&self, meaning: Meaning) -> u8 {
+        match (meaning, self.settings.dialect.block.off_before_move) {
+            (Meaning::StopSpindleTurning, true) => rank(Meaning::StartSpindleClockwise),
+            (Meaning::CoolantOff, true) => rank(Meaning::FloodOn),
+            _ => rank(meaning),
+        }
     }
 
     /// Looks a code up.
@@ -216,7 +236,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::SetFeedMode(_) => 4,
         Meaning::SetOriginOffsets(_) => 5,
         Meaning::ClearFrame(_) => 6,
-        Meaning::SetReturnLevel(_) => 7,
+        Meaning::SetReturnLevel(_) | Meaning::SetCentreMode(_) => 7,
         Meaning::StopCutterRadiusCompensation => 8,
         Meaning::SetMotionControlMode(_) | Meaning::Advise(..) => 9,
         Meaning::SetSpindleMode(_) | Meaning::LimitSpindleSpeed => 9,

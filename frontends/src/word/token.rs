@@ -17,6 +17,8 @@ pub(super) struct Signs {
     comment: u8,
     /// Last byte of a comment; 0 if the line's end closes it.
     close: u8,
+    /// After it the rest of the line is a comment; 0 for none.
+    line: u8,
     /// Ends a block before the line's end; 0 for none.
     end: u8,
     /// Marks what can be skipped; 0 for none.
@@ -33,6 +35,7 @@ impl Signs {
         Signs {
             comment: first(&dialect.comment.open),
             close: first(&dialect.comment.close),
+            line: first(&dialect.comment.line),
             end: first(&dialect.block.end),
             skip: first(&dialect.block.skip),
             number: dialect.block.number.map_or(0, |c| c as u8),
@@ -129,6 +132,7 @@ const OPERATORS: &[(&[u8], Token)] = &[
     (b"ABS", Token::Function),
     (b"FIX", Token::Function),
     (b"FUP", Token::Function),
+    (b"EXISTS", Token::Function),
     (b"EXP", Token::Function),
     (b"POW", Token::Function),
     (b"BIN", Token::Function),
@@ -193,16 +197,16 @@ impl<'t> Tokens<'t> {
     }
 
     /// Sets a comment aside; `Err` if it is not closed.
-    fn comment(&mut self) -> Result<(), Refusal> {
+    fn comment(&mut self, close: u8) -> Result<(), Refusal> {
         let start = self.raw.span().end;
         let rest = self.raw.remainder();
-        if self.signs.close == 0 {
+        if close == 0 {
             let end = start + rest.len();
             self.raw.bump(rest.len());
             self.comments.push((start, end));
             return Ok(());
         }
-        match memchr::memchr(self.signs.close, rest) {
+        match memchr::memchr(close, rest) {
             Some(len) => {
                 self.raw.bump(len + 1);
                 self.comments.push((start, start + len));
@@ -331,7 +335,12 @@ impl Iterator for Tokens<'_> {
                 Raw::System if self.signs.macros => return Some(Ok(self.spanned(Token::System))),
                 Raw::System => return self.unexpected(),
                 Raw::Sign if byte == self.signs.comment => {
-                    if let Err(refusal) = self.comment() {
+                    if let Err(refusal) = self.comment(self.signs.close) {
+                        return Some(Err(refusal));
+                    }
+                }
+                Raw::Sign if byte == self.signs.line => {
+                    if let Err(refusal) = self.comment(0) {
                         return Some(Err(refusal));
                     }
                 }

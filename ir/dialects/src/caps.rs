@@ -51,7 +51,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         } else {
             let cap = |row: &CycleRow| CycleCap {
                 kind: row.kind.clone(),
-                returns: returns.clone(),
+                returns: match row.feed_to_level {
+                    true => vec![ReturnLevel::Retract],
+                    false => returns.clone(),
+                },
                 dwell: row.dwell.is_some(),
                 clearance: false,
                 parameter: true,
@@ -134,14 +137,16 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),
         helix: everything || dialect.can.flat || dialect.arc.helix,
-        arc_turns: everything || dialect.can.flat || dialect.name_with(NameRole::Turns).is_some(),
+        arc_turns: everything
+            || dialect.can.flat
+            || dialect.arc.turns.is_some()
+            || dialect.name_with(NameRole::Turns).is_some(),
         skip_levels: if everything { 10 } else { dialect.block.skip_levels },
         incremental: everything || says(Meaning::SetDistanceMode(ncc_ir::canon::Distance::Incremental)),
         inch: true,
         flat: dialect.can.flat,
         inherits_motion: everything || dialect.can.inherits_motion,
         synchronised: everything,
-        messages: everything || dialect.can.flat || names(NameMeaning::Message),
         path_modes: match (everything, dialect.can.flat) {
             (true, _) => u16::MAX,
             (false, true) => {
@@ -162,6 +167,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
             .filter(|(kind, value)| everything || says_advice(dialect, *kind, *value))
             .collect(),
+        messages: everything
+            || dialect.can.flat
+            || !dialect.comment.message.is_empty()
+            || names(NameMeaning::Message),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
     }
 }

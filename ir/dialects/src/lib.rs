@@ -14,6 +14,7 @@ mod load;
 mod meaning;
 mod merge;
 mod names;
+mod power_on;
 mod schema;
 mod settings;
 
@@ -21,5 +22,6 @@ pub use fault::{DialectError, DialectFault, Place, Text};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::Meaning;
 pub use names::*;
+pub use power_on::*;
 pub use schema::*;
 pub use settings::{CYCLE_APPROACH, SettingError, Settings};

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
-use ncc_ir::program::FrameSlot;
+use ncc_ir::program::{CentreFrom, FrameSlot};
 use serde::{Deserialize, Deserializer};
 
 /// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
@@ -21,6 +21,8 @@ pub enum Meaning {
     SelectPlane(Plane),
     SetFeedMode(FeedMode),
     SetReturnLevel(ReturnLevel),
+    /// From where the words of a centre are measured. No statement: an arc carries it.
+    SetCentreMode(CentreFrom),
     SetOriginOffsets(u16),
     ClearFrame(FrameSlot),
     UseMachineCoordinates,
@@ -88,6 +90,8 @@ impl fmt::Display for Meaning {
             Meaning::SetFeedMode(FeedMode::InverseTime) => "SET_FEED_MODE inverse-time",
             Meaning::SetReturnLevel(ReturnLevel::Initial) => "SET_RETURN_LEVEL initial",
             Meaning::SetReturnLevel(ReturnLevel::Retract) => "SET_RETURN_LEVEL retract",
+            Meaning::SetCentreMode(CentreFrom::Zero) => "SET_CENTRE_MODE absolute",
+            Meaning::SetCentreMode(CentreFrom::Start) => "SET_CENTRE_MODE incremental",
             Meaning::SetOriginOffsets(number) => return write!(f, "SET_ORIGIN_OFFSETS {number}"),
             Meaning::ClearFrame(slot) => {
                 return write!(f, "CLEAR_FRAME {}", format!("{slot:?}").to_lowercase());
@@ -153,6 +157,8 @@ impl FromStr for Meaning {
             ("SET_FEED_MODE", "inverse-time") => Meaning::SetFeedMode(FeedMode::InverseTime),
             ("SET_RETURN_LEVEL", "initial") => Meaning::SetReturnLevel(ReturnLevel::Initial),
             ("SET_RETURN_LEVEL", "retract") => Meaning::SetReturnLevel(ReturnLevel::Retract),
+            ("SET_CENTRE_MODE", "absolute") => Meaning::SetCentreMode(CentreFrom::Zero),
+            ("SET_CENTRE_MODE", "incremental") => Meaning::SetCentreMode(CentreFrom::Start),
             ("SET_ORIGIN_OFFSETS", number) => {
                 Meaning::SetOriginOffsets(number.parse().map_err(|_| format!("no work offset: {text}"))?)
             }

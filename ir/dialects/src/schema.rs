@@ -5,13 +5,12 @@
 
 use std::collections::BTreeMap;
 
-use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Units};
 use ncc_ir::caps::Caps;
-use ncc_ir::cycle::Approach;
 use serde::Deserialize;
 
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
+use crate::power_on::{ApproachName, PathName, PowerOn, ReturnLevelName, SafeStart};
 
 /// A dialect's dictionary.
 #[derive(Clone, Debug, Deserialize)]
@@ -112,6 +111,10 @@ pub struct ProgramRules {
     pub number: Option<char>,
     /// Another character that may stand for that letter when reading.
     pub number_also: Option<char>,
+    /// Whether the main program is written without a number, and the number is a comment.
+    pub unnumbered_main: bool,
+    /// Whether a call writes the number with the least digits as well, because it is a name.
+    pub padded_calls: bool,
     /// Least digits of a written program number.
     pub number_digits: usize,
     /// Whether the comment after the number is a title.
@@ -121,10 +124,20 @@ pub struct ProgramRules {
     /// Whether the control has variables, expressions and jumps (macro language). They are not
     /// translated; where there are none, their signs are no words at all.
     pub macros: bool,
+    /// Words that make the control's own flow of a block that begins with the program number: `sub`,
+    /// `call`, `while`. Such a block is refused by name.
+    pub flow: Vec<String>,
     /// Digits of the program number in a call word that packs the count in front; 0 if it does not.
     pub packed_call_digits: u32,
     /// Who says so.
     pub source: String,
+}
+
+impl ProgramRules {
+    /// Letter of the main program's number, where it is written.
+    pub fn main_number(&self) -> Option<char> {
+        self.number.filter(|_| !self.unnumbered_main)
+    }
 }
 
 /// Comments.
@@ -135,6 +148,13 @@ pub struct CommentRules {
     pub open: String,
     /// What closes one; empty if the line's end does.
     pub close: String,
+    /// A sign besides, after which the rest of the line is a comment; only read.
+    pub line: String,
+    /// How a comment begins that is a message to the operator: `MSG,`. Capitals and small letters are
+    /// the same.
+    pub message: String,
+    /// How comments begin that do something else, which is not translated.
+    pub active: Vec<String>,
     /// Whether only capitals, digits and simple signs can be shown.
     pub upper_ascii: bool,
     /// Characters besides capitals, digits and the blank that can be shown, where `upper_ascii`.
@@ -161,6 +181,13 @@ pub struct BlockRules {
     pub m_codes: u8,
     /// Letter of the block number.
     pub number: Option<char>,
+    /// Whether the block number can only be the first word.
+    pub number_first: bool,
+    /// Whether a feed counts in the units that were in force before the block, also if the block
+    /// changes them.
+    pub feed_before_units: bool,
+    /// Whether the spindle and the coolant are switched off before the block's move; else after it.
+    pub off_before_move: bool,
     /// What marks a block that can be skipped; empty if there is no such thing.
     pub skip: String,
     /// Highest skip level that can be written after the mark; 1 means the mark alone. Where the
@@ -312,6 +339,10 @@ pub struct ArcRules {
     pub centre_absolute: bool,
     /// Whether a third axis makes a helix.
     pub helix: bool,
+    /// Letter of the number of turns, the first one, full or not, counted.
+    pub turns: Option<char>,
+    /// Whether a centre from program zero needs both its words; else one that is missing is zero.
+    pub centre_complete: bool,
     /// Greatest difference of the two radii, in mm; more is an error.
     pub tolerance: f64,
     /// Who says so.
@@ -330,8 +361,18 @@ pub struct CycleRules {
     pub approach: ApproachName,
     /// Whether Z and R stay in force from one cycle code to the next.
     pub retained: bool,
+    /// Whether they stay so only as long as it is the same code.
+    pub retained_by_code: bool,
+    /// Whether a cycle works along the normal of any plane, with that axis's letter for the depth.
+    pub any_plane: bool,
+    /// Whether words of rotary axes can stand in a cycle's block.
+    pub no_rotary: bool,
+    /// Whether no motion is in force after the code that ends a cycle: axis words alone are an error.
+    pub ends_motion: bool,
     /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
     pub repeat: Option<char>,
+    /// Whether 0 is no such number.
+    pub repeat_once: bool,
     /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
     /// needs one.
     pub peck_clearance: Option<f64>,
@@ -359,6 +400,12 @@ pub struct CycleRow {
     /// Letter of the peck.
     #[serde(default)]
     pub peck: Option<char>,
+    /// Whether the dwell must be said.
+    #[serde(default)]
+    pub dwell_needed: bool,
+    /// Whether the feed out of the hole goes on to the level where the tool is left.
+    #[serde(default)]
+    pub feed_to_level: bool,
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
@@ -420,6 +467,13 @@ pub struct CodeRow {
     /// that has called it. They may be words of a code that is refused.
     #[serde(default)]
     pub blocks: String,
+    /// Whether the code is one of other machines than the dictionary is about, so that a text which has
+    /// it is hardly written for one of these.
+    #[serde(default)]
+    pub other_machine: bool,
+    /// Whether a length offset without its word is that of the tool in the spindle.
+    #[serde(default)]
+    pub own_tool: bool,
     /// Whether a code of units leaves the feed in the machine's basic system.
     #[serde(default)]
     pub feed_stays: bool,
@@ -434,52 +488,6 @@ pub struct CodeRow {
     pub sure: bool,
     /// Who says so.
     pub source: String,
-}
-
-/// State at power-on: what is taken for granted of a program that does not say.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-#[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
-pub struct PowerOn {
-    pub units: Option<PowerOnFact<UnitsName>>,
-    pub distance: Option<PowerOnFact<DistanceName>>,
-    pub plane: Option<PowerOnFact<PlaneName>>,
-    pub feed_mode: Option<PowerOnFact<FeedModeName>>,
-    pub return_level: Option<PowerOnFact<ReturnLevelName>>,
-    pub motion: Option<PowerOnFact<MotionName>>,
-    pub work_offset: Option<PowerOnFact<u16>>,
-    pub length_offset: Option<PowerOnFact<u32>>,
-    pub no_origin_shift: Option<PowerOnFact<bool>>,
-}
-
-/// A fact at power-on.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PowerOnFact<T> {
-    /// What it is.
-    pub value: T,
-    /// Whether every such machine has it so; else it is one parameter's usual value, and a
-    /// program that relies on it is told so.
-    #[serde(default)]
-    pub always: bool,
-    /// Who says so.
-    pub source: String,
-}
-
-/// What a written program states before its first event.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
-pub enum SafeStart {
-    Units,
-    Plane,
-    Distance,
-    FeedMode,
-    NoCompensation,
-    NoLengthOffset,
-    NoCycle,
-    /// In a block of its own.
-    WorkOffset,
 }
 
 /// A question that the sources leave open.
@@ -517,48 +525,6 @@ pub struct Can {
     pub only_path: Option<PathName>,
     /// Any structure of the IR can be carried (the text form).
     pub everything: bool,
-}
-
-macro_rules! names {
-    ($( $(#[$doc:meta])* $name:ident => $target:ty { $($variant:ident),* } )*) => { $(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-        #[serde(rename_all = "kebab-case")]
-        #[allow(missing_docs)]
-        pub enum $name { $($variant),* }
-
-        impl From<$name> for $target {
-            fn from(name: $name) -> $target {
-                match name { $($name::$variant => <$target>::$variant),* }
-            }
-        }
-    )* };
-}
-
-names! {
-    /// A [`Units`] in a data file.
-    UnitsName => Units { Mm, Inch }
-    /// A [`Distance`] in a data file.
-    DistanceName => Distance { Absolute, Incremental }
-    /// A [`Plane`] in a data file.
-    PlaneName => Plane { Xy, Zx, Yz }
-    /// A [`FeedMode`] in a data file.
-    FeedModeName => FeedMode { PerMinute, PerRevolution, InverseTime }
-    /// A [`ReturnLevel`] in a data file.
-    ReturnLevelName => ReturnLevel { Initial, Retract }
-    /// An [`Approach`] in a data file.
-    ApproachName => Approach { PlaneFirst, RaiseFirst, RetractFirst }
-    /// A [`PathMode`] in a data file.
-    PathName => PathMode { ExactStop, ExactPath, Continuous }
-    /// A motion in a data file.
-    MotionName => ncc_ir::canon::Motion { Traverse, Feed }
-}
-
-#[allow(clippy::derivable_impls)] // The macro makes the type.
-impl Default for ApproachName {
-    fn default() -> ApproachName {
-        ApproachName::RaiseFirst
-    }
 }
 
 /// Rows of `code` by number: G and M codes in tenths (`G5.1` is 51).

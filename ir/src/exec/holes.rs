@@ -390,7 +390,7 @@ impl Exec {
         }
         let level = || match cycle.return_level.unwrap_or(self.modes.return_level) {
             ReturnLevel::Retract => cycle.retract,
-            ReturnLevel::Initial => cycle.initial,
+            ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
         };
         let out_to = cycle.return_plane.unwrap_or_else(level);
         self.go_to_level(normal, out_to, false, span, out)?;

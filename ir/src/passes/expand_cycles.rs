@@ -368,7 +368,11 @@ pub(super) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool
         return one(walk.at.position[plane.axes().2 as usize]) && one(in_force.return_plane);
     }
     one(walk.at.position[plane.axes().2 as usize])
-        && (returns == Some(ReturnLevel::Retract) || one(in_force.initial))
+        && (returns == Some(ReturnLevel::Retract)
+            || one(in_force.initial)
+                && in_force
+                    .initial
+                    .is_some_and(|i| cycle.approach.initial(i, retract) == way.initial(i, retract)))
 }
 
 /// A level of a cycle as an absolute word.
@@ -420,6 +424,10 @@ pub(super) fn hole(
         Some(ReturnLevel::Retract) => None,
         Some(ReturnLevel::Initial) => {
             let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
+            let initial = match (cycle.approach, in_force.retract) {
+                (Approach::RaiseFirst, None) => return Err(unknown.clone()),
+                (way, retract) => way.initial(initial, retract.unwrap_or(initial)),
+            };
             (in_force.retract != Some(initial)).then(|| only(normal, at(initial, normal, walk.unit())))
         }
         None => return Err(Fault::EntryFactNeeded { fact: ModeName::ReturnLevel }),

@@ -158,7 +158,8 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
     if !says(ReturnLevel::Initial) {
         return Level::No;
     }
-    if same(in_force.initial) {
+    let not_below = in_force.initial.zip(in_force.retract).is_some_and(|(initial, r)| initial >= r);
+    if same(in_force.initial) && not_below {
         return Level::Is(ReturnLevel::Initial);
     }
     match behind_first(body, i, in_force, walk, target) {

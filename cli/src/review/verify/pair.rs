@@ -220,7 +220,7 @@ fn said_by_custom(job: &Job) -> Modes {
             SafeStart::FeedMode => said.feed_mode = Some(FeedMode::PerMinute),
             SafeStart::NoLengthOffset => said.length_offset = Some(0),
             SafeStart::WorkOffset => said.work_offset = Some(1),
-            SafeStart::NoCompensation | SafeStart::NoCycle => {}
+            SafeStart::NoCompensation | SafeStart::NoCycle | SafeStart::Centre => {}
         }
     }
     if job.to.dialect.safe_start.is_empty() && !job.to.dialect.can.everything {

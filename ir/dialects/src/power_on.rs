@@ -1,0 +1,100 @@
+//! What a dictionary says of the state at power-on and of the safe start, and how it spells modes.
+
+use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Units};
+use ncc_ir::cycle::Approach;
+use ncc_ir::program::CentreFrom;
+use serde::Deserialize;
+
+/// State at power-on: what is taken for granted of a program that does not say.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+#[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
+pub struct PowerOn {
+    pub units: Option<PowerOnFact<UnitsName>>,
+    pub distance: Option<PowerOnFact<DistanceName>>,
+    pub plane: Option<PowerOnFact<PlaneName>>,
+    pub feed_mode: Option<PowerOnFact<FeedModeName>>,
+    pub return_level: Option<PowerOnFact<ReturnLevelName>>,
+    pub motion: Option<PowerOnFact<MotionName>>,
+    pub work_offset: Option<PowerOnFact<u16>>,
+    pub length_offset: Option<PowerOnFact<u32>>,
+    pub no_origin_shift: Option<PowerOnFact<bool>>,
+    /// From where the words of a centre are measured, where codes say it.
+    pub centre: Option<PowerOnFact<CentreName>>,
+}
+
+/// A fact at power-on.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PowerOnFact<T> {
+    /// What it is.
+    pub value: T,
+    /// Whether every such machine has it so; else it is one parameter's usual value, and a
+    /// program that relies on it is told so.
+    #[serde(default)]
+    pub always: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// What a written program states before its first event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // The names are those of `ncc_ir::canon::Modes`.
+pub enum SafeStart {
+    Units,
+    Plane,
+    Distance,
+    FeedMode,
+    NoCompensation,
+    NoLengthOffset,
+    NoCycle,
+    /// In a block of its own.
+    WorkOffset,
+    /// Words of a centre from the start point.
+    Centre,
+}
+
+macro_rules! names {
+    ($( $(#[$doc:meta])* $name:ident => $target:ty { $($variant:ident),* } )*) => { $(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        #[allow(missing_docs)]
+        pub enum $name { $($variant),* }
+
+        impl From<$name> for $target {
+            fn from(name: $name) -> $target {
+                match name { $($name::$variant => <$target>::$variant),* }
+            }
+        }
+    )* };
+}
+
+names! {
+    /// A [`Units`] in a data file.
+    UnitsName => Units { Mm, Inch }
+    /// A [`Distance`] in a data file.
+    DistanceName => Distance { Absolute, Incremental }
+    /// A [`Plane`] in a data file.
+    PlaneName => Plane { Xy, Zx, Yz }
+    /// A [`FeedMode`] in a data file.
+    FeedModeName => FeedMode { PerMinute, PerRevolution, InverseTime }
+    /// A [`ReturnLevel`] in a data file.
+    ReturnLevelName => ReturnLevel { Initial, Retract }
+    /// An [`Approach`] in a data file.
+    ApproachName => Approach { PlaneFirst, RaiseFirst, RetractFirst }
+    /// A [`PathMode`] in a data file.
+    PathName => PathMode { ExactStop, ExactPath, Continuous }
+    /// A [`CentreFrom`] in a data file.
+    CentreName => CentreFrom { Start, Zero }
+    /// A motion in a data file.
+    MotionName => ncc_ir::canon::Motion { Traverse, Feed }
+}
+
+#[allow(clippy::derivable_impls)] // The macro makes the type.
+impl Default for ApproachName {
+    fn default() -> ApproachName {
+        ApproachName::RaiseFirst
+    }
+}
