@@ -126,6 +126,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 let radius = (from[first] - centre[0]).hypot(from[second] - centre[1]);
                 Happening::Arc { normal, centre, sweep, radius }
             }
+            What::Thread(pitch, chuck) => Happening::Thread { pitch, chuck },
             What::Dwell(seconds) => Happening::Dwell(seconds),
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
@@ -146,7 +147,11 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             Plain {
                 what,
                 at: event.machine,
-                feed: if cutting { event.feed.unwrap_or(0.0) } else { 0.0 },
+                feed: match what {
+                    Happening::Thread { pitch, .. } => pitch * speed,
+                    _ if cutting => event.feed.unwrap_or(0.0),
+                    _ => 0.0,
+                },
                 tool: event.tool.map(i64::from),
                 speed: match event.spindle {
                     Spindle::Stopped => 0.0,

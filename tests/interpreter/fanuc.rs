@@ -32,6 +32,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         initial_known: false,
         return_initial: modes.return_initial,
         depth: 0,
+        rigid: false,
         haas,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
@@ -109,6 +110,8 @@ struct Control {
     initial_known: bool,
     return_initial: bool,
     depth: u32,
+    /// M29 was said.
+    rigid: bool,
     haas: bool,
 }
 
@@ -208,7 +211,7 @@ impl Control {
             }
             match g / 10 {
                 g @ 0..=3 => motion_last = Some(g),
-                g @ (73 | 80 | 81 | 82 | 83 | 85 | 89) => motion_last = Some(g),
+                g @ (73 | 74 | 80..=86 | 89) => motion_last = Some(g),
                 4 => dwell = true,
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
@@ -250,6 +253,7 @@ impl Control {
             Some(4) => self.m.turn(Spindle::Counterclockwise),
             Some(7) => self.m.cool(self.m.coolant.0, true),
             Some(8) => self.m.cool(true, self.m.coolant.1),
+            Some(29) if !self.haas => self.rigid = true,
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
         }
@@ -262,7 +266,7 @@ impl Control {
 
         match motion_last {
             Some(80) => self.end_cycle(),
-            Some(cycle @ (73 | 81..=89)) => {
+            Some(cycle @ (73 | 74 | 81..=89)) => {
                 if self.cycle.is_none() {
                     self.initial = self.m.at[2];
                     self.initial_known = self.m.settled[2];
@@ -315,6 +319,7 @@ impl Control {
 
     fn end_cycle(&mut self) {
         self.cycle = None;
+        self.rigid = false;
         self.kept = Kept::default();
     }
 
@@ -410,12 +415,20 @@ impl Control {
             (73, Some(q), _) if q > 0.0 => Hole::Break(q),
             (83, Some(q), _) if q > 0.0 => Hole::Peck(q),
             (85, ..) => Hole::Bore(0.0),
+            (74 | 84, _, p) => {
+                let into = if cycle == 74 { Spindle::Counterclockwise } else { Spindle::Clockwise };
+                Hole::Tap(into, self.rigid || self.haas, p.unwrap_or(0.0))
+            }
+            (86, ..) => Hole::Stop,
             (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),
             _ => return self.m.halt("a cycle without its Q or P"),
         };
         let back = if self.return_initial { self.initial.max(r) } else { r };
         for _ in 0..times {
             let to = self.m.target(axes)?;
+            if let Hole::Tap(_, true, _) = hole {
+                self.m.turn(Spindle::Stopped);
+            }
             self.m.traverse(to);
             self.m.hole(hole, r, z, back)?;
         }

@@ -88,7 +88,7 @@ impl Control {
                 self.m.record(What::Dwell(seconds));
             }
             Some(80) => self.cycle = None,
-            Some(81 | 82 | 85) => self.call_up(g.unwrap_or(81), &words, unit)?,
+            Some(81 | 82 | 84..=86) => self.call_up(g.unwrap_or(81), &words, unit)?,
             Some(24) => self.circle(&words, unit)?,
             Some(25) => self.grid(&words, unit)?,
             Some(0..=3) => {
@@ -205,6 +205,8 @@ impl Control {
         };
         let hole = match code {
             81 => Hole::Drill,
+            84 => Hole::Tap(Spindle::Clockwise, false, 0.0),
+            86 => Hole::Stop,
             82 => match value(words, 'D') {
                 Some(seconds) => Hole::DrillDwell(seconds),
                 None => return self.m.halt("G82 without D"),

@@ -117,6 +117,9 @@ pub enum What {
         /// Degrees, positive counter-clockwise seen from the positive end of the axis.
         sweep: f64,
     },
+    /// In step with the spindle to the event's place: millimetres a turn, and whether a chuck makes good
+    /// the rest.
+    Thread(f64, bool),
     /// Standing still for so many seconds.
     Dwell(f64),
     /// The spindle was started, stopped or reversed.
@@ -186,6 +189,11 @@ pub enum Hole {
     Break(f64),
     /// Feed in, dwell if not zero, feed out to R.
     Bore(f64),
+    /// In and out in step with the spindle, which turns this way first; rigid, or in a chuck; a dwell at
+    /// both ends if not zero.
+    Tap(Spindle, bool, f64),
+    /// Feed in, spindle stopped, rapid out, spindle clockwise.
+    Stop,
 }
 
 /// The machine, as far as programs see it.
@@ -451,6 +459,36 @@ impl Machine {
                 }
                 self.straight(level(self.at, z))?;
             }
+            Hole::Tap(into, rigid, seconds) => {
+                let (Some(feed), Some(speed)) = (self.feed, self.speed.filter(|s| *s > 0.0)) else {
+                    return self.halt("a thread without feed or speed");
+                };
+                let back = match into {
+                    Spindle::Clockwise => Spindle::Counterclockwise,
+                    _ => Spindle::Clockwise,
+                };
+                if rigid {
+                    self.turn(into);
+                }
+                self.thread(level(self.at, z), feed / speed, !rigid);
+                if rigid {
+                    self.turn(Spindle::Stopped);
+                }
+                self.stay(seconds);
+                self.turn(back);
+                self.thread(level(self.at, r), feed / speed, !rigid);
+                if rigid {
+                    self.turn(Spindle::Stopped);
+                }
+                self.stay(seconds);
+                if !rigid {
+                    self.turn(into);
+                }
+            }
+            Hole::Stop => {
+                self.straight(level(self.at, z))?;
+                self.turn(Spindle::Stopped);
+            }
             Hole::Bore(seconds) => {
                 self.straight(level(self.at, z))?;
                 if seconds > 0.0 {
@@ -460,8 +498,23 @@ impl Machine {
             }
         }
         self.traverse(level(self.at, back));
+        if hole == Hole::Stop {
+            self.turn(Spindle::Clockwise);
+        }
         self.settled[2] = true;
         Ok(())
+    }
+
+    /// In step with the spindle.
+    pub fn thread(&mut self, to: Place, pitch: f64, chuck: bool) {
+        self.at = to;
+        self.record(What::Thread(pitch, chuck));
+    }
+
+    fn stay(&mut self, seconds: f64) {
+        if seconds > 0.0 {
+            self.record(What::Dwell(seconds));
+        }
     }
 
     /// Spindle words.

@@ -461,6 +461,7 @@ impl<'a> Control<'a> {
             }
         }
         if moves {
+            self.hold_spindle();
             self.go(w, &axes)?;
             if let Some(cycle) = self.modal {
                 self.suppressed = false;

@@ -146,7 +146,7 @@ const STOPS: &[(&str, &str)] = &[
     ("MCALL CYCLE83(5,0,1,-9,,-3,,1,0,0,1,1)", "DAM"),
     ("MCALL CYCLE83(5,0,1,-9,,-3,,0,0,0,.5,1)", "FRF"),
     ("MCALL CYCLE83(5,0,1,-9,,-13,,0,0,0,1,1)", "61107"),
-    ("MCALL CYCLE84(5,0,1,-9)", "CYCLE84"),
+    ("MCALL CYCLE84(5,0,1,-9)", "CYCLE84 without"),
     ("MCALL CYCLE85(5,0,1,-9)", "FFR"),
     ("F50 G0\nCYCLE85(5,0,1,-9,,,50,50)\nG1 X5", "no F"),
     ("F50 G0\nMCALL CYCLE81(5,0,1,-9)\nG18\nX5", "G17"),

@@ -5,12 +5,13 @@
 //! peck of its own needs the two apart.
 
 use ncc_dialects::{CallKind, CallRow, NameMeaning, ParameterRole as Role, Quantity};
-use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Units};
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
+use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Spindle, Turn, Units};
+use ncc_ir::caps::CycleForm;
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Nanos, Num, POW10, Unit};
-use ncc_ir::program::{Coord, Op, Point, Stmt};
+use ncc_ir::program::{Coord, Op, Pitch, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::InForce;
 
@@ -114,7 +115,8 @@ impl Writer {
         }
         self.settle_edge(span, sink)?;
         let text = self.cycle_text(cycle, stmt, sink)?;
-        let bores = matches!(cycle.kind, CycleKind::Bore { .. });
+        let bores = matches!(cycle.kind, CycleKind::Bore { .. })
+            && self.cycle_row(&cycle.kind, cycle.feed.is_some())?.place(Role::FeedIn).is_some();
         match (&cycle.feed, bores) {
             (Some(feed), false) => {
                 if !self.standing.feed_said || self.standing.feed != feed.literal() {
@@ -130,7 +132,7 @@ impl Writer {
                 self.standing.feed_said = false;
             }
         }
-        let row = self.cycle_row(&cycle.kind)?;
+        let row = self.cycle_row(&cycle.kind, cycle.feed.is_some())?;
         self.tell_unsure(row, "START_CYCLE", span, sink);
         match with {
             1 => {
@@ -146,23 +148,35 @@ impl Writer {
         }
     }
 
-    fn cycle_row(&self, kind: &CycleKind) -> Result<&'static CallRow, Fault> {
+    fn cycle_row(&self, kind: &CycleKind, feed: bool) -> Result<&'static CallRow, Fault> {
         let call = match kind {
             CycleKind::Drill => CallKind::Drill,
             CycleKind::DrillDwell { .. } => CallKind::DrillDwell,
             CycleKind::DrillPeck { .. } | CycleKind::DrillBreak { .. } => CallKind::DrillPeck,
             CycleKind::Bore { .. } => CallKind::Bore,
-            CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {
-                return Err(cannot(format!("the cycle {}", kind.name())));
-            }
+            CycleKind::Tap(tap) if tap.chuck => CallKind::Tap,
+            CycleKind::Tap(_) => CallKind::TapRigid,
+            CycleKind::FineBore(_) => CallKind::BoreFine,
+            CycleKind::BoreStop(_) => CallKind::BoreStop,
         };
-        self.dialect.call_for(call).ok_or_else(|| cannot(format!("the cycle {}", kind.name())))
+        if !CycleForm::Stated.says(kind) {
+            return Err(cannot(format!("the cycle {} in this form", kind.name())));
+        }
+        // Of several, the one that says what there is to say and no more.
+        let fits = |row: &&CallRow| match kind {
+            CycleKind::Bore { dwell: Some(_), feed_out: None } if !feed => row.place(Role::FeedIn).is_none(),
+            CycleKind::Bore { .. } => row.place(Role::FeedIn).is_some(),
+            CycleKind::BoreStop(bore) => row.place(Role::Dwell).is_some() == bore.dwell.is_some(),
+            _ => true,
+        };
+        let mut rows = self.dialect.call.iter().filter(|row| row.kind == call);
+        rows.find(fits).ok_or_else(|| cannot(format!("the cycle {}", kind.name())))
     }
 
     /// The call of a cycle.
     fn cycle_text(&mut self, cycle: &Cycle, stmt: &Stmt, sink: &mut Sink) -> Result<String, Fault> {
         let span = stmt.span;
-        let row = self.cycle_row(&cycle.kind)?;
+        let row = self.cycle_row(&cycle.kind, cycle.feed.is_some())?;
         let mut inserted = Inserted::default();
         self.words.need_plane(cycle.plane, &mut inserted)?;
         self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
@@ -172,7 +186,35 @@ impl Writer {
         let mut to = Arguments::new(row);
         self.planes(&planes, &mut to, span, sink)?;
         match &cycle.kind {
-            CycleKind::Drill | CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {}
+            CycleKind::Drill => {}
+            CycleKind::Tap(tap) => self.tap(tap, &mut to, span, sink)?,
+            CycleKind::FineBore(bore) => {
+                if let Some(dwell) = &bore.dwell {
+                    self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
+                }
+                to.put(Role::Sense, sense(bore.turn.map_or(Spindle::Stopped, Turn::spindle)).into())?;
+                let plane = cycle.plane.known().or(self.words.force.plane).unwrap_or(Plane::Xy);
+                let (first, second, normal) = plane.axes();
+                let roles =
+                    [(first, Role::ShiftFirst), (second, Role::ShiftSecond), (normal, Role::ShiftNormal)];
+                if let Shift::Stated(by) = &bore.shift {
+                    for (axis, role) in roles {
+                        match &by[axis as usize] {
+                            Some(by) => self.argument(&mut to, role, by, span, sink)?,
+                            None => to.put(role, "0".into())?,
+                        }
+                    }
+                }
+                if let Some(angle) = &bore.angle {
+                    self.argument(&mut to, Role::Orientation, angle, span, sink)?;
+                }
+            }
+            CycleKind::BoreStop(bore) => {
+                if let Some(dwell) = &bore.dwell {
+                    self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
+                }
+                to.put(Role::Sense, sense(bore.turn.map_or(Spindle::Stopped, Turn::spindle)).into())?;
+            }
             CycleKind::DrillDwell { dwell } => self.argument(&mut to, Role::Dwell, dwell, span, sink)?,
             CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell } => {
                 self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;
@@ -192,6 +234,11 @@ impl Writer {
                 to.put(Role::Way, "0".into())?;
                 self.distance(Role::Lift, lift, &mut to, span, sink)?;
             }
+            CycleKind::Bore { dwell, .. } if row.place(Role::FeedIn).is_none() => {
+                if let Some(dwell) = dwell {
+                    self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
+                }
+            }
             CycleKind::Bore { dwell, feed_out } => {
                 if let Some(dwell) = dwell {
                     self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
@@ -204,6 +251,36 @@ impl Writer {
             }
         }
         Ok(to.text())
+    }
+
+    /// Arguments of a tapping cycle.
+    fn tap(&mut self, tap: &Tap, to: &mut Arguments, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if let Some(dwell) = &tap.dwell {
+            self.argument(to, Role::Dwell, dwell, span, sink)?;
+        }
+        to.put(Role::After, sense(tap.after).into())?;
+        if tap.chuck {
+            to.put(Role::Back, sense(tap.turn.back().spindle()).into())?;
+            to.put(Role::Encoder, if tap.pitch == Pitch::Feed { "1" } else { "0" }.into())?;
+        } else {
+            let speed = self.standing.speed.filter(|speed| !speed.is_zero());
+            let speed = speed.ok_or_else(|| cannot("a rigid tap whose speed is not known"))?;
+            self.argument(to, Role::Speed, &Expr::Num(speed), span, sink)?;
+            self.argument(to, Role::SpeedOut, &Expr::Num(speed), span, sink)?;
+        }
+        let Pitch::Stated(pitch) = &tap.pitch else { return Ok(()) };
+        let in_force = match self.words.force.units {
+            Some(Units::Mm) => Unit::Mm,
+            Some(Units::Inch) => Unit::Inch,
+            None => Unit::Entry,
+        };
+        let pitch = pitch.literal().filter(|n| matches!(n.unit, Unit::Entry) || n.unit == in_force);
+        let pitch = pitch.ok_or_else(|| cannot("a pitch in another unit"))?.trimmed();
+        let sign = if tap.turn == Turn::Counterclockwise { "-" } else { "" };
+        let digits = format!("{:0>1$}", pitch.mantissa.unsigned_abs(), usize::from(pitch.scale) + 1);
+        let (whole, rest) = digits.split_at(digits.len() - usize::from(pitch.scale));
+        let point = if rest.is_empty() { "" } else { "." };
+        to.put(Role::ThreadPitch, format!("{sign}{whole}{point}{rest}"))
     }
 
     /// Plane of return, retract plane and bottom.
@@ -384,6 +461,15 @@ impl Writer {
             to.set(axis, Coord { value: Expr::Num(value), distance: Fact::Known(distance) });
         }
         Ok(to)
+    }
+}
+
+/// The machine's code for what the spindle does, as an argument.
+fn sense(spindle: Spindle) -> &'static str {
+    match spindle {
+        Spindle::Clockwise => "3",
+        Spindle::Counterclockwise => "4",
+        Spindle::Stopped => "5",
     }
 }
 

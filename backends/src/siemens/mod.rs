@@ -51,6 +51,8 @@ struct Standing {
     modal: Modal,
     /// The feed that the program has in force, if it is known.
     feed: Option<Num>,
+    /// The speed of the spindle, if it is known.
+    speed: Option<Num>,
     /// Whether the text has the same in force; a boring cycle leaves none that is known.
     feed_said: bool,
     /// Whether a tool change has made an edge active that the program did not ask for.
@@ -58,7 +60,8 @@ struct Standing {
 }
 
 impl Standing {
-    const START: Standing = Standing { modal: Modal::Off, feed: None, feed_said: true, edge_waits: false };
+    const START: Standing =
+        Standing { modal: Modal::Off, feed: None, speed: None, feed_said: true, edge_waits: false };
 
     /// What holds if the block between `before` and now may have been skipped.
     fn join(&mut self, before: Standing) {
@@ -67,6 +70,9 @@ impl Standing {
         }
         if self.feed != before.feed {
             self.feed = None;
+        }
+        if self.speed != before.speed {
+            self.speed = None;
         }
         self.feed_said &= before.feed_said;
         self.edge_waits |= before.edge_waits;

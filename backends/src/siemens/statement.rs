@@ -43,7 +43,6 @@ impl Writer {
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
             | Op::Advise(_)
-            | Op::SetSpindleSpeed(_)
             | Op::SetSpindleMode(_)
             | Op::LimitSpindleSpeed(_)
             | Op::SelectTool(_)
@@ -80,6 +79,10 @@ impl Writer {
             Op::UseMachineCoordinates => {
                 self.raw = true;
                 Ok(())
+            }
+            Op::SetSpindleSpeed(speed) => {
+                self.standing.speed = speed.literal();
+                self.words.statement(stmt, sink)
             }
             Op::SetFeedRate(feed) => {
                 self.feed(feed, span, sink)?;

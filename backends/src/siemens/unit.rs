@@ -136,7 +136,7 @@ impl Writer {
     /// What is in force is not known: after a call, at a label.
     fn forget(&mut self) {
         self.words.forget();
-        (self.standing.feed, self.standing.feed_said) = (None, true);
+        (self.standing.feed, self.standing.speed, self.standing.feed_said) = (None, None, true);
     }
 
     pub(super) fn label(&mut self, name: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {

@@ -60,6 +60,7 @@ pub(crate) struct CycleCode {
     pub retract: Letter,
     pub dwell: Option<Dwell>,
     pub peck: Option<Letter>,
+    pub hand: Option<Turn>,
 }
 
 /// A bolt circle's words.
@@ -117,6 +118,8 @@ pub(crate) struct Codes {
     pub spindle_clockwise: Option<Code>,
     pub spindle_counterclockwise: Option<Code>,
     pub spindle_stop: Option<Code>,
+    /// Makes the tapping cycle called up next a rigid one.
+    pub rigid_tapping: Option<Code>,
     pub change_tool: Option<Code>,
     /// Functions of the machine, by name.
     pub machine_functions: Vec<(&'static str, Code)>,
@@ -208,7 +211,8 @@ impl<'d> Finder<'d> {
                     Some(word) => Some(self.dwell(word)?),
                     None => None,
                 },
-                peck: match row.peck {
+                hand: row.hand.map(ncc_dialects::Hand::turn),
+                peck: match row.peck.or(row.shift) {
                     Some(letter) => Some(self.letter(letter, Quantity::Length)?),
                     None => None,
                 },
@@ -305,6 +309,7 @@ impl Codes {
             spindle_clockwise: code(Meaning::StartSpindleClockwise),
             spindle_counterclockwise: code(Meaning::StartSpindleCounterclockwise),
             spindle_stop: code(Meaning::StopSpindleTurning),
+            rigid_tapping: code(Meaning::RigidTapping),
             change_tool: code(Meaning::ChangeTool),
             machine_functions: dialect
                 .code

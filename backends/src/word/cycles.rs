@@ -5,7 +5,8 @@
 //! its feed.
 
 use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
-use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
+use ncc_ir::caps::CycleForm;
+use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
@@ -181,11 +182,63 @@ impl Writer {
             }
             CycleKind::Bore { dwell, .. } => dwell.as_ref(),
             CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {
-                return Err(cannot(format!("the cycle {}", cycle.kind.name())));
+                return self.driven_code(&cycle.kind);
             }
         };
         let code = self.codes.cycle(cycle.kind.name(), dwell.is_some());
         code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
+    }
+
+    /// The row of a cycle that drives the spindle.
+    fn driven_code(&self, kind: &CycleKind) -> Result<&CycleCode, Fault> {
+        let cannot = || cannot(format!("the cycle {} in this form", kind.name()));
+        if !CycleForm::Control.says(kind) {
+            return Err(cannot());
+        }
+        let dwells = match kind {
+            CycleKind::Tap(tap) => tap.dwell.is_some(),
+            CycleKind::FineBore(bore) => bore.dwell.is_some(),
+            CycleKind::BoreStop(bore) => bore.dwell.is_some(),
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::Bore { .. } => return Err(cannot()),
+        };
+        let name = |row: &CycleCode| match kind {
+            CycleKind::Tap(tap) if !tap.chuck && row.kind == "tap" => self.codes.rigid_tapping.is_some(),
+            CycleKind::Tap(tap) if tap.chuck && row.kind == "tap" => !self.options.rigid_taps,
+            _ => row.kind == kind.name(),
+        };
+        let hand = |row: &CycleCode| match kind {
+            CycleKind::Tap(tap) => row.hand == Some(tap.turn),
+            _ => true,
+        };
+        let mut rows = self.codes.cycles.iter();
+        let row = rows.find(|row| name(row) && hand(row) && (row.dwell.is_some() || !dwells));
+        row.ok_or_else(cannot)
+    }
+
+    /// The code that makes a tap rigid, in a block of its own before its call.
+    fn make_rigid(&mut self, held: &Held, sink: &mut Sink) -> Result<(), Fault> {
+        let by_code = |cycle: &Cycle| {
+            let row = self.cycle_code(cycle);
+            cycle.kind.name() == "tap-rigid" && row.is_ok_and(|row| row.kind == "tap")
+        };
+        if !by_code(&held.cycle) || held.before.as_deref().is_some_and(by_code) {
+            return Ok(());
+        }
+        let code = self.codes.rigid_tapping.ok_or_else(|| cannot("rigid tapping"))?;
+        let number = self.block.number.take();
+        if !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        self.admit(&Need::new(Rank::Alone).code(Some(code)), sink)?;
+        self.block.code(Part::Tail, &code);
+        self.flush(false, sink);
+        self.block.number = number;
+        Ok(())
     }
 
     /// Calls a held cycle up without a hole, before what relies on it being in force.
@@ -215,6 +268,7 @@ impl Writer {
         stmt: &Stmt,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
+        self.make_rigid(&held, sink)?;
         let mut inserted = Inserted::default();
         let cycle = &held.cycle;
         let coords = at.into_iter().flat_map(|p| p.axes.iter().flatten());
@@ -308,7 +362,12 @@ impl Writer {
                 (Some(peck), dwell.as_ref())
             }
             CycleKind::Bore { dwell, .. } => (None, dwell.as_ref()),
-            CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => (None, None),
+            CycleKind::Tap(tap) => (None, tap.dwell.as_ref()),
+            CycleKind::FineBore(bore) => match &bore.shift {
+                Shift::Parameter(amount) => (Some(amount), bore.dwell.as_ref()),
+                Shift::Stated(_) => return Err(cannot("fine boring with a stated shift")),
+            },
+            CycleKind::BoreStop(bore) => (None, bore.dwell.as_ref()),
         };
         // A change keeps code and plane, and needs a word that makes a hole.
         let moves = at.is_some_and(|p| !p.is_empty());
@@ -318,6 +377,7 @@ impl Writer {
                 && self.dialect.cycles.retained
                 && self.force.motion == Some(Motion::Cycle)
                 && b.plane == cycle.plane
+                && b.kind.name() == cycle.kind.name()
                 && self.cycle_code(b).is_ok_and(|r| r.code == row.code)
         });
         let same_kind = before.is_some_and(|b| b.kind == cycle.kind);

@@ -62,6 +62,8 @@ struct Options {
     circle_about_zero: bool,
     /// A grid's words are the whole extent of a row; else the pitch.
     grid_extent: bool,
+    /// Tapping is rigid, without a code that makes it so.
+    rigid_taps: bool,
 }
 
 /// Writes a program in a word-address dialect.
@@ -136,6 +138,7 @@ impl Writer {
                 circle_clockwise: settings.get("g24_direction") == "cw",
                 circle_about_zero: settings.get("g24_centre") == "zero",
                 grid_extent: settings.get("g25_xy") == "extent",
+                rigid_taps: settings.get(ncc_dialects::TAPPING) == "rigid",
             },
             numbering: match rules.number {
                 Some(_) => layout.numbering,

@@ -71,6 +71,26 @@ fn said(row: &CallRow) -> Vec<(&'static str, String)> {
             }
             all
         }
+        CallKind::Tap => {
+            let tap = "tap(clockwise, pitch 1.25mm, dwell 0.5s, after clockwise)";
+            vec![("", holes(tap)), ("left", holes(&tap.replace("clockwise", "counterclockwise")))]
+        }
+        CallKind::TapRigid => {
+            let tap = "tap-rigid(clockwise, pitch 1.25mm, dwell 0.5s, after clockwise)";
+            let speed = |tap: &str| format!("SET_SPINDLE_SPEED(500)\n{}", holes(tap));
+            vec![("", speed(tap)), ("left", speed(&tap.replace("clockwise", "counterclockwise")))]
+        }
+        CallKind::BoreFine => vec![(
+            "",
+            holes(
+                "bore-fine(shift along (X -0.2mm, Y 0.3mm, Z 0.1mm), after stopped, clockwise, dwell 0.5s, angle 45deg)",
+            ),
+        )],
+        CallKind::BoreStop if has(ParameterRole::Dwell) => {
+            vec![("", holes("bore-stop(after stopped, counterclockwise, dwell 0.5s, program-stop)"))]
+        }
+        CallKind::BoreStop => vec![("", holes("bore-stop(after stopped, clockwise, program-stop)"))],
+        CallKind::Bore if !has(ParameterRole::FeedIn) => vec![("", holes("bore(dwell 0.5s)"))],
         CallKind::Bore => vec![(
             "",
             holes("bore(dwell 0.5s, feed-out 140mm)").replace("plane-first)", "plane-first, feed 70mm)"),

@@ -1,6 +1,6 @@
 //! G and M codes, the canned cycles and patterns that they call up, and their letters.
 
-use ncc_dialects::{CodeRow, CycleRow, Dialect, Family, Meaning, NameMeaning, PatternRow, Quantity};
+use ncc_dialects::{CodeRow, CycleRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity};
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
 use ncc_ir::program::CentreFrom;
@@ -139,6 +139,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         }
         // The subprogram's own end is compared with it.
         Meaning::Return => vec![with_procedure(7, Said::new("CALL(7)"))],
+        Meaning::RigidTapping => {
+            let hole = "START_CYCLE(tap-rigid(clockwise, pitch feed, after stopped), XY, retract 3mm, depth -12mm, return initial, plane-first, feed 120mm)\nHOLE(X 10mm)";
+            vec![Said { after: "END_CYCLE()".to_owned(), ..Said::new(hole) }]
+        }
         Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),
         // Spindle, coolant, stops: what is said by its name alone.
         function => {
@@ -234,7 +238,12 @@ impl Default for Values {
 /// A cycle's call in the text form.
 fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
     let dwell = format!("dwell {}s", values.dwell);
+    if row.kind.starts_with("tap") {
+        return tap_text(d, row, values);
+    }
     let own: Vec<String> = match row.kind.as_str() {
+        "bore-fine" => vec![format!("shift parameter {}mm, after clockwise", values.peck)],
+        "bore-stop" => vec!["after clockwise".to_owned()],
         "drill-peck" => vec![format!("peck {}mm, clearance parameter", values.peck)],
         "drill-break" => vec![format!("peck {}mm, lift parameter", values.peck)],
         _ => Vec::new(),
@@ -258,9 +267,26 @@ fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
     )
 }
 
+/// A tapping cycle's call in the text form.
+fn tap_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
+    let drill = CycleRow { kind: "drill".into(), dwell: None, ..row.clone() };
+    let turn = match row.hand {
+        Some(Hand::Left) => "counterclockwise",
+        Some(Hand::Right) | None => "clockwise",
+    };
+    let dwells = match row.dwell {
+        Some(_) => format!(", dwell {0}s, settle {0}s", values.dwell),
+        None => String::new(),
+    };
+    let after = if row.kind == "tap" { turn } else { "stopped" };
+    let tap = format!("{}({turn}, pitch feed{dwells}, after {after})", row.kind);
+    cycle_text(d, &drill, values).replacen("drill", &tap, 1)
+}
+
 /// Whether a cycle is the one that is written for its kind.
 fn writes(d: &Dialect, row: &CycleRow) -> bool {
-    let same = |c: &&CycleRow| c.kind == row.kind && c.dwell.is_some() == row.dwell.is_some();
+    let same =
+        |c: &&CycleRow| c.kind == row.kind && c.dwell.is_some() == row.dwell.is_some() && c.hand == row.hand;
     let code = d.code.iter().find(|c| c.code == row.code);
     code.is_some_and(|c| c.write)
         && d.cycle.iter().find(same).is_some_and(|first| std::ptr::eq(first, row))
@@ -280,13 +306,13 @@ fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
     if let Some(word) = row.dwell {
         tries.push((format!("{} {}", row.code, word.letter), Values { dwell: "0.123", ..usual.clone() }));
     }
-    if let Some(letter) = row.peck {
+    if let Some(letter) = row.peck.or(row.shift) {
         tries.push((format!("{} {letter}", row.code), Values { peck: "1.234", ..usual.clone() }));
     }
-    let primary = d
-        .cycle
-        .iter()
-        .find(|c| c.kind == row.kind && c.dwell.is_some() == row.dwell.is_some() && writes(d, c));
+    let primary = d.cycle.iter().find(|c| {
+        let same = c.kind == row.kind && c.dwell.is_some() == row.dwell.is_some() && c.hand == row.hand;
+        same && writes(d, c)
+    });
     for (name, values) in tries {
         let say = format!("{}\nHOLE(X 10mm, Y 20mm)", cycle_text(d, row, &values));
         let said = Said { after: "END_CYCLE()".to_owned(), ..Said::new(say) };

@@ -100,7 +100,10 @@ fn users(d: &Dialect, letter: char) -> Vec<String> {
         }
     }
     for row in &d.cycle {
-        let of = row.depth == letter || row.retract == letter || row.peck == Some(letter);
+        let of = row.depth == letter
+            || row.retract == letter
+            || row.peck == Some(letter)
+            || row.shift == Some(letter);
         if (of || row.dwell.is_some_and(|w| w.letter == letter)) && !users.contains(&row.code) {
             users.push(row.code.clone());
         }

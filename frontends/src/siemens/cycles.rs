@@ -33,18 +33,18 @@ pub(super) struct Arguments {
 
 impl Arguments {
     /// The argument with a role, and what it counts.
-    fn get(&self, role: ParameterRole) -> Option<(Given, Quantity)> {
+    pub(super) fn get(&self, role: ParameterRole) -> Option<(Given, Quantity)> {
         let place = self.row.place(role)?;
         Some(((*self.given.get(place)?)?, self.row.parameters[place].quantity?))
     }
 
     /// Name of the parameter with a role.
-    fn name(&self, role: ParameterRole) -> &'static str {
+    pub(super) fn name(&self, role: ParameterRole) -> &'static str {
         self.row.place(role).map_or("", |place| &self.row.parameters[place].name)
     }
 
     /// Place of the argument with a role, or of the call.
-    fn at(&self, role: ParameterRole) -> Span {
+    pub(super) fn at(&self, role: ParameterRole) -> Span {
         self.get(role).map_or(self.span, |(given, _)| given.span)
     }
 }
@@ -228,6 +228,13 @@ impl Lower {
             CallKind::Drill => CycleKind::Drill,
             CallKind::DrillDwell => dwell.map_or(CycleKind::Drill, |dwell| CycleKind::DrillDwell { dwell }),
             CallKind::DrillPeck => self.pecks(a, [reference, safety, depth], dwell, src, out)?,
+            CallKind::Tap => self.chuck_tap(a, return_plane.unit, dwell, out)?,
+            CallKind::TapRigid => self.rigid_tap(a, return_plane.unit, dwell, src, out)?,
+            CallKind::BoreFine => self.fine_bore(a, plane.known(), dwell, src, out)?,
+            CallKind::BoreStop => self.stop_bore(a, dwell, out)?,
+            CallKind::Bore if a.row.place(Role::FeedIn).is_none() => {
+                CycleKind::Bore { dwell, feed_out: None }
+            }
             CallKind::Bore => {
                 let into = self.needed(a, Role::FeedIn, src, out)?;
                 let back = self.needed(a, Role::FeedOut, src, out)?;

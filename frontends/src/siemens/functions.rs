@@ -211,6 +211,10 @@ impl Lower {
         if let Some(given) = words.take(self.role_letter(Role::Speed))
             && let Some(num) = self.number(given, Quantity::Speed, src, out)
         {
+            if matches!(&self.state.cycle, InForce::Active(c) if c.kind.name() == "tap-rigid") {
+                let name = "speed while a tapping cycle is modal";
+                self.not_supported(&src.text(given.span), name, given.span, out);
+            }
             self.push(given.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
         }
     }

@@ -29,6 +29,7 @@ mod sort;
 #[cfg(test)]
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;
+mod threads;
 mod token;
 mod tree;
 mod unit;

@@ -145,7 +145,11 @@ impl Lower {
             | CallKind::Drill
             | CallKind::DrillDwell
             | CallKind::DrillPeck
-            | CallKind::Bore => {
+            | CallKind::Bore
+            | CallKind::Tap
+            | CallKind::TapRigid
+            | CallKind::BoreFine
+            | CallKind::BoreStop => {
                 return None;
             }
         })

@@ -2,13 +2,13 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{CYCLE_APPROACH, CycleRow, Quantity};
-use ncc_ir::canon::{Distance, Fact, Plane, ReturnLevel};
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
+use ncc_dialects::{CYCLE_APPROACH, CycleRow, Hand, Quantity, TAPPING};
+use ncc_ir::canon::{Distance, Fact, Plane, ReturnLevel, Spindle};
+use ncc_ir::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
-use ncc_ir::program::{Coord, Move, Op};
+use ncc_ir::program::{Coord, Move, Op, Pitch};
 use ncc_ir::source::Span;
 
 use super::Source;
@@ -106,7 +106,8 @@ impl Lower {
                 self.missing(code, letter, out);
             }
         }
-        let kind = self.kind(row, dwell, peck, code, out);
+        let rigid = self.tap_is_rigid(row, code.span, out);
+        let kind = self.kind(row, rigid, dwell, peck, code, out);
         let feed = self.now.feed;
         if feed.is_some() {
             self.state.cycle_feed = feed;
@@ -190,7 +191,8 @@ impl Lower {
         }
         active.dwell = given.dwell.or(active.dwell);
         active.peck = given.peck.or(active.peck);
-        if let Ok(kind) = kind_of(row, active.dwell, active.peck) {
+        let rigid = active.kind.name() == "tap-rigid";
+        if let Ok(kind) = kind_of(row, rigid, active.dwell, active.peck) {
             active.kind = kind;
         }
         self.now.recall = true;
@@ -312,7 +314,7 @@ impl Lower {
             let word = words.take(d.letter as u8)?;
             self.number(&word, d.quantity, src, out)
         });
-        let peck = row.peck.and_then(|letter| {
+        let peck = row.peck.or(row.shift).and_then(|letter| {
             let word = words.take(letter as u8)?;
             let num = self.number(&word, Quantity::Length, src, out)?;
             if num.is_zero() {
@@ -324,15 +326,26 @@ impl Lower {
         Given { depth, retract, dwell, peck }
     }
 
+    /// Whether a row's tapping is rigid: by its own kind, by a code before it, or as the machine is set.
+    fn tap_is_rigid(&mut self, row: &CycleRow, at: Span, out: &mut Batch) -> bool {
+        match row.kind.as_str() {
+            "tap-rigid" => true,
+            "tap" if self.state.rigid => true,
+            "tap" => self.option(TAPPING, at, out) == "rigid",
+            _ => false,
+        }
+    }
+
     fn kind(
         &mut self,
         row: &CycleRow,
+        rigid: bool,
         dwell: Option<Num>,
         peck: Option<Num>,
         code: &Code,
         out: &mut Batch,
     ) -> Option<CycleKind> {
-        match kind_of(row, dwell, peck) {
+        match kind_of(row, rigid, dwell, peck) {
             Ok(kind) => Some(kind),
             Err(letter) => {
                 if !self.now.failed {
@@ -358,7 +371,7 @@ struct Given {
 }
 
 /// The cycle of a row; `Err` with the letter of the word that it lacks.
-fn kind_of(row: &CycleRow, dwell: Option<Num>, peck: Option<Num>) -> Result<CycleKind, char> {
+fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -> Result<CycleKind, char> {
     if row.dwell_needed && dwell.is_none() {
         return Err(row.dwell.map_or(' ', |d| d.letter));
     }
@@ -381,6 +394,22 @@ fn kind_of(row: &CycleRow, dwell: Option<Num>, peck: Option<Num>) -> Result<Cycl
             pause: None,
             dwell: bottom,
         },
+        "tap" | "tap-rigid" => {
+            let turn = row.hand.unwrap_or(Hand::Right).turn();
+            let chuck = !rigid;
+            let after = if chuck { turn.spindle() } else { Spindle::Stopped };
+            let (dwell, settle) = (bottom.clone(), bottom);
+            CycleKind::Tap(Box::new(Tap { turn, pitch: Pitch::Feed, chuck, dwell, settle, after }))
+        }
+        "bore-fine" => {
+            let shift = Shift::Parameter(Expr::Num(peck.ok_or(row.shift.unwrap_or(' '))?));
+            let after = Some(Spindle::Clockwise);
+            CycleKind::FineBore(Box::new(FineBore { turn: None, dwell: bottom, angle: None, shift, after }))
+        }
+        "bore-stop" => {
+            let after = Some(Spindle::Clockwise);
+            CycleKind::BoreStop(BoreStop { turn: None, dwell: bottom, stop: false, after })
+        }
         "bore" => CycleKind::Bore { dwell: bottom, feed_out: None },
         // The loader lets no other kind pass.
         _ => CycleKind::Drill,

@@ -107,6 +107,8 @@ pub(super) struct State {
     /// Whether a tool was selected.
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
+    /// Whether the next tapping cycle is a rigid one.
+    pub(super) rigid: bool,
     /// A feed that was said in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
 }
@@ -130,6 +132,7 @@ impl State {
             feed: Know::Lost,
             tool: Know::Lost,
             cycle: InForce::Lost,
+            rigid: false,
             cycle_feed: None,
         }
     }
@@ -154,6 +157,11 @@ impl State {
             self.motion = Know::Lost;
         }
         if self.cycle != before.cycle {
+            self.cycle = InForce::Lost;
+        }
+        if self.rigid != before.rigid {
+            // A block that may be skipped decides: which cycle it is, is not known.
+            self.rigid = false;
             self.cycle = InForce::Lost;
         }
         self.cycle_feed = self.cycle_feed.or(before.cycle_feed);

@@ -173,6 +173,10 @@ impl Lower {
                 }
                 Op::MachineFunction(name.into())
             }
+            Meaning::RigidTapping => {
+                self.state.rigid = true;
+                return;
+            }
             Meaning::FloodOn => Op::FloodOn,
             Meaning::MistOn => Op::MistOn,
             Meaning::CoolantOff => Op::CoolantOff,

@@ -37,6 +37,7 @@ impl Lower {
             self.state.after_cycle |= self.state.cycle != InForce::None;
             self.state.cycle = InForce::None;
             self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
+            self.state.rigid = false;
         }
         let motion = codes.iter().find_map(|c| Some((c, motion_of(c.meaning)?)));
         if let Some((code, motion)) = motion {
@@ -52,6 +53,7 @@ impl Lower {
                     self.push(code.span, Op::EndCycle, out);
                 }
                 self.state.cycle = InForce::None;
+                self.state.rigid = false;
             }
             self.set_motion(motion);
             self.state.after_cycle = false;

@@ -245,6 +245,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::StartSpindleClockwise | Meaning::StartSpindleCounterclockwise => 11,
         Meaning::FloodOn | Meaning::MistOn => 12,
         Meaning::Dwell | Meaning::MachineFunction(_) => 13,
+        Meaning::RigidTapping => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
         Meaning::UseMachineCoordinates => 15,
         Meaning::OrientSpindle => 16,

@@ -183,7 +183,7 @@ fn reading_goes_on_at_the_next_block() {
 
 #[test]
 fn one_slip_is_reported_once() {
-    let text = "G21 G90 G54\nG43 H1 G1 X0. Z1. F1O0\nX2.\nG84 X1. Z-5. R2.\nX3.\nM6\nM30\n";
+    let text = "G21 G90 G54\nG43 H1 G1 X0. Z1. F1O0\nX2.\nG88 X1. Z-5. R2.\nX3.\nM6\nM30\n";
     let found = diagnostics(&read("fanuc", text), text);
     let errors: Vec<_> = found.iter().filter(|d| !d.starts_with("Assumed")).collect();
     assert_eq!(errors.len(), 2, "{errors:?}");

@@ -49,8 +49,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             };
             all.into_iter().map(cap).collect()
         } else {
-            let cap = |row: &CycleRow| CycleCap {
-                kind: row.kind.clone(),
+            let cap = |row: &CycleRow, kind: &str| CycleCap {
+                kind: kind.to_owned(),
                 returns: match row.feed_to_level {
                     true => vec![ReturnLevel::Retract],
                     false => returns.clone(),
@@ -61,7 +61,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 strokes: false,
                 feed_out: false,
                 form: CycleForm::Control,
-                turns: Vec::new(),
+                turns: row.hand.map(|hand| hand.turn()).into_iter().collect(),
                 lift_at_feed: Some(false),
             };
             let called = |row: &CallRow| {
@@ -80,7 +80,13 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 });
                 caps.collect::<Vec<_>>()
             };
-            dialect.cycle.iter().map(cap).chain(dialect.call.iter().flat_map(called)).collect()
+            // A code beside the cycle's makes a tap rigid.
+            let rigid = says(Meaning::RigidTapping);
+            let rows = dialect.cycle.iter().flat_map(|row| {
+                let also = (rigid && row.kind == "tap").then_some("tap-rigid");
+                std::iter::once(cap(row, &row.kind)).chain(also.map(|kind| cap(row, kind)))
+            });
+            rows.chain(dialect.call.iter().flat_map(called)).collect()
         },
         circle_pattern: everything
             || calls(CallKind::Circle).is_some()

@@ -26,7 +26,17 @@ pub(crate) struct Places {
 }
 
 /// Kinds of cycles, as `ncc_ir::cycle::CycleKind::name` has them.
-pub(crate) const CYCLE_KINDS: &[&str] = &["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
+pub(crate) const CYCLE_KINDS: &[&str] = &[
+    "drill",
+    "drill-dwell",
+    "drill-peck",
+    "drill-break",
+    "bore",
+    "tap",
+    "tap-rigid",
+    "bore-fine",
+    "bore-stop",
+];
 
 /// Makes a row of each code and word that a row stands for.
 pub(crate) fn spread(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fault> {
@@ -119,6 +129,12 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         let wrong = |wrong| fault(&row.code, wrong, &places.cycle, at);
         if !CYCLE_KINDS.contains(&row.kind.as_str()) {
             return Err(wrong("has a kind that there is not"));
+        }
+        if row.kind.starts_with("tap") != row.hand.is_some() {
+            return Err(wrong("needs `hand` if it is tapping, and has none else"));
+        }
+        if (row.kind == "bore-fine") != row.shift.is_some() {
+            return Err(wrong("needs `shift` if it is fine boring, and has none else"));
         }
         if dialect.cycle.iter().take(at).any(|other| other.code == row.code) {
             return Err(wrong("stands twice"));

@@ -24,4 +24,4 @@ pub use meaning::Meaning;
 pub use names::*;
 pub use power_on::*;
 pub use schema::*;
-pub use settings::{CYCLE_APPROACH, SettingError, Settings};
+pub use settings::{CYCLE_APPROACH, SettingError, Settings, TAPPING};

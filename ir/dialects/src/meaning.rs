@@ -50,6 +50,8 @@ pub enum Meaning {
     StartSpindleClockwise,
     StartSpindleCounterclockwise,
     StopSpindleTurning,
+    /// The tapping cycle called up next is a rigid one.
+    RigidTapping,
     ChangeTool,
     /// A function of the machine that no dialect has a word for, by its name.
     MachineFunction(&'static str),
@@ -120,6 +122,7 @@ impl fmt::Display for Meaning {
             Meaning::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
             Meaning::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
             Meaning::StopSpindleTurning => "STOP_SPINDLE_TURNING",
+            Meaning::RigidTapping => "RIGID_TAPPING",
             Meaning::ChangeTool => "CHANGE_TOOL",
             Meaning::MachineFunction(name) => return write!(f, "MACHINE_FUNCTION {name}"),
             Meaning::FloodOn => "FLOOD_ON",
@@ -190,6 +193,7 @@ impl FromStr for Meaning {
             ("START_SPINDLE_CLOCKWISE", "") => Meaning::StartSpindleClockwise,
             ("START_SPINDLE_COUNTERCLOCKWISE", "") => Meaning::StartSpindleCounterclockwise,
             ("STOP_SPINDLE_TURNING", "") => Meaning::StopSpindleTurning,
+            ("RIGID_TAPPING", "") => Meaning::RigidTapping,
             ("CHANGE_TOOL", "") => Meaning::ChangeTool,
             // A dictionary lives as long as the process.
             ("MACHINE_FUNCTION", name) if !name.is_empty() => {

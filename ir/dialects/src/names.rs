@@ -196,6 +196,14 @@ pub enum CallKind {
     DrillPeck,
     /// Cycle `bore`.
     Bore,
+    /// Cycle `tap`.
+    Tap,
+    /// Cycle `tap-rigid`.
+    TapRigid,
+    /// Cycle `bore-fine`.
+    BoreFine,
+    /// Cycle `bore-stop`.
+    BoreStop,
     /// Pattern on a straight line.
     Line,
     /// Pattern on a circle.
@@ -214,6 +222,10 @@ impl CallKind {
             CallKind::DrillDwell => &["drill-dwell"],
             CallKind::DrillPeck => &["drill-peck", "drill-break"],
             CallKind::Bore => &["bore"],
+            CallKind::Tap => &["tap"],
+            CallKind::TapRigid => &["tap-rigid"],
+            CallKind::BoreFine => &["bore-fine"],
+            CallKind::BoreStop => &["bore-stop"],
             CallKind::Line | CallKind::Circle | CallKind::Grid | CallKind::List => &[],
         }
     }
@@ -276,6 +288,33 @@ pub enum ParameterRole {
     FeedIn,
     /// Feed out of it.
     FeedOut,
+    /// Sense of the spindle: 3 or 4, as the codes of the machine.
+    Sense,
+    /// What the spindle does after the hole: 3, 4 or 5.
+    After,
+    /// Sense of the spindle on the way out of a thread: 3 or 4; 0 by itself.
+    Back,
+    /// Whether a thread is cut with an encoder (0), with feed and speed (1), or with a pitch and
+    /// without an encoder (11).
+    Encoder,
+    /// Pitch of a thread by its nominal size in the metric series; negative for the left hand.
+    ThreadSize,
+    /// Pitch of a thread; negative for the left hand.
+    ThreadPitch,
+    /// Unit of the pitch: 0 as in force, 1 millimetres.
+    PitchUnit,
+    /// Speed into the hole.
+    Speed,
+    /// Speed out of it; empty or 0 is the same.
+    SpeedOut,
+    /// Angle at which the spindle stops.
+    Orientation,
+    /// How far off the wall along the plane's first axis.
+    ShiftFirst,
+    /// Along its second axis.
+    ShiftSecond,
+    /// Along the drilling axis.
+    ShiftNormal,
     /// Centre or start along the plane's first axis, absolute.
     First,
     /// Along its second axis.

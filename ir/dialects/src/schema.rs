@@ -388,7 +388,8 @@ pub struct CycleRules {
 pub struct CycleRow {
     /// Its code.
     pub code: String,
-    /// Its kind: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`.
+    /// Its kind: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`, `tap`, `tap-rigid`,
+    /// `bore-fine`, `bore-stop`.
     pub kind: String,
     /// Letter of the bottom.
     pub depth: char,
@@ -406,11 +407,37 @@ pub struct CycleRow {
     /// Whether the feed out of the hole goes on to the level where the tool is left.
     #[serde(default)]
     pub feed_to_level: bool,
+    /// Of tapping, the hand of the thread.
+    #[serde(default)]
+    pub hand: Option<Hand>,
+    /// Of fine boring, the letter of the shift off the wall.
+    #[serde(default)]
+    pub shift: Option<char>,
     /// Whether the row is confirmed.
     #[serde(default = "yes")]
     pub sure: bool,
     /// Who says so.
     pub source: String,
+}
+
+/// The hand of a thread.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hand {
+    /// Cut with the spindle turning clockwise.
+    Right,
+    /// Cut with the spindle turning counter-clockwise.
+    Left,
+}
+
+impl Hand {
+    /// The sense in which the spindle turns into the thread.
+    pub const fn turn(self) -> ncc_ir::canon::Turn {
+        match self {
+            Hand::Right => ncc_ir::canon::Turn::Clockwise,
+            Hand::Left => ncc_ir::canon::Turn::Counterclockwise,
+        }
+    }
 }
 
 /// A word that says how long to dwell.

@@ -11,6 +11,9 @@ use crate::schema::Dialect;
 /// [`Approach::RetractFirst`], any other one the dictionary's own way.
 pub const CYCLE_APPROACH: &str = "cycle_approach";
 
+/// Option of a dictionary: what tapping is without a code that makes it rigid, `chuck` or `rigid`.
+pub const TAPPING: &str = "tapping";
+
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
 pub struct Settings {

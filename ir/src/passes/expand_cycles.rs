@@ -551,9 +551,11 @@ fn with_spindle(
     match &in_force.cycle.kind {
         CycleKind::Tap(tap) => {
             if !target.caps.synchronised {
-                return Err(Fault::CannotSay {
-                    what: format!("the cycle {}", in_force.cycle.kind.name()).into(),
-                });
+                let what = match tap.settle == tap.dwell {
+                    true => format!("the cycle {} in this form", in_force.cycle.kind.name()),
+                    false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
+                };
+                return Err(Fault::CannotSay { what: what.into() });
             }
             let step = |to: &Point, turn| {
                 let (to, pitch) = (to.clone(), tap.pitch.clone());

@@ -10,11 +10,11 @@ use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance,
-    origin_shift, path_control, return_plane, skip_levels, specialise_procedures, state_clearance, tool_edge,
-    work_offset,
+    origin_shift, path_control, return_plane, skip_levels, specialise_procedures, state_clearance, taps,
+    tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
-use crate::caps::Caps;
+use crate::caps::{Caps, CycleForm};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::exec::Seen;
 use crate::kinds::{conduct, miscellaneous, modes};
@@ -62,6 +62,7 @@ pub struct Legaliser {
     feed: feed_unit::State,
     edge: tool_edge::State,
     frames: expand_frames::State,
+    taps: taps::State,
 }
 
 impl Legaliser {
@@ -91,6 +92,7 @@ impl Legaliser {
             feed: feed_unit::State::default(),
             edge: tool_edge::State::default(),
             frames: expand_frames::State::default(),
+            taps: taps::State::default(),
         }
     }
 
@@ -140,6 +142,10 @@ impl Legaliser {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
         let needs = self.needs(stmts);
+        if needs & CYCLE == 0 {
+            // Feeds and speeds that a tap may rely on.
+            stmts.iter().for_each(|stmt| self.taps.note(stmt));
+        }
         let start = (needs != 0).then(|| self.walk.clone());
         if self.target.caps.feed_again && needs & MEASURE == 0 {
             stmts.iter().for_each(|stmt| self.feed.note(&stmt.op));
@@ -169,7 +175,7 @@ impl Legaliser {
         if self.length.is_busy() {
             needs |= LENGTH;
         }
-        if self.cycles.is_busy() {
+        if self.cycles.is_busy() || self.taps.is_busy() {
             needs |= CYCLE;
         }
         if self.target.caps.feed_again {
@@ -256,6 +262,7 @@ impl Legaliser {
         }
         if needs & CYCLE != 0 {
             state_clearance::over(stmts, &self.target, diags);
+            taps::over(stmts, &mut start.clone(), &mut self.taps, &self.target, diags);
             return_plane::over(stmts, &mut start.clone(), &self.target, diags);
         }
         if needs & PATTERN != 0 {
@@ -340,6 +347,7 @@ impl Legaliser {
         for procedure in procedures {
             self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
+            self.taps = taps::State::default();
             self.edge.start_over();
             self.path.start_over();
             self.arcs = arc_form::State::default();
@@ -452,7 +460,13 @@ fn lacks(caps: &Caps) -> u32 {
     let kinds = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
     let says_all = |kind: &str| {
         let cap = caps.cycles.iter().any(|c| {
-            c.kind == kind && c.dwell && c.clearance && c.strokes && c.feed_out && c.lift_at_feed.is_none()
+            c.kind == kind
+                && c.form == CycleForm::Any
+                && c.dwell
+                && c.clearance
+                && c.strokes
+                && c.feed_out
+                && c.lift_at_feed.is_none()
         });
         cap && levels.iter().all(|level| caps.cycle(kind, Some(*level), true))
     };

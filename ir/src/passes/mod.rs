@@ -36,6 +36,7 @@ pub mod return_plane;
 pub mod skip_levels;
 pub mod specialise_procedures;
 pub mod state_clearance;
+pub mod taps;
 pub mod tool_edge;
 mod walk;
 pub mod work_offset;
@@ -159,6 +160,7 @@ pub const PASSES: &[Pass] = &[
         about: "works chains of frames into the coordinates",
         run: expand_frames::run,
     },
+    Pass { name: "taps", about: "says pitches of threads in the target's form", run: taps::run },
     // Before the patterns: a first hole may come out of one.
     Pass {
         name: "return-plane",

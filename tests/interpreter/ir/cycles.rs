@@ -1,6 +1,6 @@
 //! Cycles and patterns of the neutral program, in program coordinates.
 
-use super::super::{Halt, Place, What};
+use super::super::{Halt, Place, Spindle, What};
 use super::Control;
 use super::text::{Token, split};
 
@@ -24,9 +24,34 @@ pub(super) struct Cycle {
 /// How a hole is made.
 #[derive(Clone, Copy)]
 enum Hole {
-    Drill { dwell: Option<f64> },
-    Strokes { first: f64, peck: f64, pause: Option<f64>, dwell: Option<f64>, out: Out },
-    Bore { dwell: Option<f64>, feed_out: Option<f64> },
+    Drill {
+        dwell: Option<f64>,
+    },
+    Strokes {
+        first: f64,
+        peck: f64,
+        pause: Option<f64>,
+        dwell: Option<f64>,
+        out: Out,
+    },
+    Bore {
+        dwell: Option<f64>,
+        feed_out: Option<f64>,
+    },
+    Tap {
+        into: Spindle,
+        rigid: bool,
+        pitch: Option<f64>,
+        dwell: Option<f64>,
+        settle: Option<f64>,
+        after: Spindle,
+    },
+    Stop {
+        turn: Option<Spindle>,
+        dwell: Option<f64>,
+        stop: bool,
+        after: Spindle,
+    },
 }
 
 /// What is done between strokes.
@@ -34,6 +59,25 @@ enum Hole {
 enum Out {
     Clear { clearance: f64, settle: Option<f64> },
     Break { lift: f64, at_feed: bool },
+}
+
+/// A name of what the spindle does.
+fn spindle(name: &str) -> Option<Spindle> {
+    match name {
+        "clockwise" => Some(Spindle::Clockwise),
+        "counterclockwise" => Some(Spindle::Counterclockwise),
+        "stopped" => Some(Spindle::Stopped),
+        _ => None,
+    }
+}
+
+/// What the spindle does, said after a word or a bracket.
+fn sense(kind: &[Token], after: &str) -> Option<Spindle> {
+    kind.windows(2).find_map(|pair| match pair {
+        [Token::Name(word), Token::Name(name)] if word == after => spindle(name),
+        [Token::Sign(sign), Token::Name(name)] if after == "(" && *sign == '(' => spindle(name),
+        _ => None,
+    })
 }
 
 impl Control {
@@ -60,6 +104,26 @@ impl Control {
                 },
             },
             ("bore", dwell, _) => Hole::Bore { dwell, feed_out: number("feed-out") },
+            ("tap" | "tap-rigid", dwell, _) => {
+                let (Some(into), Some(after)) = (sense(kind, "("), sense(kind, "after")) else {
+                    return self.m.halt("a tap without its senses");
+                };
+                let (pitch, settle) = (number("pitch"), number("settle"));
+                Hole::Tap { into, rigid: name == "tap-rigid", pitch, dwell, settle, after }
+            }
+            ("bore-stop", dwell, _) => {
+                let Some(after) = sense(kind, "after") else {
+                    return self.m.halt("a spindle as before");
+                };
+                let turn = kind.iter().enumerate().find_map(|(at, token)| match (token, at.checked_sub(1)) {
+                    (Token::Name(n), Some(before)) if !matches!(&kind[before], Token::Name(b) if b == "after") => {
+                        spindle(n)
+                    }
+                    _ => None,
+                });
+                let stop = kind.iter().any(|t| matches!(t, Token::Name(n) if n == "program-stop"));
+                Hole::Stop { turn, dwell, stop, after }
+            }
             _ => return self.m.halt("a cycle of another kind"),
         };
         let initial = match &self.cycle {
@@ -151,6 +215,9 @@ impl Control {
             return self.m.halt("a hole out of XY");
         }
         let (r, z) = (cycle.retract, cycle.depth);
+        if let Hole::Tap { rigid: true, .. } = cycle.hole {
+            self.m.turn(Spindle::Stopped);
+        }
         if cycle.retract_first || cycle.raise_first && self.here()[2] < r {
             self.rapid(r);
         }
@@ -189,6 +256,42 @@ impl Control {
                 self.feed(z)?;
                 self.stay(dwell);
             }
+            Hole::Tap { into, rigid, pitch, dwell, settle, after } => {
+                let speed = self.m.speed.filter(|speed| *speed > 0.0);
+                let by_feed = self.m.feed.zip(speed).map(|(feed, speed)| feed / speed);
+                let Some(pitch) = pitch.or(by_feed) else { return self.m.halt("a thread without pitch") };
+                let back = match into {
+                    Spindle::Clockwise => Spindle::Counterclockwise,
+                    _ => Spindle::Clockwise,
+                };
+                let (bottom, out) = (self.at_level(z), self.at_level(r));
+                if rigid {
+                    self.m.turn(into);
+                }
+                self.m.thread(bottom, pitch, !rigid);
+                if rigid {
+                    self.m.turn(Spindle::Stopped);
+                }
+                self.stay(dwell);
+                self.m.turn(back);
+                self.m.thread(out, pitch, !rigid);
+                self.m.turn(if rigid { Spindle::Stopped } else { back });
+                self.stay(settle);
+                if !rigid {
+                    self.m.turn(after);
+                }
+            }
+            Hole::Stop { turn, dwell, stop, .. } => {
+                if let Some(turn) = turn {
+                    self.m.turn(turn);
+                }
+                self.feed(z)?;
+                self.stay(dwell);
+                self.m.turn(Spindle::Stopped);
+                if stop {
+                    self.m.record(What::Stop);
+                }
+            }
             Hole::Bore { dwell, feed_out } => {
                 self.feed(z)?;
                 self.stay(dwell);
@@ -209,6 +312,10 @@ impl Control {
                 to[2] = initial;
                 self.m.traverse(to);
             }
+        }
+        match cycle.hole {
+            Hole::Tap { rigid: true, after, .. } | Hole::Stop { after, .. } => self.m.turn(after),
+            _ => {}
         }
         self.m.settled[2] = true;
         self.tangent = None;

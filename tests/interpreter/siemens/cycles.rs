@@ -3,7 +3,7 @@
 //! Lengths are in millimetres as soon as a call is read. Not here: cycles out of G17, degression,
 //! a first feed of its own, dwells in revolutions, the newer lists' ways of meaning something else.
 
-use super::super::{Halt, What};
+use super::super::{Halt, Spindle, What};
 use super::Control;
 use super::text::Argument;
 
@@ -26,8 +26,36 @@ pub(super) struct Cycle {
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Drill,
-    Bore { feed_in: f64, feed_out: f64 },
-    Deep { stroke: f64, at_start: f64, last_dwell: f64, clear: bool, step: f64 },
+    Bore {
+        feed_in: f64,
+        feed_out: f64,
+    },
+    /// The control turns the spindle itself: pitch, sense in, speed, what it does after.
+    Rigid {
+        pitch: f64,
+        into: Spindle,
+        speed: Option<f64>,
+        after: Spindle,
+    },
+    /// In a chuck: pitch, or feed and speed; sense out, what the spindle does after.
+    Chuck {
+        pitch: Option<f64>,
+        back: Spindle,
+        after: Spindle,
+    },
+    /// Spindle and program stop at the bottom.
+    Stop {
+        turn: Spindle,
+    },
+    /// Out at the feed in force.
+    Same,
+    Deep {
+        stroke: f64,
+        at_start: f64,
+        last_dwell: f64,
+        clear: bool,
+        step: f64,
+    },
 }
 
 /// Arguments of a call, by place.
@@ -64,7 +92,18 @@ impl Arguments<'_> {
 
 /// Whether a name is one of the drilling cycles here.
 pub(super) fn is_cycle(name: &str) -> bool {
-    matches!(name, "CYCLE81" | "CYCLE82" | "CYCLE83" | "CYCLE85")
+    matches!(
+        name,
+        "CYCLE81"
+            | "CYCLE82"
+            | "CYCLE83"
+            | "CYCLE84"
+            | "CYCLE840"
+            | "CYCLE85"
+            | "CYCLE87"
+            | "CYCLE88"
+            | "CYCLE89"
+    )
 }
 
 impl Control<'_> {
@@ -91,6 +130,10 @@ impl Control<'_> {
             "CYCLE81" => (Some(5), 6, 10.0),
             "CYCLE82" => (Some(5), 6, 10.0),
             "CYCLE85" => (Some(5), 8, 10.0),
+            "CYCLE84" | "CYCLE840" => (Some(5), 21, 10.0),
+            "CYCLE87" => (None, 6, 10.0),
+            "CYCLE88" => (Some(5), 7, 10.0),
+            "CYCLE89" => (Some(5), 6, 10.0),
             _ => (Some(8), 17, 1_001_110.0),
         };
         let dwell = dwell.map_or(0.0, |place| a.or_zero(place));
@@ -100,6 +143,31 @@ impl Control<'_> {
         }
         let kind = match name {
             "CYCLE81" | "CYCLE82" => Kind::Drill,
+            "CYCLE84" => {
+                if !a.unused(12) || a.or_zero(9) != 0.0 {
+                    return self.m.halt("CYCLE84 with more than is known");
+                }
+                let (pitch, into) = self.pitch(&a, 7)?;
+                let speed = a.number(10).filter(|s| *s > 0.0);
+                if a.number(11).is_some_and(|s| s != 0.0 && Some(s) != speed) {
+                    return self.m.halt("SST1");
+                }
+                let Some(pitch) = pitch else { return self.m.halt("CYCLE84 without MPIT and PIT") };
+                Kind::Rigid { pitch, into, speed, after: self.sense(a.or_zero(6))? }
+            }
+            "CYCLE840" => {
+                if !a.unused(11) {
+                    return self.m.halt("CYCLE840 with more than is known");
+                }
+                let (pitch, _) = self.pitch(&a, 9)?;
+                if pitch.is_some() == (a.or_zero(8) == 1.0) {
+                    return self.m.halt("ENC");
+                }
+                Kind::Chuck { pitch, back: self.sense(a.or_zero(6))?, after: self.sense(a.or_zero(7))? }
+            }
+            "CYCLE87" => Kind::Stop { turn: self.sense(a.or_zero(5))? },
+            "CYCLE88" => Kind::Stop { turn: self.sense(a.or_zero(6))? },
+            "CYCLE89" => Kind::Same,
             "CYCLE85" => {
                 let scale = if self.feed_inch { 25.4 } else { 1.0 };
                 let (Some(feed_in), Some(feed_out)) = (a.number(6), a.number(7)) else {
@@ -117,6 +185,35 @@ impl Control<'_> {
         }
         let safe = reference + clearance;
         Ok(Cycle { kind, retract, reference, safe, depth, dwell, inch: self.m.inch })
+    }
+
+    /// 3, 4 and 5 are M3, M4 and M5.
+    fn sense(&self, value: f64) -> Result<Spindle, Halt> {
+        match value as i64 {
+            3 => Ok(Spindle::Clockwise),
+            4 => Ok(Spindle::Counterclockwise),
+            5 => Ok(Spindle::Stopped),
+            _ => self.m.halt("3, 4 or 5"),
+        }
+    }
+
+    /// Pitch from MPIT or, at the next place, PIT; negative is left-hand.
+    fn pitch(&self, a: &Arguments, size: usize) -> Result<(Option<f64>, Spindle), Halt> {
+        let value = match (a.number(size), a.length(size + 1)) {
+            (Some(m), None) if m != 0.0 => {
+                let table =
+                    [(3, 0.5), (4, 0.7), (5, 0.8), (6, 1.0), (8, 1.25), (10, 1.5), (12, 1.75), (16, 2.0)];
+                let Some((_, pitch)) = table.iter().find(|(n, _)| *n == m.abs() as i64) else {
+                    return self.m.halt("a size of the metric series");
+                };
+                Some(pitch * m.signum())
+            }
+            (_, Some(pitch)) if pitch != 0.0 => Some(pitch),
+            _ => None,
+        };
+        let left = value.is_some_and(|v| v < 0.0);
+        let into = if left { Spindle::Counterclockwise } else { Spindle::Clockwise };
+        Ok((value.map(f64::abs), into))
     }
 
     fn deep(&self, a: &Arguments, reference: f64, depth: f64, dwell: f64) -> Result<Kind, Halt> {
@@ -154,6 +251,13 @@ impl Control<'_> {
         Ok(Kind::Deep { stroke, at_start, last_dwell, clear, step })
     }
 
+    /// Whether the spindle turns on the way to a rigid tap is not looked at: it stands.
+    pub(super) fn hold_spindle(&mut self) {
+        if let Some(Cycle { kind: Kind::Rigid { .. }, .. }) = self.modal {
+            self.m.turn(Spindle::Stopped);
+        }
+    }
+
     /// Runs a cycle where the tool stands.
     pub(super) fn run_cycle(&mut self, cycle: Cycle) -> Result<(), Halt> {
         if self.m.plane != 17 {
@@ -162,8 +266,46 @@ impl Control<'_> {
         if cycle.inch != self.m.inch {
             return self.m.halt("a cycle called in another unit than defined");
         }
+        if let Kind::Rigid { speed, .. } = cycle.kind {
+            self.m.turn(Spindle::Stopped);
+            self.m.speed = speed.or(self.m.speed);
+        }
         self.rapid_to(cycle.safe);
         match cycle.kind {
+            Kind::Rigid { pitch, into, .. } => {
+                self.m.turn(into);
+                self.thread_to(cycle.depth, pitch, false);
+                self.m.turn(Spindle::Stopped);
+                self.stay(cycle.dwell);
+                self.m.turn(if into == Spindle::Clockwise {
+                    Spindle::Counterclockwise
+                } else {
+                    Spindle::Clockwise
+                });
+                self.thread_to(cycle.safe, pitch, false);
+                self.m.turn(Spindle::Stopped);
+            }
+            Kind::Chuck { pitch, back, after } => {
+                let by_feed = self.m.feed.zip(self.m.speed).map(|(feed, speed)| feed / speed);
+                let Some(pitch) = pitch.or(by_feed) else { return self.m.halt("a thread without pitch") };
+                self.thread_to(cycle.depth, pitch, true);
+                self.stay(cycle.dwell);
+                self.m.turn(back);
+                self.thread_to(cycle.safe, pitch, true);
+                self.m.turn(after);
+            }
+            Kind::Stop { turn } => {
+                self.m.turn(turn);
+                self.feed_to(cycle.depth)?;
+                self.stay(cycle.dwell);
+                self.m.turn(Spindle::Stopped);
+                self.m.record(What::Stop);
+            }
+            Kind::Same => {
+                self.feed_to(cycle.depth)?;
+                self.stay(cycle.dwell);
+                self.feed_to(cycle.safe)?;
+            }
             Kind::Drill => {
                 self.feed_to(cycle.depth)?;
                 self.stay(cycle.dwell);
@@ -198,6 +340,9 @@ impl Control<'_> {
             }
         }
         self.rapid_to(cycle.retract);
+        if let Kind::Rigid { after, .. } = cycle.kind {
+            self.m.turn(after);
+        }
         if let Kind::Bore { .. } = cycle.kind {
             // Which of the feeds stays in force is not said.
             self.m.feed = None;
@@ -228,6 +373,11 @@ impl Control<'_> {
         Ok(())
     }
 
+    fn thread_to(&mut self, z: f64, pitch: f64, chuck: bool) {
+        let to = self.machine(self.at_level(z));
+        self.m.thread(to, pitch, chuck);
+    }
+
     fn stay(&mut self, seconds: f64) {
         if seconds > 0.0 {
             self.m.record(What::Dwell(seconds));
@@ -241,6 +391,7 @@ impl Control<'_> {
             let mut to = self.here();
             (to[0], to[1]) = (x, y);
             let to = self.machine(to);
+            self.hold_spindle();
             self.m.traverse(to);
             self.m.settled[0] = true;
             self.m.settled[1] = true;

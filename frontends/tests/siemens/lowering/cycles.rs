@@ -158,11 +158,11 @@ fn cycles_that_are_none() {
     assert_eq!(one("CYCLE81(5,0,2,-5,,,,,,7)"), "WordUnused { word: '7' } at '7'");
     assert_eq!(
         one("CYCLE84(5,0,2,-5)"),
-        "NotSupported { code: 'CYCLE84', name: 'tapping' } at 'CYCLE84(5,0,2,-5)'"
+        "WordMissing { code: 'CYCLE84', word: 'PIT' } at 'CYCLE84(5,0,2,-5)'"
     );
     assert_eq!(
-        one("MCALL CYCLE86(5,0,2,-5)"),
-        "NotSupported { code: 'CYCLE86', name: 'boring with oriented spindle' } at 'CYCLE86(5,0,2,-5)'"
+        one("MCALL CYCLE830(5,0,2,-5)"),
+        "NotSupported { code: 'CYCLE830', name: 'deep-hole drilling of the newer kind' } at 'CYCLE830(5,0,2,-5)'"
     );
     assert_eq!(
         one("MCALL L70"),

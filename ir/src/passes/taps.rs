@@ -1,0 +1,247 @@
+//! `taps`: a thread's pitch and what the spindle does after the hole, as the target says them.
+//!
+//! Some controls take the pitch from feed and speed, others state it; some leave the spindle standing
+//! after a rigid tap, others start it again. Where the cycle's end has to say what the cycle itself
+//! cannot, it is said there. A feed that the cycle set stays in force after it, as it was.
+//!
+//! Not here: tapping for a target without a cycle for it, which `expand-cycles` writes out or refuses.
+
+use super::write::{exact, rebuild, rounded};
+use super::{Target, each_body};
+use crate::canon::{FeedMode, Motion, Spindle, Units};
+use crate::caps::{CycleCap, CycleForm};
+use crate::cycle::{Cycle, CycleKind, Tap};
+use crate::diag::{Diagnostic, Fault, ModeName};
+use crate::expr::Expr;
+use crate::kinds::{flow, moves};
+use crate::num::{Nanos, Num, ONE, Unit};
+use crate::program::{Op, Pitch, Program, Stmt};
+use crate::track::Tracker;
+
+use super::walk::Walk;
+
+/// Digits of a pitch that follows from feed and speed.
+const PITCH_DIGITS: u8 = 6;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    speed: Option<Num>,
+    feed: Option<Num>,
+    /// A tap has been changed and is in force, and relies on feed or speed staying as they are.
+    changed: bool,
+    /// What its end has to say.
+    owed: Vec<Op>,
+}
+
+impl State {
+    /// Whether the end of a tap that was changed is to come.
+    pub(super) fn is_busy(&self) -> bool {
+        self.changed
+    }
+
+    /// Takes note of feed and speed.
+    #[inline]
+    pub(super) fn note(&mut self, stmt: &Stmt) {
+        let literal = |value: &Expr| value.literal().filter(|_| stmt.skip.is_none());
+        match &stmt.op {
+            Op::SetFeedRate(feed) => self.feed = literal(feed),
+            Op::SetSpindleSpeed(speed) => self.speed = literal(speed),
+            Op::StartCycle(cycle) => {
+                if let Some(feed) = &cycle.feed {
+                    self.feed = literal(feed);
+                }
+                if matches!(cycle.kind, CycleKind::Bore { feed_out: Some(_), .. }) {
+                    self.feed = None;
+                }
+            }
+            Op::UseLengthUnits(_) | Op::SetFeedMode(_) => self.feed = None,
+            flow!() => (self.feed, self.speed) = (None, None),
+            _ => {}
+        }
+    }
+}
+
+/// Says them as the target does.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    rebuild(body, |mut stmt, made| {
+        walk.enter(stmt.skip);
+        let ends = state.changed
+            && match &stmt.op {
+                Op::EndCycle | Op::StartCycle(_) | Op::ProgramEnd | moves!() | flow!() => true,
+                Op::Position(_) => walk.at.modes.motion != Some(Motion::Cycle),
+                _ => false,
+            };
+        let relies = state.changed && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_));
+        if ends && stmt.skip.is_some() || relies {
+            let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        }
+        let mut after = Vec::new();
+        if ends {
+            state.changed = false;
+            after = std::mem::take(&mut state.owed);
+            let again = matches!(&stmt.op, Op::StartCycle(cycle) if matches!(cycle.kind, CycleKind::Tap(_)));
+            if again {
+                // The next tap says its own.
+                after.retain(|op| matches!(op, Op::SetFeedRate(_)));
+            }
+            if !matches!(stmt.op, Op::EndCycle) && !after.is_empty() {
+                let ops = std::mem::take(&mut after);
+                for op in std::iter::once(Op::EndCycle).chain(ops) {
+                    let one = Stmt::new(stmt.span, op);
+                    walk.step(&one);
+                    state.note(&one);
+                    made.push(one);
+                }
+                stmt.joined = false;
+            }
+        }
+        let mut before = None;
+        if let Op::StartCycle(cycle) = &mut stmt.op {
+            match fit(cycle, walk, state, target) {
+                Ok(Some(feed)) if stmt.skip.is_some() => {
+                    let what = "a tapping cycle in a block that can be skipped".into();
+                    diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+                    let _ = feed;
+                }
+                Ok(feed) => before = feed.flatten(),
+                Err(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+            }
+        }
+        if let Some(feed) = before {
+            let mut said = Stmt::new(stmt.span, Op::SetFeedRate(feed));
+            (said.number, said.joined) = (stmt.number.take(), stmt.joined);
+            stmt.joined = false;
+            state.note(&said);
+            made.push(said);
+        }
+        walk.step(&stmt);
+        // What a changed tap sets is given back at its end.
+        if !(state.changed && matches!(stmt.op, Op::StartCycle(_))) {
+            state.note(&stmt);
+        }
+        let span = stmt.span;
+        made.push(stmt);
+        for op in after {
+            let one = Stmt::new(span, op);
+            state.note(&one);
+            walk.step(&one);
+            made.push(one);
+        }
+    });
+}
+
+const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
+
+/// Makes a tap one that the target says. Gives the feed that must be said before it, if it was changed.
+#[allow(clippy::option_option)]
+fn fit(
+    cycle: &mut Cycle,
+    walk: &Walk,
+    state: &mut State,
+    target: &Target,
+) -> Result<Option<Option<Expr>>, Fault> {
+    let name = cycle.kind.name();
+    let CycleKind::Tap(tap) = &mut cycle.kind else { return Ok(None) };
+    let mut caps = target.caps.cycles.iter().filter(|c| c.kind == name);
+    let fits = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
+    let Some(form) = caps.find(|c| fits(c)).map(|c| c.form) else { return Ok(None) };
+    if form.says(&CycleKind::Tap(tap.clone())) {
+        return Ok(None);
+    }
+    let mut before = None;
+    match (form, &tap.pitch) {
+        (CycleForm::Stated, Pitch::Feed) if !tap.chuck => {
+            let feed = cycle.feed.as_ref().and_then(Expr::literal).or(state.feed);
+            let pitch = pitch_of(feed, state.speed, walk)?;
+            tap.pitch = Pitch::Stated(pitch.into());
+            before = cycle.feed.take();
+        }
+        (CycleForm::Control, Pitch::Stated(pitch)) => {
+            let feed = feed_of(pitch.literal(), state.speed, walk)?;
+            tap.pitch = Pitch::Feed;
+            cycle.feed = Some(feed.into());
+            state.owed.extend(state.feed.map(|feed| Op::SetFeedRate(feed.into())));
+        }
+        _ => {}
+    }
+    if form == CycleForm::Control {
+        let own = if tap.chuck { tap.turn.spindle() } else { Spindle::Stopped };
+        if tap.after != own {
+            state.owed.insert(0, start(tap));
+            tap.after = own;
+        }
+    }
+    state.changed = true;
+    Ok(Some(before))
+}
+
+/// What brings the spindle to what it does after a tap.
+fn start(tap: &Tap) -> Op {
+    match tap.after {
+        Spindle::Stopped => Op::StopSpindleTurning,
+        Spindle::Clockwise => Op::StartSpindleClockwise,
+        Spindle::Counterclockwise => Op::StartSpindleCounterclockwise,
+    }
+}
+
+fn unknown(what: &str) -> Fault {
+    Fault::CannotSay { what: format!("a tapping cycle of which {what} is not known").into() }
+}
+
+fn in_unit(num: Num, walk: &Walk) -> Result<(Nanos, Unit), Fault> {
+    let unit = match (num.unit, walk.at.modes.units) {
+        (Unit::Mm, _) => Unit::Mm,
+        (Unit::Inch, _) | (_, Some(Units::Inch)) => Unit::Inch,
+        (_, Some(Units::Mm)) => Unit::Mm,
+        (_, None) => return Err(Fault::EntryFactNeeded { fact: ModeName::Units }),
+    };
+    let nanos = Num { unit, ..num }.nanos(false).filter(|n| *n > 0);
+    Ok((nanos.ok_or_else(|| unknown("the pitch"))?, unit))
+}
+
+/// Whether the feed is one of a minute, else of a turn.
+fn per_minute(walk: &Walk) -> Result<bool, Fault> {
+    match walk.at.modes.feed_mode {
+        Some(FeedMode::PerMinute) => Ok(true),
+        Some(FeedMode::PerRevolution) => Ok(false),
+        Some(FeedMode::InverseTime) => Err(unknown("the feed")),
+        None => Err(Fault::EntryFactNeeded { fact: ModeName::FeedMode }),
+    }
+}
+
+fn turns(speed: Option<Num>) -> Result<i128, Fault> {
+    let nanos = speed.and_then(|n| n.nanos(false)).filter(|n| *n > 0);
+    nanos.map(i128::from).ok_or_else(|| unknown("the speed"))
+}
+
+fn pitch_of(feed: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
+    let (feed, unit) = in_unit(feed.ok_or_else(|| unknown("the feed"))?, walk)?;
+    if !per_minute(walk)? {
+        return Ok(exact(feed, unit));
+    }
+    let speed = turns(speed)?;
+    let pitch = (i128::from(feed) * i128::from(ONE) + speed / 2) / speed;
+    Ok(rounded(Nanos::try_from(pitch).unwrap_or(Nanos::MAX), PITCH_DIGITS, unit))
+}
+
+fn feed_of(pitch: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
+    let (pitch, unit) = in_unit(pitch.ok_or_else(|| unknown("the pitch"))?, walk)?;
+    if !per_minute(walk)? {
+        return Ok(exact(pitch, unit));
+    }
+    let feed = i128::from(pitch) * turns(speed)? / i128::from(ONE);
+    Ok(rounded(Nanos::try_from(feed).unwrap_or(Nanos::MAX), PITCH_DIGITS, unit))
+}
