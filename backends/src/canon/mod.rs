@@ -8,6 +8,7 @@
 //! The calls are listed at the reader (`ncc_frontends::canon`).
 
 mod arguments;
+pub mod rs274;
 pub(crate) mod text;
 
 use ncc_dialects::{Quantity, Settings};

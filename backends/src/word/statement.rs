@@ -100,7 +100,7 @@ impl Writer {
             Op::ProgramStop => self.m_code(Rank::Stop, codes.stop, "a program stop", sink),
             Op::OptionalProgramStop => self.m_code(Rank::Stop, codes.optional_stop, "an optional stop", sink),
             Op::ProgramEnd => self.m_code(Rank::Stop, codes.end, "the program's end", sink),
-            Op::Message(text) => self.message(text, span, sink),
+            Op::Message(text) => self.message(text, sink),
             Op::Call(call) => self.call(call, stmt, sink),
             Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
@@ -150,7 +150,7 @@ impl Writer {
     }
 
     /// A message: a comment of its own form, in a line of its own.
-    fn message(&mut self, text: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    fn message(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         if self.dialect.comment.message.is_empty() {
             return Err(cannot("a message to the operator"));
         }
@@ -159,11 +159,9 @@ impl Writer {
             self.flush(false, sink);
             self.split = true;
         }
-        if self.comments.message(text, &mut self.block.comment) {
-            sink.report(Fault::CommentReformatted, span);
-        }
+        let changed = self.comments.message(text, &mut self.block.comment);
         self.flush(false, sink);
-        Ok(())
+        if changed { Err(cannot("a message with these characters")) } else { Ok(()) }
     }
 
     fn m_code(&mut self, rank: Rank, code: Option<Code>, what: &str, sink: &mut Sink) -> Result<(), Fault> {

@@ -1,0 +1,636 @@
+//! Canonical calls in the form in which LinuxCNC's stand-alone interpreter prints them, as far as the
+//! count and the block number before each call.
+//!
+//! A program of a control that works as that one does is executed with all tables zero, from program
+//! zero in millimetres, and every call is written where the interpreter makes it: a block's calls in its
+//! own order, cycles as its expansion of them, its notes on modes that make no call, what it does before
+//! the first block and after the last. Subprograms are followed into.
+//!
+//! Refused is what needs a table (offsets, tools' lengths), and what this control has no call for.
+
+use std::fmt::Write;
+
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::cycle::{BoreStop, CycleKind};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::geometry::{self, ArcFault};
+use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::program::{Arc, Centre, FrameSlot, Move, Op, Point, Program, Stmt};
+use ncc_ir::track::{InForce, Tracker};
+
+/// Where a peck goes on, and how far a chip is broken: 0.010 inch.
+const GAP: Nanos = 254 * ONE / 1000;
+
+/// Least radius of an arc: 0.00005 inch.
+const LEAST_RADIUS: f64 = 0.00127;
+
+/// Most difference of an arc's two radii that is not judged by the radius, in mm and in inch.
+const APART: [f64; 2] = [0.02 * std::f64::consts::SQRT_2, 0.002 * std::f64::consts::SQRT_2 * 25.4];
+
+/// Most calls one within another.
+const DEPTH: u32 = 10;
+
+/// What a spindle does.
+#[derive(Clone, Copy, PartialEq)]
+enum Turning {
+    Stopped,
+    Clockwise,
+    Counterclockwise,
+}
+
+/// Prints the calls of a program; `source` is its text, of which the comments are shown.
+///
+/// # Errors
+/// The interpreter refuses it, or it says what this printer has no table for.
+pub fn print(program: &Program, source: &[u8]) -> Result<String, Diagnostic> {
+    let entry = Modes {
+        units: Some(Units::Mm),
+        plane: Some(Plane::Xy),
+        distance: Some(Distance::Absolute),
+        feed_mode: Some(FeedMode::PerMinute),
+        return_level: Some(ReturnLevel::Initial),
+        ..Modes::default()
+    };
+    let mut printer = Printer {
+        program,
+        source,
+        out: String::new(),
+        at: Tracker { position: [Some(0); AXES], ..Tracker::new(entry) },
+        turning: Turning::Stopped,
+        mist: false,
+        flood: false,
+        offset: 1,
+        feed: None,
+        ended: false,
+    };
+    for call in [
+        "USE_LENGTH_UNITS(CANON_UNITS_MM)",
+        "SET_G5X_OFFSET(1, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)",
+        "SET_G92_OFFSET(0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)",
+        "SET_XY_ROTATION(0.0000)",
+        "SET_FEED_REFERENCE(CANON_XYZ)",
+        "ON_RESET()",
+    ] {
+        printer.call(call);
+    }
+    if let Some(main) = program.procedures.first() {
+        printer.body(&main.body, 0)?;
+    }
+    if !printer.ended {
+        ["FINISH()", "ON_RESET()", "ON_RESET()"].into_iter().for_each(|call| printer.call(call));
+    }
+    Ok(printer.out)
+}
+
+struct Printer<'p> {
+    program: &'p Program,
+    source: &'p [u8],
+    out: String,
+    /// Modes, position and the cycle in force.
+    at: Tracker,
+    turning: Turning,
+    mist: bool,
+    flood: bool,
+    offset: u16,
+    /// The feed that was said last.
+    feed: Option<f64>,
+    ended: bool,
+}
+
+/// Place of a function in the interpreter's order of a block; `None` if it is none of those that are
+/// brought into order.
+fn rank(op: &Op) -> u8 {
+    match op {
+        Op::Message(_) | Op::Comment(_) | Op::Blank | Op::NoEffect(_) => 0,
+        Op::SetSpindleMode(_) | Op::LimitSpindleSpeed(_) => 1,
+        Op::SetFeedMode(_) => 2,
+        Op::SetFeedRate(_) => 3,
+        Op::SetSpindleSpeed(_) => 4,
+        Op::SelectTool(_) | Op::SelectToolByName(_) => 5,
+        Op::ChangeTool => 6,
+        Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::OrientSpindle(_) => 7,
+        Op::FloodOn | Op::MistOn | Op::CoolantOff => 8,
+        Op::MachineFunction(_) | Op::Advise(_) => 9,
+        Op::Dwell(_) => 10,
+        Op::SelectPlane(_) => 11,
+        Op::UseLengthUnits(_) => 12,
+        Op::StopCutterRadiusCompensation => 13,
+        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => 14,
+        Op::SetOriginOffsets(_) => 15,
+        Op::SetMotionControlMode(_) => 16,
+        Op::SetDistanceMode(_) => 17,
+        Op::SetReturnLevel(_) => 18,
+        Op::ClearFrame(_) | Op::SetFrame(_) | Op::UseMachineCoordinates | Op::ExactStop => 19,
+        Op::EndCycle => 20,
+        Op::StraightTraverse(_)
+        | Op::StraightFeed(_)
+        | Op::SynchronisedFeed(_)
+        | Op::ArcFeed(_)
+        | Op::ArcForm(_)
+        | Op::Position(_)
+        | Op::StartCycle(_)
+        | Op::Hole(_)
+        | Op::Pattern(_) => 21,
+        Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ProgramEnd
+        | Op::Call(_)
+        | Op::Return
+        | Op::RepeatBlocks(_)
+        | Op::Assign(..)
+        | Op::Control(_)
+        | Op::Goto(_)
+        | Op::Label(_) => 22,
+    }
+}
+
+impl Printer<'_> {
+    fn call(&mut self, text: &str) {
+        self.out.push_str(text);
+        self.out.push('\n');
+    }
+
+    fn note(&mut self, text: &str) {
+        let _ = writeln!(self.out, "COMMENT(\"interpreter: {text}\")");
+    }
+
+    fn body(&mut self, stmts: &[Stmt], depth: u32) -> Result<(), Diagnostic> {
+        let mut from = 0;
+        while from < stmts.len() && !self.ended {
+            let mut end = from + 1;
+            // A cycle's repetitions are blocks of their own at one place.
+            let again =
+                |a: &Stmt, b: &Stmt| a.span == b.span && matches!((&a.op, &b.op), (Op::Hole(_), Op::Hole(_)));
+            while end < stmts.len() && (stmts[end].joined || again(&stmts[end - 1], &stmts[end])) {
+                end += 1;
+            }
+            self.block(&stmts[from..end], depth)?;
+            if matches!(stmts[end - 1].op, Op::Return) {
+                return Ok(());
+            }
+            from = end;
+        }
+        Ok(())
+    }
+
+    fn block(&mut self, stmts: &[Stmt], depth: u32) -> Result<(), Diagnostic> {
+        let says = stmts.iter().any(|s| matches!(s.op, Op::Message(_)));
+        let comment = stmts.first().and_then(|s| last_comment(self.source, s.span.start as usize));
+        if let Some(text) = comment.filter(|_| !says) {
+            let _ = writeln!(self.out, "COMMENT(\"{}\")", String::from_utf8_lossy(text));
+        }
+        // The feed of a cycle's block; a cycle that is called up with other words says it once more.
+        for stmt in stmts {
+            if let Op::StartCycle(cycle) = &stmt.op
+                && let Some(feed) = &cycle.feed
+            {
+                let feed = literal(feed).map_err(|fault| Diagnostic::new(fault, stmt.span))?;
+                if self.feed != Some(feed) {
+                    self.feed(feed);
+                }
+            }
+        }
+        let mut ordered: Vec<&Stmt> = stmts.iter().collect();
+        ordered.sort_by_key(|s| rank(&s.op));
+        let holes: Vec<&Stmt> = ordered.iter().copied().filter(|s| matches!(s.op, Op::Hole(_))).collect();
+        let mut drilled = false;
+        for stmt in ordered {
+            let refuse = |fault| Diagnostic::new(fault, stmt.span);
+            if let Op::Hole(_) = &stmt.op {
+                if !std::mem::replace(&mut drilled, true) {
+                    self.holes(&holes)?;
+                }
+                continue;
+            }
+            if let Op::Call(call) = &stmt.op {
+                let found = self.program.procedures.iter().skip(1).find(|p| p.name == call.name);
+                let procedure = match found {
+                    Some(procedure) if depth < DEPTH && call.arguments.is_empty() => procedure,
+                    Some(_) | None => return Err(refuse(cannot("this call"))),
+                };
+                for _ in 0..call.times {
+                    self.body(&procedure.body, depth + 1)?;
+                }
+                continue;
+            }
+            self.statement(stmt).map_err(refuse)?;
+            // All tables are zero: what changes an offset leaves every coordinate as it is.
+            let before = self.at.position;
+            self.at.apply(&stmt.op);
+            for (now, before) in self.at.position.iter_mut().zip(before) {
+                *now = now.or(before);
+            }
+        }
+        Ok(())
+    }
+
+    fn statement(&mut self, stmt: &Stmt) -> Result<(), Fault> {
+        let zeros = "0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000";
+        match &stmt.op {
+            // A comment is the block's.
+            Op::Comment(_) | Op::Blank | Op::Return | Op::EndCycle | Op::StartCycle(_) | Op::NoEffect(_) => {}
+            Op::Message(text) => {
+                let _ = writeln!(self.out, "MESSAGE(\"{text}\")");
+            }
+            Op::UseLengthUnits(units) => self.call(match units {
+                Units::Mm => "USE_LENGTH_UNITS(CANON_UNITS_MM)",
+                Units::Inch => "USE_LENGTH_UNITS(CANON_UNITS_INCHES)",
+            }),
+            Op::SelectPlane(plane) => self.call(match plane {
+                Plane::Xy => "SELECT_PLANE(CANON_PLANE_XY)",
+                Plane::Zx => "SELECT_PLANE(CANON_PLANE_XZ)",
+                Plane::Yz => "SELECT_PLANE(CANON_PLANE_YZ)",
+            }),
+            Op::SetDistanceMode(distance) if self.at.modes.distance != Some(*distance) => {
+                self.note(match distance {
+                    Distance::Absolute => "distance mode changed to absolute",
+                    Distance::Incremental => "distance mode changed to incremental",
+                });
+            }
+            Op::SetDistanceMode(_) => {}
+            Op::SetReturnLevel(level) => self.note(match level {
+                ReturnLevel::Initial => "retract mode set to old_z",
+                ReturnLevel::Retract => "retract mode set to r_plane",
+            }),
+            Op::StopCutterRadiusCompensation => self.note("cutter radius compensation off"),
+            Op::SetFeedMode(FeedMode::PerMinute) => {
+                self.note("feed mode set to units per minute");
+                self.call("SET_FEED_MODE(0, 0)");
+                self.call("SET_FEED_RATE(0.0000)");
+            }
+            Op::SetFeedRate(feed) => {
+                let feed = literal(feed)?;
+                self.feed(feed);
+            }
+            Op::SetSpindleSpeed(speed) => {
+                let _ = writeln!(self.out, "SET_SPINDLE_SPEED(0, {:.4})", literal(speed)?);
+            }
+            Op::SelectTool(tool) => {
+                let _ = writeln!(self.out, "SELECT_TOOL({:.0})", literal(tool)?);
+            }
+            Op::ChangeTool => {
+                self.call("STOP_SPINDLE_TURNING(0)");
+                self.turning = Turning::Stopped;
+                let _ = writeln!(self.out, "CHANGE_TOOL({})", self.at.selected.unwrap_or(0));
+            }
+            Op::StartSpindleClockwise => self.turn(Turning::Clockwise),
+            Op::StartSpindleCounterclockwise => self.turn(Turning::Counterclockwise),
+            Op::StopSpindleTurning => self.turn(Turning::Stopped),
+            Op::MistOn => {
+                self.mist = true;
+                self.call("MIST_ON()");
+            }
+            Op::FloodOn => {
+                self.flood = true;
+                self.call("FLOOD_ON()");
+            }
+            Op::CoolantOff => self.dry(),
+            Op::Dwell(seconds) => {
+                let _ = writeln!(self.out, "DWELL({:.4})", literal(seconds)?);
+            }
+            Op::SetOriginOffsets(number) if *number == self.offset => {
+                self.note("continuing to use same coordinate system");
+            }
+            Op::SetOriginOffsets(number) => {
+                self.offset = *number;
+                let _ = writeln!(self.out, "SET_G5X_OFFSET({number}, {zeros})");
+                let _ = writeln!(self.out, "SET_G92_OFFSET({zeros})");
+                self.call("SET_XY_ROTATION(0.0000)");
+            }
+            Op::ClearFrame(FrameSlot::Shift) => {
+                let _ = writeln!(self.out, "SET_G92_OFFSET({zeros})");
+            }
+            Op::UseToolLengthOffset(entry) if entry.literal().is_some_and(|n| n.is_zero()) => {
+                self.call("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)");
+            }
+            Op::StraightTraverse(Move { to, .. }) => {
+                let to = self.target(to)?;
+                self.straight("STRAIGHT_TRAVERSE", to);
+            }
+            Op::StraightFeed(Move { to, .. }) => {
+                let to = self.target(to)?;
+                self.straight("STRAIGHT_FEED", to);
+            }
+            Op::ArcFeed(arc) => self.arc(arc)?,
+            Op::ProgramStop => self.call("PROGRAM_STOP()"),
+            Op::OptionalProgramStop => self.call("OPTIONAL_PROGRAM_STOP()"),
+            Op::ProgramEnd => {
+                let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
+                self.end(code.is_some_and(|code| code.eq_ignore_ascii_case(b"M30")));
+            }
+            Op::SetFeedMode(_)
+            | Op::SetFrame(_)
+            | Op::ClearFrame(_)
+            | Op::UseMachineCoordinates
+            | Op::SetMotionControlMode(_)
+            | Op::ExactStop
+            | Op::Advise(_)
+            | Op::SetSpindleMode(_)
+            | Op::LimitSpindleSpeed(_)
+            | Op::SelectToolByName(_)
+            | Op::UseToolLengthOffset(_)
+            | Op::UseToolEdge { .. }
+            | Op::OrientSpindle(_)
+            | Op::MachineFunction(_)
+            | Op::SynchronisedFeed(_)
+            | Op::ArcForm(_)
+            | Op::Position(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::Call(_)
+            | Op::RepeatBlocks(_)
+            | Op::Assign(..)
+            | Op::Control(_)
+            | Op::Goto(_)
+            | Op::Label(_) => return Err(cannot(stmt.op.name())),
+        }
+        Ok(())
+    }
+
+    fn feed(&mut self, feed: f64) {
+        self.feed = Some(feed);
+        let _ = writeln!(self.out, "SET_FEED_RATE({feed:.4})");
+    }
+
+    fn turn(&mut self, turning: Turning) {
+        self.turning = turning;
+        self.call(match turning {
+            Turning::Stopped => "STOP_SPINDLE_TURNING(0)",
+            Turning::Clockwise => "START_SPINDLE_CLOCKWISE(0)",
+            Turning::Counterclockwise => "START_SPINDLE_COUNTERCLOCKWISE(0)",
+        });
+    }
+
+    fn dry(&mut self) {
+        if std::mem::take(&mut self.mist) {
+            self.call("MIST_OFF()");
+        }
+        if std::mem::take(&mut self.flood) {
+            self.call("FLOOD_OFF()");
+        }
+    }
+
+    /// The end of the program; M30 exchanges the pallets.
+    fn end(&mut self, pallets: bool) {
+        self.call("SET_G5X_OFFSET(1, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)");
+        self.call("SET_XY_ROTATION(0.0000)");
+        if self.at.modes.plane != Some(Plane::Xy) {
+            self.call("SELECT_PLANE(CANON_PLANE_XY)");
+        }
+        for call in [
+            "SET_FEED_MODE(0, 0)",
+            "SET_FEED_RATE(0.0000)",
+            "STOP_SPINDLE_TURNING(0)",
+            "SET_SPINDLE_MODE(0 0.0000)",
+        ] {
+            self.call(call);
+        }
+        self.dry();
+        if pallets {
+            self.call("PALLET_SHUTTLE()");
+        }
+        ["PROGRAM_END()", "ON_RESET()", "ON_RESET()"].into_iter().for_each(|call| self.call(call));
+        self.ended = true;
+    }
+
+    /// Where a point's words lead, nanos.
+    fn target(&self, to: &Point) -> Result<[Nanos; AXES], Fault> {
+        let target = self.at.target(to);
+        let mut known = [0; AXES];
+        for (axis, (to, place)) in Axis::ALL.into_iter().zip(known.iter_mut().zip(target)) {
+            *to = place.ok_or(Fault::PositionUnknown { axis: char::from(axis.letter()) })?;
+        }
+        Ok(known)
+    }
+
+    fn here(&self) -> Result<[Nanos; AXES], Fault> {
+        self.target(&Point::default())
+    }
+
+    /// A length in the unit in force, or an angle.
+    fn shown(&self, axis: usize, nanos: Nanos) -> f64 {
+        let unit = if axis < 3 && self.inch() { 25.4 } else { 1.0 };
+        nanos as f64 / ONE as f64 / unit
+    }
+
+    fn inch(&self) -> bool {
+        self.at.modes.units == Some(Units::Inch)
+    }
+
+    fn straight(&mut self, name: &str, to: [Nanos; AXES]) {
+        let [x, y, z, a, b, c]: [f64; AXES] = std::array::from_fn(|axis| self.shown(axis, to[axis]));
+        let _ = writeln!(self.out, "{name}({x:.4}, {y:.4}, {z:.4}, {a:.4}, {b:.4}, {c:.4})");
+    }
+
+    fn arc(&mut self, arc: &Arc) -> Result<(), Fault> {
+        let plane = self.at.plane(arc.plane).ok_or_else(|| cannot("an arc without a plane"))?;
+        let (first, second, normal) = plane.axes();
+        let (here, to) = (self.here()?, self.target(&arc.to)?);
+        let start = [here[first as usize], here[second as usize]];
+        let end = [to[first as usize], to[second as usize]];
+        let centre = match &arc.centre {
+            Centre::Point { .. } => self.at.centre(arc).ok_or_else(|| cannot("this centre"))?,
+            Centre::Radius(radius) => {
+                let radius = self.at.nanos(radius).ok_or_else(|| cannot("this radius"))?;
+                geometry::centre_by_radius(start, end, radius, arc.turn).map_err(|fault| match fault {
+                    ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
+                    ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
+                    ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
+                })?
+            }
+        };
+        let mm = |p: [Nanos; 2]| {
+            let [x, y] = [0, 1].map(|i| (p[i] - centre[i]) as f64 / ONE as f64);
+            x.hypot(y)
+        };
+        let (r1, r2) = (mm(start), mm(end));
+        let (apart, most) = ((r1 - r2).abs(), APART[usize::from(self.inch())]);
+        if r1 < LEAST_RADIUS || r2 < LEAST_RADIUS {
+            return Err(Fault::ArcRadiusTooSmall);
+        }
+        if apart > 100.0 * most || apart > most && apart / r1.max(r2) > 0.001 {
+            return Err(Fault::ArcEndOffCircle { by: (apart * ONE as f64) as Nanos });
+        }
+        let turns = i64::from(arc.turns) + 1;
+        let turns = if arc.turn == Turn::Clockwise { -turns } else { turns };
+        let shown = |axis: Axis, nanos| self.shown(axis as usize, nanos);
+        let [e1, e2, c1, c2, n] = [
+            shown(first, end[0]),
+            shown(second, end[1]),
+            shown(first, centre[0]),
+            shown(second, centre[1]),
+            shown(normal, to[normal as usize]),
+        ];
+        let [a, b, c] = [3, 4, 5].map(|axis| self.shown(axis, to[axis]));
+        let _ = writeln!(
+            self.out,
+            "ARC_FEED({e1:.4}, {e2:.4}, {c1:.4}, {c2:.4}, {turns}, {n:.4}, {a:.4}, {b:.4}, {c:.4})"
+        );
+        Ok(())
+    }
+
+    /// The holes of one block: one, or as many as it repeats.
+    fn holes(&mut self, holes: &[&Stmt]) -> Result<(), Diagnostic> {
+        let Some(first) = holes.first() else { return Ok(()) };
+        let refuse = |fault| Diagnostic::new(fault, first.span);
+        let unknown = || refuse(cannot("a cycle whose planes are not known"));
+        let in_force = self.at.cycle.clone().ok_or_else(|| refuse(Fault::NoCycle))?;
+        let plane = self.at.plane(in_force.cycle.plane).ok_or_else(unknown)?;
+        let normal = plane.axes().2 as usize;
+        let retract = in_force.retract.ok_or_else(unknown)?;
+        let initial = in_force.initial.ok_or_else(unknown)?;
+        let clear = match in_force.cycle.return_level.known().or(self.at.modes.return_level) {
+            Some(ReturnLevel::Initial) => initial.max(retract),
+            Some(ReturnLevel::Retract) | None => retract,
+        };
+        let mut here = self.here().map_err(refuse)?;
+        if here[normal] < retract {
+            here[normal] = retract;
+            self.straight("STRAIGHT_TRAVERSE", here);
+        }
+        self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)");
+        let mut level = here[normal];
+        for stmt in holes {
+            let Op::Hole(hole) = &stmt.op else { continue };
+            let mut to = self.target(&hole.to).map_err(refuse)?;
+            to[normal] = level;
+            self.straight("STRAIGHT_TRAVERSE", to);
+            if level > retract {
+                to[normal] = retract;
+                self.straight("STRAIGHT_TRAVERSE", to);
+            }
+            self.hole(&in_force, to, normal, retract, clear).map_err(refuse)?;
+            self.at.apply(&stmt.op);
+            level = clear;
+        }
+        self.call("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, 0.000000)");
+        self.call("SET_NAIVECAM_TOLERANCE(0.0000)");
+        Ok(())
+    }
+
+    /// One hole, from the retract plane over it.
+    fn hole(
+        &mut self,
+        in_force: &InForce,
+        to: [Nanos; AXES],
+        normal: usize,
+        retract: Nanos,
+        clear: Nanos,
+    ) -> Result<(), Fault> {
+        let depth = in_force.depth.ok_or_else(|| cannot("a cycle whose planes are not known"))?;
+        let go = |printer: &mut Self, name: &str, level: Nanos| {
+            let mut at = to;
+            at[normal] = level;
+            printer.straight(name, at);
+        };
+        let (feed, rapid) = ("STRAIGHT_FEED", "STRAIGHT_TRAVERSE");
+        match &in_force.cycle.kind {
+            CycleKind::Drill => {
+                go(self, feed, depth);
+                go(self, rapid, clear);
+            }
+            CycleKind::DrillDwell { dwell } => {
+                go(self, feed, depth);
+                let _ = writeln!(self.out, "DWELL({:.4})", literal(dwell)?);
+                go(self, rapid, clear);
+            }
+            CycleKind::DrillPeck { peck, .. } => {
+                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;
+                let mut bottom = retract - peck;
+                while bottom > depth {
+                    go(self, feed, bottom);
+                    go(self, rapid, retract);
+                    go(self, rapid, bottom + GAP);
+                    bottom -= peck;
+                }
+                go(self, feed, depth);
+                go(self, rapid, clear);
+            }
+            CycleKind::DrillBreak { peck, .. } => {
+                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;
+                let mut bottom = retract - peck;
+                while bottom > depth {
+                    go(self, feed, bottom);
+                    go(self, rapid, bottom + GAP);
+                    bottom -= peck;
+                }
+                go(self, feed, depth);
+                go(self, rapid, clear);
+            }
+            CycleKind::Bore { dwell: None, .. } => {
+                go(self, feed, depth);
+                go(self, feed, retract);
+                go(self, rapid, clear);
+            }
+            CycleKind::Bore { dwell: Some(dwell), .. } => {
+                go(self, feed, depth);
+                let _ = writeln!(self.out, "DWELL({:.4})", literal(dwell)?);
+                go(self, feed, clear);
+            }
+            CycleKind::BoreStop(BoreStop { dwell, stop: false, .. }) => {
+                let before = self.turning;
+                go(self, feed, depth);
+                let dwell = dwell.as_ref().map_or(Ok(0.0), literal)?;
+                let _ = writeln!(self.out, "DWELL({dwell:.4})");
+                self.turn(Turning::Stopped);
+                go(self, rapid, clear);
+                self.turn(before);
+            }
+            CycleKind::Tap(tap) if tap.chuck => {
+                let (way, back) = match tap.turn {
+                    Turn::Clockwise => (Turning::Clockwise, Turning::Counterclockwise),
+                    Turn::Counterclockwise => (Turning::Counterclockwise, Turning::Clockwise),
+                };
+                if self.turning != way {
+                    return Err(cannot("tapping without the spindle turning so"));
+                }
+                self.call("DISABLE_FEED_OVERRIDE()");
+                self.call("DISABLE_SPEED_OVERRIDE(0)");
+                go(self, feed, depth);
+                self.turn(Turning::Stopped);
+                self.turn(back);
+                let dwell = tap.dwell.as_ref().map_or(Ok(0.0), literal)?;
+                let _ = writeln!(self.out, "DWELL({dwell:.4})");
+                go(self, feed, clear);
+                self.turn(Turning::Stopped);
+                self.turn(way);
+                self.call("ENABLE_FEED_OVERRIDE()");
+                self.call("ENABLE_SPEED_OVERRIDE(0)");
+            }
+            CycleKind::BoreStop(_) | CycleKind::Tap(_) | CycleKind::FineBore(_) => {
+                return Err(cannot(in_force.cycle.kind.name()));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The last comment in brackets of the line at a place; what follows a semicolon is none.
+fn last_comment(source: &[u8], at: usize) -> Option<&[u8]> {
+    let start = source.get(..at)?.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
+    let line = source[start..].split(|b| *b == b'\n').next()?;
+    let mut last = None;
+    let mut rest = line;
+    while let Some(open) = rest.iter().position(|b| matches!(b, b'(' | b';')) {
+        if rest[open] == b';' {
+            break;
+        }
+        let close = rest[open..].iter().position(|b| *b == b')')? + open;
+        last = Some(&rest[open + 1..close]);
+        rest = &rest[close + 1..];
+    }
+    last
+}
+
+fn literal(value: &Expr) -> Result<f64, Fault> {
+    let n = value.literal().ok_or_else(|| cannot("an expression"))?;
+    Ok(n.mantissa as f64 / 10f64.powi(i32::from(n.scale)))
+}
+
+fn cannot(what: &str) -> Fault {
+    Fault::CannotSay { what: what.into() }
+}
