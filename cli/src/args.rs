@@ -32,6 +32,10 @@ pub struct Cli {
     /// A dictionary of your own; its name can then be used as any dialect's [may be repeated]
     #[arg(long, global = true, value_name = "FILE")]
     pub dialect: Vec<PathBuf>,
+    /// Look for called programs in this folder, in files named as the control's custom is: O1234.nc,
+    /// POCKET.SPF [may be repeated]
+    #[arg(short = 'I', long = "include", global = true, value_name = "DIR")]
+    pub include: Vec<PathBuf>,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use same_file::Handle;
 
 use crate::arrow;
+use crate::called::Called;
 use crate::job::Output;
 use crate::problem::{Exit, Problem};
 
@@ -23,6 +24,8 @@ pub struct Source {
     pub shown: String,
     /// Its name in the output and the report: the file's name without folders, or `-`.
     pub name: String,
+    /// What programs it calls from files of their own; they stand behind its own text in `file`.
+    pub called: Option<Called>,
     identity: Option<Handle>,
 }
 
@@ -53,7 +56,7 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
         Some(name) if !stdin => name.to_string_lossy().into_owned(),
         Some(_) | None => "-".to_owned(),
     };
-    Ok(Source { file, shown, name, identity: identity.ok() })
+    Ok(Source { file, shown, name, called: None, identity: identity.ok() })
 }
 
 /// Keeps what can be read only once in an anonymous file.
@@ -67,7 +70,7 @@ fn spool(from: &mut dyn Read) -> io::Result<File> {
 impl Source {
     /// A file that nobody has named: an anonymous one, from its beginning.
     pub(crate) fn of(file: File, name: &str) -> Source {
-        Source { file, shown: name.to_owned(), name: name.to_owned(), identity: None }
+        Source { file, shown: name.to_owned(), name: name.to_owned(), called: None, identity: None }
     }
 
     /// Whether the path is this source.

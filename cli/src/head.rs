@@ -22,6 +22,12 @@ pub(crate) fn lines(
     let verified = if job.verify { "verified" } else { "UNVERIFIED" };
     let mut lines =
         vec![format!("ncc: {} {} sha256 {hash}, {verified}", job.from.dialect.id, job.source_name)];
+    for file in job.called.iter().flat_map(|called| &called.files) {
+        let hash: String = file.sha256[..4].iter().map(|b| format!("{b:02x}")).collect();
+        let name = std::path::Path::new(&file.name).file_name();
+        let name = name.map_or(file.name.clone().into(), |name| name.to_string_lossy());
+        lines.push(format!("called: {name} sha256 {hash}"));
+    }
     let dialects = [job.to.dialect, job.from.dialect];
     let mut seen = BTreeSet::new();
     let assumed: Vec<String> = diagnostics

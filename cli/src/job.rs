@@ -17,6 +17,7 @@ use ncc_ir::program::Text;
 use ncc_machines::reading::{Place, Side};
 use tempfile::SpooledTempFile;
 
+use crate::called::Called;
 use crate::machines::pair::Machines;
 
 /// A translation to be done.
@@ -46,6 +47,8 @@ pub struct Job {
     pub program_number: Option<u32>,
     /// Name of the source for the head and the report: a file name without folders, or `-`.
     pub source_name: String,
+    /// Files of called programs, which stand behind the source's own text.
+    pub called: Option<Called>,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
@@ -68,6 +71,7 @@ impl Job {
             start: [None; AXES],
             program_number: None,
             source_name: source_name.into(),
+            called: None,
             allow: Vec::new(),
             deny: Vec::new(),
         }

@@ -24,6 +24,8 @@ pub struct Known {
     shops: Vec<&'static Dialect>,
     /// Files of those, and their texts, in the same order.
     texts: Vec<(PathBuf, String)>,
+    /// Folders in which called programs are looked for.
+    folders: Vec<PathBuf>,
 }
 
 impl Known {
@@ -74,6 +76,27 @@ impl Known {
                 Err(told(&error, &names, &borrowed, out))
             }
         }
+    }
+
+    /// Says where called programs are looked for.
+    ///
+    /// # Errors
+    /// One is no folder.
+    pub fn look_in(&mut self, folders: &[PathBuf]) -> Result<(), Problem> {
+        if let Some(none) = folders.iter().find(|folder| !folder.is_dir()) {
+            let message = format!("-I {}: there is no such folder", none.display());
+            return Err(Problem::usage(
+                message,
+                "name a folder with called programs, each in a file of its own",
+            ));
+        }
+        self.folders = folders.to_vec();
+        Ok(())
+    }
+
+    /// Folders in which called programs are looked for.
+    pub fn folders(&self) -> &[PathBuf] {
+        &self.folders
     }
 
     /// All of them, the built-in ones first. All are read for that.

@@ -6,6 +6,7 @@
 pub mod args;
 pub mod arrow;
 pub mod batch;
+pub mod called;
 pub mod check;
 mod chunks;
 pub mod dialect_test;

@@ -93,6 +93,7 @@ impl Order {
             start: args.standing.start.unwrap_or_default(),
             program_number: args.program_number,
             source_name: source_name.to_owned(),
+            called: None,
             allow: args.allow.clone(),
             deny: args.deny.clone(),
         })

@@ -12,6 +12,7 @@ use ncc_machines::reading::key_of;
 use serde::Serialize;
 use serde::ser::{SerializeMap, SerializeSeq, Serializer};
 
+use crate::called;
 use crate::job::{Failure, Job, Outcome};
 use crate::render::json::Entry;
 use crate::render::words::Context;
@@ -25,6 +26,16 @@ struct Source<'a> {
     bytes: u64,
     sha256: String,
     blocks: u64,
+    /// Files of called programs.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    called: Vec<CalledFile<'a>>,
+}
+
+#[derive(Serialize)]
+struct CalledFile<'a> {
+    file: &'a str,
+    bytes: u64,
+    sha256: String,
 }
 
 #[derive(Serialize)]
@@ -165,6 +176,7 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
             bytes: outcome.source_bytes,
             sha256: hex(&outcome.source_sha256),
             blocks: outcome.blocks,
+            called: job.called.iter().flat_map(|called| &called.files).map(called_file).collect(),
         },
     )?;
     let bytes = if outcome.release.is_ok() { outcome.output.bytes() } else { 0 };
@@ -184,6 +196,10 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     SerializeMap::end(map)?;
     out.write_all(b"\n")?;
     out.flush()
+}
+
+fn called_file(file: &called::CalledFile) -> CalledFile<'_> {
+    CalledFile { file: &file.name, bytes: file.bytes, sha256: hex(&file.sha256) }
 }
 
 fn renumbered(outcome: &Outcome) -> Vec<Renumbered<'_>> {

@@ -23,8 +23,8 @@ use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
-    arrow, batch, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report, review, time,
-    translate,
+    arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report,
+    review, time, translate,
 };
 
 /// What to say to who names no target.
@@ -37,7 +37,7 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         || arguments.iter().any(|a| a == "--format=json");
     // A shell's torn arrow is understood only where the target's name is known.
     let files = known::files(&arguments);
-    let known = match Known::with(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor)) {
+    let mut known = match Known::with(&files, (!as_json).then_some(&mut err as &mut dyn WriteColor)) {
         Ok(known) => known,
         Err(problem) => return fail(&problem, &mut err, as_json),
     };
@@ -50,6 +50,9 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Err(error) => return clap_says(&error, &arguments, &known, &mut err),
     };
     let mut err = StandardStream::stderr(choice(cli.color));
+    if let Err(problem) = known.look_in(&cli.include) {
+        return fail(&problem, &mut err, as_json);
+    }
     let done = match &cli.verb {
         Verb::Translate(args) => return translate_verb(args, arrow, &known, &mut err),
         Verb::Dialects(args) => match &args.what {
@@ -206,7 +209,9 @@ fn translated(
         Eol::Crlf => true,
         Eol::Keep => source.is_crlf()?,
     };
-    let job = order.job(args, from, &source.name, crlf)?;
+    let mut job = order.job(args, from, &source.name, crlf)?;
+    called::gather(&mut source, &job.from, known.folders())?;
+    job.called.clone_from(&source.called);
     source.rewind()?;
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let asked = Asked { map: args.map.is_some(), annotate: args.annotate };

@@ -90,7 +90,11 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Read) -> io::Result<(Outcome, M
         }
     }
     line.end()?;
-    let (hash, bytes) = chunks.finish();
+    let (hash, bytes) = match (chunks.finish(), &job.called) {
+        // The source is what calls the others.
+        (_, Some(called)) => (called.sha256, called.bytes),
+        (own, None) => own,
+    };
     let inherited = line.inherited(&line.batch.assumed);
     let record = line.trace.take();
     let outcome = line.outcome(hash, bytes);

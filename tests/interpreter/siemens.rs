@@ -33,6 +33,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         edge: modes.edge,
         feed_inch: false,
         modal: None,
+        modal_call: None,
         tangent: None,
         depth: 0,
     };
@@ -74,6 +75,8 @@ struct Control<'a> {
     feed_inch: bool,
     /// The cycle of MCALL.
     modal: Option<cycles::Cycle>,
+    /// The subprogram of MCALL.
+    modal_call: Option<String>,
     /// Direction in which the last move at feed ended, in program coordinates.
     tangent: Option<[f64; 3]>,
     depth: u32,
@@ -120,7 +123,9 @@ impl<'a> Control<'a> {
                 continue;
             }
             let next = match block.items.first() {
-                Some(Item::Name(name)) if name == "REPEAT" => self.repeat(unit, at, block)?,
+                Some(Item::Name(name)) if name == "REPEAT" || name == "REPEATB" => {
+                    self.repeat(unit, at, block, name == "REPEATB")?
+                }
                 _ => self.block(block)?,
             };
             if next != Next::Block {
@@ -130,8 +135,8 @@ impl<'a> Control<'a> {
         Ok(Next::Block)
     }
 
-    /// `REPEAT LABEL P=n` and `REPEAT FIRST LAST P=n`.
-    fn repeat(&mut self, unit: &'a Unit, at: usize, block: &Block) -> Result<Next, Halt> {
+    /// `REPEAT LABEL P=n`, `REPEAT FIRST LAST P=n` and `REPEATB LABEL P=n`, of that block `alone`.
+    fn repeat(&mut self, unit: &'a Unit, at: usize, block: &Block, alone: bool) -> Result<Next, Halt> {
         let mut labels = Vec::new();
         let mut times = 1;
         for item in &block.items[1..] {
@@ -153,16 +158,16 @@ impl<'a> Control<'a> {
         let (from, to) = match labels[..] {
             [label] => {
                 let from = place(label)?;
-                let end = unit
-                    .blocks
-                    .iter()
-                    .any(|b| b.1.as_ref().is_ok_and(|b| b.label.as_deref() == Some("ENDLABEL")));
-                if end || from > at {
-                    return self.m.halt("REPEAT of a label further on, or ENDLABEL");
+                if from > at {
+                    return self.m.halt("REPEAT of a label further on");
                 }
-                (from, at)
+                let ends = |k: &usize| {
+                    unit.blocks[*k].1.as_ref().is_ok_and(|b| b.label.as_deref() == Some("ENDLABEL"))
+                };
+                let to = (from..at).find(ends).map_or(at, |end| end + 1);
+                (from, if alone { from + 1 } else { to })
             }
-            [first, last] => (place(first)?, place(last)? + 1),
+            [first, last] if !alone => (place(first)?, place(last)? + 1),
             _ => return self.m.halt("REPEAT of one label or two"),
         };
         if from >= to || (from..to).contains(&at) {
@@ -238,7 +243,8 @@ impl<'a> Control<'a> {
                     self.m.record(What::Message);
                 }
                 (_, true, ["MCALL"]) if cycles::is_cycle(name) => {
-                    self.modal = Some(self.cycle(name, arguments)?)
+                    self.modal = Some(self.cycle(name, arguments)?);
+                    self.modal_call = None;
                 }
                 (_, true, []) if cycles::is_cycle(name) => {
                     if self.modal.is_some() {
@@ -256,19 +262,27 @@ impl<'a> Control<'a> {
             if digits.is_empty() || value.number.fract() != 0.0 {
                 return self.m.halt("L and no number");
             }
-            return self.call(&format!("L{digits}"), w, 1).map(Some);
+            let name = format!("L{digits}");
+            if w.names[..] == ["MCALL"] && w.letters.len() == 1 && w.named.is_empty() {
+                (self.modal, self.modal_call) = (None, Some(name));
+                return Ok(Some(Next::Block));
+            }
+            return self.call(&name, w, 1).map(Some);
         }
         let Some(first) = w.names.first() else { return Ok(None) };
         match *first {
             "SUPA" | "CIP" | "CT" => return Ok(None),
-            "MCALL" if bare && w.names.len() == 1 => self.modal = None,
+            "MCALL" if bare && w.names.len() == 1 => (self.modal, self.modal_call) = (None, None),
+            "MCALL" if bare && w.names.len() == 2 => {
+                (self.modal, self.modal_call) = (None, Some(w.names[1].to_owned()))
+            }
             "RET" if bare && w.names.len() == 1 => {
                 if self.depth == 0 {
                     return self.m.halt("RET in the main program");
                 }
                 return Ok(Some(Next::Back));
             }
-            "PROC" if bare && w.names.len() == 2 => {}
+            "PROC" if bare && w.names.len() >= 2 => {}
             name if FRAMES.contains(&name) && w.names.len() == 1 => self.change_frame(name, w)?,
             name if w.names.len() == 1 => return self.call(name, w, 0).map(Some),
             name => return self.m.halt(format!("{name} and other names")),
@@ -466,6 +480,11 @@ impl<'a> Control<'a> {
             if let Some(cycle) = self.modal {
                 self.suppressed = false;
                 self.run_cycle(cycle)?;
+            }
+            if let Some(name) = self.modal_call.take() {
+                let alone = Words { names: vec![""], ..Words::default() };
+                self.call(&name, &alone, 0)?;
+                self.modal_call = Some(name);
             }
         }
         self.end_codes(&m_codes)

@@ -163,12 +163,22 @@ impl Writer {
         self.restate_feed(span, sink)?;
         self.pay_call(sink)?;
         let from = self.label_name(&repeat.from, span, sink);
+        if repeat.to.as_ref() == Some(&repeat.from) {
+            return self.repeat(NameMeaning::RepeatBlock, &from, "", repeat.times, sink);
+        }
         let to = repeat.to.as_ref().map(|to| format!(" {}", self.label_name(to, span, sink)));
-        self.repeat(&from, &to.unwrap_or_default(), repeat.times, sink)
+        self.repeat(NameMeaning::RepeatBlocks, &from, &to.unwrap_or_default(), repeat.times, sink)
     }
 
-    fn repeat(&mut self, from: &str, to: &str, times: u32, sink: &mut Sink) -> Result<(), Fault> {
-        let row = self.dialect.name_for(NameMeaning::RepeatBlocks);
+    fn repeat(
+        &mut self,
+        which: NameMeaning,
+        from: &str,
+        to: &str,
+        times: u32,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let row = self.dialect.name_for(which);
         let row = row.ok_or_else(|| cannot("a repetition of blocks"))?;
         let count = match times {
             1 => String::new(),
@@ -214,7 +224,7 @@ impl Writer {
         }
         match times {
             1 => Ok(()),
-            times => self.repeat(&name, "", times - 1, sink),
+            times => self.repeat(NameMeaning::RepeatBlocks, &name, "", times - 1, sink),
         }
     }
 }

@@ -26,7 +26,7 @@ use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::render::human::told;
 use crate::render::{About, json};
-use crate::{run, translate};
+use crate::{called, run, translate};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -139,6 +139,8 @@ impl Bench<'_> {
         };
         let mut job = self.order.job(args, from, &source.name, crlf)?;
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
+        called::gather(&mut source, &job.from, self.known.folders())?;
+        job.called.clone_from(&source.called);
         source.rewind()?;
         let asked = Asked { map: false, annotate: args.annotate };
         let (mut outcome, _) = translate::translate_recording(&job, asked, &mut source.file)

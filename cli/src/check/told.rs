@@ -84,7 +84,8 @@ pub(super) fn tell(args: &Check, job: &Job, source: &mut Source, course: Course)
     let places = diagnostics.iter().flat_map(|d| std::iter::once(&d.span).chain(&d.related));
     let places = places.chain(findings.iter().flat_map(|f| std::iter::once(&f.span).chain(&f.related)));
     let places = places.chain(&checked.first_refusal).map(|span| span.start).collect();
-    let lines = Lines::find(&mut source.file, places)?;
+    let mut lines = Lines::find(&mut source.file, places)?;
+    lines.own_numbers(job.called.as_ref());
     let shown = source.shown.clone();
     let mut program = Program {
         dialect: &job.from.dialect.id,
@@ -108,7 +109,9 @@ pub(super) fn tell(args: &Check, job: &Job, source: &mut Source, course: Course)
         }
         let severity = grade(rule.code(), rule.severity());
         program.count(severity, 1);
-        let told = of_finding(finding, severity, source, &lines, &shown)?;
+        let file = job.called.as_ref().and_then(|called| called.file(finding.span.start));
+        let name = file.map_or(shown.as_str(), |file| file.name.as_str());
+        let told = of_finding(finding, severity, source, &lines, name)?;
         program.items.push(Item { code: rule.code(), name: Some(rule.name()), severity, told });
     }
     for (rule, count) in &checked.left_out {
@@ -172,7 +175,10 @@ fn of_finding(
     lines: &Lines,
     shown: &str,
 ) -> io::Result<Told> {
-    let spans: Vec<Span> = std::iter::once(finding.span).chain(finding.related.iter().copied()).collect();
+    let file = |span: &Span| source.called.as_ref()?.file(span.start).map(|file| file.places);
+    let own = file(&finding.span);
+    let others: Vec<Span> = finding.related.iter().filter(|span| file(span) == own).copied().collect();
+    let spans: Vec<Span> = std::iter::once(finding.span).chain(others.iter().copied()).collect();
     let excerpt = Excerpt::read(&mut source.file, lines, shown, &spans)?;
     let words = words(finding);
     let place = |span: Span, label: &str| {
@@ -182,7 +188,7 @@ fn of_finding(
         Place { span, start, end, text, label: label.to_owned() }
     };
     let labels = words.related.iter().copied().chain(std::iter::repeat(""));
-    let related = finding.related.iter().zip(labels).map(|(span, label)| place(*span, label)).collect();
+    let related = others.iter().zip(labels).map(|(span, label)| place(*span, label)).collect();
     Ok(Told {
         code: format!("NC{:04}", finding.what.rule().code()),
         severity: heading(severity),

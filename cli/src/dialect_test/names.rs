@@ -51,6 +51,9 @@ fn meant(bench: &Bench, row: &NameRow, meaning: NameMeaning) -> Tried {
             }
         }
         NameMeaning::Message => Said::new("MESSAGE(\"Turn the part over\")"),
+        NameMeaning::RepeatBlock => Said::new("REPEAT_BLOCKS(\"PASS\" to \"PASS\", times 4)")
+            .after("LABEL(\"PASS\") & said STRAIGHT_TRAVERSE(X 1mm)\nsaid STRAIGHT_TRAVERSE(X 2mm)"),
+        NameMeaning::EndOfRepeat => return end_of_repeat(bench, row),
         NameMeaning::RepeatBlocks => Said::new("REPEAT_BLOCKS(\"PASS\", times 4)")
             .after("LABEL(\"PASS\") & said STRAIGHT_TRAVERSE(X 1mm)\nsaid STRAIGHT_TRAVERSE(X 2mm)"),
     };
@@ -72,6 +75,18 @@ fn meant(bench: &Bench, row: &NameRow, meaning: NameMeaning) -> Tried {
         }
         None => Tried::failure("no row is written for this meaning: none has `write`"),
     }
+}
+
+/// An end of a repetition that no label is named for: read in place of one that is named.
+fn end_of_repeat(bench: &Bench, row: &NameRow) -> Tried {
+    let said = Said::new("REPEAT_BLOCKS(\"PASS\" to \"ENDLABEL_1\", times 4)").after(
+        "LABEL(\"PASS\") & said STRAIGHT_TRAVERSE(X 1mm)\nLABEL(\"ENDLABEL_1\") & said STRAIGHT_TRAVERSE(X 2mm)",
+    );
+    let put = |text: String| {
+        let end = format!("{}:", row.name);
+        text.replace("ENDLABEL_1:", &end).replace(" ENDLABEL_1", "")
+    };
+    must_show(bench.reads(&said, &said.say, put), &row.name).read_only()
 }
 
 fn step(word: FrameWord) -> &'static str {

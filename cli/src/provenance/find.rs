@@ -15,6 +15,8 @@ use super::args::Why;
 use super::map;
 use super::read::{Document, read};
 use super::trace::Asked;
+use super::why::own_settings;
+use crate::called;
 use crate::files::{self, Source};
 use crate::job::Job;
 use crate::known::Known;
@@ -72,7 +74,7 @@ pub(crate) fn find(
     if document.output.sha256 != hex(sha256) {
         return Err(changed(&output.shown, &shown, "translate again, with --map"));
     }
-    let source = source_of(args, &document, out, &name)?;
+    let source = source_of(args, &document, out, &name, known)?;
     Ok(Found { document, source })
 }
 
@@ -84,8 +86,47 @@ fn changed(file: &str, map: &str, help: &str) -> Problem {
     }
 }
 
+/// A source with the programs behind it that it calls from files of their own.
+fn with_called(
+    mut source: Source,
+    document: &Document,
+    map: &Path,
+    known: &Known,
+) -> Result<Source, Problem> {
+    let side = &document.source;
+    let Some(settings) = own_settings(side, known).filter(|_| !side.called.is_empty()) else {
+        return Ok(source);
+    };
+    let folder = |file: &str| Path::new(file).parent().map(Path::to_owned).unwrap_or_default();
+    let mut folders: Vec<PathBuf> = known.folders().to_vec();
+    for file in &side.called {
+        let folder = folder(&file.file);
+        let folder = if folder.as_os_str().is_empty() { PathBuf::from(".") } else { folder };
+        if !folders.contains(&folder) {
+            folders.push(folder);
+        }
+    }
+    called::gather(&mut source, &settings, &folders)?;
+    let found: Vec<String> =
+        source.called.iter().flat_map(|called| &called.files).map(|file| hex(&file.sha256)).collect();
+    let other = side.called.iter().enumerate().find(|(at, file)| found.get(*at) != Some(&file.sha256));
+    match other {
+        None => Ok(source),
+        Some((_, file)) => {
+            let help = "name the folder with the called programs with -I";
+            Err(changed(&file.file, &map.display().to_string(), help))
+        }
+    }
+}
+
 /// The source of a map: the one that was named, else where it was, else beside the program or the map.
-fn source_of(args: &Why, document: &Document, out: &Path, map: &Path) -> Result<Source, Problem> {
+fn source_of(
+    args: &Why,
+    document: &Document,
+    out: &Path,
+    map: &Path,
+    known: &Known,
+) -> Result<Source, Problem> {
     let side = &document.source;
     let beside = |path: &Path| path.parent().map(|folder| folder.join(&side.name));
     let candidates = match &args.from_source {
@@ -102,7 +143,7 @@ fn source_of(args: &Why, document: &Document, out: &Path, map: &Path) -> Result<
         let text = super::text::Text::new(&mut source.file)
             .map_err(|e| Problem::file("read", &path.display().to_string(), &e))?;
         if hex(&text.sha256) == side.sha256 {
-            return Ok(source);
+            return with_called(source, document, map, known);
         }
         other.get_or_insert(path);
     }

@@ -17,6 +17,7 @@ use super::rows::Met;
 use super::spool::{Row, Rows};
 use super::text::Text;
 use super::trace::{KINDS, Recorded};
+use crate::called::CalledFile;
 use crate::job::Outcome;
 use crate::render::About;
 use crate::report::hex;
@@ -58,6 +59,9 @@ pub fn write(
     };
     let mut from = side(&job.from, &job.source_name, outcome.source_bytes, &outcome.source_sha256);
     from["file"] = Value::from(about.name);
+    if let Some(called) = &job.called {
+        from["called"] = called.files.iter().map(account).collect();
+    }
     writeln!(out, "{{\"version\": {VERSION},")?;
     writeln!(out, "\"ncc_version\": {},", json!(env!("CARGO_PKG_VERSION")))?;
     writeln!(out, "\"source\": {from},")?;
@@ -87,6 +91,18 @@ pub fn write(
     writeln!(out, "\"rows\": {},", serde_json::to_value(to.rows())?)?;
     writeln!(out, "\"source_rows\": {}}}", serde_json::to_value(from.rows())?)?;
     out.flush()
+}
+
+/// A file of a called program: its places are counted on from those of the source.
+fn account(file: &CalledFile) -> Value {
+    json!({
+        "file": file.name,
+        "bytes": file.bytes,
+        "sha256": hex(&file.sha256),
+        "start": file.places.0,
+        "end": file.places.1,
+        "lines_before": file.lines_before,
+    })
 }
 
 /// Every option of a dialect with its value.

@@ -19,6 +19,16 @@ pub(crate) struct Side {
     #[serde(default)]
     pub(crate) options: BTreeMap<String, String>,
     pub(crate) sha256: String,
+    /// Files of called programs.
+    #[serde(default)]
+    pub(crate) called: Vec<CalledFile>,
+}
+
+/// A file of a called program.
+#[derive(Clone, Debug, Deserialize)]
+pub(crate) struct CalledFile {
+    pub(crate) file: String,
+    pub(crate) sha256: String,
 }
 
 /// A line's entry.

@@ -13,6 +13,7 @@ use super::read::{Events, Place, Row, Side};
 use super::state::{Around, State, WHAT, around};
 use super::text::Text;
 use crate::args::Format;
+use crate::called::Called;
 use crate::files;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
@@ -127,10 +128,11 @@ fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -
         (text.shown(*line, LONGEST).map_err(wrong)?.unwrap_or_default(), (start, next))
     };
     let shown = source.shown.clone();
+    let called = source.called.clone();
     let no_source = |e: io::Error| Problem::file("read", &shown, &e);
     let mut from = Text::new(&mut source.file).map_err(no_source)?;
-    let origins = places(&entry.source, &mut from, &shown).map_err(no_source)?;
-    let also = places(&entry.also, &mut from, &shown).map_err(no_source)?;
+    let origins = places(&entry.source, &mut from, &shown, called.as_ref()).map_err(no_source)?;
+    let also = places(&entry.also, &mut from, &shown, called.as_ref()).map_err(no_source)?;
     let rows = |all: &[Row], some: &[usize]| some.iter().filter_map(|at| all.get(*at).cloned()).collect();
     let around = match own_settings(&document.output, known) {
         Some(settings) => {
@@ -161,13 +163,20 @@ fn answer(args: &Why, found: Found, output: &mut files::Source, known: &Known) -
     })
 }
 
-fn places(places: &[Place], source: &mut Text, shown: &str) -> io::Result<Vec<Origin>> {
+fn places(
+    places: &[Place],
+    source: &mut Text,
+    shown: &str,
+    called: Option<&Called>,
+) -> io::Result<Vec<Origin>> {
     let mut origins = Vec::with_capacity(places.len());
     for place in places {
         let line = source.line_of(place.start);
+        let file = called.and_then(|called| called.file(place.start));
+        let before = file.map_or(0, |file| file.lines_before as usize);
         origins.push(Origin {
-            file: shown.to_owned(),
-            line,
+            file: file.map_or(shown, |file| &file.name).to_owned(),
+            line: line.saturating_sub(before).max(1),
             column: source.column_of(place.start)?,
             start: place.start,
             end: place.end,
@@ -178,7 +187,7 @@ fn places(places: &[Place], source: &mut Text, shown: &str) -> io::Result<Vec<Or
 }
 
 /// The output's dialect with the options that it was written with; `None` if there is no such dialect here.
-fn own_settings(side: &Side, known: &Known) -> Option<Settings> {
+pub(super) fn own_settings(side: &Side, known: &Known) -> Option<Settings> {
     let mut settings = Settings::new(known.get(&side.dialect)?);
     for (option, value) in &side.options {
         settings.choose(option, value).ok()?;

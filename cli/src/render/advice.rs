@@ -72,7 +72,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             format!("say the position: an absolute {axis} word before this block"),
             format!("or, if the tool stands somewhere when the program starts: `--start {axis}100`"),
         ],
-        Fault::CallUnknown { .. } => own("put the subprogram into the same file, after the main program"),
+        Fault::CallUnknown { .. } => {
+            own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
+        }
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } => Vec::new(),
         Fault::LabelUnknown { .. } => own("put the label before the block that repeats from it"),
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),

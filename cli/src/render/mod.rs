@@ -76,7 +76,9 @@ impl About<'_> {
     pub fn lines<'d>(&mut self, diagnostics: impl Iterator<Item = &'d Diagnostic>) -> io::Result<Lines> {
         let places = diagnostics.flat_map(|d| std::iter::once(d.span).chain(d.related.iter().copied()));
         let places = places.map(|span| span.start).collect();
-        Lines::find(self.source, places)
+        let mut lines = Lines::find(self.source, places)?;
+        lines.own_numbers(self.job.called.as_ref());
+        Ok(lines)
     }
 
     /// A diagnostic in words. `lines` must know its places.
@@ -84,9 +86,14 @@ impl About<'_> {
     /// # Errors
     /// Reading the source.
     pub fn tell(&mut self, lines: &Lines, diagnostic: &Diagnostic) -> io::Result<Told> {
-        let spans: Vec<Span> =
-            std::iter::once(diagnostic.span).chain(diagnostic.related.iter().copied()).collect();
-        let excerpt = Excerpt::read(self.source, lines, self.name, &spans)?;
+        // Further places are shown that stand in the same file.
+        let file = |span: &Span| self.job.called.as_ref().and_then(|called| called.file(span.start));
+        let own = file(&diagnostic.span);
+        let related: Vec<Span> =
+            diagnostic.related.iter().filter(|span| file(span) == own).copied().collect();
+        let spans: Vec<Span> = std::iter::once(diagnostic.span).chain(related.iter().copied()).collect();
+        let name = own.map_or(self.name, |file| file.name.as_str());
+        let excerpt = Excerpt::read(self.source, lines, name, &spans)?;
         let fault = &diagnostic.fault;
         let at = Context {
             from: self.job.from.dialect,
@@ -119,7 +126,7 @@ impl About<'_> {
             debug_assert!(range.start <= range.end);
             Place { span, start, end, text, label: label.to_owned() }
         };
-        let related = diagnostic.related.iter().map(|span| place(*span, said.related)).collect();
+        let related = related.iter().map(|span| place(*span, said.related)).collect();
         Ok(Told {
             code: format!("NC{:04}", fault.code()),
             severity,

@@ -10,6 +10,8 @@ use std::ops::Range;
 use codespan_reporting::files::{Error, Files, Location};
 use ncc_ir::source::Span;
 
+use crate::called::Called;
+
 /// Anything that can be read again.
 pub trait Source: Read + Seek {}
 
@@ -95,6 +97,16 @@ impl Lines {
             }
             last_byte = text.last().copied().unwrap_or(last_byte);
             at += n as u64;
+        }
+    }
+
+    /// Counts the lines of called programs as their own files do.
+    pub fn own_numbers(&mut self, called: Option<&Called>) {
+        let Some(called) = called else { return };
+        for line in self.by_start.values_mut() {
+            if let Some(file) = called.file(line.start as u32) {
+                line.number = line.number.saturating_sub(file.lines_before).max(1);
+            }
         }
     }
 

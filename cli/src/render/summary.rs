@@ -10,6 +10,7 @@ use super::About;
 use super::human::{Loudness, told};
 use super::source::Lines;
 use super::words::{Context, plain, plural, words, work_offset};
+use crate::called::Called;
 use crate::head::{assumption, by_name};
 use crate::job::{Failure, Outcome};
 
@@ -72,14 +73,16 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
         .collect();
     let places =
         groups.iter().flat_map(|(_, groups)| groups).flat_map(|g| g.places.iter().copied()).collect();
-    let lines = Lines::find(about.source, places)?;
+    let mut lines = Lines::find(about.source, places)?;
+    lines.own_numbers(about.job.called.as_ref());
+    let called = about.job.called.as_ref();
     for (heading, groups) in groups {
         for (i, group) in groups.iter().take(MOST_PHRASES).enumerate() {
             let heading = if i == 0 { heading } else { "" };
             let colour = if heading == "lost" { Color::Red } else { Color::Yellow };
             write!(out, "  ")?;
             coloured(out, colour, &format!("{heading:<13}"))?;
-            writeln!(out, "{} ({})", group.phrase, line_list(group, &lines))?;
+            writeln!(out, "{} ({})", group.phrase, line_list(group, &lines, called))?;
         }
         if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
             writeln!(out, "  {:<13}… and {more} more; --verbose or --report says all", "")?;
@@ -138,7 +141,20 @@ fn groups(diagnostics: &[Diagnostic], verdicts: &[Verdict], at: Context) -> Vec<
 }
 
 /// `line 6`, `lines 9, 19, 30 and 12 more`.
-fn line_list(group: &Group, lines: &Lines) -> String {
+fn line_list(group: &Group, lines: &Lines, called: Option<&Called>) -> String {
+    let file = |place: u32| called.and_then(|called| called.file(place));
+    if let Some(first) = group.places.iter().find_map(|place| file(*place)) {
+        // Lines of several files are told of the first one alone.
+        let in_it = |place: &&u32| file(**place).is_some_and(|other| other.name == first.name);
+        let mut numbers: Vec<u64> =
+            group.places.iter().filter(in_it).filter_map(|p| Some(lines.line(*p)?.number)).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let others = group.count - group.places.iter().filter(in_it).count();
+        let list: Vec<String> = numbers.iter().map(u64::to_string).collect();
+        let more = if others > 0 { format!(" and {others} elsewhere") } else { String::new() };
+        return format!("{} line {}{more}", first.name, list.join(", "));
+    }
     let mut numbers: Vec<u64> =
         group.places.iter().filter_map(|place| lines.line(*place)).map(|line| line.number).collect();
     numbers.sort_unstable();

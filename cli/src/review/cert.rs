@@ -238,6 +238,8 @@ pub fn disagreements(certificate: &Document, fresh: &Document) -> Vec<String> {
     let texts = [
         ("dictionary", &certificate.dictionaries, &fresh.dictionaries),
         ("profile", &certificate.profiles, &fresh.profiles),
+        ("called program", &certificate.source.called, &fresh.source.called),
+        ("called program", &certificate.output.called, &fresh.output.called),
     ];
     for (what, old, new) in texts {
         texts_apart(what, old, new, &mut wrong);
@@ -251,7 +253,7 @@ pub fn disagreements(certificate: &Document, fresh: &Document) -> Vec<String> {
         all.retain(|key, _| !matches!(key.as_str(), "ncc_version" | "dictionaries" | "profiles"));
         for side in ["source", "output"] {
             if let Some(side) = all.get_mut(side).and_then(Value::as_object_mut) {
-                side.retain(|key, _| !matches!(key.as_str(), "file" | "machine" | "sha256"));
+                side.retain(|key, _| !matches!(key.as_str(), "file" | "machine" | "sha256" | "called"));
             }
         }
     }

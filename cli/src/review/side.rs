@@ -14,6 +14,7 @@ use ncc_machines::Profile;
 use ncc_machines::reading::Side as Whose;
 
 use crate::args::Start;
+use crate::called;
 use crate::files::{self, Source};
 use crate::guess::{Guess, guess};
 use crate::job::Job;
@@ -201,6 +202,7 @@ impl Opened {
             None => Machines::default(),
         };
         let from = settings(machines.settings(Whose::From, dialect), asked.options)?;
+        called::gather(&mut self.source, &from, known.folders())?;
         self.source.rewind()?;
         Ok(Side::of(self.source, from, machines, asked.start))
     }
@@ -209,8 +211,12 @@ impl Opened {
 impl Side {
     /// A program of a dialect with its options.
     pub(crate) fn of(source: Source, from: Settings, machines: Machines, start: Option<Start>) -> Side {
-        let job =
-            Job { machines, start: start.unwrap_or_default(), ..Job::new(from.clone(), from, &source.name) };
+        let job = Job {
+            machines,
+            start: start.unwrap_or_default(),
+            called: source.called.clone(),
+            ..Job::new(from.clone(), from, &source.name)
+        };
         Side { source, job }
     }
 }

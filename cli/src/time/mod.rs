@@ -40,6 +40,7 @@ pub use self::payload::SCHEMA;
 use self::progress::Progress;
 use self::summary::{Report, Timing};
 use self::tally::{Tallier, Tally};
+use crate::called;
 use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::{Failure, Job, Output};
@@ -233,9 +234,11 @@ pub(crate) fn job(
         None => Machines::default(),
     };
     let from = settings(machines.settings(Side::From, dialect), &args.reading.from_option)?;
+    called::gather(source, &from, known.folders())?;
     source.rewind()?;
     Ok(Job {
         machines,
+        called: source.called.clone(),
         start: args.setting.standing.start.unwrap_or_default(),
         ..Job::new(from.clone(), from, &source.name)
     })
@@ -510,7 +513,7 @@ fn canonical(
     outcome.output.write_to(&mut again).map_err(cannot)?;
     again.seek(SeekFrom::Start(0)).map_err(cannot)?;
     let mut text = Source::of(file, &source.name);
-    let second = Job { from: to.clone(), to, start, ..first.job.clone() };
+    let second = Job { from: to.clone(), to, start, called: None, ..first.job.clone() };
     let plan = Plan { job: &second, machine: shop.machine.clone(), ..plan(args, shop, &second) };
     let mut sink = canon::Canon::new(BufReader::new(again), out);
     let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;

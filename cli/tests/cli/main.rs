@@ -2,6 +2,7 @@
 
 mod arrow;
 mod batch;
+mod called;
 mod check;
 mod dialects;
 mod diff;

@@ -26,6 +26,8 @@ pub(super) const CYCLE: u8 = 32;
 #[derive(Clone, Debug)]
 pub(super) struct Label {
     name: Text,
+    /// Whether it is an end that no label is named for.
+    end: bool,
     /// What was in force before its block.
     before: State,
     /// What was in force after its block.
@@ -121,8 +123,31 @@ impl Again {
 
     /// A block with a label begins.
     pub(super) fn label(&mut self, name: Text, before: &State) {
-        let label = Label { name, before: before.clone(), after: None, said: 0, used: 0 };
+        let label = Label { name, end: false, before: before.clone(), after: None, said: 0, used: 0 };
         self.labels.push(label);
+    }
+
+    /// A name for an end that has none of its own.
+    pub(super) fn end_name(&self) -> Text {
+        let mut numbers = 1u32..;
+        let free = numbers.find_map(|n| {
+            let name = format!("ENDLABEL_{n}");
+            (!self.has_label(&name)).then_some(name)
+        });
+        free.unwrap_or_default().into()
+    }
+
+    /// The last label is an end that no label is named for.
+    pub(super) fn is_end(&mut self) {
+        if let Some(label) = self.labels.last_mut() {
+            label.end = true;
+        }
+    }
+
+    /// The end that stands first behind the last label of this name.
+    pub(super) fn end_behind(&self, from: &str) -> Option<Text> {
+        let first = self.labels.iter().rposition(|l| &*l.name == from)?;
+        self.labels[first..].iter().find(|l| l.end).map(|l| l.name.clone())
     }
 
     /// Whether a label of this name has been met.

@@ -4,8 +4,10 @@
 //! by that number; `L012` is another subprogram and keeps its whole name, as all others do, in
 //! capitals.
 //!
-//! Refused by name: calls with arguments, of subprograms after each move, by path, and subprograms
-//! that leave a cycle in force.
+//! A subprogram that is called after each move becomes a call behind every block with motion.
+//!
+//! Refused by name: calls with arguments, by path, calls while a subprogram is called after each move
+//! (it would be called after the moves in them as well), and subprograms that leave a cycle in force.
 
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::program::{Call, Move, Op, RepeatBlocks, Text};
@@ -113,11 +115,40 @@ impl Lower {
                 self.state.cycle = InForce::Refused;
             }
             (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
-            (None, None) => {
-                self.not_supported(&name, "subprogram called after each move", called.span, out);
-                self.state.cycle = InForce::Refused;
-            }
+            (None, None) => self.call_modal_program(&name, called, src, out),
         }
+    }
+
+    /// `MCALL NAME`: of a subprogram, after each block with motion.
+    fn call_modal_program(&mut self, name: &str, called: &Called, src: Source, out: &mut Batch) {
+        let refuse = if called.arguments.as_ref().is_some_and(|a| !a.is_empty()) {
+            Some("call with arguments")
+        } else if self.skipped() {
+            Some("call after each move that a switch may skip")
+        } else if matches!(self.state.cycle, InForce::Inherited { .. } | InForce::Lost { .. }) {
+            Some("call after each move where a cycle of the caller may be in force")
+        } else {
+            None
+        };
+        self.again.say(super::again::CYCLE);
+        if let Some(refuse) = refuse {
+            self.not_supported(&src.text(called.span), refuse, called.span, out);
+            self.state.cycle = InForce::Refused;
+            return;
+        }
+        // A cycle that was in force is off; the call itself says nothing.
+        if matches!(self.state.cycle, InForce::Active(_)) {
+            self.moved = None;
+            self.push(called.span, Op::EndCycle, out);
+        }
+        self.now.heading = true;
+        self.state.cycle = InForce::Subprogram(name.into());
+    }
+
+    /// The call behind a block with motion, as a block of its own.
+    pub(super) fn call_after_move(&mut self, name: &str, block: Span, src: Source, out: &mut Batch) {
+        self.apart();
+        self.call(name, block, &[], &[], src, out);
     }
 
     /// A call of a subprogram by its name in the text.
@@ -154,6 +185,10 @@ impl Lower {
             InForce::None | InForce::Refused => Under::Nothing,
             InForce::Active(_) | InForce::Inherited { .. } => Under::Cycle { own_feed },
             InForce::Lost { .. } => Under::Either { own_feed },
+            InForce::Subprogram(_) => {
+                let name = "call while a subprogram is called after each move";
+                return self.not_supported(&src.text(at), name, at, out);
+            }
         };
         let drills = matches!(under, Under::Cycle { .. });
         self.again.use_fact(super::again::CYCLE);
@@ -249,11 +284,14 @@ impl Lower {
         let Some(times) = times.filter(|t| (1..=MOST_TIMES).contains(t)) else {
             return self.fault(Fault::OutOfRange { word: src.text(head.span) }, head.span, out);
         };
-        let (from, to) = (upper(first), last.map(upper));
+        let (from, mut to) = (upper(first), last.map(upper));
         for (name, span) in [Some((&from, first)), to.as_ref().zip(last)].into_iter().flatten() {
             if !self.again.has_label(name) {
                 return self.fault(Fault::LabelUnknown { name: name.clone() }, span, out);
             }
+        }
+        if to.is_none() {
+            to = self.again.end_behind(&from);
         }
         match self.again.repeat(&from, to.as_deref(), &mut self.state) {
             Ok(()) => {}

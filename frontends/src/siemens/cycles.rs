@@ -158,6 +158,10 @@ impl Lower {
         self.recall = false;
         let cycle = Box::new(cycle);
         if modal {
+            if matches!(self.state.cycle, InForce::Subprogram(_)) && self.skipped() {
+                let name = "end of a call after each move that a switch may skip";
+                return self.not_supported(&row.name, name, block, out);
+            }
             self.push(block, Op::StartCycle(cycle.clone()), out);
             self.state.cycle = InForce::Active(cycle);
             return;
@@ -180,6 +184,15 @@ impl Lower {
     /// `MCALL` alone.
     pub(super) fn end_cycle(&mut self, at: Span, out: &mut Batch) {
         self.again.say(CYCLE);
+        if matches!(self.state.cycle, InForce::Subprogram(_)) {
+            if self.skipped() {
+                let name = "end of a call after each move that a switch may skip";
+                return self.not_supported("MCALL", name, at, out);
+            }
+            self.now.heading = true;
+            self.state.cycle = InForce::None;
+            return;
+        }
         if self.state.cycle != InForce::None {
             self.moved = None;
         }

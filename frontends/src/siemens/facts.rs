@@ -41,12 +41,14 @@ impl From<ncc_ir::canon::Motion> for Motion {
     }
 }
 
-/// The cycle that `MCALL` has put in force.
+/// The cycle, or subprogram, that `MCALL` has put in force.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) enum InForce {
     #[default]
     None,
     Active(Box<Cycle>),
+    /// A subprogram, by its name in the text, that is called where a block with motion ends.
+    Subprogram(Box<str>),
     /// The caller's; one is in force.
     Inherited {
         /// Whether it has a feed of its own, or may have.
@@ -65,7 +67,7 @@ impl InForce {
     /// Whether a cycle may be in force that has a feed of its own.
     pub(super) fn own_feed(&self) -> bool {
         match self {
-            InForce::None | InForce::Refused => false,
+            InForce::None | InForce::Refused | InForce::Subprogram(_) => false,
             InForce::Active(cycle) => cycle.feed.is_some(),
             InForce::Inherited { own_feed } | InForce::Lost { own_feed } => *own_feed,
         }

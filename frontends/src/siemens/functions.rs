@@ -203,7 +203,11 @@ impl Lower {
                         let name = "feed under the cycle of a caller that may have its own";
                         self.not_supported(&src.text(given.span), name, given.span, out);
                     }
-                    InForce::None | InForce::Refused | InForce::Inherited { .. } | InForce::Lost { .. } => {}
+                    InForce::None
+                    | InForce::Refused
+                    | InForce::Subprogram(_)
+                    | InForce::Inherited { .. }
+                    | InForce::Lost { .. } => {}
                 }
                 self.push(given.span, Op::SetFeedRate(Expr::Num(num)), out);
             }

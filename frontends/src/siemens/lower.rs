@@ -12,7 +12,7 @@
 
 use std::collections::HashSet;
 
-use ncc_dialects::{Quantity, Role, Settings};
+use ncc_dialects::{NameMeaning, Quantity, Role, Settings};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Coord, Op, Procedure, Stmt, Text};
@@ -319,12 +319,19 @@ impl Lower {
             self.fault(Fault::NotSupported { code, name: "block-skip level".into() }, at, out);
         }
         if let Some(label) = head.label {
-            let name: Text = src.text(label).to_ascii_uppercase().into();
-            if let Some(row) = self.settings.dialect.name_row(&name) {
+            let mut name: Text = src.text(label).to_ascii_uppercase().into();
+            let row = self.settings.dialect.name_row(&name);
+            let end = row.is_some_and(|row| row.means == Some(NameMeaning::EndOfRepeat));
+            if end {
+                name = self.again.end_name();
+            } else if let Some(row) = row {
                 let refuse = row.refuse.as_deref().unwrap_or("word of the language as a label");
                 self.not_supported(&name, refuse, label, out);
             }
             self.again.label(name.clone(), &self.state);
+            if end {
+                self.again.is_end();
+            }
             out.whole = true;
             self.push(label, Op::Label(name), out);
         }
@@ -358,7 +365,9 @@ impl Lower {
                 self.procedure(parameters, attributes, head, src, out);
             }
             Statement::Extern { .. } => self.now.heading = true,
-            Statement::RepeatBlock { .. } => self.refuse_word("REPEATB", head.span, out),
+            Statement::RepeatBlock { label, count } => {
+                self.repeat(*label, Some(*label), count.as_ref(), head, src, out);
+            }
             Statement::Call { .. } | Statement::CallByPath { .. } => {
                 self.refuse_word("PCALL", head.span, out);
             }
@@ -418,7 +427,7 @@ impl Lower {
     fn is_call(&self, called: &Called, src: Source) -> bool {
         let name = src.text(called.name).to_ascii_uppercase();
         match self.settings.dialect.name_row(&name) {
-            Some(row) => row.means == Some(ncc_dialects::NameMeaning::Message),
+            Some(row) => row.means == Some(NameMeaning::Message),
             None => true,
         }
     }
@@ -442,6 +451,12 @@ impl Lower {
         let joined = std::mem::replace(&mut self.now.pushed, true);
         let skip = self.now.skip;
         self.target(out).push(Stmt { span, number, skip, joined, comment: None, op });
+    }
+
+    /// From here on, statements stand in a block of their own.
+    pub(super) fn apart(&mut self) {
+        self.now.pushed = false;
+        self.now.number = None;
     }
 
     /// Whether a switch may skip the block.

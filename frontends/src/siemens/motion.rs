@@ -2,7 +2,8 @@
 //! while a cycle is in force.
 //!
 //! A position under `MCALL` at G0 with words of the plane is a hole. Any other move is made first,
-//! with the cycle off, and the hole where it ends.
+//! with the cycle off, and the hole where it ends. Under `MCALL` with a subprogram, a call follows
+//! every move.
 //!
 //! Not here: the cycles themselves.
 
@@ -77,6 +78,13 @@ impl Lower {
                 self.state.cycle = cycle;
                 let made = self.path(motion.is_some(), machine, block, words, src, out);
                 self.moved = made;
+            }
+            InForce::Subprogram(name) => {
+                self.moved = self.path(motion.is_some(), machine, block, words, src, out);
+                if !self.now.failed {
+                    self.call_after_move(&name, block, src, out);
+                }
+                self.state.cycle = InForce::Subprogram(name);
             }
             InForce::Active(cycle) => {
                 self.state.cycle = InForce::Active(cycle.clone());

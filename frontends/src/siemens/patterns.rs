@@ -35,6 +35,10 @@ impl Lower {
         if self.state.cycle == InForce::None {
             self.fault(Fault::NoCycle, called.span, out);
         }
+        if matches!(self.state.cycle, InForce::Subprogram(_)) {
+            let name = "pattern of a subprogram called after each move";
+            return self.not_supported(&row.name, name, called.span, out);
+        }
         let Some(arguments) = self.arguments(row, called, src, out) else {
             return;
         };

@@ -114,7 +114,11 @@ fn order(meaning: NameMeaning) -> u8 {
         NameMeaning::Code(meaning) => rank(meaning),
         NameMeaning::SetFrame(_) | NameMeaning::AddFrame(_) | NameMeaning::ArcThrough => RANK_MOTION + 1,
         NameMeaning::ArcTangent => RANK_MOTION + 1,
-        NameMeaning::CallModal | NameMeaning::Message | NameMeaning::RepeatBlocks => u8::MAX,
+        NameMeaning::CallModal
+        | NameMeaning::Message
+        | NameMeaning::RepeatBlocks
+        | NameMeaning::RepeatBlock
+        | NameMeaning::EndOfRepeat => u8::MAX,
     }
 }
 

@@ -64,6 +64,10 @@ pub enum NameMeaning {
     Message,
     /// `REPEAT_BLOCKS`
     RepeatBlocks,
+    /// `REPEAT_BLOCKS one`: of one block alone.
+    RepeatBlock,
+    /// `END_OF_REPEAT`: a label up to which blocks are repeated that no label is named for.
+    EndOfRepeat,
 }
 
 /// What a word for a frame does.
@@ -113,6 +117,8 @@ impl fmt::Display for NameMeaning {
             NameMeaning::CallModal => f.write_str("CALL modal"),
             NameMeaning::Message => f.write_str("MESSAGE"),
             NameMeaning::RepeatBlocks => f.write_str("REPEAT_BLOCKS"),
+            NameMeaning::RepeatBlock => f.write_str("REPEAT_BLOCKS one"),
+            NameMeaning::EndOfRepeat => f.write_str("END_OF_REPEAT"),
         }
     }
 }
@@ -130,6 +136,8 @@ impl FromStr for NameMeaning {
             ("CALL", "modal") => NameMeaning::CallModal,
             ("MESSAGE", "") => NameMeaning::Message,
             ("REPEAT_BLOCKS", "") => NameMeaning::RepeatBlocks,
+            ("REPEAT_BLOCKS", "one") => NameMeaning::RepeatBlock,
+            ("END_OF_REPEAT", "") => NameMeaning::EndOfRepeat,
             _ => NameMeaning::Code(text.parse()?),
         })
     }

@@ -129,6 +129,9 @@ pub struct ProgramRules {
     pub flow: Vec<String>,
     /// Digits of the program number in a call word that packs the count in front; 0 if it does not.
     pub packed_call_digits: u32,
+    /// Names of the files in which called programs are looked for, without what stands behind the point, in
+    /// this order: `{}` is the program's name, `{4}` its number with at least so many digits.
+    pub called: Vec<String>,
     /// Who says so.
     pub source: String,
 }

@@ -296,7 +296,7 @@ fn settle_fact<T: Copy>(fact: &mut Fact<T>, in_force: Option<T>) {
     }
 }
 
-fn settle_point(to: &mut Point, here: &Tracker) {
+pub(super) fn settle_point(to: &mut Point, here: &Tracker) {
     to.axes.iter_mut().flatten().for_each(|c| settle_coord(c, here));
 }
 

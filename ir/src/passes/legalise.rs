@@ -306,7 +306,8 @@ impl Legaliser {
             false if !self.calls_under_expanded(rest) => 0,
             false => {
                 let mut own = rest.clone();
-                specialise_procedures::over(&mut own, &self.walk, &mut Vec::new());
+                let inherits = self.target.caps.inherits_motion;
+                specialise_procedures::over(&mut own, &self.walk, inherits, &mut Vec::new());
                 if self.calls_under_expanded(&own) { 2 } else { 1 }
             }
         };
@@ -331,7 +332,10 @@ impl Legaliser {
         let assumed = rest.assumed;
         match way {
             Subprograms::Keep => {}
-            Subprograms::Specialise => specialise_procedures::over(rest, &self.walk, diags),
+            Subprograms::Specialise => {
+                let inherits = self.target.caps.inherits_motion;
+                specialise_procedures::over(rest, &self.walk, inherits, diags);
+            }
             Subprograms::Expand => {
                 expand_repeats::in_procedures(rest, diags);
                 // The walk is needed again for the other passes.

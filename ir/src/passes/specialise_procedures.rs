@@ -2,14 +2,15 @@
 //!
 //! A subprogram whose callers agree keeps its name. One of which they make different things becomes
 //! several, one for each: the first keeps the name, the others get names of their own, in the order
-//! of the calls. Positions are not settled: they differ from call to call as a rule. Subprograms with
+//! of the calls. Where the tool stands is not settled: that differs from call to call as a rule. Subprograms with
 //! arguments, that call themselves, or that are called under structured control stay as they are.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::expand_calls::settle;
+use super::expand_calls::{settle, settle_point};
 use super::walk::Walk;
 use super::{MOST_STATEMENTS, Target};
+use crate::canon::Motion;
 use crate::diag::{Diagnostic, Fault};
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
 use crate::track::Tracker;
@@ -19,17 +20,20 @@ const MOST_TURNS: u32 = 8;
 
 /// Settles the subprograms.
 pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, &Walk::new(entry.clone()), diags);
+    over(program, &Walk::new(entry.clone()), false, diags);
 }
 
-/// The same, with a walk that stands before the main procedure.
-pub(super) fn over(program: &mut Program, walk: &Walk, diags: &mut Vec<Diagnostic>) {
+/// The same, with a walk that stands before the main procedure. With `inherits`, positions under a
+/// caller's cycle stay what they are: the target's subprograms take the cycle from their callers too,
+/// so that one serves under several.
+pub(super) fn over(program: &mut Program, walk: &Walk, inherits: bool, diags: &mut Vec<Diagnostic>) {
     let Some((main, subs)) = program.procedures.split_first() else { return };
     let mut names: BTreeSet<Text> = subs.iter().map(|p| p.name.clone()).collect();
     names.extend(program.name.number.map(|n| n.to_string().into()));
     let mut fixed = BTreeSet::new();
     program.procedures.iter().for_each(|p| in_control(&p.body, false, &mut fixed));
-    let mut settler = Settler { subs, names, fixed, made: Vec::new(), stack: Vec::new(), statements: 0 };
+    let mut settler =
+        Settler { subs, names, fixed, made: Vec::new(), stack: Vec::new(), statements: 0, inherits };
     let (body, _) = settler.body(&main.body, walk.clone());
     let Settler { made, statements, .. } = settler;
     if statements > MOST_STATEMENTS {
@@ -72,6 +76,8 @@ struct Settler<'p> {
     made: Vec<Made>,
     stack: Vec<Text>,
     statements: usize,
+    /// Positions under the cycle of a caller stay positions.
+    inherits: bool,
 }
 
 impl Settler<'_> {
@@ -99,6 +105,14 @@ impl Settler<'_> {
                     let here = walk.at.clone();
                     left = Some(joined(left, here));
                     over = stmt.skip.is_none();
+                    walk.step(&stmt);
+                }
+                Op::Position(m)
+                    if self.inherits
+                        && !self.stack.is_empty()
+                        && walk.at.modes.motion == Some(Motion::Cycle) =>
+                {
+                    settle_point(&mut m.to, &walk.at);
                     walk.step(&stmt);
                 }
                 op => {

@@ -18,9 +18,11 @@ use serde::{Deserialize, Serialize};
 
 use super::pair::{Found, Verdict, job_of};
 use super::{Call, hashes};
+use crate::called::CalledFile;
 use crate::difference;
 use crate::render::words::Context;
 use crate::render::{About, summary};
+use crate::report::hex;
 use crate::review::diff::motion::motion;
 use crate::review::diff::tell::{Account, Block, Blocks};
 use crate::review::side::Side;
@@ -72,6 +74,9 @@ pub(crate) struct Program {
     pub(crate) file: String,
     pub(crate) bytes: u64,
     pub(crate) sha256: String,
+    /// Files of called programs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) called: Vec<Hashed>,
     pub(crate) blocks: u64,
     pub(crate) dialect: String,
     /// The machine's profile, as it was named.
@@ -363,8 +368,19 @@ fn compared(found: &Found, sides: &[Side; 2]) -> Compared {
     }
 }
 
+/// A file of a called program.
+fn called_file(file: &CalledFile) -> Hashed {
+    let name = std::path::Path::new(&file.name).file_name();
+    let name = name.map_or(file.name.clone(), |name| name.to_string_lossy().into_owned());
+    Hashed { name, file: Some(file.name.clone()), sha256: hex(&file.sha256) }
+}
+
 fn program(side: usize, found: &Found, sides: &mut [Side; 2], call: &Call) -> io::Result<Program> {
-    let (bytes, sha256) = hashes::of_file(&mut sides[side].source.file)?;
+    let (bytes, sha256) = match &sides[side].source.called {
+        Some(called) => (called.bytes, hex(&called.sha256)),
+        None => hashes::of_file(&mut sides[side].source.file)?,
+    };
+    let called = sides[side].source.called.iter().flat_map(|called| &called.files).map(called_file).collect();
     let (course, program) = (&found.courses[side], &sides[side]);
     let settings = &program.job.from;
     let choice =
@@ -377,6 +393,7 @@ fn program(side: usize, found: &Found, sides: &mut [Side; 2], call: &Call) -> io
         file: call.files[side].clone(),
         bytes,
         sha256,
+        called,
         blocks: course.blocks,
         dialect: settings.dialect.id.clone(),
         machine: call.machines[side].map(str::to_owned),

@@ -191,13 +191,47 @@ fn labels_and_repetition() {
         ["OutOfRange { word: 'REPEAT AA P=0' } at 'REPEAT AA P=0'"]
     );
     assert_eq!(faults("AA: X1\nREPEAT AA P=R1\n"), ["MacroLanguage { what: 'R1' } at 'R1'"]);
+    assert_eq!(after_head("AA: X1\nX2\nREPEATB AA P=2\n")[3], "REPEAT AA to AA x2");
+    assert_eq!(after_head("ENDLABEL:\n"), ["ENDLABEL_1:"]);
+    // The end that stands first behind the label counts; a label of that name is another one.
+    let ends = after_head("AA: X1\nENDLABEL_1: X2\nENDLABEL:\nX3\nENDLABEL:\nREPEAT AA\n");
+    assert_eq!(ends.last().map(String::as_str), Some("REPEAT AA to ENDLABEL_2 x1"));
+    assert_eq!(after_head("ENDLABEL:\nAA: X1\nREPEAT AA\n")[3], "REPEAT AA x1");
+}
+
+#[test]
+fn a_subprogram_after_each_move() {
+    let calls = after_head("MCALL L70\nG0 X1\nF100\nN5 X2\n/ X3\nMCALL\nX4\n");
     assert_eq!(
-        faults("AA: X1\nREPEATB AA P=2\n"),
-        ["NotSupported { code: 'REPEATB', name: 'repetition of a block' } at 'REPEATB AA P=2'"]
+        calls,
+        [
+            "TRAVERSE! X1",
+            "CALL 70 x1",
+            "F100u",
+            "N5 POSITION X?2u",
+            "CALL 70 x1",
+            "/1 POSITION X?3u",
+            "/1 CALL 70 x1",
+            "POSITION X?4u"
+        ]
+    );
+    assert_eq!(after_head("MCALL CYCLE81(5,0,2,-3)\nMCALL POCKET\nMCALL\n")[1..], ["END CYCLE"]);
+    let refused = |name: &str, at: &str, code: &str| {
+        [format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'")]
+    };
+    assert_eq!(
+        faults("MCALL L70\nL80\n"),
+        refused("call while a subprogram is called after each move", "L80", "L80")
+    );
+    assert_eq!(faults("MCALL L70(1)\n"), refused("call with arguments", "L70(1)", "L70(1)"));
+    assert_eq!(faults("/MCALL L70\n"), refused("call after each move that a switch may skip", "L70", "L70"));
+    assert_eq!(
+        faults("MCALL L70\n/MCALL\n"),
+        refused("end of a call after each move that a switch may skip", "/MCALL", "MCALL")
     );
     assert_eq!(
-        faults("ENDLABEL:\n"),
-        ["NotSupported { code: 'ENDLABEL', name: 'end of a repeated part' } at 'ENDLABEL'"]
+        faults("MCALL L70\nHOLES2(0,0,5,0,0,2)\n"),
+        refused("pattern of a subprogram called after each move", "HOLES2(0,0,5,0,0,2)", "HOLES2")
     );
 }
 

@@ -165,10 +165,6 @@ fn cycles_that_are_none() {
         "NotSupported { code: 'CYCLE830', name: 'deep-hole drilling of the newer kind' } at 'CYCLE830(5,0,2,-5)'"
     );
     assert_eq!(
-        one("MCALL L70"),
-        "NotSupported { code: 'L70', name: 'subprogram called after each move' } at 'L70'"
-    );
-    assert_eq!(
         one("G0 X5 CYCLE81(5,0,2,-5)"),
         "NotSupported { code: 'CYCLE81', name: 'call beside other words' } at 'G0 X5 CYCLE81(5,0,2,-5)'"
     );
@@ -204,7 +200,7 @@ fn a_cycle_behind_a_switch_leaves_open_what_a_position_is() {
 #[test]
 fn a_refused_cycle_is_refused_once() {
     let follow = "X10\nG1 X5\nHOLES2(0,0,5,0,0,3)\nL1\nF5\nMCALL\nX1\n";
-    for call in ["CYCLE81(5,0,2)", "CYCLE84(5,0,2,-5)", "CYCLE81(5,0,2,-3,4)", "L70"] {
+    for call in ["CYCLE81(5,0,2)", "CYCLE84(5,0,2,-5)", "CYCLE81(5,0,2,-3,4)", "L70(1)"] {
         assert_eq!(faults(&format!("MCALL {call}\n{follow}")).len(), 1, "{call}");
     }
 }

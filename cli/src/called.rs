@@ -1,0 +1,326 @@
+//! Programs that a program calls and that stand in files of their own: found in the folders of `-I`, by
+//! the names that the control's custom gives them (`[program] called` of the dictionary).
+//!
+//! They are put behind the text that calls them, each under its name, as a text with all of them in it
+//! would have them; from there on everything reads, executes and verifies one text. Which of its places
+//! stand in which file is kept beside it, so that messages name the file and its own line.
+//!
+//! Without `-I` nothing is looked for. Not here: what a call means.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use ncc_dialects::{Dialect, Family, Settings};
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::program::{Op, Stmt, Text};
+use sha2::{Digest, Sha256};
+
+use crate::files::Source;
+use crate::problem::{Exit, Problem};
+
+/// Programs that are put behind a text, so that nothing goes on for ever.
+const MOST: usize = 1000;
+
+/// Largest text that calls others, and largest of these, in bytes.
+const LARGEST: u64 = 1 << 30;
+
+/// What stands behind a text's own lines, and the text itself as it was found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Called {
+    /// SHA-256 of the calling text's bytes.
+    pub sha256: [u8; 32],
+    /// Its length.
+    pub bytes: u64,
+    /// The files, in the order of their first calls.
+    pub files: Vec<CalledFile>,
+}
+
+/// A file with a called program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CalledFile {
+    /// Its path.
+    pub name: String,
+    /// SHA-256 of its bytes.
+    pub sha256: [u8; 32],
+    /// Its length.
+    pub bytes: u64,
+    /// Places of its text in the whole: the first byte, and one past the last.
+    pub places: (u32, u32),
+    /// Lines of the whole before the one that would be the file's first.
+    pub lines_before: u64,
+}
+
+impl Called {
+    /// The file in which a place stands; `None` for the text's own.
+    pub fn file(&self, place: u32) -> Option<&CalledFile> {
+        self.files.iter().find(|file| (file.places.0..=file.places.1).contains(&place))
+    }
+}
+
+/// Puts the programs that a source calls behind it, as far as they are found in the folders.
+///
+/// # Errors
+/// A file cannot be read, or holds another program than the one that its name says.
+pub fn gather(source: &mut Source, settings: &Settings, folders: &[PathBuf]) -> Result<(), Problem> {
+    let dialect = settings.dialect;
+    if folders.is_empty() || dialect.program.called.is_empty() || source.called.is_some() {
+        return Ok(());
+    }
+    let wrong = |error: &io::Error, name: &str| Problem::file("read", name, error);
+    let shown = source.shown.clone();
+    if source.file.metadata().map_err(|e| wrong(&e, &shown))?.len() > LARGEST {
+        return Ok(());
+    }
+    source.rewind()?;
+    let mut text = Vec::new();
+    source.file.read_to_end(&mut text).map_err(|e| wrong(&e, &shown))?;
+    source.rewind()?;
+    let mut called =
+        Called { sha256: Sha256::digest(&text).into(), bytes: text.len() as u64, files: Vec::new() };
+    let Some(own) = program_of(&text, dialect) else { return Ok(()) };
+    let mut whole = text[..own.end].to_vec();
+    let mut asked: BTreeSet<Text> = BTreeSet::new();
+    loop {
+        let wanted: Vec<Text> =
+            missing(&whole, settings).into_iter().filter(|name| asked.insert(name.clone())).collect();
+        let mut more = false;
+        for name in wanted {
+            let Some(path) = find(&name, dialect, folders) else { continue };
+            let file = read(&path, &name, dialect, &mut whole)?;
+            called.files.push(file);
+            more = true;
+        }
+        if !more || called.files.len() > MOST {
+            break;
+        }
+    }
+    if called.files.is_empty() {
+        return Ok(());
+    }
+    let kept = || -> io::Result<fs::File> {
+        let mut file = tempfile::tempfile()?;
+        file.write_all(&whole)?;
+        file.seek(SeekFrom::Start(0))?;
+        Ok(file)
+    };
+    source.file = kept().map_err(|e| wrong(&e, &shown))?;
+    source.called = Some(called);
+    Ok(())
+}
+
+/// Programs that a text calls and does not have, in the order of their first calls.
+fn missing(text: &[u8], settings: &Settings) -> Vec<Text> {
+    let mut reader = Reader::new(settings.clone(), true);
+    let mut batch = Batch::default();
+    let mut calls = Vec::new();
+    let mut at = 0;
+    while at < text.len() {
+        let rest = &text[at..];
+        let least = rest.len().min(1 << 16);
+        let end = memchr::memchr(b'\n', &rest[least - 1..]).map_or(rest.len(), |n| least + n);
+        reader.read(&rest[..end], at as u32, &mut batch);
+        names(&batch.stmts, &mut calls);
+        batch.stmts.clear();
+        batch.diagnostics.clear();
+        at += end;
+    }
+    reader.finish(&mut batch);
+    names(&batch.stmts, &mut calls);
+    let mut known: BTreeSet<Text> = batch.name.number.map(|n| n.to_string().into()).into_iter().collect();
+    for procedure in &batch.procedures {
+        names(&procedure.body, &mut calls);
+        known.insert(procedure.name.clone());
+    }
+    calls.retain(|name| known.insert(name.clone()));
+    calls
+}
+
+/// What statements call.
+fn names(stmts: &[Stmt], found: &mut Vec<Text>) {
+    for stmt in stmts {
+        if let Op::Call(call) = &stmt.op {
+            found.push(call.name.clone());
+        }
+    }
+}
+
+/// The file of a program: the first folder that has one counts, and in it the first of the names.
+fn find(name: &str, dialect: &Dialect, folders: &[PathBuf]) -> Option<PathBuf> {
+    let stems: Vec<String> = dialect.program.called.iter().filter_map(|form| stem(form, name)).collect();
+    folders.iter().find_map(|folder| {
+        let mut files: Vec<PathBuf> = fs::read_dir(folder)
+            .ok()?
+            .filter_map(|entry| Some(entry.ok()?.path()))
+            .filter(|path| path.is_file())
+            .collect();
+        files.sort();
+        let is = |path: &Path, stem: &str| {
+            let text = |part: Option<&std::ffi::OsStr>| part.map(|t| t.to_string_lossy().into_owned());
+            let own = text(path.extension());
+            let fits = own.is_none_or(|own| dialect.extensions.iter().any(|e| e.eq_ignore_ascii_case(&own)));
+            fits && text(path.file_stem()).is_some_and(|own| own.eq_ignore_ascii_case(stem))
+        };
+        stems.iter().find_map(|stem| files.iter().find(|path| is(path, stem)).cloned())
+    })
+}
+
+/// A name by its form: `{}` is the name, `{4}` its number with at least so many digits.
+fn stem(form: &str, name: &str) -> Option<String> {
+    let (before, rest) = form.split_once('{')?;
+    let (digits, behind) = rest.split_once('}')?;
+    let name = match digits {
+        // A number is no name: its programs are called by number.
+        "" if name.bytes().all(|b| b.is_ascii_digit()) => return None,
+        "" => name.to_owned(),
+        digits => format!("{:0wide$}", name.parse::<u32>().ok()?, wide = digits.parse().ok()?),
+    };
+    Some(format!("{before}{name}{behind}"))
+}
+
+/// Puts a file's program behind a text.
+fn read(path: &Path, name: &str, dialect: &Dialect, whole: &mut Vec<u8>) -> Result<CalledFile, Problem> {
+    let shown = path.display().to_string();
+    let text = fs::read(path).map_err(|e| Problem::file("read", &shown, &e))?;
+    let no_program = || Problem {
+        exit: Exit::Refused,
+        message: format!("{shown} is named as program {name}, and no whole program of {}", dialect.id),
+        help: vec!["look at its first and its last line".to_owned()],
+    };
+    if text.contains(&0) || whole.len() as u64 + text.len() as u64 > LARGEST {
+        return Err(no_program());
+    }
+    let own = program_of(&text, dialect).ok_or_else(no_program)?;
+    if let Some(other) = own.name.as_deref().filter(|own| !own.eq_ignore_ascii_case(name)) {
+        return Err(Problem {
+            exit: Exit::Refused,
+            message: format!("{shown} is named as program {name}, and holds program {other}"),
+            help: vec!["name it as the program in it, or have the right one in the folder".to_owned()],
+        });
+    }
+    let end_line = |whole: &mut Vec<u8>| {
+        if whole.last().is_some_and(|b| *b != b'\n') {
+            whole.push(b'\n');
+        }
+    };
+    end_line(whole);
+    if own.name.is_none() {
+        whole.extend_from_slice(heading(name, dialect).as_bytes());
+    }
+    let count = |text: &[u8]| memchr::memchr_iter(b'\n', text).count() as u64;
+    let lines_before = count(whole).saturating_sub(count(&text[..own.start]));
+    let start = whole.len() as u32;
+    whole.extend_from_slice(&text[own.start..own.end]);
+    let places = (start, whole.len() as u32);
+    end_line(whole);
+    Ok(CalledFile {
+        name: shown,
+        sha256: Sha256::digest(&text).into(),
+        bytes: text.len() as u64,
+        places,
+        lines_before,
+    })
+}
+
+/// The line that heads a subprogram.
+fn heading(name: &str, dialect: &Dialect) -> String {
+    match (dialect.family, dialect.program.number) {
+        (Family::Sinumerik, _) if name.bytes().all(|b| b.is_ascii_digit()) => format!("%_N_L{name}_SPF\n"),
+        (Family::Sinumerik, _) => format!("%_N_{name}_SPF\n"),
+        (_, Some(letter)) => format!("{letter}{name}\n"),
+        (_, None) => String::new(),
+    }
+}
+
+/// What of a text is its program, and how that is named there.
+struct Own {
+    start: usize,
+    end: usize,
+    name: Option<String>,
+}
+
+/// The part of a text between its marks; `None` if they are not as they should be.
+fn program_of(text: &[u8], dialect: &Dialect) -> Option<Own> {
+    let mark = dialect.program.frame.as_bytes();
+    let lines = |from: usize| {
+        let mut at = from;
+        text[from..].split_inclusive(|b| *b == b'\n').map(move |line| {
+            let start = at;
+            at += line.len();
+            (start, line.trim_ascii())
+        })
+    };
+    let (mut start, mut end) = (0, text.len());
+    if !mark.is_empty() {
+        let mut marks = lines(0).filter(|(_, line)| line.starts_with(mark));
+        if let Some((first, _)) = marks.next() {
+            if !text[..first].trim_ascii().is_empty() && !text[..first].starts_with(b"\xEF\xBB\xBF") {
+                return None;
+            }
+            start = memchr::memchr(b'\n', &text[first..]).map_or(text.len(), |n| first + n + 1);
+            end = marks.next().map_or(text.len(), |(at, _)| at);
+        }
+    }
+    let first = lines(start).take_while(|(at, _)| *at < end).find(|(_, line)| {
+        !line.is_empty() && !(line.starts_with(b"(") && line.ends_with(b")")) && !line.starts_with(b";")
+    });
+    let name = first.and_then(|(_, line)| name_of(line, dialect));
+    // The main text keeps its opening mark: places in it are those of its file.
+    Some(Own { start, end, name })
+}
+
+/// The name that a line gives the program that begins with it.
+fn name_of(line: &[u8], dialect: &Dialect) -> Option<String> {
+    if dialect.family == Family::Sinumerik {
+        let line = std::str::from_utf8(line).ok()?.to_ascii_uppercase();
+        let name = line.strip_prefix("%_N_")?;
+        let (name, _) = name.rsplit_once('_')?;
+        let number = name
+            .strip_prefix('L')
+            .filter(|n| !n.is_empty() && !n.starts_with('0') && n.bytes().all(|b| b.is_ascii_digit()));
+        return Some(number.unwrap_or(name).to_owned());
+    }
+    let (letter, rest) = line.split_first()?;
+    let sign = char::from(*letter).to_ascii_uppercase();
+    let signs = [dialect.program.number, dialect.program.number_also];
+    if !signs.contains(&Some(sign)) {
+        return None;
+    }
+    let rest = rest.trim_ascii_start();
+    let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+    let digits = std::str::from_utf8(&rest[..digits]).ok()?.trim_start_matches('0');
+    (!digits.is_empty()).then(|| digits.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ncc_dialects::builtin;
+
+    #[test]
+    fn names_of_files() {
+        assert_eq!(stem("O{4}", "12").as_deref(), Some("O0012"));
+        assert_eq!(stem("{}", "LOCH").as_deref(), Some("LOCH"));
+        assert_eq!(stem("L{1}", "12").as_deref(), Some("L12"));
+        assert_eq!(stem("O{4}", "LOCH"), None);
+    }
+
+    #[test]
+    fn programs_between_their_marks() {
+        let fanuc = builtin("fanuc").unwrap();
+        let own = |text: &str| {
+            program_of(text.as_bytes(), fanuc).map(|own| (text[own.start..own.end].to_owned(), own.name))
+        };
+        let some = |text: &str, name: Option<&str>| Some((text.to_owned(), name.map(str::to_owned)));
+        assert_eq!(own("%\n(A)\nO0012(B)\nX1\n%\nrest"), some("(A)\nO0012(B)\nX1\n", Some("12")));
+        assert_eq!(own("X1\nM99\n"), some("X1\nM99\n", None));
+        assert_eq!(own("X1\n%\n"), None);
+        let siemens = builtin("siemens").unwrap();
+        let name = |line: &str| name_of(line.as_bytes(), siemens);
+        assert_eq!(name("%_N_L12_SPF").as_deref(), Some("12"));
+        assert_eq!(name("%_N_l012_SPF").as_deref(), Some("L012"));
+        assert_eq!(name("%_N_LOCH_A_SPF").as_deref(), Some("LOCH_A"));
+        assert_eq!(name("G0 X1"), None);
+    }
+}

@@ -1,0 +1,87 @@
+//! Called programs in files of their own: found by `-I`, verified with what calls them, named in what is
+//! written about them.
+
+use std::fs;
+
+use super::*;
+
+const MAIN: &str = "%\nO0007(MAIN)\nG21 G17 G90 G40 G49 G80 G94 G54\nT1 M06\nS1000 M03\nG00 X0. Y0.\nG43 H1 Z5.\n\
+                    M98 P1002\nM98 P8\nG00 Z50.\nM05\nM30\n%\n";
+
+/// A main program, and a folder with what it calls.
+fn shop() -> tempfile::TempDir {
+    let folder = folder();
+    fs::create_dir(folder.path().join("sub")).unwrap();
+    for (name, text) in [
+        ("main.nc", MAIN),
+        ("sub/O1002.nc", "%\nO1002(STEP)\nG91\nG01 Z-6. F100.\nX3.\nG00 Z6.\nM98 P2003\nG90\nM99\n%\n"),
+        ("sub/2003.NC", "G91\nX1.\nX-1.\nM99\n"),
+        ("sub/o0008", "G00 X1.\nM99\n"),
+        (
+            "main.mpf",
+            "G71 G17 G90 G40 G94 G54\nT1 M6\nD1 S1000 M3\nG0 X0 Y0 Z5 F100\nL12\nLOCH P2\nG0 Z50\nM30\n",
+        ),
+        ("sub/L12.SPF", "G91 G1 Z-6\nZ6\nG90\nM17\n"),
+        ("sub/loch.spf", "%_N_LOCH_SPF\n;$PATH=/_N_WKS_DIR\nPROC LOCH\nG91 G1 X1\nX-1 G90\nRET\n"),
+    ] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+/// Runs ncc with words parted by blanks.
+fn say(folder: &Path, line: &str) -> Done {
+    ncc(folder, &line.split(' ').collect::<Vec<_>>())
+}
+
+#[test]
+fn called_files_are_part_of_the_program() {
+    let shop = shop();
+    let at = shop.path();
+    say(at, "fanuc to siemens main.nc").exits(1);
+    let done =
+        say(at, "fanuc to siemens main.nc -I sub --map x.mpf.map.json --report x.json -o x.mpf").exits(0);
+    assert!(done.err.contains("verified") && done.err.contains("sub/O1002.nc line 7"), "{}", done.err);
+    let text = fs::read_to_string(at.join("x.mpf")).unwrap();
+    for part in
+        ["; called: O1002.nc sha256 ", "; called: 2003.NC", "%_N_L1002_SPF", "%_N_L2003_SPF", "%_N_L8_SPF"]
+    {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    for name in ["x.mpf.map.json", "x.json"] {
+        let text = fs::read_to_string(at.join(name)).unwrap();
+        assert!(text.contains("sub/2003.NC"), "{text}");
+    }
+    let line = text.lines().position(|line| line.starts_with("G1 Z-6")).unwrap() + 1;
+    let why = say(at, &format!("why x.mpf:{line}")).exits(0);
+    assert!(why.out.contains("from sub/O1002.nc:4: G01 Z-6. F100."), "{}", why.out);
+    say(at, "verify main.nc x.mpf -I sub --cert c.json").exits(0);
+    let certificate = fs::read_to_string(at.join("c.json")).unwrap();
+    assert!(certificate.contains("sub/o0008"), "{certificate}");
+    say(at, "verify --cert c.json -I sub").exits(0);
+    fs::write(at.join("sub/o0008"), "G00 X2.\nM99\n").unwrap();
+    let apart = say(at, "verify --cert c.json -I sub");
+    assert_eq!(apart.code, 1, "{}{}", apart.out, apart.err);
+    let changed = say(at, &format!("why x.mpf:{line}"));
+    assert!(changed.code == 1 && changed.err.contains("sub/o0008"), "{}{}", changed.out, changed.err);
+}
+
+#[test]
+fn a_sinumerik_finds_its_subprograms_by_name() {
+    let shop = shop();
+    let done = say(shop.path(), "siemens to fanuc main.mpf -I sub").exits(0);
+    assert!(done.out.contains("O0012\n") && done.out.contains("M98 P21001"), "{}", done.out);
+    fs::write(shop.path().join("sub/L12.SPF"), "%_N_L13_SPF\nM17\n").unwrap();
+    let done = say(shop.path(), "siemens to fanuc main.mpf -I sub").exits(1);
+    assert!(done.err.contains("named as program 12, and holds program 13"), "{}", done.err);
+}
+
+#[test]
+fn a_message_names_the_file_and_its_line() {
+    let shop = shop();
+    fs::write(shop.path().join("sub/o0008"), "G00 X1.\nG77\nM99\n").unwrap();
+    let done = say(shop.path(), "fanuc to siemens main.nc -I sub").exits(1);
+    assert!(done.err.contains("sub/o0008:2:1"), "{}", done.err);
+    let done = say(shop.path(), "fanuc to siemens main.nc -I nowhere").exits(2);
+    assert!(done.err.contains("no such folder"), "{}", done.err);
+}
