@@ -194,7 +194,7 @@ impl Checker {
         match &stmt.op {
             Op::UseMachineCoordinates => self.seen.raw = true,
             Op::StopCutterRadiusCompensation => self.seen.switch_off(LeftOn::Compensation),
-            Op::ClearFrame(FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror | FrameSlot::Shift) => {
+            Op::ClearFrame(FrameSlot::Shift) => {
                 self.seen.switch_off(LeftOn::Frame);
             }
             _ => {}
@@ -211,12 +211,14 @@ impl Checker {
             Op::ArcForm(arc) => self.words(&arc.to, step.raw, exec),
             Op::SetDistanceMode(Distance::Incremental) => self.seen.switch_on(LeftOn::Incremental, at),
             Op::SetDistanceMode(Distance::Absolute) => self.seen.switch_off(LeftOn::Incremental),
-            Op::SetFrame(_) => {
-                self.seen.switch_on(LeftOn::Frame, at);
-                self.forget_program();
-            }
-            Op::ClearFrame(FrameSlot::Chain) => {
-                self.seen.switch_off(LeftOn::Frame);
+            Op::ClearFrame(FrameSlot::Shift) => {}
+            Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) | Op::ClearFrame(_) => {
+                // A shift of zero is none.
+                if !exec.has_frames() {
+                    self.seen.switch_off(LeftOn::Frame);
+                } else if !matches!(step.stmt.op, Op::ClearFrame(_)) {
+                    self.seen.switch_on(LeftOn::Frame, at);
+                }
                 self.forget_program();
             }
             Op::SetOriginOffsets(_) => {

@@ -4,7 +4,7 @@ use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
 use crate::passes::seen_advice;
-use crate::program::Pitch;
+use crate::program::{FrameSlot, Op, Pitch, Slot};
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -50,6 +50,18 @@ pub struct Caps {
     pub clears_shift: bool,
     /// A chain of frames: translation, rotation in the plane, scale, mirror.
     pub frames: bool,
+    /// A local shift, axis by axis.
+    pub local_shift: bool,
+    /// A shift of the origin, by the coordinates that the present point gets.
+    pub origin_shift: bool,
+    /// A shift of the origin, axis by axis.
+    pub stated_shift: bool,
+    /// A rotation in the plane about a point.
+    pub rotation: bool,
+    /// Factors about a point.
+    pub scale: bool,
+    /// Axes mirrored at a place.
+    pub mirror: bool,
     /// Moves in machine coordinates.
     pub machine_coordinates: bool,
     /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
@@ -221,6 +233,37 @@ impl Caps {
             path: true,
             advice: seen_advice(self),
         }
+    }
+
+    /// Whether a statement that changes a frame can be written as it is. Anything else can.
+    pub fn says_frame(&self, op: &Op) -> bool {
+        match op {
+            Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => self.frames,
+            Op::SetPosition(_) => self.origin_shift,
+            Op::SetSlot(slot) => match **slot {
+                Slot::Shift { origin: true, .. } => self.stated_shift,
+                Slot::Shift { origin: false, .. } => self.local_shift,
+                Slot::Rotation { .. } => self.rotation,
+                Slot::Scale { .. } => self.scale,
+                Slot::Mirror(_) | Slot::NoMirror(_) => self.mirror,
+            },
+            Op::ClearFrame(FrameSlot::Local) => self.local_shift,
+            Op::ClearFrame(FrameSlot::Rotation) => self.rotation,
+            Op::ClearFrame(FrameSlot::Scale) => self.scale,
+            Op::ClearFrame(FrameSlot::Mirror) => self.mirror,
+            _ => true,
+        }
+    }
+
+    /// Whether every frame can be written as it is.
+    pub fn says_all_frames(&self) -> bool {
+        self.frames
+            && self.local_shift
+            && self.origin_shift
+            && self.stated_shift
+            && self.rotation
+            && self.scale
+            && self.mirror
     }
 
     /// Whether a cycle of this kind can be written, returning there.

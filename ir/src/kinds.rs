@@ -70,6 +70,8 @@ macro_rules! frames {
         $crate::program::Op::SetOriginOffsets(_)
             | $crate::program::Op::ClearFrame(_)
             | $crate::program::Op::SetFrame(_)
+            | $crate::program::Op::SetSlot(_)
+            | $crate::program::Op::SetPosition(_)
             | $crate::program::Op::UseMachineCoordinates
     };
 }

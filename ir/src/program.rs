@@ -303,6 +303,55 @@ impl Advice {
     }
 }
 
+/// What a slot of the coordinate chain is given. From the machine towards the program:
+/// work offset, [`FrameSlot::Shift`], [`FrameSlot::Local`], rotation, scale, mirror, chain. The centre
+/// of a rotation is scaled and mirrored like any point, and an odd number of mirrors in its plane turns
+/// its sense round.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Slot {
+    /// `SET_SHIFT`: each axis named has this shift from here on, the others keep theirs.
+    Shift {
+        /// Whether it is that of the origin ([`FrameSlot::Shift`]); else the local one.
+        origin: bool,
+        /// The shifts, of which zero is none.
+        axes: Box<[Option<Expr>; AXES]>,
+    },
+    /// `SET_ROTATION`
+    Rotation {
+        /// Its plane.
+        plane: Fact<Plane>,
+        /// From program zero along X, Y and Z, of which the two of the plane count; one that is missing
+        /// is where the tool stands.
+        centre: Box<[Option<Expr>; 3]>,
+        /// Degrees, counter-clockwise positive; an increment is added to the angle in force.
+        angle: Coord,
+    },
+    /// `SET_SCALE`
+    Scale {
+        /// From program zero along X, Y and Z; one that is missing is where the tool stands.
+        centre: Box<[Option<Expr>; 3]>,
+        /// Factors along X, Y and Z, more than zero; one that is missing is 1.
+        factors: Box<[Option<Expr>; 3]>,
+    },
+    /// `SET_MIRROR`: each axis named is mirrored at this place from here on.
+    Mirror(Box<[Option<Expr>; 3]>),
+    /// `CLEAR_MIRROR`: the axes named are mirrored no more.
+    NoMirror([bool; 3]),
+}
+
+impl Slot {
+    /// The upper-case name in text of a statement that sets it.
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Slot::Shift { .. } => "SET_SHIFT",
+            Slot::Rotation { .. } => "SET_ROTATION",
+            Slot::Scale { .. } => "SET_SCALE",
+            Slot::Mirror(_) => "SET_MIRROR",
+            Slot::NoMirror(_) => "CLEAR_MIRROR",
+        }
+    }
+}
+
 /// Blocks that are executed again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RepeatBlocks {
@@ -326,8 +375,10 @@ pub enum CentreFrom {
 /// A named slot of the coordinate chain, from the machine towards the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FrameSlot {
-    /// A temporary re-definition of program zero, or local shift.
+    /// A temporary re-definition of program zero.
     Shift,
+    /// A local shift.
+    Local,
     /// Rotation in the plane.
     Rotation,
     /// Scale factors.
@@ -344,8 +395,9 @@ pub enum FrameSlot {
 
 impl FrameSlot {
     /// All slots.
-    pub const ALL: [FrameSlot; 7] = [
+    pub const ALL: [FrameSlot; 8] = [
         FrameSlot::Shift,
+        FrameSlot::Local,
         FrameSlot::Rotation,
         FrameSlot::Scale,
         FrameSlot::Mirror,
@@ -385,6 +437,12 @@ pub enum Op {
     ClearFrame(FrameSlot),
     /// `SET_FRAME` or `ADD_FRAME`: a step of [`FrameSlot::Chain`].
     SetFrame(Box<Frame>),
+    /// `SET_SHIFT`, `SET_ROTATION`, `SET_SCALE`, `SET_MIRROR`, `CLEAR_MIRROR`: fills a slot of the
+    /// coordinate chain.
+    SetSlot(Box<Slot>),
+    /// `SET_POSITION`: from here on, the present point has these coordinates in the work offset with the
+    /// shift of the origin, which is changed so; the local shift of the axes named is over.
+    SetPosition(Box<[Option<Expr>; AXES]>),
     /// `USE_MACHINE_COORDINATES`: words of the straight move that follows in this block are machine
     /// coordinates; work offset and frames are off for it, the tool's length stays.
     UseMachineCoordinates,
@@ -516,6 +574,8 @@ impl Op {
                     "SET_FRAME"
                 }
             }
+            Op::SetSlot(slot) => slot.name(),
+            Op::SetPosition(_) => "SET_POSITION",
             Op::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
             Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",

@@ -10,7 +10,7 @@ use crate::geometry;
 use crate::kinds::{conduct, flow, miscellaneous};
 use crate::num::Nanos;
 use crate::places::{Here, Places};
-use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Stmt};
+use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Slot, Stmt};
 use crate::round::{Around, round};
 
 /// State of the abstract execution.
@@ -32,6 +32,14 @@ pub struct Tracker {
     pub framed: bool,
     /// What the spindle does, if it is known.
     pub spindle: Option<Spindle>,
+    /// Whether that is one of the chain of frames.
+    pub chained: bool,
+    /// Whether a slot may turn, scale or mirror.
+    pub turned: bool,
+    /// The local shift.
+    pub local: [Nanos; AXES],
+    /// Whether it is not known.
+    pub local_lost: bool,
     /// Whether the next straight move is in machine coordinates.
     pub raw: bool,
 }
@@ -108,7 +116,7 @@ impl Tracker {
 
     /// The start of a subprogram: whatever its caller has done.
     pub fn unknown() -> Tracker {
-        Tracker { framed: true, ..Tracker::default() }
+        Tracker { framed: true, chained: true, turned: true, local_lost: true, ..Tracker::default() }
     }
 
     /// The value of a literal in nanos; `None` if it is computed, too fine, or of unknown unit.
@@ -242,6 +250,9 @@ impl Tracker {
         both(&mut self.tool, &other.tool);
         both(&mut self.spindle, &other.spindle);
         self.framed |= other.framed;
+        self.chained |= other.chained;
+        self.turned |= other.turned;
+        self.local_lost |= other.local_lost || self.local != other.local;
         self.raw |= other.raw;
     }
 
@@ -308,15 +319,21 @@ impl Tracker {
                     self.position = [None; AXES];
                 }
             }
-            Op::ClearFrame(FrameSlot::Chain) if !self.framed => {}
-            Op::ClearFrame(_) => {
-                self.position = [None; AXES];
-                self.framed = false;
+            Op::ClearFrame(slot) => self.clear_frame(*slot),
+            Op::SetSlot(slot) => self.set_slot(slot),
+            Op::SetPosition(axes) => {
+                self.modes.no_origin_shift = None;
+                for (axis, word) in axes.iter().enumerate() {
+                    if let Some(word) = word {
+                        self.position[axis] = self.nanos(word);
+                        self.local[axis] = 0;
+                    }
+                }
             }
             Op::SetFrame(frame) => {
                 match &frame.step {
                     // A translation moves the origin; where the axes stand is then counted from there.
-                    FrameStep::Translate(words) if frame.added || !self.framed => {
+                    FrameStep::Translate(words) if !self.turned && (frame.added || !self.chained) => {
                         for (axis, word) in words.iter().enumerate() {
                             if let Some(word) = word {
                                 let by = self.nanos(word);
@@ -331,6 +348,7 @@ impl Tracker {
                     | FrameStep::Mirror(_) => self.position = [None; AXES],
                 }
                 self.framed = true;
+                self.chained = true;
             }
             Op::UseMachineCoordinates => self.raw = true,
             Op::UseToolEdge { edge, .. } => {
@@ -357,6 +375,73 @@ impl Tracker {
                 _ => {}
             },
             Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | conduct!() => {}
+        }
+    }
+
+    /// Empties a slot of the coordinate chain.
+    fn clear_frame(&mut self, slot: FrameSlot) {
+        match slot {
+            FrameSlot::Local => {
+                self.shift_locally(&[Some(0); AXES]);
+                self.local_lost = false;
+            }
+            FrameSlot::Chain if self.chained => {
+                self.position = [None; AXES];
+                self.chained = false;
+                self.framed = self.turned;
+            }
+            FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror if self.turned => {
+                // Whatever else turns is still in force.
+                self.position = [None; AXES];
+            }
+            FrameSlot::Shift
+            | FrameSlot::Rotation
+            | FrameSlot::Scale
+            | FrameSlot::Mirror
+            | FrameSlot::Polar
+            | FrameSlot::Tilt
+            | FrameSlot::Chain => {}
+        }
+    }
+
+    /// Fills a slot of the coordinate chain.
+    fn set_slot(&mut self, slot: &Slot) {
+        match slot {
+            Slot::Shift { origin: false, axes } => {
+                let to = std::array::from_fn(|i| match &axes[i] {
+                    None => Some(self.local[i]),
+                    Some(word) => self.nanos(word),
+                });
+                self.shift_locally(&to);
+            }
+            Slot::Shift { origin: true, axes } => {
+                self.modes.no_origin_shift = None;
+                for (at, word) in self.position.iter_mut().zip(axes.iter()) {
+                    if word.is_some() || self.turned {
+                        *at = None;
+                    }
+                }
+            }
+            Slot::Rotation { .. } | Slot::Scale { .. } | Slot::Mirror(_) | Slot::NoMirror(_) => {
+                self.position = [None; AXES];
+                self.turned = true;
+                self.framed = true;
+            }
+        }
+    }
+
+    /// Another local shift: where the axes stand is counted from there.
+    fn shift_locally(&mut self, to: &[Option<Nanos>; AXES]) {
+        let from = std::mem::replace(&mut self.local, to.map(Option::unwrap_or_default));
+        let known = to.iter().all(Option::is_some);
+        if self.turned || self.chained || self.local_lost || !known {
+            self.position = [None; AXES];
+            self.local_lost |= !known;
+            return;
+        }
+        for (i, at) in self.position.iter_mut().enumerate() {
+            let by = self.local[i].wrapping_sub(from[i]);
+            *at = at.and_then(|at| at.checked_sub(by));
         }
     }
 

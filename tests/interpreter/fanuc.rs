@@ -205,7 +205,12 @@ impl Control {
         let mut dwell = false;
         let mut length = None;
         let mut motion_last = None;
+        let mut slot = None;
         for g in codes('G') {
+            if matches!(g, 500 | 501 | 510 | 511 | 520 | 680 | 690 | 920) {
+                slot = Some(g);
+                continue;
+            }
             if g % 10 != 0 {
                 return self.m.halt(format!("G{}", f64::from(g) / 10.0));
             }
@@ -230,6 +235,21 @@ impl Control {
             }
         }
 
+        match slot {
+            Some(500) => {
+                self.m.slots.scale = None;
+                self.m.use_slots([true, true, true, false, false, false]);
+            }
+            Some(690) => {
+                let axes = self.m.slots.rotation.take().map_or([0, 1], |(axes, ..)| axes);
+                self.m.use_slots(std::array::from_fn(|axis| axes.contains(&axis)));
+            }
+            Some(code) => {
+                self.fill(code, &words)?;
+                return Ok(Next::Block);
+            }
+            None => {}
+        }
         if let Some((feed, point)) = number(&words, 'F') {
             let step = match (point, self.haas, self.m.inch) {
                 (true, ..) | (false, false, false) => 1.0,
@@ -317,6 +337,67 @@ impl Control {
         Ok(Next::Block)
     }
 
+    /// A block that fills a slot; its axis words are the slot's.
+    fn fill(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
+        if !self.m.absolute || self.cycle.is_some() {
+            return self.m.halt("a frame under G91 or in a cycle");
+        }
+        let axes = self.axis_words(words);
+        let at = self.m.from_offset();
+        let (first, second, _) = self.m.axes();
+        let mut changed = axes.map(|word| word.is_some());
+        match code {
+            520 => self.m.slots.shift_locally(axes),
+            920 => {
+                let mut slots = self.m.slots.clone();
+                slots.set_position(&self.m, at, axes)?;
+                self.m.slots = slots;
+                // From here on it is known where they are.
+                for (settled, named) in self.m.settled.iter_mut().zip(changed) {
+                    *settled |= named;
+                }
+                changed = [false; 6];
+            }
+            680 => {
+                let Some(degrees) = self.angle(words, 'R') else { return self.m.halt("G68 without R") };
+                let mut centre = self.m.slots.before_rotation(at);
+                for axis in [first, second] {
+                    centre[axis] = axes[axis].unwrap_or(centre[axis]);
+                }
+                self.m.slots.rotation = Some(([first, second], centre, degrees));
+                changed = std::array::from_fn(|axis| axis == first || axis == second);
+            }
+            510 => {
+                let factor = |letter| {
+                    let (value, point) = number(words, letter)?;
+                    Some(if point || self.haas { value } else { value * 0.001 })
+                };
+                let factors = match (factor('P'), ['I', 'J', 'K'].map(factor)) {
+                    (Some(all), [None, None, None]) => [all; 3],
+                    (None, [Some(x), Some(y), Some(z)]) => [x, y, z],
+                    _ => return self.m.halt("G51 without factors"),
+                };
+                self.m.slots.scale = None;
+                let here = self.m.slots.turn().undo(std::array::from_fn(|i| at[i] - self.m.slots.shift()[i]));
+                let centre = std::array::from_fn(|axis| axes[axis].unwrap_or(here[axis]));
+                self.m.slots.scale = Some((centre, factors));
+                changed = [true, true, true, false, false, false];
+            }
+            511 => {
+                for (line, value) in self.m.slots.mirror.iter_mut().zip(axes) {
+                    *line = value.or(*line);
+                }
+            }
+            _ => {
+                for (line, value) in self.m.slots.mirror.iter_mut().zip(axes) {
+                    *line = line.filter(|_| value.is_none());
+                }
+            }
+        }
+        self.m.use_slots(changed);
+        Ok(())
+    }
+
     fn end_cycle(&mut self) {
         self.cycle = None;
         self.rigid = false;
@@ -350,16 +431,24 @@ impl Control {
             0 => self.m.traverse(to),
             1 => self.m.straight(to)?,
             motion => {
-                let (first, second, _) = self.m.axes();
-                let clockwise = motion == 2;
+                let (first, second, normal) = self.m.axes();
+                let turn = self.m.turn;
+                let Some(reversed) = turn.reverses(first, second, normal) else {
+                    return self.m.halt("a circle that the frame makes an ellipse");
+                };
+                let clockwise = (motion == 2) != reversed;
                 let centre = match r {
                     Some(r) if ijk.iter().all(Option::is_none) => {
+                        let r = r * turn.m[first][first].hypot(turn.m[second][first]);
                         self.m.centre_by_radius(to, r, clockwise)?
                     }
-                    None if any_centre => (
-                        self.m.at[first] + ijk[first].unwrap_or(0.0),
-                        self.m.at[second] + ijk[second].unwrap_or(0.0),
-                    ),
+                    None if any_centre => {
+                        let way = ijk.map(|word| word.unwrap_or(0.0));
+                        let along = |i: usize| {
+                            self.m.at[i] + turn.m[i][first] * way[first] + turn.m[i][second] * way[second]
+                        };
+                        (along(first), along(second))
+                    }
                     _ => return self.m.halt("an arc without centre, or with centre and radius"),
                 };
                 self.m.arc(to, centre, clockwise)?;

@@ -262,6 +262,10 @@ impl Control {
     fn shift(&self) -> Place {
         let setup = &self.m.setup;
         let mut shift = if self.machine_once { [0.0; 6] } else { (setup.work_offset)(self.m.offset) };
+        if !self.machine_once {
+            let slots = self.m.slots.shift();
+            shift = std::array::from_fn(|axis| shift[axis] + slots[axis]);
+        }
         shift[2] += match self.edge {
             Some((tool, edge)) => (setup.edge_length)(tool, edge),
             None => (setup.length)(self.m.entry),
@@ -270,7 +274,7 @@ impl Control {
     }
 
     fn chain(&self) -> Frame {
-        if self.machine_once { Frame::NONE } else { self.frame }
+        if self.machine_once { Frame::NONE } else { self.m.turn.then(&self.frame) }
     }
 
     /// Machine to program coordinates.
@@ -314,6 +318,20 @@ impl Control {
     fn call(&mut self, name: &str, a: &[Token]) -> Result<Next, Halt> {
         match name {
             "COMMENT" | "NO_EFFECT" | "BLANK" | "LABEL" | "STOP_CUTTER_RADIUS_COMPENSATION" => {}
+            "CLEAR_FRAME" if self.word(a)? != "chain" => {
+                match self.word(a)? {
+                    "shift" => self.m.slots.origin = [0.0; 6],
+                    "local" => self.m.slots.local = [0.0; 6],
+                    "rotation" => self.m.slots.rotation = None,
+                    "scale" => self.m.slots.scale = None,
+                    "mirror" => self.m.slots.mirror = [None; 3],
+                    _ => return self.m.halt("another frame"),
+                }
+                self.m.use_slots([true; 6]);
+            }
+            "SET_SHIFT" | "SET_POSITION" | "SET_ROTATION" | "SET_SCALE" | "SET_MIRROR" | "CLEAR_MIRROR" => {
+                self.fill(name, a)?;
+            }
             "CLEAR_FRAME" => {
                 if self.word(a)? == "chain" && self.frame != Frame::NONE {
                     self.frame = Frame::NONE;

@@ -57,7 +57,12 @@ impl Control {
             Some(91) => self.m.absolute = false,
             // G99 drops an origin that only G92 can set; G66 stands without effect in the case
             // study; G40 ends a compensation that only G41 and G42 can begin.
-            Some(99 | 66 | 40) => {}
+            Some(99) => {
+                let shifted = self.m.slots.origin.map(|v| v != 0.0);
+                self.m.slots.origin = [0.0; 6];
+                self.m.use_slots(shifted);
+            }
+            Some(66 | 40) => {}
             _ => {}
         }
         let unit = if self.m.inch { 25.4 } else { 1.0 };
@@ -91,6 +96,20 @@ impl Control {
             Some(81 | 82 | 84..=86) => self.call_up(g.unwrap_or(81), &words, unit)?,
             Some(24) => self.circle(&words, unit)?,
             Some(25) => self.grid(&words, unit)?,
+            Some(92) => {
+                if !self.m.absolute {
+                    return self.m.halt("G92 under G91");
+                }
+                let axes = self.axis_words(&words, unit);
+                let at = self.m.from_offset();
+                let mut slots = self.m.slots.clone();
+                slots.set_position(&self.m, at, axes)?;
+                self.m.slots = slots;
+                for (settled, word) in self.m.settled.iter_mut().zip(axes) {
+                    *settled |= word.is_some();
+                }
+                self.m.use_slots([false; 6]);
+            }
             Some(0..=3) => {
                 self.cycle = None;
                 self.motion = g;

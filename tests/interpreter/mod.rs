@@ -12,6 +12,10 @@ pub mod fanuc;
 pub mod ir;
 pub mod mach9;
 pub mod siemens;
+mod slots;
+
+use siemens::frame::Frame;
+use slots::Slots;
 
 /// X Y Z A B C; millimetres and degrees.
 pub type Place = [f64; 6];
@@ -202,6 +206,12 @@ pub struct Machine {
     pub setup: Setup,
     /// Where it stands, machine coordinates.
     pub at: Place,
+    /// Shifts, rotation, scale and mirror of a control that has them in slots.
+    slots: Slots,
+    /// What rotation, scale and mirror amount to.
+    turn: Frame,
+    /// What the slots shift, as long as they are what they were.
+    slot_shift: Place,
     /// Whether each axis was moved to a programmed position since its offset last changed. An
     /// incremental word of an axis that was not is undecided.
     pub settled: [bool; 6],
@@ -240,6 +250,9 @@ impl Machine {
         Machine {
             at: setup.start,
             setup,
+            slots: Slots::default(),
+            turn: Frame::NONE,
+            slot_shift: [0.0; 6],
             settled: [true; 6],
             inch: modes.inch,
             absolute: modes.absolute,
@@ -260,7 +273,23 @@ impl Machine {
     /// What separates program from machine coordinates on an axis.
     pub fn shift(&self, axis: usize) -> f64 {
         let length = if axis == 2 { (self.setup.length)(self.entry) } else { 0.0 };
-        (self.setup.work_offset)(self.offset)[axis] + length
+        (self.setup.work_offset)(self.offset)[axis] + length + self.slots.shift()[axis]
+    }
+
+    /// Where the machine stands, counted from the work offset.
+    fn from_offset(&self) -> Place {
+        let slots = self.slots.shift();
+        std::array::from_fn(|axis| self.at[axis] - self.shift(axis) + slots[axis])
+    }
+
+    /// After the slots have changed; these axes are where they were, and called something else.
+    fn use_slots(&mut self, axes: [bool; 6]) {
+        let (turn, shift) = (self.slots.turn(), self.slots.shift());
+        for axis in 0..6 {
+            let other = shift[axis] != self.slot_shift[axis] || axis < 3 && turn != self.turn;
+            self.settled[axis] &= !(axes[axis] && other);
+        }
+        (self.turn, self.slot_shift) = (turn, shift);
     }
 
     /// Stops with a reason.
@@ -296,7 +325,28 @@ impl Machine {
     /// Where axis words (mm, degrees) lead to, in machine coordinates.
     pub fn target(&mut self, words: [Option<f64>; 6]) -> Result<Place, Halt> {
         let mut to = self.at;
-        for axis in 0..6 {
+        if self.turn != Frame::NONE {
+            let xyz = self.turn.undo(std::array::from_fn(|axis| self.at[axis] - self.shift(axis)));
+            let mut xyz = xyz;
+            for axis in 0..3 {
+                match (words[axis], self.absolute) {
+                    (None, _) => {}
+                    (Some(value), true) => {
+                        xyz[axis] = value;
+                        self.settled[axis] = true;
+                    }
+                    (Some(value), false) if self.settled[axis] => xyz[axis] += value,
+                    (Some(_), false) => return self.halt("an incremental word after a change of frames"),
+                }
+            }
+            if words[..3].iter().any(Option::is_some) {
+                let xyz = self.turn.apply(xyz);
+                for axis in 0..3 {
+                    to[axis] = xyz[axis] + self.shift(axis);
+                }
+            }
+        }
+        for axis in if self.turn == Frame::NONE { 0..6 } else { 3..6 } {
             let Some(value) = words[axis] else { continue };
             if self.absolute {
                 to[axis] = value + self.shift(axis);

@@ -322,6 +322,8 @@ impl Writer {
             Op::ClearFrame(_)
             | Op::SetFrame(_)
             | Op::Advise(_)
+            | Op::SetSlot(_)
+            | Op::SetPosition(_)
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)

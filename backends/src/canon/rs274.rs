@@ -124,7 +124,12 @@ fn rank(op: &Op) -> u8 {
         Op::SetMotionControlMode(_) => 16,
         Op::SetDistanceMode(_) => 17,
         Op::SetReturnLevel(_) => 18,
-        Op::ClearFrame(_) | Op::SetFrame(_) | Op::UseMachineCoordinates | Op::ExactStop => 19,
+        Op::ClearFrame(_)
+        | Op::SetFrame(_)
+        | Op::SetSlot(_)
+        | Op::SetPosition(_)
+        | Op::UseMachineCoordinates
+        | Op::ExactStop => 19,
         Op::EndCycle => 20,
         Op::StraightTraverse(_)
         | Op::StraightFeed(_)
@@ -324,6 +329,8 @@ impl Printer<'_> {
             }
             Op::SetFeedMode(_)
             | Op::SetFrame(_)
+            | Op::SetSlot(_)
+            | Op::SetPosition(_)
             | Op::ClearFrame(_)
             | Op::UseMachineCoordinates
             | Op::SetMotionControlMode(_)

@@ -7,7 +7,7 @@ use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{
     Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Frame, FrameSlot, FrameStep, Op, Pitch, Point,
-    Shape,
+    Shape, Slot,
 };
 
 use super::expr::{expr, var};
@@ -37,6 +37,8 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
         | Op::SetFrame(_)
+        | Op::SetSlot(_)
+        | Op::SetPosition(_)
         | Op::UseMachineCoordinates
         | Op::RepeatBlocks(_)
         | Op::StopCutterRadiusCompensation
@@ -115,6 +117,8 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::SetOriginOffsets(n) => whole(u64::from(*n), out),
         Op::ClearFrame(s) => put(slot(*s), out),
         Op::SetFrame(f) => frame(f, out),
+        Op::SetSlot(s) => filled(s, out),
+        Op::SetPosition(words) => axis_words(&words[..], "", out),
         Op::UseToolEdge { edge: e, .. }
         | Op::SetFeedRate(e)
         | Op::SetSpindleSpeed(e)
@@ -330,6 +334,51 @@ fn arc_form(a: &ArcForm, out: &mut Vec<u8>) {
     if a.turns > 0 {
         put(", turns ", out);
         whole(u64::from(a.turns), out);
+    }
+}
+
+/// Values along axes, with commas between; `before` goes before the first.
+fn axis_words(words: &[Option<Expr>], before: &str, out: &mut Vec<u8>) {
+    let mut before = before;
+    for (axis, word) in Axis::ALL.into_iter().zip(words) {
+        if let Some(value) = word {
+            put(before, out);
+            before = ", ";
+            out.push(axis.letter());
+            put(" ", out);
+            expr(value, out);
+        }
+    }
+}
+
+/// What a slot of the coordinate chain is given.
+fn filled(s: &Slot, out: &mut Vec<u8>) {
+    match s {
+        Slot::Shift { origin, axes } => {
+            put(if *origin { "shift" } else { "local" }, out);
+            axis_words(&axes[..], ", ", out);
+        }
+        Slot::Rotation { plane: p, centre, angle } => {
+            put(p.known().map_or("entry", plane), out);
+            axis_words(&centre[..], ", ", out);
+            put(", angle ", out);
+            coord(angle, out);
+        }
+        Slot::Scale { centre, factors } => {
+            put("centre(", out);
+            axis_words(&centre[..], "", out);
+            put(")", out);
+            axis_words(&factors[..], ", ", out);
+        }
+        Slot::Mirror(lines) => axis_words(&lines[..], "", out),
+        Slot::NoMirror(axes) => {
+            let mut before = "";
+            for (axis, _) in Axis::ALL.into_iter().zip(axes).filter(|(_, over)| **over) {
+                put(before, out);
+                before = ", ";
+                out.push(axis.letter());
+            }
+        }
     }
 }
 
@@ -692,6 +741,7 @@ fn turn(t: Turn) -> &'static str {
 fn slot(s: FrameSlot) -> &'static str {
     match s {
         FrameSlot::Shift => "shift",
+        FrameSlot::Local => "local",
         FrameSlot::Rotation => "rotation",
         FrameSlot::Scale => "scale",
         FrameSlot::Mirror => "mirror",

@@ -74,7 +74,7 @@ impl Writer {
             }
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
-            Op::ClearFrame(_) => self.words.statement(stmt, sink),
+            Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => self.words.statement(stmt, sink),
             Op::SetFrame(frame) => self.frame(frame, span, sink),
             Op::UseMachineCoordinates => {
                 self.raw = true;

@@ -90,6 +90,21 @@ pub(crate) struct CallCode {
     pub count: Option<u8>,
 }
 
+/// Codes that fill slots of the coordinate chain, with the letters of their own words.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct FrameCodes {
+    pub local: Option<Code>,
+    pub origin: Option<Code>,
+    pub position: Option<Code>,
+    pub rotation: Option<(Code, Letter)>,
+    pub no_rotation: Option<Code>,
+    /// One factor for all axes, or one for each.
+    pub scale: Option<(Code, Letter, [Letter; 3])>,
+    pub no_scale: Option<Code>,
+    pub mirror: Option<Code>,
+    pub no_mirror: Option<Code>,
+}
+
 /// Every word that can be written. `None` where the dialect has none.
 #[derive(Clone, Debug)]
 pub(crate) struct Codes {
@@ -107,6 +122,8 @@ pub(crate) struct Codes {
     /// No work offset.
     pub no_origin: Option<Code>,
     pub no_shift: Option<Code>,
+    /// What fills the slots of the coordinate chain.
+    pub frames: FrameCodes,
     pub no_compensation: Option<Code>,
     pub length: Option<Code>,
     pub no_length: Option<Code>,
@@ -246,6 +263,31 @@ impl<'d> Finder<'d> {
         })
     }
 
+    fn frames(&self) -> FrameCodes {
+        let words = |meaning| {
+            let row = self.dialect.code_for(meaning);
+            let letters = row.map_or(&[][..], |row| row.words.as_bytes());
+            let quantity = if meaning == Meaning::SetRotation { Quantity::Angle } else { Quantity::Factor };
+            letters.iter().filter_map(|l| self.letter(*l as char, quantity)).collect::<Vec<_>>()
+        };
+        let scale = match words(Meaning::SetScale)[..] {
+            [all, x, y, z, ..] => Some((all, [x, y, z])),
+            _ => None,
+        };
+        let angle = words(Meaning::SetRotation).first().copied();
+        FrameCodes {
+            local: self.code(Meaning::SetShift(false)),
+            origin: self.code(Meaning::SetShift(true)),
+            position: self.code(Meaning::SetPosition),
+            rotation: self.code(Meaning::SetRotation).zip(angle),
+            no_rotation: self.code(Meaning::ClearFrame(FrameSlot::Rotation)),
+            scale: self.code(Meaning::SetScale).zip(scale).map(|(code, (all, each))| (code, all, each)),
+            no_scale: self.code(Meaning::ClearFrame(FrameSlot::Scale)),
+            mirror: self.code(Meaning::SetMirror),
+            no_mirror: self.code(Meaning::ClearMirror),
+        }
+    }
+
     fn pair(&self, letters: [char; 2], quantity: Quantity) -> Option<[Letter; 2]> {
         Some([self.letter(letters[0], quantity)?, self.letter(letters[1], quantity)?])
     }
@@ -300,6 +342,7 @@ impl Codes {
             origins: (1..=last).map(|n| code(Meaning::SetOriginOffsets(n))).collect(),
             no_origin: code(Meaning::SetOriginOffsets(0)),
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
+            frames: find.frames(),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             length: code(Meaning::UseToolLengthOffset),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),

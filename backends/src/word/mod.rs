@@ -12,6 +12,7 @@ pub(crate) mod comment;
 mod cycles;
 mod force;
 mod frame;
+mod frames;
 pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod number;

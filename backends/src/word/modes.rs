@@ -51,6 +51,8 @@ impl Setting {
             | Op::NoEffect(_)
             | Op::Blank
             | Op::SetFrame(_)
+            | Op::SetSlot(_)
+            | Op::SetPosition(_)
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)

@@ -3,7 +3,7 @@
 use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Call, Op, Stmt};
+use ncc_ir::program::{Call, FrameSlot, Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -33,6 +33,9 @@ impl Writer {
                 self.flush(true, sink);
                 Ok(())
             }
+            Op::ClearFrame(
+                slot @ (FrameSlot::Local | FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror),
+            ) => self.clear_slot(*slot, span, sink),
             Op::UseLengthUnits(_)
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
@@ -51,6 +54,8 @@ impl Writer {
             Op::LimitSpindleSpeed(_) => Err(cannot("a limit of the spindle speed")),
             Op::SelectToolByName(name) => Err(cannot(format!("a tool called {name}"))),
             Op::SetFrame(_) => Err(cannot("a frame")),
+            Op::SetSlot(slot) => self.slot(slot, span, sink),
+            Op::SetPosition(axes) => self.present_point(&axes[..], span, sink),
             Op::UseMachineCoordinates => Err(cannot("machine coordinates")),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),

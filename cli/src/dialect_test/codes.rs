@@ -111,6 +111,27 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         Meaning::SetCentreMode(_) => Vec::new(),
         Meaning::SetOriginOffsets(n) => one(&format!("SET_ORIGIN_OFFSETS({n})")),
         Meaning::ClearFrame(slot) => one(&format!("CLEAR_FRAME({})", format!("{slot:?}").to_lowercase())),
+        Meaning::SetShift(origin) => {
+            let slot = if origin { "shift" } else { "local" };
+            one(&format!("SET_SHIFT({slot}, X 12.345mm, Y -6.7mm)"))
+        }
+        Meaning::SetPosition => one("SET_POSITION(X 12.345mm, Y -6.7mm)"),
+        Meaning::SetRotation => ["XY", "ZX", "YZ"]
+            .map(|plane| {
+                let words = match plane {
+                    "XY" => "X 12.345mm, Y -6.7mm",
+                    "ZX" => "X 12.345mm, Z -6.7mm",
+                    _ => "Y 12.345mm, Z -6.7mm",
+                };
+                Said::new(format!("SELECT_PLANE({plane})\nSET_ROTATION({plane}, {words}, angle 30.5deg)"))
+            })
+            .into(),
+        Meaning::SetScale => vec![
+            Said::new("SET_SCALE(centre(X 1mm, Y 2mm, Z 3mm), X 1.5, Y 1.5, Z 1.5)"),
+            Said::new("SET_SCALE(centre(X 1mm, Y 2mm, Z 3mm), X 2, Y 1.5, Z 1)"),
+        ],
+        Meaning::SetMirror => one("SET_MIRROR(X 12.5mm)"),
+        Meaning::ClearMirror => vec![Said::new("CLEAR_MIRROR(X)").after("SET_MIRROR(X 12.5mm)")],
         Meaning::UseMachineCoordinates => one("USE_MACHINE_COORDINATES() & said STRAIGHT_TRAVERSE(Z 0mm)"),
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
         Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),

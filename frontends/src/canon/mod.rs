@@ -154,6 +154,8 @@ impl State {
             Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
             | Op::SetFrame(_)
+            | Op::SetSlot(_)
+            | Op::SetPosition(_)
             | Op::UseMachineCoordinates
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)

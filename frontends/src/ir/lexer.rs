@@ -209,6 +209,18 @@ pub(crate) enum Token {
     SetFrame,
     #[token("ADD_FRAME")]
     AddFrame,
+    #[token("SET_POSITION")]
+    SetPosition,
+    #[token("SET_SHIFT")]
+    SetShift,
+    #[token("SET_ROTATION")]
+    SetRotation,
+    #[token("SET_SCALE")]
+    SetScale,
+    #[token("SET_MIRROR")]
+    SetMirror,
+    #[token("CLEAR_MIRROR")]
+    ClearMirror,
     #[token("USE_TOOL_EDGE")]
     UseToolEdge,
     #[token("LINE_PATTERN")]
@@ -300,6 +312,8 @@ pub(crate) enum Token {
     Counterclockwise,
     #[token("shift")]
     Shift,
+    #[token("local")]
+    Local,
     #[token("rotation")]
     Rotation,
     #[token("scale")]

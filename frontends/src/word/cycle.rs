@@ -71,6 +71,10 @@ impl Lower {
         if dwell {
             self.fault(refuse("cycle and dwell in one block"), code.span, out);
         }
+        if self.drills_scaled() {
+            // Which of a cycle's distances are scaled is the control's own.
+            self.fault(refuse("cycle while factors, or a mirror of its axis, are in force"), code.span, out);
+        }
         if !row.sure {
             self.assume_row(code.row, &code.meaning.to_string(), code.span, out);
         }

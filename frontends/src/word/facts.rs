@@ -109,6 +109,10 @@ pub(super) struct State {
     pub(super) cycle: InForce,
     /// Whether the next tapping cycle is a rigid one.
     pub(super) rigid: bool,
+    /// Rotation, factors or a mirror that the program has in force, a bit each.
+    pub(super) turned: u8,
+    /// Axes that the first move in a new rotation must name absolutely, a bit each.
+    pub(super) unplaced: u8,
     /// A feed that was said in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
 }
@@ -133,6 +137,8 @@ impl State {
             tool: Know::Lost,
             cycle: InForce::Lost,
             rigid: false,
+            turned: 0,
+            unplaced: 0,
             cycle_feed: None,
         }
     }
@@ -156,6 +162,8 @@ impl State {
             self.no_motion = false;
             self.motion = Know::Lost;
         }
+        self.turned |= before.turned;
+        self.unplaced |= before.unplaced;
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost;
         }

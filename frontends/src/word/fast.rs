@@ -75,6 +75,7 @@ impl Lower {
             || state.after_cycle
             || state.no_motion
             || state.cycle != InForce::None
+            || state.unplaced != 0
             || self.ended
         {
             return None;

@@ -14,6 +14,7 @@ use ncc_ir::source::Span;
 use super::Source;
 use super::block::{Block, Value, Word};
 use super::facts::{InForce, Know};
+use super::frames::is_frame;
 use super::lower::Lower;
 use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words};
 use crate::Batch;
@@ -45,8 +46,19 @@ impl Lower {
         }
         let before_feed = self.settings.dialect.block.feed_before_units;
         for code in settings {
-            if !(before_feed && matches!(code.meaning, Meaning::SetFeedMode(_))) {
-                self.setting(code, out);
+            if before_feed && matches!(code.meaning, Meaning::SetFeedMode(_)) {
+                continue;
+            }
+            match is_frame(code.meaning) {
+                true => {
+                    self.frame(code, functions, words, src, out);
+                    if self.now.failed {
+                        // They are the frame's, and no move.
+                        let own = b"XYZABC".iter().copied().chain(code.row.words.bytes());
+                        own.for_each(|letter| _ = words.take(letter));
+                    }
+                }
+                false => self.setting(code, out),
             }
         }
         self.feed_word(motion, words, src, out);
@@ -107,6 +119,12 @@ impl Lower {
     }
 
     fn setting(&mut self, code: &Code, out: &mut Batch) {
+        if let Meaning::ClearFrame(slot) = code.meaning {
+            self.frame_over(slot);
+        }
+        if let (Meaning::SetOriginOffsets(_), false) = (code.meaning, self.now.failed) {
+            self.check_shut(code, out);
+        }
         if let (Meaning::SelectPlane(plane), InForce::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
         {
@@ -160,7 +178,10 @@ impl Lower {
                 }
                 Op::ChangeTool
             }
-            Meaning::UseMachineCoordinates => Op::UseMachineCoordinates,
+            Meaning::UseMachineCoordinates => {
+                self.check_shut(code, out);
+                Op::UseMachineCoordinates
+            }
             Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
             Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
             Meaning::StopSpindleTurning => Op::StopSpindleTurning,

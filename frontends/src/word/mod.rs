@@ -17,6 +17,7 @@ mod cycle;
 pub(crate) mod facts;
 pub(crate) mod fast;
 mod frame;
+mod frames;
 pub(crate) mod functions;
 pub(crate) mod jumps;
 pub(crate) mod lower;

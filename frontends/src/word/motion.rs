@@ -162,6 +162,9 @@ impl Lower {
         }
         let with_z = to.get(Axis::Z).is_some() || without.is_some();
         self.rely_on_frames(with_z, block, out);
+        if self.state.unplaced != 0 {
+            self.place_first(&to, block, out);
+        }
         to
     }
 

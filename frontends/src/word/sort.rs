@@ -240,6 +240,12 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::StopCutterRadiusCompensation => 8,
         Meaning::SetMotionControlMode(_) | Meaning::Advise(..) => 9,
         Meaning::SetSpindleMode(_) | Meaning::LimitSpindleSpeed => 9,
+        Meaning::SetShift(_)
+        | Meaning::SetPosition
+        | Meaning::SetRotation
+        | Meaning::SetScale
+        | Meaning::SetMirror
+        | Meaning::ClearMirror => 9,
         // Feed, speed and tool words.
         Meaning::ChangeTool => RANK_WORDS,
         Meaning::StartSpindleClockwise | Meaning::StartSpindleCounterclockwise => 11,

@@ -2,6 +2,7 @@
 
 use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Turn};
 use ncc_ir::caps::{Caps, CycleCap, CycleForm};
+use ncc_ir::program::FrameSlot;
 
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
@@ -113,6 +114,12 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         pattern_here: calls(CallKind::Grid).is_none(),
         pattern_angle: everything || calls(CallKind::Grid).is_some(),
         frames: everything || names(NameMeaning::SetFrame(FrameWord::Translate)),
+        local_shift: everything || says(Meaning::SetShift(false)),
+        stated_shift: everything || says(Meaning::SetShift(true)),
+        origin_shift: everything || says(Meaning::SetPosition),
+        rotation: everything || says(Meaning::SetRotation) && says(Meaning::ClearFrame(FrameSlot::Rotation)),
+        scale: everything || says(Meaning::SetScale) && says(Meaning::ClearFrame(FrameSlot::Scale)),
+        mirror: everything || says(Meaning::SetMirror) && says(Meaning::ClearMirror),
         machine_coordinates: everything || names(NameMeaning::Code(Meaning::UseMachineCoordinates)),
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
         return_planes: either(states),

@@ -25,6 +25,19 @@ pub enum Meaning {
     SetCentreMode(CentreFrom),
     SetOriginOffsets(u16),
     ClearFrame(FrameSlot),
+    /// Shift of the origin (`true`) or local shift by the block's axis words, each for its own axis.
+    SetShift(bool),
+    /// The present point gets the block's axis words as coordinates.
+    SetPosition,
+    /// Rotation in the plane about the block's axis words; the row's first word is the angle.
+    SetRotation,
+    /// Factors about the block's axis words; the row's first word is one for all axes, the next three
+    /// are those along X, Y and Z.
+    SetScale,
+    /// The axes of the block's words are mirrored there.
+    SetMirror,
+    /// The axes of the block's words are mirrored no more.
+    ClearMirror,
     UseMachineCoordinates,
     StopCutterRadiusCompensation,
     SetMotionControlMode(PathMode),
@@ -98,6 +111,13 @@ impl fmt::Display for Meaning {
             Meaning::ClearFrame(slot) => {
                 return write!(f, "CLEAR_FRAME {}", format!("{slot:?}").to_lowercase());
             }
+            Meaning::SetShift(true) => "SET_SHIFT shift",
+            Meaning::SetShift(false) => "SET_SHIFT local",
+            Meaning::SetPosition => "SET_POSITION",
+            Meaning::SetRotation => "SET_ROTATION",
+            Meaning::SetScale => "SET_SCALE",
+            Meaning::SetMirror => "SET_MIRROR",
+            Meaning::ClearMirror => "CLEAR_MIRROR",
             Meaning::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::SetMotionControlMode(mode) => {
@@ -166,6 +186,15 @@ impl FromStr for Meaning {
                 Meaning::SetOriginOffsets(number.parse().map_err(|_| format!("no work offset: {text}"))?)
             }
             ("CLEAR_FRAME", "shift") => Meaning::ClearFrame(FrameSlot::Shift),
+            ("CLEAR_FRAME", "rotation") => Meaning::ClearFrame(FrameSlot::Rotation),
+            ("CLEAR_FRAME", "scale") => Meaning::ClearFrame(FrameSlot::Scale),
+            ("SET_SHIFT", "shift") => Meaning::SetShift(true),
+            ("SET_SHIFT", "local") => Meaning::SetShift(false),
+            ("SET_POSITION", "") => Meaning::SetPosition,
+            ("SET_ROTATION", "") => Meaning::SetRotation,
+            ("SET_SCALE", "") => Meaning::SetScale,
+            ("SET_MIRROR", "") => Meaning::SetMirror,
+            ("CLEAR_MIRROR", "") => Meaning::ClearMirror,
             ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates,
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(

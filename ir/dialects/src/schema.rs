@@ -553,6 +553,9 @@ pub struct Can {
     pub inherits_motion: bool,
     /// How corners are always taken, if there is no word for it.
     pub only_path: Option<PathName>,
+    /// No other zero may be set while a rotation, factors or a mirror are in force, and no mirror inside
+    /// a rotation or factors.
+    pub frames_shut: bool,
     /// Any structure of the IR can be carried (the text form).
     pub everything: bool,
 }

@@ -3,13 +3,14 @@
 //! A chain of translations stays exact; with rotations or factors, positions pass through floats
 //! and are rounded to a nano. Rotations are in a plane of two axes; others are refused.
 
+use super::slots::{Frames, Present};
 use super::{Exec, Length};
 use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry;
 use crate::num::{Nanos, ONE};
-use crate::program::{Frame, FrameStep, Point};
+use crate::program::{Coord, Frame, FrameSlot, FrameStep, Point, Slot};
 use crate::source::Span;
 
 /// Frames in force: what the program calls `p` is `turn · p + shift` in the work offset.
@@ -24,6 +25,11 @@ const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.
 
 impl Chain {
     pub(crate) const NONE: Chain = Chain { turn: None, shift: [0; AXES] };
+
+    /// A translation.
+    pub(crate) fn by(shift: [Nanos; AXES]) -> Chain {
+        Chain { turn: None, shift }
+    }
 
     /// A point of the program in the work offset.
     pub(crate) fn place(&self, p: &[Nanos; AXES]) -> [Nanos; AXES] {
@@ -137,6 +143,15 @@ impl Chain {
         self.turn = (product != STRAIGHT).then_some(product);
     }
 
+    /// These frames with others inside.
+    pub(crate) fn then(mut self, inner: &Chain) -> Chain {
+        self.shift = self.place(&inner.shift);
+        if let Some(turn) = inner.turn {
+            self.append(turn);
+        }
+        self
+    }
+
     /// The sense that an arc of a plane has outside, if it is an arc of the same plane there.
     pub(crate) fn sense(&self, plane: Plane, turn: Turn) -> Option<Turn> {
         let Some(m) = &self.turn else { return Some(turn) };
@@ -183,28 +198,103 @@ fn inverse(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     std::array::from_fn(|i| std::array::from_fn(|j| minor(j, i) / det))
 }
 
+/// What a control knows where a frame changes.
+struct Now<'e> {
+    exec: &'e Exec,
+    span: Span,
+}
+
+impl Present for Now<'_> {
+    type Unknown = Diagnostic;
+
+    fn plane(&self, plane: Fact<Plane>) -> Result<Plane, Diagnostic> {
+        Ok(self.exec.plane_of(plane))
+    }
+
+    fn value(&self, value: &Expr) -> Result<Nanos, Diagnostic> {
+        self.exec.value(value, self.span)
+    }
+
+    fn distance(&self, word: &Coord) -> Result<Distance, Diagnostic> {
+        Ok(word.distance.or(self.exec.modes.distance))
+    }
+
+    fn work(&self, axis: usize) -> Result<Nanos, Diagnostic> {
+        Ok(self.exec.machine()[axis].wrapping_sub(self.exec.frame[axis]))
+    }
+
+    fn out_of_range(&self) -> Diagnostic {
+        Diagnostic::new(Fault::OutOfRange { word: "factor".into() }, self.span)
+    }
+}
+
 impl Exec {
     pub(super) fn set_frame(&mut self, frame: &Frame, span: Span) -> Result<(), Diagnostic> {
-        let here = self.machine();
-        let mut chain = match self.chain.take() {
-            Some(chain) if frame.added => *chain,
-            Some(_) | None => Chain::NONE,
-        };
-        chain.add(
+        let mut frames = self.slots();
+        if !frame.added {
+            frames.steps = Chain::NONE;
+        }
+        frames.steps.add(
             &frame.step,
             |plane| Ok(self.plane_of(plane)),
             |value| self.value(value, span),
             || Diagnostic::new(Fault::OutOfRange { word: "factor".into() }, span),
         )?;
-        self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
-        self.reframe(here);
+        self.use_slots(frames);
         Ok(())
     }
 
-    pub(super) fn clear_chain(&mut self) {
+    /// Fills a slot.
+    pub(super) fn set_slot(&mut self, slot: &Slot, span: Span) -> Result<(), Diagnostic> {
+        let mut frames = self.slots();
+        frames.set(slot, &Now { exec: self, span })?;
+        self.use_slots(frames);
+        Ok(())
+    }
+
+    /// Gives the present point coordinates.
+    pub(super) fn set_position(&mut self, axes: &[Option<Expr>; AXES], span: Span) -> Result<(), Diagnostic> {
+        let mut frames = self.slots();
+        if frames.is_turned() {
+            return self
+                .not_executed("coordinates of the present point in a frame that turns or scales", span);
+        }
+        let shift = self.origin_shift();
+        frames.set_position(axes, &shift, &Now { exec: self, span })?;
+        self.use_slots(frames);
+        Ok(())
+    }
+
+    /// Empties a slot.
+    pub(super) fn clear_slot(&mut self, slot: FrameSlot) {
+        if slot == FrameSlot::Shift {
+            self.modes.shifted = false;
+            self.said |= super::SHIFT;
+        }
+        let mut frames = self.slots();
+        frames.clear(slot);
+        self.use_slots(frames);
+    }
+
+    fn slots(&self) -> Frames {
+        self.slots.as_deref().cloned().unwrap_or(Frames::NONE)
+    }
+
+    fn use_slots(&mut self, frames: Frames) {
         let here = self.machine();
-        self.chain = None;
+        let chain = frames.chain();
+        self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
+        self.slots = (frames != Frames::NONE).then(|| Box::new(frames));
         self.reframe(here);
+    }
+
+    /// The shift of the origin: what was said, and of the other axes what was left over.
+    pub(super) fn origin_shift(&self) -> [Nanos; AXES] {
+        let left = if self.modes.shifted { self.world.left_over_shift() } else { [0; AXES] };
+        match &self.slots {
+            None => left,
+            Some(slots) => std::array::from_fn(|i| slots.origin[i].unwrap_or(left[i])),
+        }
     }
 
     /// A straight move in machine coordinates: frames and work offset are off, the length is not.

@@ -10,12 +10,14 @@ mod event;
 mod frame;
 mod holes;
 mod run;
+mod slots;
 mod thread;
 
 pub use event::{Attribute, Event, Kind, Movement, Seen, State};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
+pub(crate) use slots::{Frames, Present, Rotation, Scale};
 
 use crate::canon::{
     AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle, Units,
@@ -24,7 +26,7 @@ use crate::canon::{
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, Unit};
-use crate::program::{Coord, FrameSlot, Op, Point, Stmt};
+use crate::program::{Coord, Op, Point, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
 use arcs::Heading;
@@ -47,6 +49,8 @@ pub struct Exec {
     frame: [Nanos; AXES],
     /// Frames between the program and that.
     chain: Option<Box<Chain>>,
+    /// The slots that they come from, and the shift of the origin; `None` is nothing in any.
+    slots: Option<Box<Frames>>,
     /// Position of the last move's event.
     last: [Nanos; AXES],
     /// Direction of the last move.
@@ -129,6 +133,7 @@ impl Exec {
             position: [0; AXES],
             frame: [0; AXES],
             chain: None,
+            slots: None,
             last: world.start,
             heading: Heading::None,
             raw: false,
@@ -244,6 +249,7 @@ impl Exec {
             && self.position == other.position
             && self.frame == other.frame
             && self.chain == other.chain
+            && self.slots == other.slots
             && self.last == other.last
             && self.heading == other.heading
             && self.raw == other.raw
@@ -264,6 +270,7 @@ impl Exec {
         self.position = other.position;
         self.frame = other.frame;
         self.chain.clone_from(&other.chain);
+        self.slots.clone_from(&other.slots);
         self.last = other.last;
         self.heading = other.heading;
         self.raw = other.raw;
@@ -361,10 +368,10 @@ impl Exec {
     /// Computes the frame anew; the machine stays at `here`.
     fn reframe(&mut self, here: [Nanos; AXES]) {
         self.frame = self.world.work_offset(self.modes.work_offset);
-        if self.modes.shifted {
-            let shift = self.world.left_over_shift();
+        if self.modes.shifted || self.slots.is_some() {
+            let shift = self.origin_shift();
             for (f, s) in self.frame.iter_mut().zip(shift) {
-                *f += s;
+                *f = f.wrapping_add(s);
             }
         }
         self.frame[Z] += self.length_of(self.modes.length);
@@ -646,15 +653,10 @@ impl Exec {
                 self.said |= WORK;
                 self.reframe(here);
             }
-            Op::ClearFrame(FrameSlot::Shift) => {
-                let here = self.machine();
-                self.modes.shifted = false;
-                self.said |= SHIFT;
-                self.reframe(here);
-            }
-            Op::ClearFrame(FrameSlot::Chain) => self.clear_chain(),
-            Op::ClearFrame(_) => {}
+            Op::ClearFrame(slot) => self.clear_slot(*slot),
             Op::SetFrame(frame) => self.set_frame(frame, span)?,
+            Op::SetSlot(slot) => self.set_slot(slot, span)?,
+            Op::SetPosition(axes) => self.set_position(axes, span)?,
             Op::UseMachineCoordinates => self.raw = true,
             Op::SetSpindleSpeed(speed) => {
                 self.state.speed = self.value(speed, span)?;

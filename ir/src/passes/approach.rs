@@ -32,7 +32,14 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
         // What the tool stands above it may not stand above any more.
         if (chained || walk.at.cycle_in_doubt)
             && other_way
-            && matches!(body[i].op, Op::SetFrame(_) | Op::ClearFrame(_) | Op::SetOriginOffsets(_))
+            && matches!(
+                body[i].op,
+                Op::SetFrame(_)
+                    | Op::SetSlot(_)
+                    | Op::SetPosition(_)
+                    | Op::ClearFrame(_)
+                    | Op::SetOriginOffsets(_)
+            )
         {
             let what = "another zero under a cycle that goes another way to its holes";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));

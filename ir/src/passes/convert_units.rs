@@ -14,7 +14,7 @@ use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, miscellaneous, tooling};
 use crate::num::{Num, Unit};
-use crate::program::{Centre, Coord, FrameStep, Op, Pitch, Point, Program, Shape, Stmt};
+use crate::program::{Centre, Coord, FrameStep, Op, Pitch, Point, Program, Shape, Slot, Stmt};
 use crate::track::Tracker;
 
 /// Everything in millimetres.
@@ -104,6 +104,20 @@ impl Converter<'_> {
                 if let FrameStep::Translate(words) = &mut frame.step {
                     words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
                 }
+            }
+            Op::SetSlot(slot) => match &mut **slot {
+                Slot::Shift { axes, .. } => {
+                    axes.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
+                }
+                Slot::Rotation { centre: words, .. }
+                | Slot::Scale { centre: words, .. }
+                | Slot::Mirror(words) => {
+                    words.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
+                }
+                Slot::NoMirror(_) => {}
+            },
+            Op::SetPosition(axes) => {
+                axes.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
             }
             Op::ExactStop
             | Op::SetDistanceMode(_)

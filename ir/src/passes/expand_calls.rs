@@ -15,7 +15,7 @@ use crate::expr::{Expr, Node};
 use crate::kinds::{conduct, flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{
-    Call, Centre, Control, Coord, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Stmt,
+    Call, Centre, Control, Coord, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Slot, Stmt,
 };
 use crate::source::Span;
 use crate::track::Tracker;
@@ -274,6 +274,19 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
             FrameStep::Rotate { plane, .. } => settle_fact(plane, here.modes.plane),
             FrameStep::Scale(_) | FrameStep::Mirror(_) => {}
         },
+        Op::SetSlot(slot) => match &mut **slot {
+            Slot::Shift { axes, .. } => axes.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
+            Slot::Rotation { plane, centre, angle } => {
+                settle_fact(plane, here.modes.plane);
+                centre.iter_mut().flatten().for_each(|w| settle_expr(w, here));
+                settle_coord(angle, here);
+            }
+            Slot::Scale { centre: words, .. } | Slot::Mirror(words) => {
+                words.iter_mut().flatten().for_each(|w| settle_expr(w, here));
+            }
+            Slot::NoMirror(_) => {}
+        },
+        Op::SetPosition(axes) => axes.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
         Op::SetFeedRate(feed) => settle_expr(feed, here),
         Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)

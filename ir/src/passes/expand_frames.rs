@@ -1,4 +1,5 @@
-//! `expand-frames`: chains of frames are worked into the coordinates.
+//! `expand-frames`: frames are said in the target's own form (`frame_forms`), or worked into the
+//! coordinates.
 //!
 //! A translation moves absolute words and leaves increments alone. Rotations, factors and mirrors are
 //! computed, every point from its exact place, so that roundings do not add up; a point is exact
@@ -8,19 +9,21 @@
 //! Refused by name: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
 //! mirrors or scales, frames that may be skipped, and frames under calls, jumps and repetitions.
 
+use super::frame_forms::{self, shifted};
 use super::walk::Walk;
 use super::write::{EXACT, Rebuild, exact, rebuild, rounded, unit_of};
 use super::{Target, arc_form, each_body, expand_patterns, pattern_forms};
-use crate::canon::{Axis, Distance, Fact, Plane};
+use crate::canon::{AXES, Axis, Distance, Fact, Plane};
+use crate::caps::Caps;
 use crate::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
-use crate::exec::Chain;
+use crate::exec::{Chain, Frames as Slots, Present};
 use crate::expr::Expr;
 use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling};
 use crate::num::{Nanos, Num, ONE, POW10, Unit};
 use crate::places::Places;
 use crate::program::{
-    Arc, Centre, CentreFrom, Coord, Frame, FrameSlot, Move, Op, Point, Program, Stmt, Synchronised,
+    Arc, Centre, CentreFrom, Coord, FrameSlot, Move, Op, Point, Program, Slot, Stmt, Synchronised,
 };
 use crate::track::Tracker;
 
@@ -30,8 +33,10 @@ const NOTHING: f64 = 1e-12;
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
-    /// The chain in force, and where the tool stands in the program's own coordinates.
-    framed: Option<Box<(Chain, Walk, arc_form::State)>>,
+    /// The frames in force, and where the tool stands in the program's own coordinates.
+    framed: Option<Box<(Set, Walk, arc_form::State)>>,
+    /// Whether a chain may be in force that the target says as it stands.
+    chained: bool,
 }
 
 /// Works the frames in.
@@ -47,7 +52,18 @@ impl State {
 
     /// At the start of another body.
     pub(super) fn start_over(&mut self) {
-        self.framed = None;
+        *self = State::default();
+    }
+
+    /// Passes over statements of which none is this pass's business.
+    pub(super) fn note(&mut self, body: &[Stmt]) {
+        for stmt in body {
+            match &stmt.op {
+                Op::SetFrame(_) => self.chained = true,
+                Op::ClearFrame(FrameSlot::Chain) => self.chained &= stmt.skip.is_some(),
+                _ => {}
+            }
+        }
     }
 
     /// Facts that were taken for granted since.
@@ -58,9 +74,21 @@ impl State {
     }
 }
 
-/// Whether any procedure of a program sets a frame.
-pub(super) fn has_frames(program: &Program) -> bool {
-    program.procedures.iter().flat_map(|p| &p.body).any(|s| matches!(s.op, Op::SetFrame(_)))
+/// Whether a statement is this pass's business: a change of frames, unless all that the target has is a
+/// chain and this is one of its steps.
+pub(super) fn concerns(op: &Op, caps: &Caps) -> bool {
+    match op {
+        Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => !caps.frames,
+        Op::SetSlot(_) | Op::SetPosition(_) => true,
+        Op::ClearFrame(slot) => *slot != FrameSlot::Shift,
+        _ => false,
+    }
+}
+
+/// Whether any procedure of a program sets a frame that the target cannot say as it is.
+pub(super) fn has_frames(program: &Program, caps: &Caps) -> bool {
+    let sets = |op: &Op| matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_));
+    program.procedures.iter().flat_map(|p| &p.body).any(|s| sets(&s.op) && !caps.says_frame(&s.op))
 }
 
 /// The same for one piece of a body. The walk stands before what is made of it.
@@ -71,22 +99,54 @@ pub(super) fn over(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
-    if target.caps.frames {
-        return;
+    if state.framed.is_none() && !body.iter().any(|stmt| concerns(&stmt.op, &target.caps)) {
+        return state.note(body);
     }
-    let (chain, inner, arcs) = match state.framed.take() {
+    let (set, inner, arcs) = match state.framed.take() {
         Some(framed) => *framed,
-        None => (Chain::NONE, walk.clone(), arc_form::State::default()),
+        None => (Set::NONE, walk.clone(), arc_form::State::default()),
     };
-    let mut frames = Frames { chain, inner, arcs, outer: walk, target };
+    let mut frames = Frames { set, inner, arcs, outer: walk, target, chained: state.chained };
     rebuild(body, |stmt, made| frames.take(stmt, made, diags));
     let goes_on = frames.goes_on();
-    let Frames { chain, inner, arcs, .. } = frames;
-    state.framed = goes_on.then(|| Box::new((chain, inner, arcs)));
+    let Frames { set, inner, arcs, chained, .. } = frames;
+    state.chained = chained;
+    state.framed = goes_on.then(|| Box::new((set, inner, arcs)));
+}
+
+/// What is in force.
+#[derive(Clone, Debug, PartialEq)]
+struct Set {
+    /// What the program has set.
+    slots: Slots,
+    /// What that amounts to, with the shift of the origin.
+    whole: Chain,
+    /// What of it coordinates must be changed by: all of it, or nothing.
+    chain: Chain,
+    /// What has been written of it: slots of a target that has them.
+    said: Slots,
+    /// Whether a chain has been written.
+    said_chain: bool,
+    /// A plane of which the next move must name both axes, absolutely.
+    unplaced: Option<Plane>,
+    /// Whether what is in force depends on a block-skip switch; all of it has been said as it stood.
+    lost: bool,
+}
+
+impl Set {
+    const NONE: Set = Set {
+        slots: Slots::NONE,
+        whole: Chain::NONE,
+        chain: Chain::NONE,
+        said: Slots::NONE,
+        said_chain: false,
+        unplaced: None,
+        lost: false,
+    };
 }
 
 struct Frames<'f> {
-    chain: Chain,
+    set: Set,
     /// Where the tool stands as the program sees it.
     inner: Walk,
     /// Which way it came.
@@ -94,32 +154,48 @@ struct Frames<'f> {
     /// Where it stands as what is made sees it.
     outer: &'f mut Walk,
     target: &'f Target,
+    /// Whether a chain may be in force that was said as it stood, before this pass had any business.
+    chained: bool,
 }
 
 impl Frames<'_> {
     /// Whether a frame is in force, or what is made stands at a rounded place that a frame has left.
     fn goes_on(&self) -> bool {
-        self.chain != Chain::NONE || (0..3).any(|axis| self.is_rounded(axis))
+        self.set != Set::NONE || (0..3).any(|axis| self.is_rounded(axis))
     }
 
     /// Whether an axis stands, as it is written, at another place than the exact one.
     fn is_rounded(&self, axis: usize) -> bool {
-        let exact = self.chain.place_known(&self.inner.at.position)[axis];
+        let exact = self.set.chain.place_known(&self.inner.at.position)[axis];
         exact.zip(self.outer.at.position[axis]).is_some_and(|(a, b)| a != b)
     }
 
     fn take(&mut self, mut stmt: Stmt, made: &mut Rebuild, diags: &mut Vec<Diagnostic>) {
         self.inner.enter(stmt.skip);
         self.outer.enter(stmt.skip);
-        let step = match &stmt.op {
-            Op::SetFrame(frame) => Some(Some(frame)),
-            Op::ClearFrame(FrameSlot::Chain) => Some(None),
-            _ => None,
+        let is_change = match &stmt.op {
+            Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => true,
+            Op::ClearFrame(FrameSlot::Shift) => self.set.slots.origin != [None; AXES],
+            Op::ClearFrame(_) => true,
+            _ => false,
         };
-        if let Some(frame) = step {
-            match self.change(&stmt, frame.map(|f| &**f)) {
-                Ok(true) => diags.push(Diagnostic::new(Fault::FramesExpanded, stmt.span)),
-                Ok(false) => {}
+        if is_change {
+            match self.change(&stmt) {
+                Ok((told, mut ops)) => {
+                    if told {
+                        diags.push(Diagnostic::new(Fault::FramesExpanded, stmt.span));
+                    }
+                    // What an earlier program left is another's business.
+                    let shift = Op::ClearFrame(FrameSlot::Shift);
+                    if stmt.op == shift && !ops.contains(&shift) {
+                        ops.push(shift);
+                    }
+                    for op in &ops {
+                        self.outer.step(&Stmt::new(stmt.span, op.clone()));
+                        self.note(op);
+                    }
+                    return made.replace(stmt, ops.into_iter().map(|op| (false, op)));
+                }
                 Err(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
             }
             return made.leave_out(stmt);
@@ -147,6 +223,11 @@ impl Frames<'_> {
             diags.push(Diagnostic::new(Fault::PatternExpanded { holes }, stmt.span));
         }
         self.advance(&stmt);
+        if let Some(plane) = self.set.unplaced
+            && ops.iter().chain(ops.is_empty().then_some(&stmt.op)).any(|op| moves_in(op, plane))
+        {
+            self.set.unplaced = None;
+        }
         let Some(first) = ops.first() else {
             self.outer.step(&stmt);
             return made.push(stmt);
@@ -167,7 +248,7 @@ impl Frames<'_> {
     /// A step of the program: a move in machine coordinates leaves the other axes of the machine.
     fn advance(&mut self, stmt: &Stmt) {
         let raw = self.inner.at.raw;
-        let before = self.chain.place_known(&self.inner.at.position);
+        let before = self.set.whole.place_known(&self.inner.at.position);
         self.arcs.step(stmt, &mut self.inner);
         if let (true, Op::StraightTraverse(m) | Op::StraightFeed(m)) = (raw, &stmt.op) {
             let mut after = before;
@@ -176,45 +257,161 @@ impl Frames<'_> {
                     *at = None;
                 }
             }
-            self.inner.at.position = self.chain.unplace_known(&after);
+            self.inner.at.position = self.set.whole.unplace_known(&after);
         }
     }
 
-    /// Another chain; `true` if it is one that was not reported.
-    fn change(&mut self, stmt: &Stmt, frame: Option<&Frame>) -> Result<bool, Fault> {
-        if stmt.skip.is_some() && (frame.is_some() || self.chain != Chain::NONE) {
+    /// Other frames; `true` if they are some that were not reported.
+    fn change(&mut self, stmt: &Stmt) -> Result<(bool, Vec<Op>), Fault> {
+        let sets = !matches!(stmt.op, Op::ClearFrame(_));
+        let caps = &self.target.caps;
+        let as_it_stands =
+            caps.says_frame(&stmt.op) && self.set.chain == Chain::NONE && self.set.said == self.set.slots;
+        if as_it_stands && !caps.frames && (self.set.lost || stmt.skip.is_some()) {
+            self.set.lost = true;
+            self.inner.at.position = [None; AXES];
+            return Ok((false, vec![stmt.op.clone()]));
+        }
+        if self.set.lost || stmt.skip.is_some() && (sets || self.set.slots != Slots::NONE) {
             return Err(cannot("a frame in a block that can be skipped"));
         }
-        let here = self.chain.place_known(&self.inner.at.position);
-        let mut new = self.chain.clone();
-        let mut told = false;
-        if let Some(frame) = frame {
-            told = !frame.added || self.chain == Chain::NONE;
-            if !frame.added {
-                new = Chain::NONE;
+        if self.chained {
+            match &stmt.op {
+                // A chain that begins anew leaves nothing of the one before.
+                Op::SetFrame(frame) if !frame.added => self.chained = false,
+                Op::ClearFrame(FrameSlot::Chain) => self.chained = false,
+                Op::ClearFrame(_) => return Ok((false, Vec::new())),
+                _ => return Err(cannot("a shift, rotation, scale or mirror beside a chain of frames")),
             }
-            let at = &self.inner.at;
-            new.add(
-                &frame.step,
-                |plane| at.plane(plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane }),
-                |value| value_of(at, value),
-                || Fault::OutOfRange { word: "factor".into() },
-            )?;
-        } else {
-            new = Chain::NONE;
         }
+        let here = self.set.whole.place_known(&self.inner.at.position);
+        let before = self.set.slots.clone();
+        let now = Now { at: &self.inner.at, work: here, shift: self.shift() };
+        let mut slots = before.clone();
+        match &stmt.op {
+            Op::SetFrame(frame) => {
+                if !frame.added {
+                    slots.steps = Chain::NONE;
+                }
+                let range = || Fault::OutOfRange { word: "factor".into() };
+                slots.steps.add(&frame.step, |plane| now.plane(plane), |value| now.value(value), range)?;
+            }
+            Op::SetSlot(slot) => slots.set(slot, &now)?,
+            Op::SetPosition(axes) => slots.set_position(axes, &now.shift, &now)?,
+            Op::ClearFrame(slot) => slots.clear(*slot),
+            _ => return Ok((false, Vec::new())),
+        }
+        let fresh = before == Slots::NONE || matches!(&stmt.op, Op::SetFrame(f) if !f.added);
+        let new = shifted(&slots);
+        let said = self.say(&stmt.op, &slots, &new)?;
+        let (ops, worked_in) = match said {
+            Some(ops) => (ops, Chain::NONE),
+            None => (self.unsay()?, new.clone()),
+        };
         let in_force = self.inner.at.cycle.as_ref().map(|c| c.cycle.plane);
         if in_force.is_some() || self.inner.at.cycle_in_doubt {
             let plane = in_force.and_then(|plane| self.inner.at.plane(plane));
-            let stays = |n: usize| new.shift()[n] == self.chain.shift()[n] && leaves_alone(&new, n);
+            let stays = |n: usize| new.shift()[n] == self.set.whole.shift()[n] && leaves_alone(&new, n);
             if !plane.is_some_and(|plane| stays(plane.axes().2 as usize)) {
                 return Err(cannot("a frame that moves the drilling axis of the cycle in force"));
             }
         }
-        self.chain = new;
+        let told = sets && fresh && worked_in != Chain::NONE;
+        self.set.chain = worked_in;
+        self.set.whole = new;
+        self.set.slots = slots;
         self.arcs.step(stmt, &mut self.inner);
-        self.inner.at.position = self.chain.unplace_known(&here);
-        Ok(told && self.chain != Chain::NONE)
+        self.inner.at.position = self.set.whole.unplace_known(&here);
+        Ok((told, ops))
+    }
+
+    /// The statements that say the frames in the target's own form; `None` if it has none for them.
+    fn say(&mut self, op: &Op, slots: &Slots, new: &Chain) -> Result<Option<Vec<Op>>, Fault> {
+        let caps = &self.target.caps;
+        let unit = self.inner.unit();
+        if caps.frames {
+            let chained = |slots: &Slots| Slots { steps: Chain::NONE, ..slots.clone() } == Slots::NONE;
+            if caps.says_frame(op) && chained(slots) && chained(&self.set.slots) {
+                self.set.said_chain = slots.steps != Chain::NONE;
+                return Ok(Some(vec![op.clone()]));
+            }
+            let ops = frame_forms::as_chain(slots, self.set.said_chain, unit);
+            if let Some(ops) = &ops {
+                self.set.said_chain = ops.iter().any(|op| matches!(op, Op::SetFrame(_)));
+            }
+            return Ok(ops);
+        }
+        // What can be said as it stands is, while nothing else is in the way.
+        if caps.says_frame(op) && self.set.chain == Chain::NONE && self.set.said == self.set.slots {
+            self.set.said = slots.clone();
+            return Ok(Some(vec![op.clone()]));
+        }
+        if self.set.said.origin != [None; AXES] {
+            return Ok(None);
+        }
+        let digits = self.target.decimals_in(unit);
+        let Some(wanted) = frame_forms::as_slots(new, caps, digits, unit) else { return Ok(None) };
+        let ops = frame_forms::between(&self.set.said, &wanted, caps, unit);
+        if !ops.is_empty() && (self.inner.at.cycle.is_some() || self.inner.at.cycle_in_doubt) {
+            return Ok(None);
+        }
+        self.set.said = wanted;
+        Ok(Some(ops))
+    }
+
+    /// The statements that take back what was said of frames, before coordinates are worked on.
+    fn unsay(&mut self) -> Result<Vec<Op>, Fault> {
+        let said = std::mem::replace(&mut self.set.said, Slots::NONE);
+        let chain = std::mem::take(&mut self.set.said_chain);
+        if said.origin != [None; AXES] || said.steps != Chain::NONE {
+            return Err(cannot("this frame beside coordinates of the present point"));
+        }
+        let mut ops = frame_forms::between(&said, &Slots::NONE, &self.target.caps, self.inner.unit());
+        if chain {
+            ops.push(Op::ClearFrame(FrameSlot::Chain));
+        }
+        if !ops.is_empty() && self.inner.at.cycle.is_some() {
+            return Err(cannot("another form of frame while a cycle is in force"));
+        }
+        Ok(ops)
+    }
+
+    /// After a rotation is set or taken back, controls do not agree about an axis of its plane that the
+    /// next move there leaves out.
+    fn note(&mut self, op: &Op) {
+        match op {
+            Op::SetSlot(slot) if !self.target.caps.frames => {
+                if let Slot::Rotation { plane, .. } = &**slot {
+                    self.set.unplaced = self.inner.at.plane(*plane);
+                }
+            }
+            Op::ClearFrame(FrameSlot::Rotation) => {
+                self.set.unplaced = self.set.unplaced.or(self.inner.at.modes.plane).or(Some(Plane::Xy));
+            }
+            _ => {}
+        }
+    }
+
+    /// Both axes of the plane in which the tool must be placed, as absolute words.
+    fn placed(&self, out: &mut Point, after: &[Option<Nanos>; AXES]) -> Result<(), Fault> {
+        let Some(plane) = self.set.unplaced else { return Ok(()) };
+        let (first, second, _) = plane.axes();
+        let in_force = self.inner.at.modes.distance;
+        let is_absolute = |axis: Axis, out: &Point| {
+            let word = out.get(axis);
+            word.is_some_and(|w| w.distance.known().or(in_force) == Some(Distance::Absolute))
+        };
+        if [first, second].iter().all(|axis| out.get(*axis).is_none()) {
+            return Ok(());
+        }
+        for axis in [first, second] {
+            if !is_absolute(axis, out) {
+                let nanos = after[axis as usize];
+                let nanos = nanos.ok_or(Fault::PositionUnknown { axis: axis.letter() as char })?;
+                out.set(axis, absolute(exact(nanos, unit_of(axis, self.inner.unit()))));
+            }
+        }
+        Ok(())
     }
 
     /// What becomes of a statement under the chain; nothing if it stays as it is.
@@ -225,7 +422,7 @@ impl Frames<'_> {
             Op::StraightTraverse(m) => Op::StraightTraverse(self.moved(m)?),
             Op::StraightFeed(m) => Op::StraightFeed(self.moved(m)?),
             Op::SynchronisedFeed(m) => {
-                if self.chain.turn().is_some() {
+                if self.set.chain.turn().is_some() {
                     return Err(cannot("a thread in a turned or scaled frame"));
                 }
                 Op::SynchronisedFeed(Box::new(Synchronised { to: self.point(&m.to)?, ..(**m).clone() }))
@@ -237,7 +434,7 @@ impl Frames<'_> {
             Op::ArcForm(_) => return Ok(Vec::new()),
             Op::StartCycle(cycle) => Op::StartCycle(Box::new(self.cycle(cycle)?)),
             Op::Pattern(pattern) => return self.pattern(pattern),
-            flow!() if self.chain != Chain::NONE => {
+            flow!() if self.set.chain != Chain::NONE => {
                 return Err(cannot("a frame where the program does not go straight on"));
             }
             Op::SetFeedRate(_)
@@ -254,6 +451,11 @@ impl Frames<'_> {
         }])
     }
 
+    /// The shift of the origin.
+    fn shift(&self) -> [Nanos; AXES] {
+        self.set.slots.origin.map(Option::unwrap_or_default)
+    }
+
     /// Digits of a computed length: all, where the chain leaves it exact, or as many as the target
     /// has.
     fn decimals(&self) -> u8 {
@@ -263,13 +465,13 @@ impl Frames<'_> {
     /// Whether the chain is one of translations, mirrors and quarter turns.
     fn is_exact(&self) -> bool {
         let whole = |v: &f64| v.abs() < NOTHING || (v.abs() - 1.0).abs() < NOTHING;
-        self.chain.turn().is_none_or(|m| m.iter().flatten().all(whole))
+        self.set.chain.turn().is_none_or(|m| m.iter().flatten().all(whole))
     }
 
     /// A coordinate moved along its axis.
     fn shifted(&self, word: &Coord, axis: Axis) -> Result<Coord, Fault> {
         let at = &self.inner.at;
-        let by = self.chain.shift()[axis as usize];
+        let by = self.set.chain.shift()[axis as usize];
         match word.distance.known().or(at.modes.distance) {
             None => Err(Fault::EntryFactNeeded { fact: ModeName::Distance }),
             Some(Distance::Incremental) => Ok(word.clone()),
@@ -293,9 +495,9 @@ impl Frames<'_> {
     fn point_to(&self, to: &Point, decimals: u8) -> Result<Point, Fault> {
         let unit = self.inner.unit();
         let mut out = Point::default();
-        let after = self.chain.place_known(&self.inner.at.target(to));
+        let after = self.set.chain.place_known(&self.inner.at.target(to));
         for (i, axis) in Axis::ALL.into_iter().enumerate() {
-            let Some(row) = self.chain.turn().and_then(|m| m.get(i)) else {
+            let Some(row) = self.set.chain.turn().and_then(|m| m.get(i)) else {
                 if let Some(word) = to.get(axis) {
                     out.set(axis, self.shifted(word, axis)?);
                 }
@@ -326,6 +528,7 @@ impl Frames<'_> {
             };
             out.set(axis, absolute(rounded(nanos, decimals, unit_of(axis, unit))));
         }
+        self.placed(&mut out, &after)?;
         Ok(out)
     }
 
@@ -342,11 +545,14 @@ impl Frames<'_> {
         let at = &self.inner.at;
         let plane = at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
         let (first, second, _) = plane.axes();
+        if self.set.unplaced.is_some() {
+            return Err(cannot("an arc as the first move of another rotation"));
+        }
         let mut out = arc.clone();
         // How a third axis goes with several turns depends on the very angle.
         let decimals = if arc.turns > 0 { EXACT } else { self.decimals() };
         out.to = self.point_to(&arc.to, decimals)?;
-        if self.chain.turn().is_none() {
+        if self.set.chain.turn().is_none() {
             if let Centre::Point { words, from: CentreFrom::Zero } = &mut out.centre {
                 for axis in [first, second] {
                     if let Some(word) = &mut words[axis as usize] {
@@ -356,7 +562,7 @@ impl Frames<'_> {
             }
             return Ok(out);
         }
-        let sense = self.chain.sense(plane, arc.turn);
+        let sense = self.set.chain.sense(plane, arc.turn);
         out.turn = sense.ok_or_else(|| cannot("an arc in a frame that does not leave it an arc"))?;
         out.plane = Fact::Known(plane);
         let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
@@ -367,7 +573,7 @@ impl Frames<'_> {
         for (axis, place) in [first, second].into_iter().zip(centre) {
             middle[axis as usize] = Some(place);
         }
-        let middle = self.chain.place_known(&middle);
+        let middle = self.set.chain.place_known(&middle);
         if start == end {
             // A whole circle stays one, however its ends are rounded.
             out.to.axes[first as usize] = None;
@@ -391,7 +597,7 @@ impl Frames<'_> {
         let plane = plane.ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
         let (_, _, normal) = plane.axes();
         let n = normal as usize;
-        if !leaves_alone(&self.chain, n) {
+        if !leaves_alone(&self.set.chain, n) {
             return Err(cannot("a cycle in a frame that turns, mirrors or scales its drilling axis"));
         }
         let mut out = cycle.clone();
@@ -409,7 +615,7 @@ impl Frames<'_> {
         let (first, second, _) = plane.axes();
         let axes = [first, second];
         let off = axes.into_iter().any(|axis| self.is_rounded(axis as usize));
-        if self.chain.turn().is_none() && !off {
+        if self.set.chain.turn().is_none() && !off && self.set.unplaced.is_none() {
             return Ok(vec![Op::Pattern(Box::new(self.shifted_pattern(pattern, axes)?))]);
         }
         let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
@@ -420,7 +626,7 @@ impl Frames<'_> {
         let outside = |place: [Nanos; 2]| {
             let mut p = at.position;
             (p[first as usize], p[second as usize]) = (Some(place[0]), Some(place[1]));
-            let p = self.chain.place_known(&p);
+            let p = self.set.chain.place_known(&p);
             Ok::<_, Fault>([
                 p[first as usize].ok_or_else(|| unknown(first))?,
                 p[second as usize].ok_or_else(|| unknown(second))?,
@@ -429,12 +635,12 @@ impl Frames<'_> {
         let all: Vec<[Nanos; 2]> =
             (0..places.count()).map(|k| outside(places.get(k))).collect::<Result<_, _>>()?;
         let (f, s) = (first as usize, second as usize);
-        let turn = self.chain.turn().filter(|m| {
+        let turn = self.set.chain.turn().filter(|m| {
             (m[f][f] - m[s][s]).abs() < NOTHING
                 && (m[f][s] + m[s][f]).abs() < NOTHING
                 && (m[f][f].hypot(m[s][f]) - 1.0).abs() < 1e-9
         });
-        if let (Some(m), false) = (turn, off) {
+        if let (Some(m), false, None) = (turn, off, self.set.unplaced) {
             let angle = (m[s][f].atan2(m[f][f]).to_degrees() * ONE as f64).round() as Nanos;
             if let Some(form) = self.turned(pattern, &places, angle, axes, &outside)?
                 && self.says(&form, plane, &all)
@@ -558,6 +764,51 @@ impl Frames<'_> {
             }
         }
         Ok(out)
+    }
+}
+
+/// What is known where a frame changes.
+struct Now<'t> {
+    at: &'t Tracker,
+    /// Where the tool stands in the work offset.
+    work: [Option<Nanos>; AXES],
+    shift: [Nanos; AXES],
+}
+
+impl Present for Now<'_> {
+    type Unknown = Fault;
+
+    fn plane(&self, plane: Fact<Plane>) -> Result<Plane, Fault> {
+        self.at.plane(plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })
+    }
+
+    fn value(&self, value: &Expr) -> Result<Nanos, Fault> {
+        value_of(self.at, value)
+    }
+
+    fn distance(&self, word: &Coord) -> Result<Distance, Fault> {
+        let distance = word.distance.known().or(self.at.modes.distance);
+        distance.ok_or(Fault::EntryFactNeeded { fact: ModeName::Distance })
+    }
+
+    fn work(&self, axis: usize) -> Result<Nanos, Fault> {
+        let at = self.work[axis].ok_or(Fault::PositionUnknown { axis: Axis::ALL[axis].letter() as char })?;
+        Ok(at.wrapping_sub(self.shift[axis]))
+    }
+
+    fn out_of_range(&self) -> Fault {
+        Fault::OutOfRange { word: "factor".into() }
+    }
+}
+
+/// Whether a statement moves along an axis of a plane.
+fn moves_in(op: &Op, plane: Plane) -> bool {
+    let (first, second, _) = plane.axes();
+    match op {
+        Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
+            m.to.get(first).is_some() || m.to.get(second).is_some()
+        }
+        _ => false,
     }
 }
 

@@ -147,6 +147,9 @@ impl Legaliser {
             stmts.iter().for_each(|stmt| self.taps.note(stmt));
         }
         let start = (needs != 0).then(|| self.walk.clone());
+        if needs & FRAME == 0 && self.lacks & FRAME != 0 {
+            self.frames.note(stmts);
+        }
         if self.target.caps.feed_again && needs & MEASURE == 0 {
             stmts.iter().for_each(|stmt| self.feed.note(&stmt.op));
         }
@@ -193,6 +196,10 @@ impl Legaliser {
         }
         if self.frames.is_busy() {
             needs |= FRAME;
+        } else if needs & FRAME != 0
+            && !stmts.iter().any(|stmt| expand_frames::concerns(&stmt.op, &self.target.caps))
+        {
+            needs &= !FRAME;
         }
         if self.edge.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
@@ -215,9 +222,6 @@ impl Legaliser {
         if needs & WORK != 0 {
             work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
         }
-        if needs & SHIFT != 0 {
-            origin_shift::over(stmts, &mut self.shift, diags);
-        }
         if needs & PATH != 0 {
             path_control::over(stmts, &mut self.path, &self.target, diags);
         }
@@ -226,6 +230,10 @@ impl Legaliser {
         }
         if needs & FRAME != 0 {
             expand_frames::over(stmts, &mut start.clone(), &mut self.frames, &self.target, diags);
+        }
+        // A shift that the program has set itself is over by now.
+        if needs & SHIFT != 0 {
+            origin_shift::over(stmts, &mut self.shift, diags);
         }
         if self.follow && needs & (CONTROL | WORK | SHIFT | FRAME) != 0 {
             self.walk = start.clone();
@@ -295,7 +303,19 @@ impl Legaliser {
     pub fn run_program(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) {
         let assumed = rest.assumed;
         self.walk.assume(&assumed);
-        let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest);
+        let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.target.caps);
+        // Where the frames can be said, subprograms stay what they are.
+        if frames && rest.procedures.len() > 1 && self.lacks & CALL == 0 {
+            let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
+            own.run_whole(&mut program, Subprograms::Keep, &mut found);
+            let worked_in = |d: &Diagnostic| {
+                d.fault.gravity() == Gravity::Error || matches!(d.fault, Fault::FramesExpanded)
+            };
+            if !found.iter().any(worked_in) {
+                (*self, *rest) = (own, program);
+                return diags.append(&mut found);
+            }
+        }
         if frames || self.repeats_in_the_way(rest) {
             expand_repeats::everywhere(rest, diags);
         }
@@ -509,7 +529,7 @@ fn lacks(caps: &Caps) -> u32 {
     needs(EDGE, caps.tool_edges != Some(false));
     needs(TABLE, caps.tool_edges != Some(true));
     needs(MACHINE, caps.machine_coordinates);
-    needs(FRAME, caps.frames);
+    needs(FRAME, caps.says_all_frames());
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
 }
@@ -529,8 +549,8 @@ fn interest(stmt: &Stmt) -> u32 {
         Op::ChangeTool => TABLE,
         Op::UseMachineCoordinates => MACHINE,
         Op::SetOriginOffsets(_) => WORK,
-        Op::ClearFrame(FrameSlot::Chain) | Op::SetFrame(_) => FRAME,
-        Op::ClearFrame(_) => SHIFT,
+        Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
+        Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,

@@ -28,6 +28,8 @@ macro_rules! unnumbered {
             | Op::UseToolEdge { .. }
             | Op::ClearFrame(_)
             | Op::SetFrame(_)
+            | Op::SetSlot(_)
+            | Op::SetPosition(_)
             | Op::UseMachineCoordinates
             | Op::SetFeedRate(_)
             | Op::Position(_)

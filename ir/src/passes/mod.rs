@@ -24,6 +24,7 @@ pub mod feed_with_cycle;
 pub mod flatten_facts;
 pub mod fold_cycles;
 pub mod fold_patterns;
+mod frame_forms;
 mod legalise;
 pub mod machine_numbers;
 pub mod number_names;

@@ -237,7 +237,7 @@ impl Control {
         turns: u32,
     ) -> Result<(), Halt> {
         let (first, second, normal) = self.m.axes();
-        let Some(reversed) = self.frame.reverses(first, second, normal) else {
+        let Some(reversed) = self.chain().reverses(first, second, normal) else {
             return self.m.halt("a circle that the frame makes an ellipse, or turns out of its plane");
         };
         let mut middle = from;
@@ -253,6 +253,83 @@ impl Control {
         let (x, y) = (to[first] - centre.0, to[second] - centre.1);
         (tangent[first], tangent[second]) = if clockwise { (y, -x) } else { (-y, x) };
         self.tangent = Some(tangent);
+        Ok(())
+    }
+
+    /// What fills a slot: `SET_SHIFT` and its like.
+    pub(super) fn fill(&mut self, name: &str, a: &[Token]) -> Result<(), Halt> {
+        let mut axes = [None; 6];
+        let mut centre = [None; 6];
+        let mut angle = None;
+        let mut kind = "";
+        let mut plane = self.m.plane;
+        for part in &split(a) {
+            match part {
+                [Token::Name(n), Token::Sign('('), within @ .., Token::Sign(')')] if n == "centre" => {
+                    for part in &split(within) {
+                        if let [Token::Name(n), Token::Number(v, u)] = part
+                            && let Some(axis) = AXES.iter().position(|a| a == n)
+                        {
+                            centre[axis] = Some(self.base(*v, u));
+                        }
+                    }
+                }
+                [Token::Name(n), Token::Number(v, u)] if AXES.contains(&n.as_str()) => {
+                    axes[AXES.iter().position(|a| a == n).unwrap_or(0)] = Some(self.base(*v, u));
+                }
+                [Token::Name(n)] if AXES.contains(&n.as_str()) => {
+                    axes[AXES.iter().position(|a| a == n).unwrap_or(0)] = Some(0.0);
+                }
+                [Token::Name(n), Token::Number(v, _)] if n == "angle" => angle = Some(*v),
+                [Token::Name(n)] if n == "shift" || n == "local" => kind = n,
+                [Token::Name(n)] => plane = self.plane(n)?,
+                _ => return self.m.halt("another word of a frame"),
+            }
+        }
+        let at = self.m.at;
+        let below = self.shift();
+        let slots = self.m.slots.shift();
+        let at: Place = std::array::from_fn(|i| at[i] - below[i] + slots[i]);
+        match (name, angle) {
+            ("SET_SHIFT", None) if kind == "local" => self.m.slots.shift_locally(axes),
+            ("SET_SHIFT", None) => {
+                for (origin, value) in self.m.slots.origin.iter_mut().zip(axes) {
+                    *origin = value.unwrap_or(*origin);
+                }
+            }
+            ("SET_POSITION", None) => {
+                let mut slots = self.m.slots.clone();
+                slots.set_position(&self.m, at, axes)?;
+                self.m.slots = slots;
+            }
+            ("SET_ROTATION", Some(degrees)) => {
+                let (first, second) = [(0, 1), (2, 0), (1, 2)][(plane - 17) as usize];
+                let mut about = self.m.slots.before_rotation(at);
+                for axis in [first, second] {
+                    about[axis] = axes[axis].unwrap_or(about[axis]);
+                }
+                self.m.slots.rotation = Some(([first, second], about, degrees));
+            }
+            ("SET_SCALE", None) => {
+                self.m.slots.scale = None;
+                let here = self.m.slots.turn().undo(std::array::from_fn(|i| at[i] - slots[i]));
+                let about = std::array::from_fn(|i| centre[i].unwrap_or(here[i]));
+                let factors = std::array::from_fn(|i| axes[i].unwrap_or(1.0));
+                self.m.slots.scale = Some((about, factors));
+            }
+            ("SET_MIRROR", None) => {
+                for (line, value) in self.m.slots.mirror.iter_mut().zip(axes) {
+                    *line = value.or(*line);
+                }
+            }
+            ("CLEAR_MIRROR", None) => {
+                for (line, value) in self.m.slots.mirror.iter_mut().zip(axes) {
+                    *line = line.filter(|_| value.is_none());
+                }
+            }
+            _ => return self.m.halt("a frame of another kind"),
+        }
+        self.m.use_slots([name != "SET_POSITION"; 6]);
         Ok(())
     }
 

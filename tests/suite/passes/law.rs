@@ -11,7 +11,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::program::{
     Arc, ArcForm, Centre, CentreFrom, Coord, Frame, FrameSlot, FrameStep, Move, Op, Point, Procedure,
-    Program, RepeatBlocks, Shape, Stmt,
+    Program, RepeatBlocks, Shape, Slot, Stmt,
 };
 use ncc_ir::source::Span;
 use proptest::prelude::*;
@@ -224,7 +224,43 @@ fn frame() -> impl Strategy<Value = Op> {
         1 => [any::<bool>(), any::<bool>()].prop_map(|[x, y]| FrameStep::Mirror([x, y, false])),
     ];
     let set = (step, any::<bool>()).prop_map(|(step, added)| Op::SetFrame(Box::new(Frame { added, step })));
-    prop_oneof![3 => set, 2 => Just(Op::ClearFrame(FrameSlot::Chain))]
+    let slots =
+        vec![FrameSlot::Chain, FrameSlot::Local, FrameSlot::Rotation, FrameSlot::Scale, FrameSlot::Mirror];
+    prop_oneof![3 => set, 3 => slot(), 2 => select(slots).prop_map(Op::ClearFrame)]
+}
+
+/// What fills a slot of the coordinate chain.
+fn slot() -> impl Strategy<Value = Op> {
+    let length = || prop::option::of((-300i64..300).prop_map(|t| Expr::from(mm(t))));
+    let words = move || [length(), length(), length()];
+    let factor = || {
+        let tenths = prop_oneof![Just(5i64), Just(20), Just(13)];
+        prop::option::of(tenths.prop_map(|t| Num { unit: Unit::One, ..mm(t) }.into()))
+    };
+    let shift = |axes: [Option<Expr>; 3]| {
+        let [x, y, z] = axes;
+        Box::new([x, y, z, None, None, None])
+    };
+    let angle = prop_oneof![3 => -180i64..180, 2 => select(&[0i64, 90, 180, -90][..])];
+    let slot = prop_oneof![
+        3 => words().prop_map(move |axes| Slot::Shift { origin: false, axes: shift(axes) }),
+        3 => (words(), angle).prop_map(|(centre, angle)| Slot::Rotation {
+            plane: Fact::Known(Plane::Xy),
+            centre: Box::new(centre),
+            angle: Coord {
+                value: Num::int(angle, Unit::Degree).into(),
+                distance: Fact::Known(Distance::Absolute),
+            },
+        }),
+        1 => (words(), factor()).prop_map(|(centre, f)| Slot::Scale {
+            centre: Box::new(centre),
+            factors: Box::new([f.clone(), f, None]),
+        }),
+        1 => words().prop_map(|lines| Slot::Mirror(Box::new(lines))),
+        1 => any::<[bool; 2]>().prop_map(|[x, y]| Slot::NoMirror([x, y, false])),
+    ];
+    let position = words().prop_map(move |axes| Op::SetPosition(shift(axes)));
+    prop_oneof![5 => slot.prop_map(|slot| Op::SetSlot(Box::new(slot))), 1 => position]
 }
 
 /// Statements that stand together.

@@ -261,6 +261,31 @@ fn frame() -> BoxedStrategy<Frame> {
     (any::<bool>(), step).prop_map(|(added, step)| Frame { added, step }).boxed()
 }
 
+fn along<const N: usize>() -> BoxedStrategy<Box<[Option<Expr>; N]>> {
+    prop::collection::vec(of(expr()), N)
+        .prop_map(|words| {
+            let mut by = [const { None }; N];
+            by.iter_mut().zip(words).for_each(|(by, word)| *by = word);
+            Box::new(by)
+        })
+        .boxed()
+}
+
+fn slot() -> BoxedStrategy<Slot> {
+    prop_oneof![
+        (any::<bool>(), along()).prop_map(|(origin, axes)| Slot::Shift { origin, axes }),
+        (fact(planes()), along(), coord()).prop_map(|(plane, centre, angle)| Slot::Rotation {
+            plane,
+            centre,
+            angle
+        }),
+        (along(), along()).prop_map(|(centre, factors)| Slot::Scale { centre, factors }),
+        along().prop_map(Slot::Mirror),
+        any::<[bool; 3]>().prop_map(Slot::NoMirror),
+    ]
+    .boxed()
+}
+
 fn pattern() -> BoxedStrategy<Pattern> {
     prop_oneof![
         (of([coord(), coord()]), first(), expr(), any::<u32>())
@@ -307,6 +332,8 @@ fn simple() -> BoxedStrategy<Op> {
         any::<u16>().prop_map(Op::SetOriginOffsets),
         select(FrameSlot::ALL.to_vec()).prop_map(Op::ClearFrame),
         frame().prop_map(|frame| Op::SetFrame(Box::new(frame))),
+        slot().prop_map(|slot| Op::SetSlot(Box::new(slot))),
+        along().prop_map(Op::SetPosition),
         (expr(), any::<bool>()).prop_map(|(edge, said)| Op::UseToolEdge { edge, said }),
     ];
     let valued = prop_oneof![
