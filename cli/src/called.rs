@@ -263,7 +263,8 @@ fn program_of(text: &[u8], dialect: &Dialect) -> Option<Own> {
         }
     }
     let first = lines(start).take_while(|(at, _)| *at < end).find(|(_, line)| {
-        !line.is_empty() && !(line.starts_with(b"(") && line.ends_with(b")")) && !line.starts_with(b";")
+        let comment = line.starts_with(b"(") && line.ends_with(b")");
+        !(line.is_empty() || line.starts_with(b";") || comment)
     });
     let name = first.and_then(|(_, line)| name_of(line, dialect));
     // The main text keeps its opening mark: places in it are those of its file.
