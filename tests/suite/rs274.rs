@@ -25,7 +25,8 @@ enum Must {
     BeEqual,
     /// The interpreter refuses it, and so do we.
     BeRefused,
-    /// It is for a lathe, which is refused by name.
+    /// It is for a lathe, or taps in another plane than XY, which the interpreter does at places of other
+    /// axes: refused by name.
     BeRefusedByName,
     /// Needs what is not translated yet.
     Wait(&'static str),
@@ -46,9 +47,9 @@ const PLAIN: [(&str, Must); 19] = [
     ("interp-g81-g17-g99", Must::BeEqual),
     ("interp-g81-g18-g99", Must::BeEqual),
     ("interp-g81-g19-g99", Must::BeEqual),
-    ("interp-g84-g17-g99", Must::Wait("tapping")),
-    ("interp-g84-g18-g99", Must::Wait("tapping")),
-    ("interp-g84-g19-g99", Must::Wait("tapping")),
+    ("interp-g84-g17-g99", Must::BeEqual),
+    ("interp-g84-g18-g99", Must::BeRefusedByName),
+    ("interp-g84-g19-g99", Must::BeRefusedByName),
     ("interp-m98m99-04-M98-but-no-sub", Must::BeRefused),
     ("interp-rotation-g53", Must::Wait("G10, G53, G92")),
     ("interp-unit-conversion", Must::Wait("G10, G92")),

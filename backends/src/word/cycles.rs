@@ -345,7 +345,9 @@ impl Writer {
         let mut row = row;
         let normal = cycle.plane.known().or(self.force.plane).map(|p| p.axes().2.letter());
         if let Some(normal) = normal.filter(|normal| *normal != row.depth.letter) {
-            if !self.dialect.cycles.any_plane {
+            let text = String::from_utf8_lossy(row.code.text());
+            let one_plane = self.dialect.cycle_row(&text).is_some_and(|row| row.one_plane);
+            if !self.dialect.cycles.any_plane || one_plane {
                 return Err(cannot("a cycle along another axis than Z"));
             }
             row.depth.letter = normal;

@@ -278,7 +278,7 @@ impl Lower {
     fn depth_letter(&self, row: &CycleRow, plane: Fact<Plane>) -> Option<char> {
         let Some(plane) = plane.known() else { return Some(row.depth) };
         let normal = char::from(plane.axes().2.letter());
-        (normal == row.depth || self.settings.dialect.cycles.any_plane).then_some(normal)
+        (normal == row.depth || self.settings.dialect.cycles.any_plane && !row.one_plane).then_some(normal)
     }
 
     /// A cycle cannot turn rotary axes on some controls.

@@ -407,6 +407,9 @@ pub struct CycleRow {
     /// Whether the dwell must be said.
     #[serde(default)]
     pub dwell_needed: bool,
+    /// Whether it works along its own letter's axis alone, where other cycles work in any plane.
+    #[serde(default)]
+    pub one_plane: bool,
     /// Whether the feed out of the hole goes on to the level where the tool is left.
     #[serde(default)]
     pub feed_to_level: bool,
