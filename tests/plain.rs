@@ -52,6 +52,8 @@ pub enum Happening {
     Coolant,
     /// Its name, hashed.
     MachineFunction(u64),
+    /// A value put into a table, hashed.
+    Data(u64),
     Stop,
     OptionalStop,
     End,
@@ -200,6 +202,11 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 let mut hasher = DefaultHasher::new();
                 name.hash(&mut hasher);
                 Happening::MachineFunction(hasher.finish())
+            }
+            Kind::Data(stored) => {
+                let mut hasher = DefaultHasher::new();
+                stored.hash(&mut hasher);
+                Happening::Data(hasher.finish())
             }
             Kind::ProgramStop => Happening::Stop,
             Kind::OptionalProgramStop => Happening::OptionalStop,

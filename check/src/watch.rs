@@ -192,7 +192,7 @@ impl Checker {
     /// What a statement says before it is executed.
     fn before(&mut self, stmt: &Stmt) {
         match &stmt.op {
-            Op::UseMachineCoordinates => self.seen.raw = true,
+            Op::UseMachineCoordinates { .. } => self.seen.raw = true,
             Op::StopCutterRadiusCompensation => self.seen.switch_off(LeftOn::Compensation),
             Op::ClearFrame(FrameSlot::Shift) => {
                 self.seen.switch_off(LeftOn::Frame);
@@ -290,6 +290,7 @@ impl Checker {
             | Kind::Dwell(_)
             | Kind::Coolant
             | Kind::MachineFunction(_)
+            | Kind::Data(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::TextEnd

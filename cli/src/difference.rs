@@ -39,6 +39,7 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         Kind::Orient(angle) => format!("the spindle stopped at {} degrees", number(*angle)),
         Kind::Dwell(seconds) => format!("a dwell of {} s", number(*seconds)),
         Kind::ToolChange => format!("a change to tool {}", event.state.tool),
+        Kind::Data(stored) => stored.to_string(),
         Kind::MachineFunction(name) => format!("the machine function {name}"),
         Kind::Coolant => "a switch of the coolant".to_owned(),
         Kind::ProgramStop => "a stop".to_owned(),

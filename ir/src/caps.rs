@@ -4,7 +4,7 @@ use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
 use crate::passes::seen_advice;
-use crate::program::{FrameSlot, Op, Pitch, Slot};
+use crate::program::{FrameSlot, Op, Pitch, ReferencePoint, Slot};
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -64,6 +64,21 @@ pub struct Caps {
     pub mirror: bool,
     /// Moves in machine coordinates.
     pub machine_coordinates: bool,
+    /// Whether the tool's length stays in such a move (`true`) or is off too; `None` if either can be said.
+    pub machine_length: Option<bool>,
+    /// Points of the machine that have a word.
+    pub references: References,
+    /// Whether a rapid move to such a point can go by another point first.
+    pub reference_via: bool,
+    /// Whether a tool's length is surely in force behind a move to such a point; `None` if either can be
+    /// said.
+    pub reference_keeps_length: Option<bool>,
+    /// Values of work offsets: set; added to; so that the present position reads the words.
+    pub offset_data: [bool; 3],
+    /// Values of the table of tools, in the order of [`crate::program::ToolValue::ALL`].
+    pub tool_data: [bool; 4],
+    /// Whether a value can be added to one of that table.
+    pub tool_data_added: bool,
     /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
     /// if either.
     pub tool_edges: Option<bool>,
@@ -115,6 +130,31 @@ pub struct Caps {
     pub advice: Vec<(AdviceKind, u8)>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
+}
+
+/// Points of the machine that a target has words for, each up to which number; 0 is none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[allow(missing_docs)] // As [`crate::program::ReferencePoint`].
+pub struct References {
+    pub home: bool,
+    pub further: u8,
+    pub fixed: u8,
+    pub stored: u8,
+}
+
+impl References {
+    /// All there are.
+    pub const ALL: References = References { home: true, further: 4, fixed: 4, stored: 2 };
+
+    /// Whether a point has a word.
+    pub fn has(&self, point: ReferencePoint) -> bool {
+        match point {
+            ReferencePoint::Home => self.home,
+            ReferencePoint::Further(n) => n <= self.further,
+            ReferencePoint::Fixed(n) => n <= self.fixed,
+            ReferencePoint::Stored(n) => n <= self.stored,
+        }
+    }
 }
 
 /// How a cycle that drives the spindle is said.

@@ -72,7 +72,16 @@ macro_rules! frames {
             | $crate::program::Op::SetFrame(_)
             | $crate::program::Op::SetSlot(_)
             | $crate::program::Op::SetPosition(_)
-            | $crate::program::Op::UseMachineCoordinates
+            | $crate::program::Op::UseMachineCoordinates { .. }
+    };
+}
+
+/// Rapid moves to points of the machine, behind which the program does not know where these axes
+/// stand, and values put into the control's tables. What bare axis words do, the feed and the cycle
+/// stay as they are.
+macro_rules! machine {
+    () => {
+        $crate::program::Op::GoToReference(_) | $crate::program::Op::SetData(_)
     };
 }
 
@@ -99,5 +108,4 @@ macro_rules! flow {
             | $crate::program::Op::Label(_)
     };
 }
-
-pub(crate) use {conduct, flow, frames, miscellaneous, modes, moves, tooling};
+pub(crate) use {conduct, flow, frames, machine, miscellaneous, modes, moves, tooling};

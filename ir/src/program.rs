@@ -240,6 +240,89 @@ impl Shape {
     }
 }
 
+/// A point of the machine to which axes can be sent by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ReferencePoint {
+    /// The machine's zero: where a reference point of its axes is that machine coordinates count from.
+    Home,
+    /// A further reference point of the machine, 2 to 4.
+    Further(u8),
+    /// A fixed point of the machine, 1 to 4.
+    Fixed(u8),
+    /// A position stored in the control, 1 or 2.
+    Stored(u8),
+}
+
+/// A rapid move of axes to a point of the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// Which point.
+    pub point: ReferencePoint,
+    /// Which axes go there; the others stay.
+    pub axes: [bool; AXES],
+    /// A point that is reached first, by a rapid move, in program coordinates. No words: from where
+    /// the axes stand.
+    pub via: Point,
+    /// Whether the tool's length is surely in force behind it. Else, where it moves Z, it is so only
+    /// if the program says it anew.
+    pub keeps_length: bool,
+}
+
+/// How a program sets a value of the control's tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DataMode {
+    /// The value takes the place of the one before.
+    Set,
+    /// The value is added to the one before.
+    Add,
+    /// A work offset is set so that the words become the coordinates of where the axes stand.
+    Here,
+}
+
+/// A value of the table of tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ToolValue {
+    /// Length, without wear.
+    Length,
+    /// Wear of the length, which is added to it.
+    LengthWear,
+    /// Radius, without wear.
+    Radius,
+    /// Wear of the radius.
+    RadiusWear,
+}
+
+impl ToolValue {
+    /// All values.
+    pub const ALL: [ToolValue; 4] =
+        [ToolValue::Length, ToolValue::LengthWear, ToolValue::Radius, ToolValue::RadiusWear];
+}
+
+/// Values that a program puts into the control's tables.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// The zero of a work offset (1 is the first), in machine coordinates.
+    Offset {
+        /// Its number.
+        offset: u16,
+        /// How.
+        mode: DataMode,
+        /// The words; an axis without one keeps its value.
+        words: Box<[Option<Expr>; AXES]>,
+    },
+    /// A value of an entry of the table of tools; [`DataMode::Here`] is none of these.
+    Tool {
+        /// The entry.
+        entry: u32,
+        /// Which value.
+        which: ToolValue,
+        /// Whether it is added to the one before.
+        added: bool,
+        /// The value.
+        value: Expr,
+    },
+}
+
 /// A step of the chain of frames: what it does to the coordinates that follow.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Frame {
@@ -444,8 +527,13 @@ pub enum Op {
     /// shift of the origin, which is changed so; the local shift of the axes named is over.
     SetPosition(Box<[Option<Expr>; AXES]>),
     /// `USE_MACHINE_COORDINATES`: words of the straight move that follows in this block are machine
-    /// coordinates; work offset and frames are off for it, the tool's length stays.
-    UseMachineCoordinates,
+    /// coordinates; work offset and frames are off for it.
+    UseMachineCoordinates {
+        /// Whether the tool's length stays; else it is off for the block too.
+        length: bool,
+    },
+    /// `SET_OFFSET_DATA` or `SET_TOOL_DATA`: puts values into the control's tables.
+    SetData(Box<Data>),
     /// `STOP_CUTTER_RADIUS_COMPENSATION`
     StopCutterRadiusCompensation,
     /// `SET_MOTION_CONTROL_MODE`: how corners are taken from here on.
@@ -510,6 +598,9 @@ pub enum Op {
     /// `SYNCHRONISED_FEED`: NIST's `START_SPEED_FEED_SYNCH`, `STRAIGHT_FEED` and `STOP_SPEED_FEED_SYNCH`
     /// at once.
     SynchronisedFeed(Box<Synchronised>),
+    /// `GO_TO_REFERENCE`: rapid move to a point of the machine. What bare axis words do afterwards is
+    /// as before it.
+    GoToReference(Box<Reference>),
     /// `ARC_FEED`
     ArcFeed(Box<Arc>),
     /// `ARC_BY_ANGLE`, `ARC_ABOUT_BY_ANGLE`, `ARC_ABOUT`, `ARC_THROUGH`, `ARC_TANGENT`: arcs in other
@@ -576,7 +667,12 @@ impl Op {
             }
             Op::SetSlot(slot) => slot.name(),
             Op::SetPosition(_) => "SET_POSITION",
-            Op::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
+            Op::UseMachineCoordinates { .. } => "USE_MACHINE_COORDINATES",
+            Op::SetData(data) => match **data {
+                Data::Offset { .. } => "SET_OFFSET_DATA",
+                Data::Tool { .. } => "SET_TOOL_DATA",
+            },
+            Op::GoToReference(_) => "GO_TO_REFERENCE",
             Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",

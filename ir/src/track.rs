@@ -10,7 +10,7 @@ use crate::geometry;
 use crate::kinds::{conduct, flow, miscellaneous};
 use crate::num::Nanos;
 use crate::places::{Here, Places};
-use crate::program::{Arc, ArcForm, Coord, FrameSlot, FrameStep, Move, Op, Point, Shape, Slot, Stmt};
+use crate::program::{Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Shape, Slot, Stmt};
 use crate::round::{Around, round};
 
 /// State of the abstract execution.
@@ -42,6 +42,8 @@ pub struct Tracker {
     pub local_lost: bool,
     /// Whether the next straight move is in machine coordinates.
     pub raw: bool,
+    /// Whether that move is measured with the tool's length.
+    pub raw_length: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -350,7 +352,31 @@ impl Tracker {
                 self.framed = true;
                 self.chained = true;
             }
-            Op::UseMachineCoordinates => self.raw = true,
+            Op::UseMachineCoordinates { length } => {
+                self.raw = true;
+                self.raw_length = *length;
+            }
+            Op::GoToReference(reference) => {
+                if !reference.via.is_empty() {
+                    self.position = self.target(&reference.via);
+                }
+                self.lose(&reference.axes);
+                if reference.axes[Axis::Z as usize]
+                    && !reference.keeps_length
+                    && self.modes.length_offset != Some(0)
+                {
+                    self.modes.length_offset = None;
+                }
+            }
+            Op::SetData(data) => match &**data {
+                // Where the axes stand is counted anew, if it is the offset in force.
+                Data::Offset { offset, words, .. }
+                    if self.modes.work_offset.is_none_or(|own| own == *offset) =>
+                {
+                    self.lose(&std::array::from_fn(|axis| words[axis].is_some()));
+                }
+                Data::Offset { .. } | Data::Tool { .. } => {}
+            },
             Op::UseToolEdge { edge, .. } => {
                 let edge = edge.literal().and_then(|n| n.whole());
                 self.modes.length_offset = match (edge, self.tool) {
@@ -448,18 +474,22 @@ impl Tracker {
     #[inline]
     fn go(&mut self, to: &Point, motion: Motion) {
         if std::mem::take(&mut self.raw) {
-            // The machine goes along the axes that have words; a frame may mix them.
-            for (at, word) in self.position.iter_mut().zip(&to.axes) {
-                if word.is_some() || self.framed {
-                    *at = None;
-                }
-            }
+            self.lose(&std::array::from_fn(|axis| to.axes[axis].is_some()));
         } else {
             self.position = self.target(to);
         }
         self.modes.motion = Some(motion);
         self.cycle = None;
         self.cycle_in_doubt = false;
+    }
+
+    /// The machine goes along these axes to where the program does not know; a frame may mix them.
+    fn lose(&mut self, axes: &[bool; AXES]) {
+        for (at, goes) in self.position.iter_mut().zip(axes) {
+            if *goes || self.framed {
+                *at = None;
+            }
+        }
     }
 
     fn go_form(&mut self, arc: &ArcForm) {

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::canon::{AXES, Axis, Turn, same_point};
-use crate::exec::{Event, Kind, Seen, State};
+use crate::exec::{Event, Kind, Seen, State, Stored};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, POW10};
 use crate::program::{Op, Point, Stmt};
@@ -447,6 +447,17 @@ impl Comparison {
         })
     }
 
+    /// Whether the same is put into the tables, to half a unit of the last digit.
+    fn same_data(&self, a: &Stored, b: &Stored, inch: bool) -> bool {
+        let near = |x: Nanos, y: Nanos| x.abs_diff(y) <= self.half[usize::from(inch)].max(self.within) as u64;
+        match (a, b) {
+            (Stored::Offset(m, a), Stored::Offset(n, b)) => m == n && self.end(a, b, inch).is_none(),
+            (Stored::Length(m, a), Stored::Length(n, b)) => m == n && near(*a, *b),
+            (Stored::Value(m, p, s, a), Stored::Value(n, q, t, b)) => (m, p, s) == (n, q, t) && near(*a, *b),
+            (Stored::Offset(..) | Stored::Length(..) | Stored::Value(..), _) => false,
+        }
+    }
+
     #[inline]
     fn compare(&self, a: &Event, b: &Event) -> Option<Aspect> {
         let near = |x: Nanos, y: Nanos, half: Nanos| x.abs_diff(y) <= half as u64;
@@ -466,6 +477,11 @@ impl Comparison {
             }
             (Kind::Dwell(x), Kind::Dwell(y)) => {
                 if !near(*x, *y, Resolution::half(self.resolution.second, false)) {
+                    return Some(Aspect::Kind);
+                }
+            }
+            (Kind::Data(x), Kind::Data(y)) => {
+                if !self.same_data(x, y, b.inch || self.as_inches) {
                     return Some(Aspect::Kind);
                 }
             }

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
+use crate::program::ReferencePoint;
 
 /// One state of the machine and its tables before the program starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +77,10 @@ pub struct Tables {
     /// Lengths of tools, in nanos of a millimetre: entries of the length table, and edge 1 of the tool
     /// with that number. 0 is no tool.
     pub lengths: BTreeMap<u32, Nanos>,
+    /// How much of the length of an entry is wear.
+    pub wears: BTreeMap<u32, Nanos>,
+    /// Points of the machine, in machine coordinates, axis by axis.
+    pub references: BTreeMap<ReferencePoint, [Option<Nanos>; AXES]>,
     /// The entry that edge 1 of a tool has, where it is not the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
 }
@@ -137,15 +142,55 @@ impl World {
     /// Zero of a work offset (1 is the first), in machine coordinates.
     pub fn work_offset(&self, number: u16) -> [Nanos; AXES] {
         let stated = self.tables.work_offsets.get(&number);
-        let renamed = match &self.renaming.offsets {
-            None => u32::from(number),
-            Some(map) => map.get(&number).map_or(u32::from(number) | FOREIGN, |n| u32::from(*n)),
-        };
+        let renamed = self.offset_number(number);
         std::array::from_fn(|axis| match stated.and_then(|offset| offset[axis]) {
             Some(stated) => stated,
             None if self.seed == 0 => 0,
             None => self.odd(renamed * 8 + axis as u32, 190),
         })
+    }
+
+    /// A work offset by the number that both worlds of a comparison know it by.
+    pub fn offset_number(&self, number: u16) -> u32 {
+        match &self.renaming.offsets {
+            None => u32::from(number),
+            Some(map) => map.get(&number).map_or(u32::from(number) | FOREIGN, |n| u32::from(*n)),
+        }
+    }
+
+    /// An entry of the table of tools by the number that both worlds of a comparison know it by.
+    pub fn entry_number(&self, entry: u32) -> u32 {
+        renamed(&self.renaming.entries, entry)
+    }
+
+    /// A point of the machine, in machine coordinates.
+    pub fn reference(&self, point: ReferencePoint) -> [Nanos; AXES] {
+        let stated = self.tables.references.get(&point);
+        let index = match point {
+            ReferencePoint::Home => 0,
+            ReferencePoint::Further(n) => 16 + u32::from(n),
+            ReferencePoint::Fixed(n) => 32 + u32::from(n),
+            ReferencePoint::Stored(n) => 48 + u32::from(n),
+        };
+        std::array::from_fn(|axis| match stated.and_then(|point| point[axis]) {
+            Some(stated) => stated,
+            None if self.seed == 0 || point == ReferencePoint::Home => 0,
+            None => self.odd(80_000 + index * 8 + axis as u32, 90),
+        })
+    }
+
+    /// How much of the length of an entry is wear.
+    pub fn length_wear(&self, entry: u32) -> Nanos {
+        match self.tables.wears.get(&entry) {
+            Some(stated) => *stated,
+            None if self.seed == 0 => 0,
+            None => self.odd(renamed(&self.renaming.entries, entry).wrapping_mul(8).wrapping_add(3), 1),
+        }
+    }
+
+    /// What a return to the reference point leaves of a tool's length.
+    pub fn left_length(&self) -> Nanos {
+        if self.seed == 0 { 0 } else { self.odd(90_000, 35) }
     }
 
     /// Length of an entry of the tool-length table, in millimetres; entry 0 is none.

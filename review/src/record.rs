@@ -314,6 +314,12 @@ impl Recorder {
                 self.texts += 1;
                 self.batch.texts.push(text.clone());
             }
+            Kind::Data(stored) => {
+                let text = stored.to_string();
+                more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
+                self.texts += 1;
+                self.batch.texts.push(text.into());
+            }
             Kind::Traverse | Kind::Feed => {}
             Kind::ToolChange
             | Kind::Coolant
@@ -355,7 +361,7 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::Arc { .. } => What::Arc,
         Kind::Dwell(_) => What::Dwell,
         Kind::ToolChange => What::ToolChange,
-        Kind::MachineFunction(_) => What::Function,
+        Kind::MachineFunction(_) | Kind::Data(_) => What::Function,
         Kind::ProgramStop => What::Stop,
         Kind::OptionalProgramStop => What::OptionalStop,
         Kind::ProgramEnd => What::End,

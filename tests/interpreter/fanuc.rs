@@ -206,6 +206,7 @@ impl Control {
         let mut length = None;
         let mut motion_last = None;
         let mut slot = None;
+        let mut machine = None;
         for g in codes('G') {
             if matches!(g, 500 | 501 | 510 | 511 | 520 | 680 | 690 | 920) {
                 slot = Some(g);
@@ -225,6 +226,8 @@ impl Control {
                 40 | 94 => {}
                 43 => length = Some(43),
                 49 => length = Some(49),
+                28 => machine = Some(28),
+                53 => machine = Some(53),
                 g @ 54..=59 => self.m.use_offset(g - 53),
                 g @ 110..=129 if self.haas => self.m.use_offset(g - 103),
                 90 => self.m.absolute = true,
@@ -310,6 +313,8 @@ impl Control {
                 _ => return self.m.halt("G04 needs X or P"),
             };
             self.m.record(What::Dwell(seconds));
+        } else if let Some(code) = machine {
+            self.to_machine(code, &words)?;
         } else if let Some(cycle) = self.cycle {
             self.hole(cycle, &words)?;
         } else {
@@ -395,6 +400,37 @@ impl Control {
             }
         }
         self.m.use_slots(changed);
+        Ok(())
+    }
+
+    /// G53 and G28: both rapid; what is left of a tool's length by G28 is not looked at.
+    fn to_machine(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
+        if self.cycle.is_some() {
+            return self.m.halt("a move of the machine within a cycle");
+        }
+        let named = self.axis_words(words);
+        let mut to = self.m.at;
+        if code == 53 {
+            if !self.m.absolute {
+                return self.m.halt("G53 under G91");
+            }
+            for (to, word) in to.iter_mut().zip(named) {
+                *to = word.unwrap_or(*to);
+            }
+        } else {
+            let way = self.m.target(named)?;
+            if way != self.m.at {
+                self.m.traverse(way);
+            }
+            to = way;
+            for (to, word) in to.iter_mut().zip(named) {
+                *to = if word.is_some() { 0.0 } else { *to };
+            }
+        }
+        self.m.traverse(to);
+        for (settled, word) in self.m.settled.iter_mut().zip(named) {
+            *settled &= word.is_none();
+        }
         Ok(())
     }
 

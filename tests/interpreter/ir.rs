@@ -25,6 +25,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         frame: Frame::NONE,
         edge: None,
         machine_once: false,
+        without_length: false,
         tangent: None,
         procedures: HashMap::new(),
         depth: 0,
@@ -82,6 +83,8 @@ struct Control {
     edge: Option<(Option<u32>, u32)>,
     /// The move that follows in the block is in machine coordinates.
     machine_once: bool,
+    /// Whether that is without the tool's length.
+    without_length: bool,
     /// Direction in which the last move at feed ended, in program coordinates.
     tangent: Option<[f64; 3]>,
     procedures: HashMap<String, Vec<Line>>,
@@ -266,7 +269,9 @@ impl Control {
             let slots = self.m.slots.shift();
             shift = std::array::from_fn(|axis| shift[axis] + slots[axis]);
         }
+        let none = self.machine_once && self.without_length;
         shift[2] += match self.edge {
+            _ if none => 0.0,
             Some((tool, edge)) => (setup.edge_length)(tool, edge),
             None => (setup.length)(self.m.entry),
         };
@@ -340,7 +345,11 @@ impl Control {
             }
             "SET_FRAME" => self.set_frame(Frame::NONE, a)?,
             "ADD_FRAME" => self.set_frame(self.frame, a)?,
-            "USE_MACHINE_COORDINATES" => self.machine_once = true,
+            "USE_MACHINE_COORDINATES" => {
+                self.machine_once = true;
+                self.without_length = !a.is_empty();
+            }
+            "GO_TO_REFERENCE" => self.reference(a)?,
             "USE_TOOL_EDGE" => {
                 let edge = self.first(a)? as u32;
                 self.take_length(Some((self.m.tool, edge)), 0);

@@ -51,6 +51,7 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
         }
         Kind::MachineFunction(name) => stop(machine.function(name).unwrap_or(m)),
         Kind::ToolChange
+        | Kind::Data(_)
         | Kind::Coolant
         | Kind::ProgramStop
         | Kind::OptionalProgramStop

@@ -324,7 +324,9 @@ impl Writer {
             | Op::Advise(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
-            | Op::UseMachineCoordinates
+            | Op::UseMachineCoordinates { .. }
+            | Op::GoToReference(_)
+            | Op::SetData(_)
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

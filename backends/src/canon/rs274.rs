@@ -128,7 +128,9 @@ fn rank(op: &Op) -> u8 {
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::SetPosition(_)
-        | Op::UseMachineCoordinates
+        | Op::UseMachineCoordinates { .. }
+        | Op::GoToReference(_)
+        | Op::SetData(_)
         | Op::ExactStop => 19,
         Op::EndCycle => 20,
         Op::StraightTraverse(_)
@@ -332,7 +334,9 @@ impl Printer<'_> {
             | Op::SetSlot(_)
             | Op::SetPosition(_)
             | Op::ClearFrame(_)
-            | Op::UseMachineCoordinates
+            | Op::UseMachineCoordinates { .. }
+            | Op::GoToReference(_)
+            | Op::SetData(_)
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
             | Op::Advise(_)

@@ -4,6 +4,7 @@
 //! line. Not here: anything that is not in the program.
 
 mod expr;
+mod machine;
 mod op;
 
 use ncc_dialects::Settings;

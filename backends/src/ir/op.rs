@@ -11,6 +11,7 @@ use ncc_ir::program::{
 };
 
 use super::expr::{expr, var};
+use super::machine;
 use crate::canon::text::{quote, whole};
 
 /// Writes what a statement does; of a control statement what stands before its body.
@@ -39,7 +40,9 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::SetPosition(_)
-        | Op::UseMachineCoordinates
+        | Op::UseMachineCoordinates { .. }
+        | Op::GoToReference(_)
+        | Op::SetData(_)
         | Op::RepeatBlocks(_)
         | Op::StopCutterRadiusCompensation
         | Op::SetMotionControlMode(_)
@@ -152,8 +155,10 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             put(", times ", out);
             whole(u64::from(r.times), out);
         }
+        Op::UseMachineCoordinates { length } => put(if *length { "" } else { "no-length" }, out),
+        Op::GoToReference(r) => machine::reference(r, out),
+        Op::SetData(d) => machine::data(d, out),
         Op::Blank
-        | Op::UseMachineCoordinates
         | Op::ExactStop
         | Op::StopCutterRadiusCompensation
         | Op::ChangeTool
@@ -173,7 +178,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
     }
 }
 
-fn put(text: &str, out: &mut Vec<u8>) {
+pub(super) fn put(text: &str, out: &mut Vec<u8>) {
     out.extend_from_slice(text.as_bytes());
 }
 
@@ -227,7 +232,7 @@ fn further(arguments: &[Expr], out: &mut Vec<u8>) {
 }
 
 /// Writes axis words with commas between, and `after` each.
-fn point(to: &Point, after: &[u8], out: &mut Vec<u8>) {
+pub(super) fn point(to: &Point, after: &[u8], out: &mut Vec<u8>) {
     let mut first = true;
     for axis in Axis::ALL {
         if let Some(c) = to.get(axis) {
@@ -382,17 +387,19 @@ fn filled(s: &Slot, out: &mut Vec<u8>) {
     }
 }
 
-fn frame(f: &Frame, out: &mut Vec<u8>) {
-    let words = |words: &[Option<Expr>], out: &mut Vec<u8>| {
-        for (axis, word) in Axis::ALL.into_iter().zip(words) {
-            if let Some(value) = word {
-                put(", ", out);
-                out.push(axis.letter());
-                put(" ", out);
-                expr(value, out);
-            }
+/// Values along axes, each after a comma.
+pub(super) fn words(words: &[Option<Expr>], out: &mut Vec<u8>) {
+    for (axis, word) in Axis::ALL.into_iter().zip(words) {
+        if let Some(value) = word {
+            put(", ", out);
+            out.push(axis.letter());
+            put(" ", out);
+            expr(value, out);
         }
-    };
+    }
+}
+
+fn frame(f: &Frame, out: &mut Vec<u8>) {
     match &f.step {
         FrameStep::Translate(by) => {
             put("translate", out);

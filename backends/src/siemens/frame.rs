@@ -81,7 +81,7 @@ impl Writer {
 
     /// The word of a move in machine coordinates.
     pub(super) fn machine_word(&self) -> Result<&'static str, Fault> {
-        let meaning = NameMeaning::Code(Meaning::UseMachineCoordinates);
+        let meaning = NameMeaning::Code(Meaning::UseMachineCoordinates { length: true, rapid: false });
         let row = self.dialect.name_for(meaning).ok_or_else(|| cannot("machine coordinates"))?;
         Ok(&row.name)
     }

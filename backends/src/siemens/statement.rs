@@ -76,7 +76,7 @@ impl Writer {
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
             Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => self.words.statement(stmt, sink),
             Op::SetFrame(frame) => self.frame(frame, span, sink),
-            Op::UseMachineCoordinates => {
+            Op::UseMachineCoordinates { length: true } => {
                 self.raw = true;
                 Ok(())
             }
@@ -84,6 +84,11 @@ impl Writer {
                 self.standing.speed = speed.literal();
                 self.words.statement(stmt, sink)
             }
+            Op::UseMachineCoordinates { length: false } => {
+                Err(cannot("machine coordinates without the tool's length"))
+            }
+            Op::GoToReference(_) => Err(cannot("a move to the reference point")),
+            Op::SetData(_) => Err(cannot("values of tables")),
             Op::SetFeedRate(feed) => {
                 self.feed(feed, span, sink)?;
                 self.standing.feed = feed.literal();

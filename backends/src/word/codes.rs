@@ -5,7 +5,7 @@
 
 use ncc_dialects::{Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
 use ncc_ir::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::program::{CentreFrom, FrameSlot};
+use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint};
 
 use super::number::Format;
 
@@ -125,6 +125,10 @@ pub(crate) struct Codes {
     /// What fills the slots of the coordinate chain.
     pub frames: FrameCodes,
     pub no_compensation: Option<Code>,
+    /// Machine coordinates without the tool's length, and with it.
+    pub machine: [Option<Code>; 2],
+    /// To points of the machine, with the letter that names a further one.
+    pub references: Vec<(ReferencePoint, Code, Option<Letter>)>,
     pub length: Option<Code>,
     pub no_length: Option<Code>,
     /// Centres are measured from the start point.
@@ -344,6 +348,21 @@ impl Codes {
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
             frames: find.frames(),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
+            machine: [false, true].map(|length| {
+                let either = [false, true].into_iter();
+                either.filter_map(|rapid| code(Meaning::UseMachineCoordinates { length, rapid })).next()
+            }),
+            references: dialect
+                .code
+                .iter()
+                .filter_map(|row| {
+                    let meaning = row.means?;
+                    let Meaning::GoToReference { point, .. } = meaning else { return None };
+                    let letter = row.words.chars().next();
+                    let letter = letter.and_then(|l| find.letter(l, Quantity::Integer));
+                    Some((point, find.row(&row.code, meaning)?, letter))
+                })
+                .collect(),
             length: code(Meaning::UseToolLengthOffset),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
             centre_from_start: code(Meaning::SetCentreMode(CentreFrom::Start)),

@@ -100,6 +100,8 @@ pub struct Writer {
     pub(crate) split: bool,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,
+    /// The next straight move is in machine coordinates, by this code.
+    machine: Option<codes::Code>,
     /// Units that the text states anywhere.
     units_stated: [bool; 2],
     /// A literal that relies on one unit being in force throughout, and where.
@@ -164,6 +166,7 @@ impl Writer {
             first_left: None,
             split: false,
             offset_waits: None,
+            machine: None,
             units_stated: [false; 2],
             units_relied: None,
             page: [0; plain::PAGE],

@@ -5,9 +5,10 @@
 
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion, Units};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
 use ncc_ir::geometry;
 use ncc_ir::num::{Nanos, Num, Unit};
-use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Stmt};
+use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Reference, ReferencePoint, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -39,12 +40,54 @@ impl Writer {
         let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
         let says = to.said || self.force.motion != Some(motion);
         let need = if says { need.code(Some(code)) } else { need };
+        let machine = self.machine.take();
+        let need = if machine.is_some() { need.code(machine) } else { need };
         self.admit_with(need, inserted, sink)?;
+        if let Some(machine) = machine {
+            self.block.code(Part::Motion, &machine);
+        }
         if says {
             self.block.code(Part::Motion, &code);
         }
         self.force.motion = Some(motion);
         self.point(&to.to, span, sink)
+    }
+
+    /// A move to a point of the machine, by way of the point that it names or of where it stands.
+    pub(crate) fn reference(&mut self, to: &Reference, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let (point, number) = match to.point {
+            ReferencePoint::Further(n) => (ReferencePoint::Further(0), Some(n)),
+            point => (point, None),
+        };
+        let row = self.codes.references.iter().find(|(own, ..)| *own == point);
+        let (_, code, letter) = *row.ok_or_else(|| cannot("a move to this point of the machine"))?;
+        let mut via = to.via.clone();
+        for axis in Axis::ALL {
+            if to.axes[axis as usize] && via.get(axis).is_none() {
+                let value = Expr::Num(Num::int(0, Unit::Entry));
+                via.set(axis, Coord { value, distance: Fact::Known(Distance::Incremental) });
+            }
+        }
+        let mut inserted = Inserted::default();
+        self.need_distance(via.axes.iter().flatten(), &mut inserted)?;
+        let need = self.point_need(Need::new(Rank::Motion), &via)?.code(Some(code));
+        let need =
+            if let (Some(letter), Some(_)) = (letter, number) { need.letter(letter.letter) } else { need };
+        self.admit_with(need, inserted, sink)?;
+        self.block.code(Part::Motion, &code);
+        if let (Some(letter), Some(number)) = (letter, number) {
+            let number = Expr::int(i64::from(number));
+            let number = self.value(&letter, &number, span, sink)?;
+            self.block.word(Part::Motion, letter.letter, number);
+        }
+        self.point(&via, span, sink)?;
+        // Nothing that rounding has left is known of these axes any more.
+        for (residue, goes) in self.residue.iter_mut().zip(to.axes) {
+            if goes {
+                *residue = 0;
+            }
+        }
+        Ok(())
     }
 
     /// Axis words that do whatever is in force.

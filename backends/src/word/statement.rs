@@ -56,7 +56,13 @@ impl Writer {
             Op::SetFrame(_) => Err(cannot("a frame")),
             Op::SetSlot(slot) => self.slot(slot, span, sink),
             Op::SetPosition(axes) => self.present_point(&axes[..], span, sink),
-            Op::UseMachineCoordinates => Err(cannot("machine coordinates")),
+            Op::UseMachineCoordinates { length } => {
+                let code = codes.machine[usize::from(*length)];
+                self.machine = Some(code.ok_or_else(|| cannot("machine coordinates"))?);
+                Ok(())
+            }
+            Op::GoToReference(reference) => self.reference(reference, span, sink),
+            Op::SetData(_) => Err(cannot("values of tables")),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
             Op::SynchronisedFeed(_) => Err(cannot("a move in step with the spindle")),

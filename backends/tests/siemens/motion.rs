@@ -132,7 +132,8 @@ fn frames_stand_alone() {
 
 #[test]
 fn machine_coordinates_are_for_one_block() {
-    let stmts = blocks(vec![vec![Op::UseMachineCoordinates, rapid("Z0.")], vec![rapid_on("X1.")]]);
+    let stmts =
+        blocks(vec![vec![Op::UseMachineCoordinates { length: true }, rapid("Z0.")], vec![rapid_on("X1.")]]);
     assert_eq!(clean(&stmts), "SUPA G0 Z0\nX1\n");
 }
 

@@ -294,7 +294,7 @@ fn what_has_no_word_is_refused() {
         Op::SetFeedMode(FeedMode::PerRevolution),
         Op::ClearFrame(FrameSlot::Rotation),
         Op::SetFrame(Box::new(Frame { added: true, step: FrameStep::Mirror([true, false, false]) })),
-        Op::UseMachineCoordinates,
+        Op::UseMachineCoordinates { length: true },
         Op::UseToolEdge { edge: count("1"), said: true },
         Op::Message("CHECK".into()),
         Op::Goto("10".into()),

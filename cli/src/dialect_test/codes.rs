@@ -132,7 +132,25 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         ],
         Meaning::SetMirror => one("SET_MIRROR(X 12.5mm)"),
         Meaning::ClearMirror => vec![Said::new("CLEAR_MIRROR(X)").after("SET_MIRROR(X 12.5mm)")],
-        Meaning::UseMachineCoordinates => one("USE_MACHINE_COORDINATES() & said STRAIGHT_TRAVERSE(Z 0mm)"),
+        Meaning::UseMachineCoordinates { length: true, .. } => {
+            one("USE_MACHINE_COORDINATES() & said STRAIGHT_TRAVERSE(Z 0mm)")
+        }
+        Meaning::UseMachineCoordinates { length: false, .. } => {
+            one("USE_MACHINE_COORDINATES(no-length) & said STRAIGHT_TRAVERSE(Z 0mm)")
+        }
+        Meaning::GoToReference { point, keeps_length } => {
+            let keeps = if keeps_length { ", keeps-length" } else { "" };
+            let points = match point {
+                ncc_ir::program::ReferencePoint::Home => vec!["home".to_owned()],
+                ncc_ir::program::ReferencePoint::Further(_) => {
+                    (2..=4).map(|n| format!("further {n}")).collect()
+                }
+                ncc_ir::program::ReferencePoint::Fixed(n) => vec![format!("fixed {n}")],
+                ncc_ir::program::ReferencePoint::Stored(n) => vec![format!("stored {n}")],
+            };
+            let said = |point: &String| Said::new(&format!("GO_TO_REFERENCE({point}, Z{keeps})"));
+            points.iter().map(said).collect()
+        }
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
         Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),
         Meaning::CancelToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(0)"),

@@ -103,6 +103,7 @@ fn take(event: &Event, into: &mut DefaultHasher) {
         Kind::Synchronised { pitch, chuck } => (pitch, chuck).hash(into),
         Kind::Dwell(value) | Kind::Orient(value) => value.hash(into),
         Kind::MachineFunction(text) | Kind::Message(text) => text.hash(into),
+        Kind::Data(stored) => stored.hash(into),
         Kind::Traverse
         | Kind::Feed
         | Kind::ToolChange

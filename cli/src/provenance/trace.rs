@@ -73,6 +73,7 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::Message(_) => 11,
         Kind::Synchronised { .. } => 12,
         Kind::Orient(_) => 13,
+        Kind::Data(_) => 14,
         Kind::Attribute(_) => return None,
     })
 }

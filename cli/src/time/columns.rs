@@ -69,6 +69,7 @@ impl Columns {
             Kind::ProgramEnd => "PROGRAM_END",
             Kind::Message(_) => "MESSAGE",
             Kind::MachineFunction(_) => "MACHINE_FUNCTION",
+            Kind::Data(_) => "SET_DATA",
             Kind::Attribute(Attribute::SelectTool(selected)) => {
                 tool = *selected;
                 "SELECT_TOOL"

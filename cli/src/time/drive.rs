@@ -481,7 +481,7 @@ impl<'d> Drive<'d> {
             self.course.blocks += u64::from(!stmt.joined && says);
             match &stmt.op {
                 Op::ProgramStop | Op::OptionalProgramStop => self.course.stops = true,
-                Op::UseMachineCoordinates => self.course.in_machine = true,
+                Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => self.course.in_machine = true,
                 Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
                 _ => {}
             }

@@ -185,6 +185,7 @@ impl<W: Write> Sink for Payload<'_, W> {
             | Kind::ToolChange
             | Kind::Coolant
             | Kind::MachineFunction(_)
+            | Kind::Data(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

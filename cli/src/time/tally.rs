@@ -296,6 +296,7 @@ impl Step {
             ) => Sort::Spindle,
             Kind::Coolant
             | Kind::MachineFunction(_)
+            | Kind::Data(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

@@ -156,7 +156,9 @@ impl State {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
-            | Op::UseMachineCoordinates
+            | Op::UseMachineCoordinates { .. }
+            | Op::GoToReference(_)
+            | Op::SetData(_)
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

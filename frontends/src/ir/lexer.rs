@@ -6,7 +6,7 @@
 use logos::{Lexer, Logos};
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Op, Text};
+use ncc_ir::program::{Op, Text, ToolValue};
 
 use crate::canon::text::unquote;
 
@@ -167,7 +167,6 @@ pub(crate) enum Token {
     #[token("PROGRAM_STOP", |_| Box::new(Op::ProgramStop))]
     #[token("OPTIONAL_PROGRAM_STOP", |_| Box::new(Op::OptionalProgramStop))]
     #[token("PROGRAM_END", |_| Box::new(Op::ProgramEnd))]
-    #[token("USE_MACHINE_COORDINATES", |_| Box::new(Op::UseMachineCoordinates))]
     #[token("EXACT_STOP", |_| Box::new(Op::ExactStop))]
     #[token("RETURN", |_| Box::new(Op::Return))]
     /// A function without arguments; in a box, since most words are small.
@@ -223,6 +222,14 @@ pub(crate) enum Token {
     ClearMirror,
     #[token("USE_TOOL_EDGE")]
     UseToolEdge,
+    #[token("USE_MACHINE_COORDINATES")]
+    UseMachineCoordinates,
+    #[token("GO_TO_REFERENCE")]
+    GoToReference,
+    #[token("SET_OFFSET_DATA")]
+    SetOffsetData,
+    #[token("SET_TOOL_DATA")]
+    SetToolData,
     #[token("LINE_PATTERN")]
     LinePattern,
     #[token("POSITION_LIST")]
@@ -340,6 +347,27 @@ pub(crate) enum Token {
     ReturnPlane,
     #[token("about")]
     About,
+    #[token("no-length")]
+    NoLength,
+    #[token("keeps-length")]
+    KeepsLength,
+    #[token("home")]
+    Home,
+    #[token("further")]
+    Further,
+    #[token("fixed")]
+    Fixed,
+    #[token("stored")]
+    Stored,
+    #[token("via")]
+    Via,
+    #[token("added")]
+    Added,
+    #[token("length", |_| ToolValue::Length)]
+    #[token("length-wear", |_| ToolValue::LengthWear)]
+    #[token("tool-radius", |_| ToolValue::Radius)]
+    #[token("tool-radius-wear", |_| ToolValue::RadiusWear)]
+    ToolValue(ToolValue),
     #[token("angle")]
     Angle,
     #[token("offset")]

@@ -2,7 +2,7 @@
 //!
 //! Not here: how lines nest.
 
-use ncc_ir::canon::{AdviceKind, Axis, Modes, PathMode, SpindleMode};
+use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::Num;
@@ -206,6 +206,25 @@ pub(crate) fn mirrored(axes: &[Axis], l: usize, r: usize) -> Parsed<[bool; 3]> {
         }
     }
     Ok(all)
+}
+
+/// Axes that are named.
+pub(crate) fn axes(named: &[Axis], l: usize, r: usize) -> Parsed<[bool; AXES]> {
+    let mut all = [false; AXES];
+    for axis in named {
+        if std::mem::replace(&mut all[*axis as usize], true) {
+            return refuse(l, r, Fault::WordTwice { letter: axis.letter() as char });
+        }
+    }
+    Ok(all)
+}
+
+/// The number of a point of the machine.
+pub(crate) fn point_number(n: u32, least: u8, most: u8, l: usize, r: usize) -> Parsed<u8> {
+    match u8::try_from(n) {
+        Ok(n) if (least..=most).contains(&n) => Ok(n),
+        Ok(_) | Err(_) => refuse(l, r, Fault::OutOfRange { word: "number of a point".into() }),
+    }
 }
 
 /// The shape of an arc, which must be the one of its function.

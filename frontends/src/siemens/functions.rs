@@ -89,7 +89,8 @@ impl Lower {
             };
             self.push(code.span, op, out);
         }
-        let machine = coded.clone().find(|(_, m)| *m == Meaning::UseMachineCoordinates).map(|(c, _)| *c);
+        let machine =
+            coded.clone().find(|(_, m)| matches!(m, Meaning::UseMachineCoordinates { .. })).map(|(c, _)| *c);
         let moves = words.has_any(b"XYZABC");
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
         self.motion_words(motion, machine, head.span, words, src, out);

@@ -172,7 +172,7 @@ impl Lower {
                 }
                 let to = self.point(false, machine, words, src, out);
                 if let Some(code) = machine {
-                    self.push(code.span, Op::UseMachineCoordinates, out);
+                    self.push(code.span, Op::UseMachineCoordinates { length: true }, out);
                 }
                 let to = Move { to, said };
                 let op = match line {

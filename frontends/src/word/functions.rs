@@ -178,10 +178,6 @@ impl Lower {
                 }
                 Op::ChangeTool
             }
-            Meaning::UseMachineCoordinates => {
-                self.check_shut(code, out);
-                Op::UseMachineCoordinates
-            }
             Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
             Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
             Meaning::StopSpindleTurning => Op::StopSpindleTurning,

@@ -21,6 +21,7 @@ mod frames;
 pub(crate) mod functions;
 pub(crate) mod jumps;
 pub(crate) mod lower;
+mod machine;
 mod motion;
 pub(crate) mod number;
 mod pattern;

@@ -62,6 +62,16 @@ impl Lower {
             let fault = Fault::CodesExclude { first: src.text(cycle.span), second: src.text(pattern.span) };
             return self.fault(fault, pattern.span, out);
         }
+        let machine = find(|m| matches!(m, Meaning::UseMachineCoordinates { .. }));
+        let reference = find(|m| matches!(m, Meaning::GoToReference { .. }));
+        if let Some(code) = machine.or(reference) {
+            let other = cycle.or(pattern).or(machine.and(reference));
+            if let Some(other) = other.filter(|other| other.at != code.at) {
+                let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
+                return self.fault(fault, other.span, out);
+            }
+            return self.to_the_machine(code, motion.is_some(), block, words, src, out);
+        }
         match (cycle, pattern) {
             (Some(code), _) => self.start_cycle(code, dwell, block, words, src, out),
             (None, Some(code)) => self.pattern(code, block, words, src, out),

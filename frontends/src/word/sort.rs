@@ -253,11 +253,14 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::Dwell | Meaning::MachineFunction(_) => 13,
         Meaning::RigidTapping => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
-        Meaning::UseMachineCoordinates => 15,
         Meaning::OrientSpindle => 16,
         Meaning::ExactStop => 17,
         Meaning::EndCycle => RANK_MOTION,
-        Meaning::StraightTraverse | Meaning::StraightFeed | Meaning::ArcFeed(_) => 21,
+        Meaning::UseMachineCoordinates { .. }
+        | Meaning::GoToReference { .. }
+        | Meaning::StraightTraverse
+        | Meaning::StraightFeed
+        | Meaning::ArcFeed(_) => 21,
         Meaning::StartCycle | Meaning::Pattern => 22,
         Meaning::StopSpindleTurning => RANK_AFTER,
         Meaning::CoolantOff => 31,

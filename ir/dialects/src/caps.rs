@@ -1,8 +1,8 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Turn};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm};
-use ncc_ir::program::FrameSlot;
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, References};
+use ncc_ir::program::{FrameSlot, ReferencePoint};
 
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
@@ -20,6 +20,16 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
     let names = |meaning| dialect.name_for(meaning).is_some();
     let states = dialect.call.iter().any(|row| row.place(ParameterRole::ReturnPlane).is_some());
     let either = |says: bool| (!everything).then_some(says);
+    let in_machine = |length| {
+        [false, true].into_iter().any(|rapid| {
+            let meaning = Meaning::UseMachineCoordinates { length, rapid };
+            says(meaning) || names(NameMeaning::Code(meaning))
+        })
+    };
+    let goes = |point| {
+        [false, true].into_iter().any(|keeps_length| says(Meaning::GoToReference { point, keeps_length }))
+    };
+    let is_reference = |meaning: Meaning| matches!(meaning, Meaning::GoToReference { .. });
     let list = calls(CallKind::List).map(|row| {
         row.parameters.iter().filter(|p| p.role == Some(ParameterRole::PointFirst)).count() as u32
     });
@@ -120,7 +130,31 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         rotation: everything || says(Meaning::SetRotation) && says(Meaning::ClearFrame(FrameSlot::Rotation)),
         scale: everything || says(Meaning::SetScale) && says(Meaning::ClearFrame(FrameSlot::Scale)),
         mirror: everything || says(Meaning::SetMirror) && says(Meaning::ClearMirror),
-        machine_coordinates: everything || names(NameMeaning::Code(Meaning::UseMachineCoordinates)),
+        machine_coordinates: everything || in_machine(true) || in_machine(false),
+        machine_length: match (everything, in_machine(true), in_machine(false)) {
+            (true, _, _) | (false, true, true) => None,
+            (false, length, _) => Some(length),
+        },
+        references: if everything {
+            References::ALL
+        } else {
+            References {
+                home: goes(ReferencePoint::Home),
+                further: if goes(ReferencePoint::Further(0)) { 4 } else { 0 },
+                fixed: 0,
+                stored: u8::from(goes(ReferencePoint::Stored(1))) + u8::from(goes(ReferencePoint::Stored(2))),
+            }
+        },
+        reference_via: everything || dialect.code.iter().any(|row| row.means.is_some_and(is_reference)),
+        reference_keeps_length: (!everything).then(|| {
+            let keeps = |row: &crate::schema::CodeRow| {
+                matches!(row.means, Some(Meaning::GoToReference { keeps_length: true, .. }))
+            };
+            dialect.code.iter().any(keeps)
+        }),
+        offset_data: [everything; 3],
+        tool_data: [everything; 4],
+        tool_data_added: everything,
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
         return_planes: either(states),
         arc_forms: everything || names(NameMeaning::ArcThrough),

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
-use ncc_ir::program::{CentreFrom, FrameSlot};
+use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint};
 use serde::{Deserialize, Deserializer};
 
 /// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
@@ -38,7 +38,17 @@ pub enum Meaning {
     SetMirror,
     /// The axes of the block's words are mirrored no more.
     ClearMirror,
-    UseMachineCoordinates,
+    /// With the tool's length, or without it.
+    UseMachineCoordinates {
+        length: bool,
+        /// Whether the move is rapid whatever motion is in force.
+        rapid: bool,
+    },
+    /// To a point of the machine; [`ReferencePoint::Further`] 0 is the one that a word of the block names.
+    GoToReference {
+        point: ReferencePoint,
+        keeps_length: bool,
+    },
     StopCutterRadiusCompensation,
     SetMotionControlMode(PathMode),
     ExactStop,
@@ -118,7 +128,24 @@ impl fmt::Display for Meaning {
             Meaning::SetScale => "SET_SCALE",
             Meaning::SetMirror => "SET_MIRROR",
             Meaning::ClearMirror => "CLEAR_MIRROR",
-            Meaning::UseMachineCoordinates => "USE_MACHINE_COORDINATES",
+            Meaning::UseMachineCoordinates { length: true, rapid: false } => "USE_MACHINE_COORDINATES",
+            Meaning::UseMachineCoordinates { length: true, rapid: true } => "USE_MACHINE_COORDINATES rapid",
+            Meaning::UseMachineCoordinates { length: false, rapid: false } => {
+                "USE_MACHINE_COORDINATES no-length"
+            }
+            Meaning::UseMachineCoordinates { length: false, rapid: true } => {
+                "USE_MACHINE_COORDINATES no-length rapid"
+            }
+            Meaning::GoToReference { point, keeps_length } => {
+                let keeps = if *keeps_length { " keeps-length" } else { "" };
+                return match point {
+                    ReferencePoint::Home => write!(f, "GO_TO_REFERENCE home{keeps}"),
+                    ReferencePoint::Further(0) => write!(f, "GO_TO_REFERENCE further{keeps}"),
+                    ReferencePoint::Further(n) => write!(f, "GO_TO_REFERENCE further {n}{keeps}"),
+                    ReferencePoint::Fixed(n) => write!(f, "GO_TO_REFERENCE fixed {n}{keeps}"),
+                    ReferencePoint::Stored(n) => write!(f, "GO_TO_REFERENCE stored {n}{keeps}"),
+                };
+            }
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::SetMotionControlMode(mode) => {
                 return write!(f, "SET_MOTION_CONTROL_MODE {}", mode.name());
@@ -195,7 +222,34 @@ impl FromStr for Meaning {
             ("SET_SCALE", "") => Meaning::SetScale,
             ("SET_MIRROR", "") => Meaning::SetMirror,
             ("CLEAR_MIRROR", "") => Meaning::ClearMirror,
-            ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates,
+            ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates { length: true, rapid: false },
+            ("USE_MACHINE_COORDINATES", "no-length") => {
+                Meaning::UseMachineCoordinates { length: false, rapid: false }
+            }
+            ("USE_MACHINE_COORDINATES", "no-length rapid") => {
+                Meaning::UseMachineCoordinates { length: false, rapid: true }
+            }
+            ("GO_TO_REFERENCE", "home") => {
+                Meaning::GoToReference { point: ReferencePoint::Home, keeps_length: false }
+            }
+            ("GO_TO_REFERENCE", "home keeps-length") => {
+                Meaning::GoToReference { point: ReferencePoint::Home, keeps_length: true }
+            }
+            ("GO_TO_REFERENCE", "further") => {
+                Meaning::GoToReference { point: ReferencePoint::Further(0), keeps_length: false }
+            }
+            ("GO_TO_REFERENCE", "stored 1") => {
+                Meaning::GoToReference { point: ReferencePoint::Stored(1), keeps_length: false }
+            }
+            ("GO_TO_REFERENCE", "stored 1 keeps-length") => {
+                Meaning::GoToReference { point: ReferencePoint::Stored(1), keeps_length: true }
+            }
+            ("GO_TO_REFERENCE", "stored 2") => {
+                Meaning::GoToReference { point: ReferencePoint::Stored(2), keeps_length: false }
+            }
+            ("GO_TO_REFERENCE", "stored 2 keeps-length") => {
+                Meaning::GoToReference { point: ReferencePoint::Stored(2), keeps_length: true }
+            }
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(
                 PathMode::named(mode).ok_or_else(|| format!("no way of taking corners: {text}"))?,

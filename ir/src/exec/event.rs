@@ -2,7 +2,7 @@
 
 use crate::canon::{AXES, AdviceKind, FeedMode, PathMode, Plane, Spindle, SpindleMode, Turn};
 use crate::num::Nanos;
-use crate::program::Text;
+use crate::program::{Text, ToolValue};
 use crate::source::Span;
 
 /// One thing that the machine does.
@@ -58,6 +58,8 @@ pub enum Kind {
     Coolant,
     /// Something of the machine was switched that no dialect has a word for.
     MachineFunction(Text),
+    /// A value was put into the control's tables.
+    Data(Box<Stored>),
     /// Stop.
     ProgramStop,
     /// Stop, if the operator wants it.
@@ -72,6 +74,40 @@ pub enum Kind {
     /// ([`Exec::narrate`](super::Exec::narrate)), and never compared: what it sets is an attribute of
     /// the events after it.
     Attribute(Attribute),
+}
+
+/// Values in the control's tables, after a program has changed them. Numbers are those of the source.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Stored {
+    /// Zero of a work offset, machine coordinates in nanos.
+    Offset(u32, [Nanos; AXES]),
+    /// Length of an entry of the table of tools, wear included.
+    Length(u32, Nanos),
+    /// Another value of an entry of that table: which, whether it was added, and what was said.
+    Value(u32, ToolValue, bool, Nanos),
+}
+
+impl std::fmt::Display for Stored {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let number = |n: &Nanos| *n as f64 / crate::num::ONE as f64;
+        match self {
+            Stored::Offset(offset, zero) => {
+                write!(f, "zero of work offset {offset} at")?;
+                zero.iter().try_for_each(|at| write!(f, " {}", number(at)))
+            }
+            Stored::Length(entry, length) => write!(f, "length {} in entry {entry}", number(length)),
+            Stored::Value(entry, which, added, value) => {
+                let what = match which {
+                    ToolValue::Length => "length",
+                    ToolValue::LengthWear => "wear of the length",
+                    ToolValue::Radius => "radius",
+                    ToolValue::RadiusWear => "wear of the radius",
+                };
+                let added = if *added { "added to" } else { "in" };
+                write!(f, "{what} {} {added} entry {entry}", number(value))
+            }
+        }
+    }
 }
 
 /// A move of the axes, by its way.
@@ -109,6 +145,7 @@ impl Kind {
             | Kind::Orient(_)
             | Kind::Coolant
             | Kind::MachineFunction(_)
+            | Kind::Data(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

@@ -298,9 +298,16 @@ impl Exec {
     }
 
     /// A straight move in machine coordinates: frames and work offset are off, the length is not.
+    /// A straight move in machine coordinates: frames and work offset are off, and the length where it
+    /// does not stay. A length that waits is taken up by a Z that is measured with it.
     #[cold]
-    pub(super) fn place_in_machine(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
-        if to.get(Axis::Z).is_some() {
+    pub(super) fn place_in_machine(
+        &mut self,
+        to: &Point,
+        length: bool,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        if length && to.get(Axis::Z).is_some() {
             self.take_up_length();
         }
         let mut machine = self.machine();
@@ -310,7 +317,7 @@ impl Exec {
                 let what = "an incremental word in machine coordinates".into();
                 return self.fault(Fault::NotExecuted { what }, span);
             }
-            let length = if axis == super::Z { self.length_of(self.modes.length) } else { 0 };
+            let length = if length && axis == super::Z { self.length_of(self.modes.length) } else { 0 };
             machine[axis] = self.value(&word.value, span)?.wrapping_add(length);
         }
         self.position = self.unplace(&machine);
@@ -321,6 +328,7 @@ impl Exec {
         match length {
             Length::Entry(entry) => self.world.tool_length(entry),
             Length::Edge(tool, edge) => self.world.edge_length(tool, edge),
+            Length::Left => self.world.left_length(),
         }
     }
 

@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod data;
 mod event;
 mod frame;
 mod holes;
@@ -13,7 +14,7 @@ mod run;
 mod slots;
 mod thread;
 
-pub use event::{Attribute, Event, Kind, Movement, Seen, State};
+pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
@@ -55,10 +56,10 @@ pub struct Exec {
     last: [Nanos; AXES],
     /// Direction of the last move.
     heading: Heading,
-    /// The next straight move is in machine coordinates.
-    raw: bool,
     /// How corners are taken after the next move, which ends in an exact stop.
     after_stop: Option<Option<PathMode>>,
+    /// The next straight move is in machine coordinates, with the tool's length or without.
+    raw: Option<bool>,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
     feed: Nanos,
@@ -98,6 +99,8 @@ enum Length {
     Entry(u32),
     /// An edge of a tool, where that is not an entry.
     Edge(i64, u32),
+    /// What a return to the reference point has left of it, if anything.
+    Left,
 }
 
 // Bits of `Exec::said`.
@@ -136,8 +139,8 @@ impl Exec {
             slots: None,
             last: world.start,
             heading: Heading::None,
-            raw: false,
             after_stop: None,
+            raw: None,
             waiting: None,
             feed: 0,
             selected: -1,
@@ -549,8 +552,8 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         let before = self.position;
-        if std::mem::take(&mut self.raw) {
-            self.place_in_machine(to, span)?;
+        if let Some(length) = self.raw.take() {
+            self.place_in_machine(to, length, span)?;
         } else {
             self.set_axes(to, span)?;
         }
@@ -657,7 +660,9 @@ impl Exec {
             Op::SetFrame(frame) => self.set_frame(frame, span)?,
             Op::SetSlot(slot) => self.set_slot(slot, span)?,
             Op::SetPosition(axes) => self.set_position(axes, span)?,
-            Op::UseMachineCoordinates => self.raw = true,
+            Op::UseMachineCoordinates { length } => self.raw = Some(*length),
+            Op::GoToReference(reference) => self.go_to_reference(reference, span, out)?,
+            Op::SetData(data) => self.set_data(data, span, out)?,
             Op::SetSpindleSpeed(speed) => {
                 self.state.speed = self.value(speed, span)?;
                 self.tell(Attribute::SpindleSpeed(self.state.speed), span, out)?;

@@ -18,7 +18,7 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if std::mem::take(&mut self.raw) {
+        if self.raw.take().is_some() {
             return self.not_executed("a thread in machine coordinates", span);
         }
         let stated = self.stated_pitch(&m.pitch, span)?;

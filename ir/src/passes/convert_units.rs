@@ -14,7 +14,7 @@ use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, miscellaneous, tooling};
 use crate::num::{Num, Unit};
-use crate::program::{Centre, Coord, FrameStep, Op, Pitch, Point, Program, Shape, Slot, Stmt};
+use crate::program::{Centre, Coord, Data, FrameStep, Op, Pitch, Point, Program, Shape, Slot, Stmt};
 use crate::track::Tracker;
 
 /// Everything in millimetres.
@@ -100,6 +100,16 @@ impl Converter<'_> {
             Op::SetFeedRate(feed) => self.loose(feed)?,
             Op::StartCycle(cycle) => self.cycle(cycle)?,
             Op::Pattern(pattern) => self.pattern(pattern)?,
+            Op::GoToReference(reference) => {
+                let mut words = reference.via.axes.iter_mut().take(3).flatten();
+                words.try_for_each(|word| self.loose(&mut word.value))?;
+            }
+            Op::SetData(data) => match &mut **data {
+                Data::Offset { words, .. } => {
+                    words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
+                }
+                Data::Tool { value, .. } => self.whole(value)?,
+            },
             Op::SetFrame(frame) => {
                 if let FrameStep::Translate(words) = &mut frame.step {
                     words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
@@ -126,7 +136,7 @@ impl Converter<'_> {
             | Op::SetReturnLevel(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
-            | Op::UseMachineCoordinates
+            | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd
             | Op::Message(_)

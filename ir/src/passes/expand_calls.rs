@@ -15,7 +15,7 @@ use crate::expr::{Expr, Node};
 use crate::kinds::{conduct, flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{
-    Call, Centre, Control, Coord, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Slot, Stmt,
+    Call, Centre, Control, Coord, Data, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Slot, Stmt,
 };
 use crate::source::Span;
 use crate::track::Tracker;
@@ -288,9 +288,14 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         },
         Op::SetPosition(axes) => axes.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
         Op::SetFeedRate(feed) => settle_expr(feed, here),
+        Op::GoToReference(reference) => settle_point(&mut reference.via, here),
+        Op::SetData(data) => match &mut **data {
+            Data::Offset { words, .. } => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
+            Data::Tool { value, .. } => settle_expr(value, here),
+        },
         Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
-        | Op::UseMachineCoordinates
+        | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd
         | Op::Message(_)

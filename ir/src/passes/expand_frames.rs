@@ -19,11 +19,12 @@ use crate::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::{Chain, Frames as Slots, Present};
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, modes, tooling};
 use crate::num::{Nanos, Num, ONE, POW10, Unit};
 use crate::places::Places;
 use crate::program::{
-    Arc, Centre, CentreFrom, Coord, FrameSlot, Move, Op, Point, Program, Slot, Stmt, Synchronised,
+    Arc, Centre, CentreFrom, Coord, Data, DataMode, FrameSlot, Move, Op, Point, Program, Reference, Slot,
+    Stmt, Synchronised,
 };
 use crate::track::Tracker;
 
@@ -437,7 +438,15 @@ impl Frames<'_> {
             flow!() if self.set.chain != Chain::NONE => {
                 return Err(cannot("a frame where the program does not go straight on"));
             }
-            Op::SetFeedRate(_)
+            Op::GoToReference(reference) if !reference.via.is_empty() => {
+                let via = self.point(&reference.via)?;
+                Op::GoToReference(Box::new(Reference { via, ..(**reference).clone() }))
+            }
+            Op::SetData(data) if matches!(**data, Data::Offset { mode: DataMode::Here, .. }) => {
+                return Err(cannot("a work offset set by the position under a frame"));
+            }
+            machine!()
+            | Op::SetFeedRate(_)
             | Op::EndCycle
             | Op::ProgramEnd
             | Op::Message(_)

@@ -9,17 +9,17 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
-    expand_repeats, expand_turns, feed_unit, flatten_facts, number_names, offset_with_z, one_distance,
-    origin_shift, path_control, return_plane, skip_levels, specialise_procedures, state_clearance, taps,
-    tool_edge, work_offset,
+    expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
+    one_distance, origin_shift, path_control, return_plane, skip_levels, specialise_procedures,
+    state_clearance, taps, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
-use crate::caps::{Caps, CycleForm};
+use crate::caps::{Caps, CycleForm, References};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::exec::Seen;
 use crate::kinds::{conduct, miscellaneous, modes};
 use crate::num::{Nanos, Num};
-use crate::program::{Arc, FrameSlot, Op, Program, Stmt};
+use crate::program::{Arc, Data, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
 
 // What a statement may need, and a target may lack.
@@ -63,6 +63,7 @@ pub struct Legaliser {
     edge: tool_edge::State,
     frames: expand_frames::State,
     taps: taps::State,
+    machine: machine_moves::State,
 }
 
 impl Legaliser {
@@ -80,7 +81,8 @@ impl Legaliser {
             },
             lacks,
             measures: false,
-            follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME) != 0,
+            follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME | MACHINE)
+                != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
@@ -93,6 +95,7 @@ impl Legaliser {
             edge: tool_edge::State::default(),
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
+            machine: machine_moves::State::default(),
         }
     }
 
@@ -201,6 +204,9 @@ impl Legaliser {
         {
             needs &= !FRAME;
         }
+        if self.machine.is_busy() {
+            needs |= MACHINE;
+        }
         if self.edge.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
         }
@@ -235,7 +241,12 @@ impl Legaliser {
         if needs & SHIFT != 0 {
             origin_shift::over(stmts, &mut self.shift, diags);
         }
-        if self.follow && needs & (CONTROL | WORK | SHIFT | FRAME) != 0 {
+        let mut needs = needs;
+        if needs & MACHINE != 0 {
+            machine_moves::over(stmts, &mut start.clone(), &mut self.machine, &self.target, diags);
+            needs |= self.lacks & (EDGE | TABLE | LENGTH);
+        }
+        if self.follow && needs & (CONTROL | WORK | SHIFT | FRAME | MACHINE) != 0 {
             self.walk = start.clone();
             if needs & FRAME != 0 && needs & ARC == 0 {
                 self.arcs = arc_form::State::default();
@@ -376,6 +387,7 @@ impl Legaliser {
             self.path.start_over();
             self.arcs = arc_form::State::default();
             self.frames.start_over();
+            self.machine = machine_moves::State::default();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
         }
@@ -440,8 +452,26 @@ impl Legaliser {
                 Op::Label(_) if !caps.repeats && !caps.repeat_blocks => cannot("a jump"),
                 Op::Call(_) if !caps.calls => cannot("a call"),
                 Op::Return if !caps.calls => cannot("a return"),
-                Op::UseMachineCoordinates if !caps.machine_coordinates => {
+                Op::UseMachineCoordinates { .. } if !caps.machine_coordinates => {
                     cannot("a move in machine coordinates");
+                }
+                Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|l| l != *length) => {
+                    cannot(if *length {
+                        "a move in machine coordinates that is measured with the tool's length"
+                    } else {
+                        "a move in machine coordinates without the tool's length"
+                    });
+                }
+                Op::SetData(data) => {
+                    let can = match **data {
+                        Data::Offset { mode, .. } => caps.offset_data[mode as usize],
+                        Data::Tool { which, added, .. } => {
+                            caps.tool_data[which as usize] && (caps.tool_data_added || !added)
+                        }
+                    };
+                    if !can {
+                        cannot("this value in the control's tables");
+                    }
                 }
                 _ => {}
             }
@@ -528,8 +558,11 @@ fn lacks(caps: &Caps) -> u32 {
     needs(CALL, caps.calls);
     needs(EDGE, caps.tool_edges != Some(false));
     needs(TABLE, caps.tool_edges != Some(true));
-    needs(MACHINE, caps.machine_coordinates);
     needs(FRAME, caps.says_all_frames());
+    let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
+    let points =
+        caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
+    needs(MACHINE, caps.machine_coordinates && caps.machine_length.is_none() && data && points);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
 }
@@ -547,7 +580,7 @@ fn interest(stmt: &Stmt) -> u32 {
         Op::UseToolLengthOffset(_) => LENGTH | TABLE,
         Op::UseToolEdge { .. } => LENGTH | EDGE,
         Op::ChangeTool => TABLE,
-        Op::UseMachineCoordinates => MACHINE,
+        Op::UseMachineCoordinates { .. } | Op::GoToReference(_) | Op::SetData(_) => MACHINE,
         Op::SetOriginOffsets(_) => WORK,
         Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
         Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,

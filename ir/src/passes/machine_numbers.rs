@@ -13,7 +13,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::{conduct, miscellaneous, modes, moves};
 use crate::maps::{Maps, Numbered};
-use crate::program::{Control, Op, Program, ProgramName, Stmt, Text};
+use crate::program::{Control, Data, Op, Program, ProgramName, Stmt, Text};
 use crate::source::Span;
 
 /// What bears no number of tools, lengths, work offsets or programs.
@@ -30,7 +30,8 @@ macro_rules! unnumbered {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
-            | Op::UseMachineCoordinates
+            | Op::UseMachineCoordinates { .. }
+            | Op::GoToReference(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
             | Op::StartCycle(_)
@@ -78,6 +79,10 @@ impl Renumbering {
             Op::SelectTool(_) => self.maps.tools.is_some(),
             Op::UseToolLengthOffset(_) => self.maps.entries.is_some(),
             Op::SetOriginOffsets(_) => self.maps.offsets.is_some(),
+            Op::SetData(data) => match **data {
+                Data::Offset { .. } => self.maps.offsets.is_some(),
+                Data::Tool { .. } => self.maps.entries.is_some(),
+            },
             Op::Call(_) => !self.maps.programs.is_empty() || self.maps.programs_in_force,
             Op::Control(control) => bodies(control).into_iter().flatten().any(|s| self.concerns(&s.op)),
             unnumbered!() => false,
@@ -120,6 +125,20 @@ impl Renumbering {
                         *offset = number;
                     }
                 }
+                Op::SetData(data) => match &mut **data {
+                    Data::Offset { offset, .. } => {
+                        let put = self.put(Numbered::WorkOffset, u32::from(*offset), at, diags);
+                        if let Some(number) = put.and_then(|n| u16::try_from(n).ok()) {
+                            *offset = number;
+                        }
+                    }
+                    Data::Tool { entry, .. } if self.maps.entries.is_some() => {
+                        if let Some(number) = self.put(Numbered::LengthEntry, *entry, at, diags) {
+                            *entry = number;
+                        }
+                    }
+                    Data::Tool { .. } => {}
+                },
                 Op::Call(call) => {
                     if let Some(name) = self.maps.program(&call.name) {
                         call.name = name.clone();

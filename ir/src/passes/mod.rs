@@ -26,6 +26,7 @@ pub mod fold_cycles;
 pub mod fold_patterns;
 mod frame_forms;
 mod legalise;
+pub mod machine_moves;
 pub mod machine_numbers;
 pub mod number_names;
 pub mod offset_with_z;
@@ -198,6 +199,11 @@ pub const PASSES: &[Pass] = &[
         run: expand_turns::run,
     },
     // After the cycles, whose moves along Z can take an offset up.
+    Pass {
+        name: "machine-moves",
+        about: "moves in machine coordinates and to points of the machine in the target's form",
+        run: machine_moves::run,
+    },
     Pass {
         name: "offset-with-z",
         about: "moves a tool-length offset into the block that takes it up",

@@ -151,7 +151,9 @@ impl Walk {
             plane.or(self.at.modes.plane).is_none_or(|p| p == Plane::Xy)
         };
         match op {
-            Op::StraightTraverse(m) | Op::StraightFeed(m) => m.to.get(Axis::Z).is_some(),
+            Op::StraightTraverse(m) | Op::StraightFeed(m) => {
+                m.to.get(Axis::Z).is_some() && (!self.at.raw || self.at.raw_length)
+            }
             Op::SynchronisedFeed(m) => m.to.get(Axis::Z).is_some(),
             Op::ArcFeed(arc) => arc.to.get(Axis::Z).is_some(),
             Op::ArcForm(arc) => arc.to.get(Axis::Z).is_some(),
@@ -161,7 +163,9 @@ impl Walk {
             Op::Hole(m) => m.to.get(Axis::Z).is_some() || normal_is_z(),
             // Its places are in the plane of X and Y, above which it drills, or in one with Z.
             Op::Pattern(pattern) => super::approach::has_holes(pattern),
-            Op::SetFeedRate(_)
+            Op::GoToReference(reference) => reference.via.get(Axis::Z).is_some(),
+            Op::SetData(_)
+            | Op::SetFeedRate(_)
             | Op::StartCycle(_)
             | Op::EndCycle
             | Op::ProgramEnd

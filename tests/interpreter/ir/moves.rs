@@ -73,6 +73,40 @@ impl Control {
         Ok(())
     }
 
+    /// A rapid move to the machine's zero, by way of a point; what bare words do stays.
+    pub(super) fn reference(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let [Token::Name(point), rest @ ..] = a else { return self.m.halt("no point") };
+        if point != "home" {
+            return self.m.halt(format!("the point {point}"));
+        }
+        let via = rest.iter().position(|t| matches!(t, Token::Name(n) if n == "via"));
+        if let Some(at) = via {
+            let open = rest[at..].iter().position(|t| *t == Token::Sign('('));
+            let close = rest[at..].iter().position(|t| *t == Token::Sign(')'));
+            let (Some(open), Some(close)) = (open, close) else { return self.m.halt("no way") };
+            let (to, _) = self.target(&rest[at + open + 1..at + close])?;
+            let to = self.machine(to);
+            if to != self.m.at {
+                self.m.traverse(to);
+            }
+        }
+        let mut to = self.m.at;
+        for token in &rest[..via.unwrap_or(rest.len())] {
+            if let Token::Name(name) = token
+                && let Some(axis) = AXES.iter().position(|a| a == name)
+            {
+                to[axis] = 0.0;
+                self.m.settled[axis] = false;
+            }
+        }
+        if self.frame.turns() {
+            self.m.settled[..3].fill(false);
+        }
+        self.m.traverse(to);
+        self.tangent = None;
+        Ok(())
+    }
+
     fn remember(&mut self, from: Place, to: Place, in_machine: bool) {
         let way: [f64; 3] = std::array::from_fn(|axis| to[axis] - from[axis]);
         if way.iter().any(|d| d.abs() > 1e-9) {

@@ -269,7 +269,7 @@ fn ops() -> impl Strategy<Value = Vec<Op>> {
         for word in m.to.axes.iter_mut().flatten() {
             word.distance = Fact::Known(Distance::Absolute);
         }
-        vec![Op::UseMachineCoordinates, Op::StraightTraverse(m)]
+        vec![Op::UseMachineCoordinates { length: true }, Op::StraightTraverse(m)]
     });
     prop_oneof![30 => op().prop_map(|op| vec![op]), 1 => raw]
 }

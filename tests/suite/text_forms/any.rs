@@ -301,6 +301,38 @@ fn pattern() -> BoxedStrategy<Pattern> {
     .boxed()
 }
 
+/// Values of tables.
+fn data() -> impl Strategy<Value = Data> {
+    let modes = select(vec![DataMode::Set, DataMode::Add, DataMode::Here]);
+    let words = || prop::option::of(expr());
+    prop_oneof![
+        (any::<u16>(), modes, [words(), words(), words(), words(), words(), words()])
+            .prop_map(|(offset, mode, words)| Data::Offset { offset, mode, words: Box::new(words) }),
+        (any::<u32>(), select(ToolValue::ALL.to_vec()), any::<bool>(), expr())
+            .prop_map(|(entry, which, added, value)| Data::Tool { entry, which, added, value }),
+    ]
+}
+
+/// Moves to points of the machine.
+fn reference() -> impl Strategy<Value = Reference> {
+    let points = prop_oneof![
+        Just(ReferencePoint::Home),
+        (2u8..=4).prop_map(ReferencePoint::Further),
+        (1u8..=4).prop_map(ReferencePoint::Fixed),
+        (1u8..=2).prop_map(ReferencePoint::Stored),
+    ];
+    let axes = any::<[bool; 6]>().prop_map(|mut axes| {
+        axes[2] |= axes == [false; 6];
+        axes
+    });
+    (points, axes, point(), any::<bool>()).prop_map(|(point, axes, via, keeps_length)| Reference {
+        point,
+        axes,
+        via,
+        keeps_length,
+    })
+}
+
 /// A statement's operation that has no body.
 fn simple() -> BoxedStrategy<Op> {
     let bare = select(vec![
@@ -318,10 +350,11 @@ fn simple() -> BoxedStrategy<Op> {
         Op::OptionalProgramStop,
         Op::ProgramEnd,
         Op::Return,
-        Op::UseMachineCoordinates,
         Op::ExactStop,
         Op::SetSpindleMode(SpindleMode::Turns),
         Op::SetSpindleMode(SpindleMode::Surface),
+        Op::UseMachineCoordinates { length: true },
+        Op::UseMachineCoordinates { length: false },
     ]);
     let setting = prop_oneof![
         select(units()).prop_map(Op::UseLengthUnits),
@@ -334,6 +367,8 @@ fn simple() -> BoxedStrategy<Op> {
         frame().prop_map(|frame| Op::SetFrame(Box::new(frame))),
         slot().prop_map(|slot| Op::SetSlot(Box::new(slot))),
         along().prop_map(Op::SetPosition),
+        data().prop_map(|data| Op::SetData(Box::new(data))),
+        reference().prop_map(|reference| Op::GoToReference(Box::new(reference))),
         (expr(), any::<bool>()).prop_map(|(edge, said)| Op::UseToolEdge { edge, said }),
     ];
     let valued = prop_oneof![

@@ -207,7 +207,7 @@ fn what_the_stream_cannot_say_is_refused() {
         Op::Return,
         Op::Hole(Move::default()),
         Op::SetFrame(Box::new(Frame { added: true, step: FrameStep::Mirror([true, false, false]) })),
-        Op::UseMachineCoordinates,
+        Op::UseMachineCoordinates { length: true },
         Op::Control(Box::new(Control::Loop { body: vec![] })),
         Op::Call(Box::new(Call { name: "1".into(), times: 1, arguments: vec![] })),
     ] {

@@ -39,7 +39,7 @@ fn other_moves_are_made_with_the_cycle_off() {
             on,
             "& HOLE",
             "EndCycle",
-            "& UseMachineCoordinates",
+            "& UseMachineCoordinates { length: true }",
             "& TRAVERSE X0",
             on,
             "& HOLE",

@@ -171,9 +171,9 @@ fn machine_coordinates() {
         after_head("SUPA G0 Z0 D0\nG153 X1 Y2\nX3\nG53\n"),
         [
             "EDGE! 0",
-            "& UseMachineCoordinates",
+            "& UseMachineCoordinates { length: true }",
             "& TRAVERSE! Z0",
-            "UseMachineCoordinates",
+            "UseMachineCoordinates { length: true }",
             "& TRAVERSE X1 Y2",
             "TRAVERSE X3",
             "NoEffect('G53')"

@@ -2,7 +2,7 @@
 
 use crate::cycle::CycleKind;
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, miscellaneous, moves, tooling};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, tooling};
 use crate::num::Num;
 use crate::program::{Op, Stmt};
 
@@ -41,6 +41,7 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
         | conduct!()
         | tooling!()
         | frames!()
+        | machine!()
         | moves!() => before,
     }
 }
@@ -75,7 +76,8 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | miscellaneous!()
             | conduct!()
             | tooling!()
-            | frames!() => {}
+            | frames!()
+            | machine!() => {}
         }
     }
     true

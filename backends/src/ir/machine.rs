@@ -1,0 +1,62 @@
+//! Statements of the `ir` text about points of the machine and values of the control's tables.
+
+use ncc_ir::canon::Axis;
+use ncc_ir::program::{Data, DataMode, Reference, ReferencePoint, ToolValue};
+
+use super::expr::expr;
+use super::op::{point, put, words};
+use crate::canon::text::whole;
+
+/// A point of the machine, the axes that go there, and by way of which point.
+pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {
+    let (name, number) = match r.point {
+        ReferencePoint::Home => ("home", None),
+        ReferencePoint::Further(n) => ("further ", Some(n)),
+        ReferencePoint::Fixed(n) => ("fixed ", Some(n)),
+        ReferencePoint::Stored(n) => ("stored ", Some(n)),
+    };
+    put(name, out);
+    if let Some(number) = number {
+        whole(u64::from(number), out);
+    }
+    for (axis, goes) in Axis::ALL.into_iter().zip(r.axes) {
+        if goes {
+            put(", ", out);
+            out.push(axis.letter());
+        }
+    }
+    if !r.via.is_empty() {
+        put(", via (", out);
+        point(&r.via, b"", out);
+        put(")", out);
+    }
+    put(if r.keeps_length { ", keeps-length" } else { "" }, out);
+}
+
+/// A value of a table.
+pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
+    match d {
+        Data::Offset { offset, mode, words: by } => {
+            whole(u64::from(*offset), out);
+            let mode = match mode {
+                DataMode::Set => "",
+                DataMode::Add => ", added",
+                DataMode::Here => ", here",
+            };
+            put(mode, out);
+            words(&by[..], out);
+        }
+        Data::Tool { entry, which, added, value } => {
+            whole(u64::from(*entry), out);
+            let which = match which {
+                ToolValue::Length => ", length, ",
+                ToolValue::LengthWear => ", length-wear, ",
+                ToolValue::Radius => ", tool-radius, ",
+                ToolValue::RadiusWear => ", tool-radius-wear, ",
+            };
+            put(which, out);
+            put(if *added { "added " } else { "" }, out);
+            expr(value, out);
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Points of the machine, and values that a program puts into the control's tables.
+//!
+//! A point of the machine is where the world has it; axes go there by a rapid move like any other.
+//! What is put into a table counts from then on, and is an event: a value that this program does not
+//! use may be another's.
+
+use super::{Exec, Kind, Length, Stored, Z};
+use crate::diag::{Diagnostic, Fault};
+use crate::exec::Event;
+use crate::num::Nanos;
+use crate::program::{Data, DataMode, Reference, ToolValue};
+use crate::source::Span;
+
+impl Exec {
+    #[cold]
+    pub(super) fn go_to_reference(
+        &mut self,
+        to: &Reference,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if self.cycle.is_some() {
+            return self.not_executed("a return to a point of the machine while a cycle is in force", span);
+        }
+        if !to.via.is_empty() {
+            self.set_axes(&to.via, span)?;
+            self.emit_move(false, span, out)?;
+        }
+        let point = self.world.reference(to.point);
+        let mut machine = self.machine();
+        for (axis, goes) in to.axes.iter().enumerate() {
+            if *goes {
+                machine[axis] = point[axis];
+            }
+        }
+        let standing = self.waiting.unwrap_or(self.modes.length);
+        self.position = self.unplace(&machine);
+        self.heading = super::Heading::None;
+        self.emit_move(false, span, out)?;
+        if to.axes[Z] && !to.keeps_length && standing != Length::Entry(0) {
+            self.waiting = Some(Length::Left);
+        }
+        Ok(())
+    }
+
+    #[cold]
+    pub(super) fn set_data(
+        &mut self,
+        data: &Data,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let stored = match data {
+            Data::Offset { offset, mode, words } => {
+                let here = self.machine();
+                let mut zero = self.world.work_offset(*offset);
+                if *mode == DataMode::Here && (self.modes.shifted || self.chain.is_some()) {
+                    return self.not_executed("a work offset set by the position under a frame", span);
+                }
+                for (axis, word) in words.iter().enumerate() {
+                    let Some(word) = word else { continue };
+                    let value = self.value(word, span)?;
+                    let length = if axis == Z { self.length_of(self.modes.length) } else { 0 };
+                    let sum = match mode {
+                        DataMode::Set => Some(value),
+                        DataMode::Add => zero[axis].checked_add(value),
+                        DataMode::Here => here[axis].checked_sub(value).and_then(|v| v.checked_sub(length)),
+                    };
+                    zero[axis] = match sum {
+                        Some(sum) if sum.unsigned_abs() < 1 << 60 => sum,
+                        Some(_) | None => return self.fault(Fault::OutOfRange { word: "".into() }, span),
+                    };
+                }
+                self.world.tables.work_offsets.insert(*offset, zero.map(Some));
+                if self.modes.work_offset == *offset {
+                    self.reframe(here);
+                }
+                Stored::Offset(self.world.offset_number(*offset), zero)
+            }
+            Data::Tool { entry, which, added, value } => {
+                let value = self.value(value, span)?;
+                let number = self.world.entry_number(*entry);
+                let in_force = |length: Length| length == Length::Entry(*entry);
+                let counts = in_force(self.modes.length) || self.waiting.is_some_and(in_force);
+                if *entry == 0 {
+                    return self.fault(Fault::OutOfRange { word: "entry".into() }, span);
+                }
+                match which {
+                    ToolValue::Length | ToolValue::LengthWear if counts => {
+                        return self.not_executed("another length for the tool that is in use", span);
+                    }
+                    ToolValue::Length | ToolValue::LengthWear => {
+                        Stored::Length(number, self.set_length(*entry, *which, *added, value))
+                    }
+                    ToolValue::Radius | ToolValue::RadiusWear => Stored::Value(number, *which, *added, value),
+                }
+            }
+        };
+        self.emit(Kind::Data(Box::new(stored)), span, out)
+    }
+
+    /// Puts a length into the table; the length that counts, wear included.
+    fn set_length(&mut self, entry: u32, which: ToolValue, added: bool, value: Nanos) -> Nanos {
+        let before = self.world.tool_length(entry);
+        let wear = self.world.length_wear(entry);
+        let new_wear = match (which, added) {
+            (ToolValue::LengthWear, true) => wear.wrapping_add(value),
+            (ToolValue::LengthWear, false) => value,
+            (ToolValue::Length | ToolValue::Radius | ToolValue::RadiusWear, _) => wear,
+        };
+        let bare = match (which, added) {
+            (ToolValue::Length, true) => before.wrapping_sub(wear).wrapping_add(value),
+            (ToolValue::Length, false) => value,
+            (ToolValue::LengthWear | ToolValue::Radius | ToolValue::RadiusWear, _) => {
+                before.wrapping_sub(wear)
+            }
+        };
+        let length = bare.wrapping_add(new_wear);
+        self.world.tables.lengths.insert(entry, length);
+        self.world.tables.wears.insert(entry, new_wear);
+        length
+    }
+}

@@ -1,0 +1,208 @@
+//! `machine-moves`: moves in machine coordinates, and to points of the machine, in the target's form.
+//!
+//! Machine coordinates are measured with the tool's length on one control and without it on another. The
+//! same place is said by a move without a length, which is said anew before the next that needs it; or by
+//! the other form, where no length is in force. A move to the machine's zero is one in machine
+//! coordinates, by way of the point that it names.
+//!
+//! Refused by name: a move that is measured with a length where the target's is not, unless there is
+//! none; other points of the machine without a word for them; and Z after a return to a point of the
+//! machine whose length nobody has said anew, where the target keeps it for certain.
+
+use super::walk::Walk;
+use super::write::{Rebuild, unit_of};
+use super::{Target, each_body};
+use crate::canon::{Axis, Distance, Fact};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::kinds::flow;
+use crate::num::Num;
+use crate::program::{Coord, Move, Op, Point, Program, Reference, ReferencePoint, Stmt};
+use crate::source::Span;
+use crate::track::Tracker;
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    /// The length that is in force in the source and was put off in the target.
+    put_off: Option<u32>,
+    /// A return to a point of the machine that may have left none of the length.
+    lost: Option<Span>,
+    /// A move in machine coordinates comes next in this block, with the tool's length or without.
+    machine: Option<Stmt>,
+}
+
+impl State {
+    /// Whether something waits for the statements that come.
+    pub(super) fn is_busy(&self) -> bool {
+        self.put_off.is_some() || self.lost.is_some() || self.machine.is_some()
+    }
+}
+
+/// Brings the moves into the target's form.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let input = std::mem::take(body);
+    let mut made = Rebuild::new(input.len() + 4);
+    for stmt in input {
+        walk.enter(stmt.skip);
+        take(stmt, walk, state, target, &mut made, diags);
+    }
+    *body = made.out;
+}
+
+fn take(
+    mut stmt: Stmt,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let caps = &target.caps;
+    match &stmt.op {
+        Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|own| own != *length) => {
+            walk.step(&stmt);
+            state.machine = Some(stmt);
+            return;
+        }
+        Op::StraightTraverse(m) | Op::StraightFeed(m) if state.machine.is_some() => {
+            let with_z = m.to.get(Axis::Z).is_some();
+            let in_force = walk.at.modes.length_offset;
+            if let Some(machine) = state.machine.take() {
+                in_other_form(machine, with_z, in_force, state, made, diags);
+            }
+            walk.step(&stmt);
+            return made.push(stmt);
+        }
+        Op::GoToReference(reference) => {
+            let other =
+                !caps.references.has(reference.point) || !reference.via.is_empty() && !caps.reference_via;
+            if other {
+                return by_machine_zero(stmt.clone(), reference, walk, state, target, made, diags);
+            }
+            let keeps = caps.reference_keeps_length.unwrap_or(reference.keeps_length);
+            let reference = Reference { keeps_length: keeps, ..(**reference).clone() };
+            walk.step(&stmt);
+            return made.push(Stmt { op: Op::GoToReference(Box::new(reference)), ..stmt });
+        }
+        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => {
+            state.put_off = None;
+            state.lost = None;
+        }
+        Op::ProgramEnd => {
+            state.put_off = None;
+            state.lost = None;
+        }
+        op if walk.commands_z(op) || matches!(op, Op::StartCycle(_) | Op::Pattern(_) | flow!()) => {
+            if let Some(entry) = state.put_off.take() {
+                let mut again = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(i64::from(entry))));
+                (again.skip, again.joined) = (stmt.skip, stmt.joined);
+                again.number = stmt.number.take();
+                stmt.joined = true;
+                made.push(again);
+            }
+            if let Some(span) = state.lost.take() {
+                let what = "a return to a point of the machine behind which Z moves by a length that is not \
+                            said anew";
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+            }
+        }
+        _ => {}
+    }
+    walk.step(&stmt);
+    made.push(stmt);
+}
+
+/// The statement of machine coordinates in the other form; the move follows.
+fn in_other_form(
+    mut machine: Stmt,
+    with_z: bool,
+    in_force: Option<u32>,
+    state: &mut State,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let Op::UseMachineCoordinates { length } = machine.op else { return made.push(machine) };
+    machine.op = Op::UseMachineCoordinates { length: !length };
+    let none = in_force == Some(0) || state.put_off.is_some();
+    if with_z && length && !none {
+        let what = "a move in machine coordinates that is measured with the tool's length";
+        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, machine.span));
+    }
+    if with_z && !length && !none {
+        let mut off = Stmt::new(machine.span, Op::UseToolLengthOffset(Expr::int(0)));
+        off.skip = machine.skip;
+        off.joined = machine.joined;
+        off.number = machine.number.take();
+        machine.joined = true;
+        made.push(off);
+        match in_force {
+            Some(entry) => state.put_off = Some(entry),
+            None => state.lost = state.lost.or(Some(machine.span)),
+        }
+    }
+    made.push(machine);
+}
+
+/// A move to the machine's zero as one in machine coordinates.
+fn by_machine_zero(
+    stmt: Stmt,
+    reference: &Reference,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let mut cannot = |what: &str| {
+        diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+    };
+    if reference.point != ReferencePoint::Home {
+        cannot("a move to this point of the machine");
+        return made.push(stmt);
+    }
+    if !target.caps.machine_coordinates {
+        cannot("a move to the machine's zero");
+        return made.push(stmt);
+    }
+    let in_force = walk.at.modes.length_offset;
+    let with_z = reference.axes[Axis::Z as usize];
+    if with_z && !reference.keeps_length && in_force != Some(0) {
+        state.lost = Some(stmt.span);
+    }
+    let mut block = Stmt { comment: None, ..stmt.clone() };
+    if !reference.via.is_empty() {
+        block.op = Op::StraightTraverse(Move { to: reference.via.clone(), said: true });
+        made.push(block.clone());
+        block.number = None;
+        block.joined = false;
+    }
+    let mut to = Point::default();
+    for axis in Axis::ALL {
+        if reference.axes[axis as usize] {
+            let zero = Num::int(0, unit_of(axis, walk.unit()));
+            to.set(axis, Coord { value: Expr::Num(zero), distance: Fact::Known(Distance::Absolute) });
+        }
+    }
+    let own = target.caps.machine_length.unwrap_or(false);
+    let machine = Stmt { op: Op::UseMachineCoordinates { length: false }, ..block.clone() };
+    if own {
+        in_other_form(machine, with_z, in_force, state, made, diags);
+    } else {
+        made.push(machine);
+    }
+    let op = Op::StraightTraverse(Move { to, said: true });
+    walk.step(&stmt);
+    made.push(Stmt { op, joined: true, number: None, ..stmt });
+}
