@@ -115,6 +115,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         other_machine: false,
         own_tool: false,
         dwell: Vec::new(),
+        on: None,
         write: true,
         sure: true,
         source: "the machine's profile".to_owned(),

@@ -233,6 +233,8 @@ fn meanings(file: &str) -> Vec<String> {
             Some(argument) => format!("{name} {argument}"),
             None if name.ends_with("FRAME") => format!("{name} translate, rotate, scale or mirror"),
             None if name.ends_with("OFFSETS") => format!("{name} and a number"),
+            None if name == "SET_MOTION_CONTROL_MODE" => format!("{name} and a way of taking corners"),
+            None if name == "ADVISE" => format!("{name}, a kind and mostly its value"),
             None => format!("{name} and a name"),
         });
     }
@@ -286,6 +288,8 @@ fn the_loader_knows_the_same_fields_and_values() {
             let meaning = meaning
                 .replace("translate, rotate, scale or mirror", "rotate")
                 .replace("and a number", "3")
+                .replace("and a way of taking corners", "continuous")
+                .replace(", a kind and mostly its value", " look-ahead on")
                 .replace("and a name", "zz");
             if meaning.parse::<ncc_dialects::NameMeaning>().is_err() {
                 failures.add(&meaning, "is no meaning");

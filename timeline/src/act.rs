@@ -1,9 +1,11 @@
 //! One canonical function with its place, before it has a time.
 
-use ncc_ir::canon::AXES;
-use ncc_ir::exec::{Event, Exec};
-use ncc_ir::num::Nanos;
+use ncc_ir::canon::{AXES, FeedMode, SpindleMode};
+use ncc_ir::exec::{Event, Exec, Kind};
+use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::source::Span;
+
+use crate::path::path;
 
 /// Where in the source a function comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -33,7 +35,9 @@ pub struct Act {
 
 impl Act {
     /// Of an event that a control has just made; `from` is where the axes stood before it.
-    pub fn of(event: Event, from: [Nanos; AXES], exec: &Exec, place: Place) -> Act {
+    /// Its feed is one per minute, whatever the program's counts.
+    pub fn of(mut event: Event, from: [Nanos; AXES], exec: &Exec, place: Place) -> Act {
+        event.rate = per_minute(&event, &from);
         Act {
             program_from: exec.in_program(&from),
             program_to: exec.in_program(&event.end),
@@ -43,4 +47,22 @@ impl Act {
             place,
         }
     }
+}
+
+/// The feed of a move in mm/min: a feed per turn goes with the speed of the spindle, a time with the
+/// length of the way. A spindle that stands, and a surface speed, of which the diameter is not known,
+/// leave a feed per turn as it is.
+fn per_minute(event: &Event, from: &[Nanos; AXES]) -> Nanos {
+    let state = &event.state;
+    let by = match state.feed_mode {
+        _ if event.rate == 0 || matches!(event.kind, Kind::Synchronised { .. }) => return event.rate,
+        FeedMode::PerMinute => return event.rate,
+        FeedMode::PerRevolution if state.spindle_mode == SpindleMode::Surface || state.speed == 0 => {
+            return event.rate;
+        }
+        FeedMode::PerRevolution => state.speed as f64 / ONE as f64,
+        FeedMode::InverseTime => path(event, from).length,
+    };
+    // A rate beyond the range of the type is none.
+    (event.rate as f64 * by) as Nanos
 }

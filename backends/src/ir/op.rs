@@ -105,13 +105,8 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             text_argument(advice.value_name(), out);
             further(advice.amount.as_slice(), out);
         }
-        Op::SetSpindleMode(mode) => text_argument(
-            match mode {
-                SpindleMode::Turns => "turns",
-                SpindleMode::Surface => "surface",
-            },
-            out,
-        ),
+        Op::SetSpindleMode(SpindleMode::Turns) => text_argument("turns", out),
+        Op::SetSpindleMode(SpindleMode::Surface) => text_argument("surface", out),
         Op::UseLengthUnits(u) => put(units(*u), out),
         Op::SetDistanceMode(d) => put(distance(*d), out),
         Op::SelectPlane(p) => put(plane(*p), out),

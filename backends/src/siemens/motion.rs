@@ -167,7 +167,7 @@ impl Writer {
     }
 
     /// An address of several letters and its value.
-    fn named(
+    pub(super) fn named(
         &mut self,
         role: NameRole,
         value: &Expr,

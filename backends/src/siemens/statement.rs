@@ -1,8 +1,9 @@
 //! One statement: which words say it.
 
-use ncc_dialects::{Meaning, NameMeaning};
+use ncc_dialects::{Meaning, NameMeaning, NameRole};
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{FrameSlot, Op, Stmt};
+use ncc_ir::program::{FrameSlot, Op, PathControl, Stmt};
+use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
 use crate::word::block::{Need, Part, Rank};
@@ -40,17 +41,14 @@ impl Writer {
             | Op::SetFeedMode(_)
             | Op::SetOriginOffsets(_)
             | Op::StopCutterRadiusCompensation
-            | Op::SetMotionControlMode(_)
             | Op::ExactStop
-            | Op::Advise(_)
             | Op::SetSpindleMode(_)
-            | Op::LimitSpindleSpeed(_)
             | Op::SelectTool(_)
             | Op::SelectToolByName(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::SynchronisedFeed(_)
-            | Op::OrientSpindle(_)
+            | Op::OrientSpindle(None)
             | Op::MachineFunction(_)
             | Op::FloodOn
             | Op::MistOn
@@ -72,6 +70,33 @@ impl Writer {
                 self.basic_feed = false;
                 self.words.statement(stmt, sink)
             }
+            Op::SetMotionControlMode(control) => {
+                let plain = PathControl::plain(control.mode);
+                let words: [(NameRole, &Option<Expr>); 2] =
+                    [(NameRole::Rounding, &control.within), (NameRole::RoundingInRapids, &control.rapids)];
+                let words: Vec<String> = words
+                    .into_iter()
+                    .filter_map(|(role, value)| Some((role, value.as_ref()?)))
+                    .map(|(role, value)| self.named(role, value, None, span, sink))
+                    .collect::<Result<_, _>>()?;
+                let op = Op::SetMotionControlMode(Box::new(plain));
+                self.words.statement(&Stmt { op, ..stmt.clone() }, sink)?;
+                words.iter().for_each(|word| self.words.block.text(Part::Mode, word));
+                Ok(())
+            }
+            Op::Advise(advice) => {
+                let meaning = NameMeaning::Code(Meaning::Advise(advice.kind, Some(advice.value)));
+                match self.dialect.name_for(meaning) {
+                    Some(row) if advice.amount.is_none() => {
+                        self.words.admit(&Need::new(Rank::Setting), sink)?;
+                        self.words.block.text(Part::Mode, &row.name);
+                        Ok(())
+                    }
+                    _ => self.words.statement(stmt, sink),
+                }
+            }
+            Op::LimitSpindleSpeed(speed) => self.named_alone(NameRole::SpindleLimit, speed, span, sink),
+            Op::OrientSpindle(Some(angle)) => self.named_alone(NameRole::SpindleAngle, angle, span, sink),
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
             Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => self.words.statement(stmt, sink),
@@ -119,6 +144,18 @@ impl Writer {
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
             Op::Goto(_) => Err(cannot("a jump")),
         }
+    }
+
+    /// A named word in a block of its own.
+    fn named_alone(
+        &mut self,
+        role: NameRole,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let word = self.named(role, value, None, span, sink)?;
+        self.alone(&word, sink)
     }
 
     fn no_effect(&mut self, name: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {

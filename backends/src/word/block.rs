@@ -39,6 +39,7 @@ pub(crate) enum Rank {
     Dwell,
     Offset,
     CycleEnd,
+    ExactStop,
     Motion,
     SpindleOff,
     CoolantOff,

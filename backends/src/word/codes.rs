@@ -4,7 +4,7 @@
 //! its meaning and checked by its number. Not here: when a word is written.
 
 use ncc_dialects::{Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
-use ncc_ir::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint};
 
 use super::number::Format;
@@ -82,6 +82,17 @@ pub(crate) struct GridCode {
     pub serpentine: bool,
 }
 
+/// The code of advice.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AdviceCode {
+    pub kind: AdviceKind,
+    /// Its value; without, a word of the block says it.
+    pub value: Option<u8>,
+    pub code: Code,
+    /// Letter of that word, and the number for on.
+    pub word: Option<(u8, u32)>,
+}
+
 /// A call's words: the number, and the count where it has a letter of its own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CallCode {
@@ -141,6 +152,12 @@ pub(crate) struct Codes {
     pub spindle_stop: Option<Code>,
     /// Makes the tapping cycle called up next a rigid one.
     pub rigid_tapping: Option<Code>,
+    /// Stop of the spindle at the control's own angle.
+    pub orient: Option<Code>,
+    /// Ways of taking corners, in the order of [`PathMode::ALL`].
+    pub path: [Option<Code>; 9],
+    pub exact_stop: Option<Code>,
+    pub advice: Vec<AdviceCode>,
     pub change_tool: Option<Code>,
     /// Functions of the machine, by name.
     pub machine_functions: Vec<(&'static str, Code)>,
@@ -372,6 +389,21 @@ impl Codes {
             spindle_counterclockwise: code(Meaning::StartSpindleCounterclockwise),
             spindle_stop: code(Meaning::StopSpindleTurning),
             rigid_tapping: code(Meaning::RigidTapping),
+            orient: code(Meaning::OrientSpindle),
+            path: PathMode::ALL.map(|(mode, _)| code(Meaning::SetMotionControlMode(mode))),
+            exact_stop: code(Meaning::ExactStop),
+            advice: dialect
+                .code
+                .iter()
+                .filter_map(|row| match row.means {
+                    Some(meaning @ Meaning::Advise(kind, value)) if row.write => {
+                        let letter = row.words.bytes().next().filter(|_| value.is_none());
+                        let word = letter.map(|letter| (letter, row.on.unwrap_or(1)));
+                        Some(AdviceCode { kind, value, code: find.row(&row.code, meaning)?, word })
+                    }
+                    _ => None,
+                })
+                .collect(),
             change_tool: code(Meaning::ChangeTool),
             machine_functions: dialect
                 .code

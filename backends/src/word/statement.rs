@@ -3,11 +3,11 @@
 use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Call, FrameSlot, Op, Stmt};
+use ncc_ir::program::{Advice, Call, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
-use super::codes::{Code, Dwell, Letter};
+use super::codes::{AdviceCode, Code, Dwell, Letter};
 use super::modes::{Setting, cannot};
 use super::number::{self, Shaped, Unwritable};
 use super::{Sink, Writer};
@@ -47,9 +47,14 @@ impl Writer {
                 Some(setting) => self.write_setting(setting, sink),
                 None => Err(cannot("clearing this frame")),
             },
-            Op::SetMotionControlMode(_) => Err(cannot("this way of taking corners")),
-            Op::ExactStop => Err(cannot("an exact stop")),
-            Op::Advise(_) => Err(cannot("this advice")),
+            Op::SetMotionControlMode(control) => self.path_control(control, sink),
+            Op::ExactStop => {
+                let code = codes.exact_stop.ok_or_else(|| cannot("an exact stop of one move"))?;
+                self.admit(&Need::new(Rank::ExactStop).code(Some(code)), sink)?;
+                self.block.code(Part::Mode, &code);
+                Ok(())
+            }
+            Op::Advise(advice) => self.advise(advice, sink),
             Op::SetSpindleMode(_) => Err(cannot("a constant surface speed")),
             Op::LimitSpindleSpeed(_) => Err(cannot("a limit of the spindle speed")),
             Op::SelectToolByName(name) => Err(cannot(format!("a tool called {name}"))),
@@ -66,7 +71,10 @@ impl Writer {
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
             Op::SynchronisedFeed(_) => Err(cannot("a move in step with the spindle")),
-            Op::OrientSpindle(_) => Err(cannot("a spindle stopped at an angle")),
+            Op::OrientSpindle(Some(_)) => Err(cannot("a spindle stopped at an angle")),
+            Op::OrientSpindle(None) => {
+                self.m_code(Rank::SpindleOn, codes.orient, "a spindle stopped at an angle", sink)
+            }
             Op::RepeatBlocks(_) => Err(cannot("a repetition of blocks")),
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::SetSpindleSpeed(speed) => {
@@ -179,6 +187,41 @@ impl Writer {
         let code = code.ok_or_else(|| cannot(what))?;
         self.admit(&Need::new(rank).code(Some(code)), sink)?;
         self.block.code(Part::Tail, &code);
+        Ok(())
+    }
+
+    /// A way of taking corners that has a code and no length of its own.
+    fn path_control(&mut self, control: &PathControl, sink: &mut Sink) -> Result<(), Fault> {
+        let code = self.codes.path[control.mode as usize];
+        let code = code.filter(|_| control.within.is_none() && control.rapids.is_none());
+        let code = code.ok_or_else(|| cannot(format!("corners by {}", control.mode.name())))?;
+        self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
+        self.block.code(Part::Mode, &code);
+        Ok(())
+    }
+
+    /// Advice: a code of its own, or one with a word that switches it, which stands alone.
+    fn advise(&mut self, advice: &Advice, sink: &mut Sink) -> Result<(), Fault> {
+        let says = |found: &&AdviceCode| {
+            let value = found.value.is_none_or(|value| value == advice.value);
+            found.kind == advice.kind && value && advice.amount.is_none()
+        };
+        let Some(AdviceCode { code, word, .. }) = self.codes.advice.iter().find(says).copied() else {
+            return Err(cannot(format!("advice on {}", advice.kind.name())));
+        };
+        let Some((letter, on)) = word else {
+            self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
+            self.block.code(Part::Mode, &code);
+            return Ok(());
+        };
+        if !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        self.admit(&Need::new(Rank::Alone).code(Some(code)).letter(letter), sink)?;
+        self.block.code(Part::Mode, &code);
+        let value = if advice.value == 0 { 0 } else { on };
+        self.block.digits(Part::Mode, letter, &value.to_string());
         Ok(())
     }
 

@@ -97,6 +97,6 @@ fn comments_keep_their_characters_and_stand_last() {
 
 #[test]
 fn a_word_without_effect_stays_a_word_if_it_is_one() {
-    let stmts = lines(vec![rapid("X0."), Op::NoEffect("SOFT".into()), Op::NoEffect("G66".into())]);
-    assert_eq!(clean(&stmts), "G0 X0\nSOFT\n; G66\n");
+    let stmts = lines(vec![rapid("X0."), Op::NoEffect("DIAMOF".into()), Op::NoEffect("G66".into())]);
+    assert_eq!(clean(&stmts), "G0 X0\nDIAMOF\n; G66\n");
 }

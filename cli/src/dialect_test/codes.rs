@@ -1,7 +1,7 @@
 //! G and M codes, the canned cycles and patterns that they call up, and their letters.
 
 use ncc_dialects::{CodeRow, CycleRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity};
-use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
 use ncc_ir::program::CentreFrom;
 
@@ -161,6 +161,21 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             }
             None => one("END_CYCLE()"),
         },
+        Meaning::SetMotionControlMode(PathMode::Distance) => {
+            one("SET_MOTION_CONTROL_MODE(\"distance\", 0.5mm)")
+        }
+        Meaning::SetMotionControlMode(PathMode::Tolerance) => {
+            one("SET_MOTION_CONTROL_MODE(\"tolerance\", 0.05mm)")
+        }
+        Meaning::ExactStop => one("EXACT_STOP() & said STRAIGHT_TRAVERSE(X 12.345mm, Y -6.7mm)"),
+        Meaning::Advise(kind, value) => {
+            let values = value.map_or(vec![0, 1], |value| vec![value]);
+            let name = |value: u8| kind.values()[usize::from(value)];
+            values
+                .into_iter()
+                .map(|value| Said::new(format!("ADVISE(\"{}\", \"{}\")", kind.name(), name(value))))
+                .collect()
+        }
         Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
         Meaning::ChangeTool => one(match d.caps.tool_edges {
             Some(true) => "SELECT_TOOL(5) & CHANGE_TOOL() & USE_TOOL_EDGE(1)",

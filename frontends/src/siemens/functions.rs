@@ -3,12 +3,12 @@
 //!
 //! Moves and frames have files of their own.
 
-use ncc_dialects::{Meaning, NameMeaning, Quantity, Role};
-use ncc_ir::canon::{Fact, Plane, Units};
+use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role};
+use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
-use ncc_ir::program::Op;
+use ncc_ir::program::{Op, PathControl};
 use ncc_ir::source::Span;
 
 use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
@@ -66,7 +66,10 @@ impl Lower {
         });
         for (code, meaning) in coded.clone() {
             if rank(meaning) < RANK_WORDS {
-                self.setting(code, meaning, out);
+                match meaning {
+                    Meaning::SetMotionControlMode(mode) => self.path_control(code, mode, words, src, out),
+                    _ => self.setting(code, meaning, out),
+                }
             }
         }
         self.feed_and_speed(words, src, out);
@@ -82,6 +85,14 @@ impl Lower {
                     self.not_supported(code.name, name, code.span, out);
                     continue;
                 }
+                Meaning::OrientSpindle if words.has_any(b"XYZABC") => {
+                    let name = "stop of the spindle at an angle in a block with axis words";
+                    self.not_supported(code.name, name, code.span, out);
+                    continue;
+                }
+                Meaning::OrientSpindle => Op::OrientSpindle(None),
+                // Without a move there is nothing to stop.
+                Meaning::ExactStop if words.has_any(b"XYZABC") => Op::ExactStop,
                 Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
@@ -127,7 +138,13 @@ impl Lower {
                 self.state.distance = Know::Said(distance);
                 self.again.say(DISTANCE);
             }
-            Meaning::SetFeedMode(mode) => self.state.feed_mode = Know::Said(mode),
+            Meaning::SetFeedMode(mode) => {
+                // A feed that was said before does not count any more.
+                if self.state.feed_mode.value().is_some_and(|before| before != mode) {
+                    self.state.feed = Know::Unsaid;
+                }
+                self.state.feed_mode = Know::Said(mode);
+            }
             Meaning::SetOriginOffsets(offset) => {
                 self.state.work_offset = Know::Said(offset);
                 self.stand.forget();
@@ -187,14 +204,45 @@ impl Lower {
         self.push(code.span, op, out);
     }
 
+    /// A way of taking corners, with the distances that stand in its block.
+    fn path_control(&mut self, code: &Code, mode: PathMode, words: &mut Words, src: Source, out: &mut Batch) {
+        let mut lengths = [None, None];
+        if mode.is_rounding() {
+            for (role, length) in
+                [NameRole::Rounding, NameRole::RoundingInRapids].into_iter().zip(&mut lengths)
+            {
+                if let Some(given) = words.take_named(role) {
+                    *length = self.number(given, Quantity::Length, src, out).map(Expr::Num);
+                }
+            }
+        }
+        let [within, rapids] = lengths;
+        if mode == PathMode::Distance && within.is_none() {
+            // One that was said before stays in force; what that is, is not followed.
+            let name = "rounding without its distance in the block";
+            return self.not_supported(code.name, name, code.span, out);
+        }
+        let within = within.or_else(|| rapids.is_some().then(|| Expr::int(0)));
+        let control = PathControl { mode, within, rapids };
+        self.push(code.span, Op::SetMotionControlMode(Box::new(control)), out);
+    }
+
     fn role_letter(&self, role: Role) -> u8 {
         self.settings.dialect.letter_for(role).map_or(0, |c| c as u8)
     }
 
     fn feed_and_speed(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        let by_time = self.state.feed_mode.value() == Some(FeedMode::InverseTime);
+        if by_time {
+            // A time counts for the move of its own block.
+            self.state.feed = Know::Unsaid;
+        }
         if let Some(given) = words.take(self.role_letter(Role::Feed)) {
             self.rely_on_feed_mode(given.span, out);
-            if let Some(num) = self.number(given, Quantity::Feed, src, out) {
+            if let Some(mut num) = self.number(given, Quantity::Feed, src, out) {
+                if by_time {
+                    num.unit = Unit::One;
+                }
                 if !num.is_zero() {
                     self.state.feed = Know::Said(());
                 }
@@ -221,6 +269,19 @@ impl Lower {
                 self.not_supported(&src.text(given.span), name, given.span, out);
             }
             self.push(given.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
+        }
+        if let Some(given) = words.take_named(NameRole::SpindleLimit)
+            && let Some(num) = self.number(given, Quantity::Speed, src, out)
+        {
+            self.push(given.span, Op::LimitSpindleSpeed(Expr::Num(num)), out);
+        }
+        if let Some(given) = words.take_named(NameRole::SpindleAngle) {
+            if words.has_any(b"XYZABC") {
+                let name = "stop of the spindle at an angle in a block with axis words";
+                self.not_supported(&src.text(given.span), name, given.span, out);
+            } else if let Some(num) = self.number(given, Quantity::Angle, src, out) {
+                self.push(given.span, Op::OrientSpindle(Some(Expr::Num(num))), out);
+            }
         }
     }
 

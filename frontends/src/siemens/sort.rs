@@ -49,7 +49,7 @@ pub(super) struct Words {
 }
 
 /// Number of roles of named addresses.
-const NAMED: usize = 7;
+const NAMED: usize = 11;
 
 impl Words {
     /// Nothing, with the memory of what was.

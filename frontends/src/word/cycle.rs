@@ -2,16 +2,17 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{CYCLE_APPROACH, CycleRow, Hand, Quantity, TAPPING};
-use ncc_ir::canon::{Distance, Fact, Plane, ReturnLevel, Spindle};
+use ncc_dialects::{Bare, CYCLE_APPROACH, CycleRow, Hand, Quantity, TAPPING};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
 use ncc_ir::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Pitch};
 use ncc_ir::source::Span;
 
 use super::Source;
+use super::block::Value;
 use super::facts::{Active, InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
@@ -27,9 +28,20 @@ impl Lower {
             return;
         };
         self.rely_on_feed_mode(word.span, out);
-        let Some(num) = self.number(&word, Quantity::Feed, src, out) else {
+        let Some(mut num) = self.number(&word, Quantity::Feed, src, out) else {
             return;
         };
+        let mode = self.state.feed_mode.value().unwrap_or(FeedMode::PerMinute);
+        if mode != FeedMode::PerMinute {
+            let bare = matches!(word.value, Value::Number(d) if !d.point && d.mantissa != 0);
+            if bare && self.rules[Quantity::Feed as usize].bare == Bare::Increments && !self.calculator {
+                let name = "feed per turn, or by time, without a decimal point".into();
+                return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+            }
+        }
+        if mode == FeedMode::InverseTime {
+            num.unit = Unit::One;
+        }
         if !num.is_zero() {
             self.state.feed = Know::Said(());
         }

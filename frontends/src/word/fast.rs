@@ -7,7 +7,7 @@
 //! not plain, or would change more than the position and the feed, is left to the long way.
 
 use ncc_dialects::{Bare, CodeRow, Dialect, Meaning, NumberRules, Quantity};
-use ncc_ir::canon::{Axis, Distance, Fact, Motion, Units};
+use ncc_ir::canon::{Axis, Distance, Fact, FeedMode, Motion, Units};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Stmt};
@@ -68,6 +68,10 @@ impl Lower {
                 || state.work_offset == Know::Unsaid
                 || state.no_shift == Know::Unsaid
                 || state.length_offset == Know::Unsaid);
+        // A time counts for one move, so every block is looked at.
+        if state.feed_mode.value() == Some(FeedMode::InverseTime) {
+            return None;
+        }
         let no_feed = feed && (state.feed == Know::Unsaid || state.cycle_feed.is_some());
         if !axes
             || open

@@ -4,11 +4,11 @@
 //! Moves, cycles and calls have files of their own.
 
 use ncc_dialects::{Meaning, Quantity};
-use ncc_ir::canon::Motion;
+use ncc_ir::canon::{AdviceKind, Motion};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
-use ncc_ir::program::{FrameSlot, Op};
+use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
 
 use super::Source;
@@ -46,11 +46,10 @@ impl Lower {
         }
         let before_feed = self.settings.dialect.block.feed_before_units;
         for code in settings {
-            if before_feed && matches!(code.meaning, Meaning::SetFeedMode(_)) {
-                continue;
-            }
-            match is_frame(code.meaning) {
-                true => {
+            match code.meaning {
+                Meaning::SetFeedMode(_) if before_feed => {}
+                Meaning::Advise(kind, None) => self.advise(code, kind, words, src, out),
+                meaning if is_frame(meaning) => {
                     self.frame(code, functions, words, src, out);
                     if self.now.failed {
                         // They are the frame's, and no move.
@@ -58,7 +57,7 @@ impl Lower {
                         own.for_each(|letter| _ = words.take(letter));
                     }
                 }
-                false => self.setting(code, out),
+                _ => self.setting(code, out),
             }
         }
         self.feed_word(motion, words, src, out);
@@ -94,7 +93,13 @@ impl Lower {
             }
             Meaning::SelectPlane(plane) => self.state.plane = Know::Said(plane),
             Meaning::SetDistanceMode(distance) => self.state.distance = Know::Said(distance),
-            Meaning::SetFeedMode(mode) => self.state.feed_mode = Know::Said(mode),
+            Meaning::SetFeedMode(mode) => {
+                // A feed that was said before does not count any more.
+                if self.state.feed_mode.value().is_some_and(|before| before != mode) {
+                    self.state.feed = Know::Unsaid;
+                }
+                self.state.feed_mode = Know::Said(mode);
+            }
             Meaning::SetReturnLevel(level) => {
                 self.now.recall |= self.state.return_level.value() != Some(level);
                 self.state.return_level = Know::Said(level);
@@ -148,6 +153,30 @@ impl Lower {
         self.push(code.span, op, out);
     }
 
+    /// Advice that a word of the block switches on or off.
+    fn advise(&mut self, code: &Code, kind: AdviceKind, words: &mut Words, src: Source, out: &mut Batch) {
+        let code_text: Box<str> = code.row.code.as_str().into();
+        let letter = code.row.words.bytes().next().unwrap_or(b' ');
+        let Some(word) = words.take(letter) else {
+            let word = char::from(letter).to_string().into();
+            return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+        };
+        if self.has_axis_word(words) {
+            let name = "advice to the control in a block with axis words".into();
+            return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+        }
+        let value = match self.whole(&word, src, out) {
+            None => return,
+            Some(0) => 0,
+            Some(value) if code.row.on.unwrap_or(1) == value => 1,
+            Some(_) => {
+                let name = "another use of this code".into();
+                return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+            }
+        };
+        self.push(code.span, Op::Advise(Box::new(Advice { kind, value, amount: None })), out);
+    }
+
     /// Speed and tool words.
     fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(word) = words.take(self.roles.speed)
@@ -178,6 +207,10 @@ impl Lower {
                 }
                 Op::ChangeTool
             }
+            // Without a move there is nothing to stop.
+            Meaning::ExactStop if !self.has_axis_word(words) => return,
+            Meaning::ExactStop => Op::ExactStop,
+            Meaning::OrientSpindle => Op::OrientSpindle(None),
             Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
             Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
             Meaning::StopSpindleTurning => Op::StopSpindleTurning,
@@ -283,6 +316,8 @@ pub(crate) fn setting(meaning: Meaning) -> Option<Op> {
         Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
         Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
         Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
+        Meaning::SetMotionControlMode(mode) => Op::SetMotionControlMode(Box::new(PathControl::plain(mode))),
+        Meaning::Advise(kind, Some(value)) => Op::Advise(Box::new(Advice { kind, value, amount: None })),
         Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,
         _ => return None,
     })

@@ -8,7 +8,7 @@
 //! of a block mean; they have files of their own beside this one.
 
 use ncc_dialects::{Address, CodeRow, NumberRules, Quantity, Role, Settings};
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{Axis, FeedMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
@@ -144,6 +144,10 @@ impl Lower {
             refused: !block.faults.is_empty(),
             ..Now::default()
         };
+        if self.state.feed_mode.value() == Some(FeedMode::InverseTime) {
+            // A time counts for the move of its own block.
+            self.state.feed = Know::Unsaid;
+        }
         for (fault, span) in &block.faults {
             out.report(fault.clone(), *span);
         }

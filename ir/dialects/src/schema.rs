@@ -513,6 +513,9 @@ pub struct CodeRow {
     /// Letter and unit of a dwell, the first one for writing.
     #[serde(default)]
     pub dwell: Vec<DwellWord>,
+    /// Of advice that a word of the block switches, the number that switches it on; 0 switches it off.
+    #[serde(default)]
+    pub on: Option<u32>,
     /// Whether it is written when several codes mean the same.
     #[serde(default = "yes")]
     pub write: bool,

@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod conduct;
 mod data;
 mod event;
 mod frame;
@@ -243,47 +244,6 @@ impl Exec {
     pub fn be_at(&mut self, machine: [Nanos; AXES]) {
         self.last = machine;
         self.position = self.unplace(&machine);
-    }
-
-    /// Whether two controls are in one state: whatever both execute next, both do the same. (Facts
-    /// about power-on do not count any more, and no cycle may be in force.)
-    pub fn agrees(&self, other: &Exec) -> bool {
-        self.modes == other.modes
-            && self.position == other.position
-            && self.frame == other.frame
-            && self.chain == other.chain
-            && self.slots == other.slots
-            && self.last == other.last
-            && self.heading == other.heading
-            && self.raw == other.raw
-            && self.after_stop == other.after_stop
-            && self.waiting == other.waiting
-            && self.feed == other.feed
-            && self.selected == other.selected
-            && self.state == other.state
-            && self.cycle.is_none()
-            && other.cycle.is_none()
-            && self.ended == other.ended
-            && self.world.seed == other.world.seed
-    }
-
-    /// Takes over the state of a control that it agreed with before both executed the same.
-    pub fn follow(&mut self, other: &Exec) {
-        self.modes = other.modes;
-        self.position = other.position;
-        self.frame = other.frame;
-        self.chain.clone_from(&other.chain);
-        self.slots.clone_from(&other.slots);
-        self.last = other.last;
-        self.heading = other.heading;
-        self.raw = other.raw;
-        self.after_stop = other.after_stop;
-        self.waiting = other.waiting;
-        self.feed = other.feed;
-        self.selected = other.selected;
-        self.state = other.state;
-        self.said |= other.said;
-        self.ended = other.ended;
     }
 
     /// Executes statements for their effect on the state alone; gives the number of their events.
@@ -610,42 +570,11 @@ impl Exec {
                 }
                 self.said |= FEED_MODE;
             }
-            Op::SetMotionControlMode(control) => {
-                let within =
-                    [self.length_within(&control.within, span)?, self.length_within(&control.rapids, span)?];
-                self.state.within[..2].copy_from_slice(&within);
-                match &mut self.after_stop {
-                    Some(after) => *after = Some(control.mode),
-                    None => self.state.path = Some(control.mode),
-                }
-            }
-            Op::ExactStop => {
-                if self.after_stop.is_none() {
-                    self.after_stop = Some(self.state.path);
-                    self.state.path = Some(PathMode::ExactStop);
-                }
-            }
-            Op::Advise(advice) => {
-                let bits = advice.kind.bits();
-                self.state.advice &= !(15 << bits);
-                self.state.advice |= u64::from(advice.value.min(13) + 1) << bits;
-                if advice.kind.has_amount() {
-                    self.state.within[2] = self.length_within(&advice.amount, span)?;
-                }
-            }
-            Op::SetSpindleMode(mode) => {
-                if self.state.spindle_mode != *mode {
-                    self.state.spindle_mode = *mode;
-                    self.state.speed = 0;
-                }
-            }
-            Op::LimitSpindleSpeed(limit) => {
-                let limit = u32::try_from(self.value(limit, span)? / (ONE / 1000));
-                let Ok(limit) = limit else {
-                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
-                };
-                self.state.limit = limit;
-            }
+            Op::SetMotionControlMode(_)
+            | Op::ExactStop
+            | Op::Advise(_)
+            | Op::SetSpindleMode(_)
+            | Op::LimitSpindleSpeed(_) => self.conduct(&stmt.op, span)?,
             Op::SetReturnLevel(level) => {
                 self.modes.return_level = *level;
                 self.said |= RETURN;
@@ -672,7 +601,7 @@ impl Exec {
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
             Op::SelectToolByName(name) => {
-                self.selected = named_tool(name);
+                self.selected = conduct::named_tool(name);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
             Op::ChangeTool => {
@@ -758,25 +687,7 @@ impl Exec {
         self.fault(Fault::NotExecuted { what: what.into() }, span)
     }
 
-    /// A length of the path mode or of advice; none is 0.
-    fn length_within(&self, length: &Option<Expr>, span: Span) -> Result<i32, Diagnostic> {
-        let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
-        match i32::try_from((nanos + 50_000) / 100_000) {
-            Ok(tenths) => Ok(tenths),
-            Err(_) => self.fault(Fault::OutOfRange { word: "".into() }, span),
-        }
-    }
-
     fn plane_of(&self, plane: Fact<Plane>) -> Plane {
         plane.or(self.modes.plane)
     }
-}
-
-/// The number by which a tool with a name is told from others: less than -1, the same wherever the name
-/// is met.
-fn named_tool(name: &str) -> i64 {
-    let hash = name
-        .bytes()
-        .fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
-    -((hash >> 2) as i64) - 2
 }

@@ -152,16 +152,16 @@ fn comments_messages_and_empty_blocks() {
 
 #[test]
 fn words_without_effect_are_kept_and_told() {
-    let text = HEAD.to_owned() + "BRISK\nFFWON G1 X1\nBRISK\nM30\n";
+    let text = HEAD.to_owned() + "DIAMOF\nSPATH G1 X1\nDIAMOF\nM30\n";
     let out = read(&text);
     assert_eq!(
         stmts(&out)[stmts(&out).len() - 5..],
-        ["NoEffect('BRISK')", "NoEffect('FFWON')", "& FEED! X1", "NoEffect('BRISK')", "ProgramEnd"]
+        ["NoEffect('DIAMOF')", "NoEffect('SPATH')", "& FEED! X1", "NoEffect('DIAMOF')", "ProgramEnd"]
             .map(|s| s.replace('\'', "\""))
     );
     assert_eq!(
         assumptions(&text),
-        ["AssumedNoEffect { code: 'BRISK' } at 'BRISK'", "AssumedNoEffect { code: 'FFWON' } at 'FFWON'"]
+        ["AssumedNoEffect { code: 'DIAMOF' } at 'DIAMOF'", "AssumedNoEffect { code: 'SPATH' } at 'SPATH'"]
     );
 }
 
