@@ -37,6 +37,7 @@ mod pattern_forms;
 pub mod return_plane;
 pub mod skip_levels;
 pub mod specialise_procedures;
+mod spindle_holes;
 pub mod state_clearance;
 pub mod taps;
 pub mod tool_edge;

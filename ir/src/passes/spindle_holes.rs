@@ -1,0 +1,170 @@
+//! Holes in which the cycle drives the spindle, for `expand-cycles`: taps, fine boring, boring with a
+//! stopped spindle. From the retract plane on; the way there is of all cycles alike.
+//!
+//! Refused are taps for a target that has no moves in step with the spindle, shifts that are computed
+//! or whose direction is a parameter that nobody has stated, and a spindle that shall turn on as before
+//! where it is not known how it turned.
+
+use super::Target;
+use super::expand_cycles::lasts;
+use super::walk::Walk;
+use super::write::{cut, exact, traverse, unit_of};
+use crate::canon::{Axis, Distance, Fact, Plane, Spindle};
+use crate::cycle::{CycleKind, Shift, absolute};
+use crate::diag::{Fault, ModeName};
+use crate::expr::Expr;
+use crate::num::Num;
+use crate::program::{Coord, Op, Point, Synchronised};
+use crate::track::InForce;
+
+/// The moves of a hole in which the cycle drives the spindle, from the retract plane on.
+pub(super) fn with_spindle(
+    walk: &Walk,
+    in_force: &InForce,
+    to: &Point,
+    [retract, depth]: [Point; 2],
+    out: Option<Point>,
+    target: &Target,
+    moves: &mut Vec<(bool, Op)>,
+) -> Result<(), Fault> {
+    let plane =
+        walk.at.plane(in_force.cycle.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+    let normal = plane.axes().2;
+    let dwell = |seconds: &Option<Expr>, moves: &mut Vec<(bool, Op)>| {
+        if let Some(seconds) = seconds.as_ref().filter(|seconds| lasts(seconds)) {
+            moves.push((false, Op::Dwell(seconds.clone())));
+        }
+    };
+    let turn_it = |to: Spindle| {
+        (
+            false,
+            match to {
+                Spindle::Stopped => Op::StopSpindleTurning,
+                Spindle::Clockwise => Op::StartSpindleClockwise,
+                Spindle::Counterclockwise => Op::StartSpindleCounterclockwise,
+            },
+        )
+    };
+    let turned = |after: Option<Spindle>| match after.or(walk.at.spindle) {
+        Some(spindle) => Ok(turn_it(spindle)),
+        None => {
+            let what = "a cycle after which the spindle turns as before, which is not known";
+            Err(Fault::CannotSay { what: what.into() })
+        }
+    };
+    match &in_force.cycle.kind {
+        CycleKind::Tap(tap) => {
+            if !target.caps.synchronised {
+                let what = match tap.settle == tap.dwell {
+                    true => format!("the cycle {} in this form", in_force.cycle.kind.name()),
+                    false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
+                };
+                return Err(Fault::CannotSay { what: what.into() });
+            }
+            let step = |to: &Point, turn| {
+                let (to, pitch) = (to.clone(), tap.pitch.clone());
+                let turn = (!tap.chuck).then_some(turn);
+                (false, Op::SynchronisedFeed(Box::new(Synchronised { to, pitch, chuck: tap.chuck, turn })))
+            };
+            moves.push(step(&depth, tap.turn));
+            dwell(&tap.dwell, moves);
+            if tap.chuck {
+                moves.push(turn_it(tap.turn.back().spindle()));
+            }
+            moves.push(step(&retract, tap.turn.back()));
+            dwell(&tap.settle, moves);
+            if tap.chuck {
+                moves.push(turn_it(tap.after));
+            }
+            moves.extend(out.map(|out| (false, traverse(out))));
+            if !tap.chuck && tap.after != Spindle::Stopped {
+                moves.push(turn_it(tap.after));
+            }
+        }
+        CycleKind::FineBore(bore) => {
+            moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
+            moves.push((false, cut(depth)));
+            dwell(&bore.dwell, moves);
+            let angle = bore.angle.clone().or_else(|| target.orientation.map(Expr::Num));
+            moves.push((false, Op::OrientSpindle(angle)));
+            let by = off_the_wall(&bore.shift, plane, target)?;
+            let (mut aside, mut back) = (Point::default(), Point::default());
+            for axis in [Axis::X, Axis::Y, Axis::Z] {
+                let Some(by) = &by[axis as usize] else { continue };
+                let (Some(by), Expr::Num(num)) = (walk.at.nanos(by), by) else {
+                    return Err(Fault::CannotSay { what: "a computed shift".into() });
+                };
+                if by == 0 {
+                    continue;
+                }
+                let word =
+                    |num: Num| Coord { value: num.into(), distance: Fact::Known(Distance::Incremental) };
+                let unit = unit_of(axis, walk.unit());
+                let foot = match (axis == normal, to.get(axis)) {
+                    (true, _) => in_force.depth,
+                    (false, Some(word)) => walk.at.resolve(word, walk.at.position[axis as usize]),
+                    (false, None) => walk.at.position[axis as usize],
+                };
+                aside.set(
+                    axis,
+                    match foot.and_then(|foot| foot.checked_add(by)) {
+                        Some(place) => absolute(exact(place, unit)),
+                        None => word(*num),
+                    },
+                );
+                if axis != normal {
+                    back.set(
+                        axis,
+                        match foot {
+                            Some(foot) => absolute(exact(foot, unit)),
+                            None => word(Num { mantissa: -num.mantissa, ..*num }),
+                        },
+                    );
+                }
+            }
+            if !aside.is_empty() {
+                moves.push((false, traverse(aside)));
+            }
+            moves.push((false, traverse(out.unwrap_or(retract))));
+            if !back.is_empty() {
+                moves.push((false, traverse(back)));
+            }
+            moves.push(turned(bore.after)?);
+        }
+        CycleKind::BoreStop(bore) => {
+            moves.extend(bore.turn.map(|turn| turn_it(turn.spindle())));
+            moves.push((false, cut(depth)));
+            dwell(&bore.dwell, moves);
+            moves.push((false, Op::StopSpindleTurning));
+            if bore.stop {
+                moves.push((false, Op::ProgramStop));
+            }
+            moves.push((false, traverse(out.unwrap_or(retract))));
+            moves.push(turned(bore.after)?);
+        }
+        CycleKind::Drill
+        | CycleKind::DrillDwell { .. }
+        | CycleKind::DrillPeck { .. }
+        | CycleKind::DrillBreak { .. }
+        | CycleKind::Bore { .. } => {}
+    }
+    Ok(())
+}
+
+/// How far fine boring shifts the tool along X, Y and Z.
+fn off_the_wall(shift: &Shift, plane: Plane, target: &Target) -> Result<[Option<Expr>; 3], Fault> {
+    match shift {
+        Shift::Stated(words) => Ok(words.clone()),
+        Shift::Parameter(amount) => {
+            let what = "fine boring whose direction of shift is a parameter of the control";
+            let cannot = || Fault::CannotSay { what: what.into() };
+            let (direction, amount) = target.bore_shift.zip(amount.literal()).ok_or_else(cannot)?;
+            let (first, second, _) = plane.axes();
+            let along = if direction.second { second } else { first };
+            let mantissa = if direction.minus { -amount.mantissa } else { amount.mantissa };
+            let mut by = [None, None, None];
+            by[along as usize] = Some(Expr::Num(Num { mantissa, ..amount }));
+            Ok(by)
+        }
+    }
+}
