@@ -13,8 +13,15 @@ use super::law::{Table, apply, everything, same};
 /// What flattens a program.
 const FLATTEN: [&str; 2] = ["expand-patterns", "expand-cycles"];
 
+/// Why boring with a stopped spindle does not come back.
+const STOPPED: &str = "no statement of the spindle is read as part of a hole: what it turns after the last \
+    hole is the program's business too, and one stop more or less of it is another program";
+
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 7] = [
+const LOST: [(&str, &str, &str); 10] = [
+    ("fanuc/g86.nc", "cycle bore-stop of 1", STOPPED),
+    ("fanuc/g86.nc", "cycle bore-stop of 2", STOPPED),
+    ("siemens/boring-stop.mpf", "cycle bore-stop of 1", STOPPED),
     (
         "siemens/cycle-args.mpf",
         "cycle drill of 2",
