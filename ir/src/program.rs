@@ -10,6 +10,14 @@
 //!
 //! Not here: block layout, number formats, the spelling of any control.
 
+mod arc;
+mod frame;
+mod machine;
+
+pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
+pub use frame::{Frame, FrameSlot, FrameStep, Slot};
+pub use machine::{Data, DataMode, Reference, ReferencePoint, ToolValue};
+
 use crate::canon::{
     AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn,
     Units,
@@ -146,210 +154,6 @@ pub enum Pitch {
     Feed,
 }
 
-/// An arc or helix.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Arc {
-    /// Its plane.
-    pub plane: Fact<Plane>,
-    /// Its sense.
-    pub turn: Turn,
-    /// End point; words outside the plane make it a helix. No words in the plane, or an end equal
-    /// to the start, make a full circle (with [`Centre::Point`]).
-    pub to: Point,
-    /// Its centre.
-    pub centre: Centre,
-    /// Full turns made beyond the first, partial one.
-    pub turns: u32,
-    /// Whether the block itself says the motion code.
-    pub said: bool,
-}
-
-/// How an arc's centre is given.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Centre {
-    /// Words along X, Y and Z; only the two of the plane count. A missing one is 0 from
-    /// [`CentreFrom::Start`], and an error from [`CentreFrom::Zero`].
-    Point {
-        /// The words (I, J, K).
-        words: [Option<Expr>; 3],
-        /// From where they are measured.
-        from: CentreFrom,
-    },
-    /// By radius: positive makes an arc of at most 180°, negative of more.
-    Radius(Expr),
-}
-
-/// An arc given so that its centre, its end or its sense must be computed: not by centre or radius.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ArcForm {
-    /// Its plane.
-    pub plane: Fact<Plane>,
-    /// End point; words outside the plane make it a helix.
-    pub to: Point,
-    /// What gives it its shape.
-    pub shape: Shape,
-    /// Full turns made beyond the first, partial one.
-    pub turns: u32,
-    /// Whether the block itself says the motion code.
-    pub said: bool,
-}
-
-/// What gives an arc its shape.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
-    /// Opening angle in degrees, more than 0 and less than 360, to the end point.
-    Angle {
-        /// Its sense.
-        turn: Turn,
-        /// The angle.
-        angle: Expr,
-    },
-    /// Opening angle about a centre: the end point follows, and has no words in the plane.
-    AngleAbout {
-        /// Its sense.
-        turn: Turn,
-        /// The angle.
-        angle: Expr,
-        /// Words along X, Y and Z, each from where its distance says: from program zero
-        /// (absolute) or the start of the arc (incremental). A missing one is the start's.
-        centre: Box<[Option<Coord>; 3]>,
-    },
-    /// Centre with words some of which are from program zero and some from the start.
-    Mixed {
-        /// Its sense.
-        turn: Turn,
-        /// As of [`Shape::AngleAbout`].
-        centre: Box<[Option<Coord>; 3]>,
-    },
-    /// Through a point between start and end.
-    Through(Box<Point>),
-    /// Goes on in the direction in which the move before ended.
-    Tangent,
-}
-
-impl Shape {
-    /// The upper-case name in text of an arc in this form.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Shape::Angle { .. } => "ARC_BY_ANGLE",
-            Shape::AngleAbout { .. } => "ARC_ABOUT_BY_ANGLE",
-            Shape::Mixed { .. } => "ARC_ABOUT",
-            Shape::Through(_) => "ARC_THROUGH",
-            Shape::Tangent => "ARC_TANGENT",
-        }
-    }
-}
-
-/// A point of the machine to which axes can be sent by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ReferencePoint {
-    /// The machine's zero: where a reference point of its axes is that machine coordinates count from.
-    Home,
-    /// A further reference point of the machine, 2 to 4.
-    Further(u8),
-    /// A fixed point of the machine, 1 to 4.
-    Fixed(u8),
-    /// A position stored in the control, 1 or 2.
-    Stored(u8),
-}
-
-/// A rapid move of axes to a point of the machine.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Reference {
-    /// Which point.
-    pub point: ReferencePoint,
-    /// Which axes go there; the others stay.
-    pub axes: [bool; AXES],
-    /// A point that is reached first, by a rapid move, in program coordinates. No words: from where
-    /// the axes stand.
-    pub via: Point,
-    /// Whether the tool's length is surely in force behind it. Else, where it moves Z, it is so only
-    /// if the program says it anew.
-    pub keeps_length: bool,
-}
-
-/// How a program sets a value of the control's tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DataMode {
-    /// The value takes the place of the one before.
-    Set,
-    /// The value is added to the one before.
-    Add,
-    /// A work offset is set so that the words become the coordinates of where the axes stand.
-    Here,
-}
-
-/// A value of the table of tools.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum ToolValue {
-    /// Length, without wear.
-    Length,
-    /// Wear of the length, which is added to it.
-    LengthWear,
-    /// Radius, without wear.
-    Radius,
-    /// Wear of the radius.
-    RadiusWear,
-}
-
-impl ToolValue {
-    /// All values.
-    pub const ALL: [ToolValue; 4] =
-        [ToolValue::Length, ToolValue::LengthWear, ToolValue::Radius, ToolValue::RadiusWear];
-}
-
-/// Values that a program puts into the control's tables.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Data {
-    /// The zero of a work offset (1 is the first), in machine coordinates.
-    Offset {
-        /// Its number.
-        offset: u16,
-        /// How.
-        mode: DataMode,
-        /// The words; an axis without one keeps its value.
-        words: Box<[Option<Expr>; AXES]>,
-    },
-    /// A value of an entry of the table of tools; [`DataMode::Here`] is none of these.
-    Tool {
-        /// The entry.
-        entry: u32,
-        /// Which value.
-        which: ToolValue,
-        /// Whether it is added to the one before.
-        added: bool,
-        /// The value.
-        value: Expr,
-    },
-}
-
-/// A step of the chain of frames: what it does to the coordinates that follow.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
-    /// Whether it is appended as the innermost step; else it replaces the chain.
-    pub added: bool,
-    /// What it does.
-    pub step: FrameStep,
-}
-
-/// What a step of the chain of frames does.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FrameStep {
-    /// Moves the origin.
-    Translate(Box<[Option<Expr>; AXES]>),
-    /// Turns in the plane, degrees, counter-clockwise positive.
-    Rotate {
-        /// The plane.
-        plane: Fact<Plane>,
-        /// The angle.
-        angle: Expr,
-    },
-    /// Factors along X, Y and Z.
-    Scale(Box<[Option<Expr>; 3]>),
-    /// Turns the axis round: X, Y, Z.
-    Mirror([bool; 3]),
-}
-
 /// How corners are taken from here on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathControl {
@@ -386,55 +190,6 @@ impl Advice {
     }
 }
 
-/// What a slot of the coordinate chain is given. From the machine towards the program:
-/// work offset, [`FrameSlot::Shift`], [`FrameSlot::Local`], rotation, scale, mirror, chain. The centre
-/// of a rotation is scaled and mirrored like any point, and an odd number of mirrors in its plane turns
-/// its sense round.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Slot {
-    /// `SET_SHIFT`: each axis named has this shift from here on, the others keep theirs.
-    Shift {
-        /// Whether it is that of the origin ([`FrameSlot::Shift`]); else the local one.
-        origin: bool,
-        /// The shifts, of which zero is none.
-        axes: Box<[Option<Expr>; AXES]>,
-    },
-    /// `SET_ROTATION`
-    Rotation {
-        /// Its plane.
-        plane: Fact<Plane>,
-        /// From program zero along X, Y and Z, of which the two of the plane count; one that is missing
-        /// is where the tool stands.
-        centre: Box<[Option<Expr>; 3]>,
-        /// Degrees, counter-clockwise positive; an increment is added to the angle in force.
-        angle: Coord,
-    },
-    /// `SET_SCALE`
-    Scale {
-        /// From program zero along X, Y and Z; one that is missing is where the tool stands.
-        centre: Box<[Option<Expr>; 3]>,
-        /// Factors along X, Y and Z, more than zero; one that is missing is 1.
-        factors: Box<[Option<Expr>; 3]>,
-    },
-    /// `SET_MIRROR`: each axis named is mirrored at this place from here on.
-    Mirror(Box<[Option<Expr>; 3]>),
-    /// `CLEAR_MIRROR`: the axes named are mirrored no more.
-    NoMirror([bool; 3]),
-}
-
-impl Slot {
-    /// The upper-case name in text of a statement that sets it.
-    pub const fn name(&self) -> &'static str {
-        match self {
-            Slot::Shift { .. } => "SET_SHIFT",
-            Slot::Rotation { .. } => "SET_ROTATION",
-            Slot::Scale { .. } => "SET_SCALE",
-            Slot::Mirror(_) => "SET_MIRROR",
-            Slot::NoMirror(_) => "CLEAR_MIRROR",
-        }
-    }
-}
-
 /// Blocks that are executed again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RepeatBlocks {
@@ -444,50 +199,6 @@ pub struct RepeatBlocks {
     pub to: Option<Text>,
     /// How many times, after they have been passed once.
     pub times: u32,
-}
-
-/// From where the words of a centre are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CentreFrom {
-    /// From the start point of the arc.
-    Start,
-    /// From program zero.
-    Zero,
-}
-
-/// A named slot of the coordinate chain, from the machine towards the program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FrameSlot {
-    /// A temporary re-definition of program zero.
-    Shift,
-    /// A local shift.
-    Local,
-    /// Rotation in the plane.
-    Rotation,
-    /// Scale factors.
-    Scale,
-    /// Mirror about a point or line.
-    Mirror,
-    /// Polar words.
-    Polar,
-    /// Tilted working plane.
-    Tilt,
-    /// Frames chained freely, last one innermost.
-    Chain,
-}
-
-impl FrameSlot {
-    /// All slots.
-    pub const ALL: [FrameSlot; 8] = [
-        FrameSlot::Shift,
-        FrameSlot::Local,
-        FrameSlot::Rotation,
-        FrameSlot::Scale,
-        FrameSlot::Mirror,
-        FrameSlot::Polar,
-        FrameSlot::Tilt,
-        FrameSlot::Chain,
-    ];
 }
 
 /// What a statement does. The upper-case name in each comment is its name in text.

@@ -19,7 +19,7 @@ use crate::Batch;
 
 impl Lower {
     /// A block with the code of such a move.
-    pub(super) fn to_the_machine(
+    pub(super) fn machine_move(
         &mut self,
         code: &Code,
         said: bool,
@@ -47,7 +47,7 @@ impl Lower {
                 self.in_machine(code, length, rapid, said, to, block, out);
             }
             Meaning::GoToReference { point, keeps_length } => {
-                self.to_reference(code, point, keeps_length, number, to, block, out);
+                self.reference_move(code, point, keeps_length, number, to, block, out);
             }
             _ => {}
         }
@@ -117,7 +117,7 @@ impl Lower {
     }
 
     #[allow(clippy::too_many_arguments)] // All that a block says of its move.
-    fn to_reference(
+    fn reference_move(
         &mut self,
         code: &Code,
         point: ReferencePoint,

@@ -70,7 +70,7 @@ impl Lower {
                 let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
                 return self.fault(fault, other.span, out);
             }
-            return self.to_the_machine(code, motion.is_some(), block, words, src, out);
+            return self.machine_move(code, motion.is_some(), block, words, src, out);
         }
         match (cycle, pattern) {
             (Some(code), _) => self.start_cycle(code, dwell, block, words, src, out),

@@ -78,7 +78,7 @@ impl Frames {
         let steps = self.slot_steps();
         for step in &steps {
             // All of it is known and has been looked at before.
-            let _ = chain.add(step, |plane| Ok(plane.or(Plane::Xy)), |value| known(value), || ());
+            let _ = chain.add(step, |plane| Ok(plane.or(Plane::Xy)), known, || ());
         }
         chain.then(&self.steps)
     }
@@ -91,9 +91,9 @@ impl Frames {
             }
         }
         if let Some(scale) = &self.scale {
-            for i in 0..3 {
-                let away = (p[i] - scale.centre[i]) as f64 * scale.factors[i] as f64 / ONE as f64;
-                p[i] = scale.centre[i] + away.round() as Nanos;
+            for ((p, centre), factor) in p.iter_mut().zip(scale.centre).zip(scale.factors) {
+                let away = (*p - centre) as f64 * factor as f64 / ONE as f64;
+                *p = centre + away.round() as Nanos;
             }
         }
         p

@@ -1,0 +1,90 @@
+//! Points of the machine and values of the control's tables, as a program names them.
+//!
+//! Not here: where those points are, and what the tables hold (`world`).
+
+use super::Point;
+use crate::canon::AXES;
+use crate::expr::Expr;
+
+/// A point of the machine to which axes can be sent by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ReferencePoint {
+    /// The machine's zero: where a reference point of its axes is that machine coordinates count from.
+    Home,
+    /// A further reference point of the machine, 2 to 4.
+    Further(u8),
+    /// A fixed point of the machine, 1 to 4.
+    Fixed(u8),
+    /// A position stored in the control, 1 or 2.
+    Stored(u8),
+}
+
+/// A rapid move of axes to a point of the machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// Which point.
+    pub point: ReferencePoint,
+    /// Which axes go there; the others stay.
+    pub axes: [bool; AXES],
+    /// A point that is reached first, by a rapid move, in program coordinates. No words: from where
+    /// the axes stand.
+    pub via: Point,
+    /// Whether the tool's length is surely in force behind it. Else, where it moves Z, it is so only
+    /// if the program says it anew.
+    pub keeps_length: bool,
+}
+
+/// How a program sets a value of the control's tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DataMode {
+    /// The value takes the place of the one before.
+    Set,
+    /// The value is added to the one before.
+    Add,
+    /// A work offset is set so that the words become the coordinates of where the axes stand.
+    Here,
+}
+
+/// A value of the table of tools.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ToolValue {
+    /// Length, without wear.
+    Length,
+    /// Wear of the length, which is added to it.
+    LengthWear,
+    /// Radius, without wear.
+    Radius,
+    /// Wear of the radius.
+    RadiusWear,
+}
+
+impl ToolValue {
+    /// All values.
+    pub const ALL: [ToolValue; 4] =
+        [ToolValue::Length, ToolValue::LengthWear, ToolValue::Radius, ToolValue::RadiusWear];
+}
+
+/// Values that a program puts into the control's tables.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Data {
+    /// The zero of a work offset (1 is the first), in machine coordinates.
+    Offset {
+        /// Its number.
+        offset: u16,
+        /// How.
+        mode: DataMode,
+        /// The words; an axis without one keeps its value.
+        words: Box<[Option<Expr>; AXES]>,
+    },
+    /// A value of an entry of the table of tools; [`DataMode::Here`] is none of these.
+    Tool {
+        /// The entry.
+        entry: u32,
+        /// Which value.
+        which: ToolValue,
+        /// Whether it is added to the one before.
+        added: bool,
+        /// The value.
+        value: Expr,
+    },
+}
