@@ -4,7 +4,8 @@ use ncc_ir::canon::Axis;
 use ncc_ir::program::{Data, DataMode, Reference, ReferencePoint, ToolValue};
 
 use super::expr::expr;
-use super::op::{point, put, words};
+use super::frame::words;
+use super::op::{point, put};
 use crate::canon::text::whole;
 
 /// A point of the machine, the axes that go there, and by way of which point.

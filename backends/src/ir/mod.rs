@@ -3,7 +3,9 @@
 //! The form is described at the reader (`ncc_frontends::ir`). Statements of one block stand on one
 //! line. Not here: anything that is not in the program.
 
+mod cycle;
 mod expr;
+mod frame;
 mod machine;
 mod op;
 

@@ -1,16 +1,14 @@
 //! Statements of the `ir` text, each without its block's marks.
 
 use ncc_ir::canon::{
-    Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units,
+    Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, SpindleMode, Turn, Units,
 };
-use ncc_ir::cycle::{Along, Approach, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{
-    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Frame, FrameSlot, FrameStep, Op, Pitch, Point,
-    Shape, Slot,
-};
+use ncc_ir::program::{Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Point, Shape};
 
+use super::cycle::{cycle, further_turn, pattern, pitch};
 use super::expr::{expr, var};
+use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
 use crate::canon::text::{quote, whole};
 
@@ -243,7 +241,7 @@ pub(super) fn point(to: &Point, after: &[u8], out: &mut Vec<u8>) {
     }
 }
 
-fn coord(c: &Coord, out: &mut Vec<u8>) {
+pub(super) fn coord(c: &Coord, out: &mut Vec<u8>) {
     put(
         match c.distance {
             Fact::Known(Distance::Absolute) => "",
@@ -337,328 +335,6 @@ fn arc_form(a: &ArcForm, out: &mut Vec<u8>) {
     }
 }
 
-/// Values along axes, with commas between; `before` goes before the first.
-fn axis_words(words: &[Option<Expr>], before: &str, out: &mut Vec<u8>) {
-    let mut before = before;
-    for (axis, word) in Axis::ALL.into_iter().zip(words) {
-        if let Some(value) = word {
-            put(before, out);
-            before = ", ";
-            out.push(axis.letter());
-            put(" ", out);
-            expr(value, out);
-        }
-    }
-}
-
-/// What a slot of the coordinate chain is given.
-fn filled(s: &Slot, out: &mut Vec<u8>) {
-    match s {
-        Slot::Shift { origin, axes } => {
-            put(if *origin { "shift" } else { "local" }, out);
-            axis_words(&axes[..], ", ", out);
-        }
-        Slot::Rotation { plane: p, centre, angle } => {
-            put(p.known().map_or("entry", plane), out);
-            axis_words(&centre[..], ", ", out);
-            put(", angle ", out);
-            coord(angle, out);
-        }
-        Slot::Scale { centre, factors } => {
-            put("centre(", out);
-            axis_words(&centre[..], "", out);
-            put(")", out);
-            axis_words(&factors[..], ", ", out);
-        }
-        Slot::Mirror(lines) => axis_words(&lines[..], "", out),
-        Slot::NoMirror(axes) => {
-            let mut before = "";
-            for (axis, _) in Axis::ALL.into_iter().zip(axes).filter(|(_, over)| **over) {
-                put(before, out);
-                before = ", ";
-                out.push(axis.letter());
-            }
-        }
-    }
-}
-
-/// Values along axes, each after a comma.
-pub(super) fn words(words: &[Option<Expr>], out: &mut Vec<u8>) {
-    for (axis, word) in Axis::ALL.into_iter().zip(words) {
-        if let Some(value) = word {
-            put(", ", out);
-            out.push(axis.letter());
-            put(" ", out);
-            expr(value, out);
-        }
-    }
-}
-
-fn frame(f: &Frame, out: &mut Vec<u8>) {
-    match &f.step {
-        FrameStep::Translate(by) => {
-            put("translate", out);
-            words(&by[..], out);
-        }
-        FrameStep::Rotate { plane: p, angle } => {
-            put("rotate, ", out);
-            put(p.known().map_or("entry", plane), out);
-            put(", ", out);
-            expr(angle, out);
-        }
-        FrameStep::Scale(by) => {
-            put("scale", out);
-            words(&by[..], out);
-        }
-        FrameStep::Mirror(axes) => {
-            put("mirror", out);
-            for (axis, turned) in Axis::ALL.into_iter().zip(axes) {
-                if *turned {
-                    put(", ", out);
-                    out.push(axis.letter());
-                }
-            }
-        }
-    }
-}
-
-/// What a kind of cycle says, in brackets if there is anything.
-fn details(words: &[(&str, Option<&Expr>)], out: &mut Vec<u8>) {
-    for (word, value) in words {
-        if let Some(value) = value {
-            put(word, out);
-            expr(value, out);
-        }
-    }
-    put(")", out);
-}
-
-fn pitch(p: &Pitch, out: &mut Vec<u8>) {
-    match p {
-        Pitch::Stated(e) => expr(e, out),
-        Pitch::Feed => put("feed", out),
-    }
-}
-
-fn further_turn(sense: Option<Turn>, out: &mut Vec<u8>) {
-    if let Some(sense) = sense {
-        put(", ", out);
-        put(turn(sense), out);
-    }
-}
-
-fn spindle(s: Spindle) -> &'static str {
-    match s {
-        Spindle::Stopped => "stopped",
-        Spindle::Clockwise => turn(Turn::Clockwise),
-        Spindle::Counterclockwise => turn(Turn::Counterclockwise),
-    }
-}
-
-fn after(s: Option<Spindle>, out: &mut Vec<u8>) {
-    put("after ", out);
-    put(s.map_or("as-before", spindle), out);
-}
-
-fn clearance(c: &Clearance, out: &mut Vec<u8>) {
-    match c {
-        Clearance::Stated(e) => expr(e, out),
-        Clearance::Parameter => put("parameter", out),
-    }
-}
-
-fn cycle(c: &Cycle, out: &mut Vec<u8>) {
-    put(c.kind.name(), out);
-    match &c.kind {
-        CycleKind::Drill | CycleKind::Bore { dwell: None, feed_out: None } => {}
-        CycleKind::DrillDwell { dwell } => details(&[("(dwell ", Some(dwell))], out),
-        CycleKind::Bore { dwell, feed_out } => {
-            let feed = if dwell.is_some() { ", feed-out " } else { "(feed-out " };
-            details(&[("(dwell ", dwell.as_ref()), (feed, feed_out.as_ref())], out);
-        }
-        CycleKind::DrillPeck { peck, first, clearance: c, pause, settle, dwell } => {
-            put("(peck ", out);
-            expr(peck, out);
-            put(", clearance ", out);
-            clearance(c, out);
-            let words = [
-                (", first ", first.as_ref()),
-                (", pause ", pause.as_ref()),
-                (", settle ", settle.as_ref()),
-                (", dwell ", dwell.as_ref()),
-            ];
-            details(&words, out);
-        }
-        CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell } => {
-            put("(peck ", out);
-            expr(peck, out);
-            put(", lift ", out);
-            clearance(lift, out);
-            put(if *lift_at_feed { ", at-feed" } else { "" }, out);
-            let words =
-                [(", first ", first.as_ref()), (", pause ", pause.as_ref()), (", dwell ", dwell.as_ref())];
-            details(&words, out);
-        }
-        CycleKind::Tap(tap) => {
-            put("(", out);
-            put(turn(tap.turn), out);
-            put(", pitch ", out);
-            pitch(&tap.pitch, out);
-            for (word, value) in [(", dwell ", &tap.dwell), (", settle ", &tap.settle)] {
-                if let Some(value) = value {
-                    put(word, out);
-                    expr(value, out);
-                }
-            }
-            put(", after ", out);
-            put(spindle(tap.after), out);
-            put(")", out);
-        }
-        CycleKind::FineBore(bore) => {
-            put("(shift ", out);
-            match &bore.shift {
-                Shift::Parameter(amount) => {
-                    put("parameter ", out);
-                    expr(amount, out);
-                }
-                Shift::Stated(words) => {
-                    put("along (", out);
-                    let words = Axis::ALL.into_iter().zip(words);
-                    let words = words.filter_map(|(axis, word)| Some((axis, word.as_ref()?)));
-                    for (place, (axis, value)) in words.enumerate() {
-                        put(if place > 0 { ", " } else { "" }, out);
-                        out.push(axis.letter());
-                        out.push(b' ');
-                        expr(value, out);
-                    }
-                    put(")", out);
-                }
-            }
-            put(", ", out);
-            after(bore.after, out);
-            further_turn(bore.turn, out);
-            details(&[(", dwell ", bore.dwell.as_ref()), (", angle ", bore.angle.as_ref())], out);
-        }
-        CycleKind::BoreStop(bore) => {
-            put("(", out);
-            after(bore.after, out);
-            further_turn(bore.turn, out);
-            if let Some(dwell) = &bore.dwell {
-                put(", dwell ", out);
-                expr(dwell, out);
-            }
-            put(if bore.stop { ", program-stop)" } else { ")" }, out);
-        }
-    }
-    put(", ", out);
-    put(c.plane.known().map_or("entry", plane), out);
-    put(", retract ", out);
-    coord(&c.retract, out);
-    put(", depth ", out);
-    coord(&c.depth, out);
-    put(", return ", out);
-    put(c.return_level.known().map_or("entry", return_level), out);
-    if let Some(plane) = &c.return_plane {
-        put(", return-plane ", out);
-        coord(plane, out);
-    }
-    put(
-        match c.approach {
-            Approach::RaiseFirst => ", raise-first",
-            Approach::PlaneFirst => ", plane-first",
-            Approach::RetractFirst => ", retract-first",
-        },
-        out,
-    );
-    if let Some(feed) = &c.feed {
-        put(", feed ", out);
-        expr(feed, out);
-    }
-}
-
-fn pattern(p: &Pattern, out: &mut Vec<u8>) {
-    match p {
-        Pattern::Circle { centre, first, step, count } => {
-            put("centre ", out);
-            match centre {
-                Some(centre) => pair(centre, out),
-                None => put("here", out),
-            }
-            put(", first ", out);
-            match first {
-                First::At(first) => pair(first, out),
-                First::Polar { radius, angle } => {
-                    put("(radius ", out);
-                    expr(radius, out);
-                    put(", angle ", out);
-                    expr(angle, out);
-                    put(")", out);
-                }
-            }
-            put(", step ", out);
-            expr(step, out);
-            put(", count ", out);
-            whole(u64::from(*count), out);
-        }
-        Pattern::Line { start, angle, offset, pitch, count } => {
-            put("start ", out);
-            match start {
-                Some(start) => pair(start, out),
-                None => put("here", out),
-            }
-            for (word, value) in [(", angle ", angle), (", offset ", offset), (", pitch ", pitch)] {
-                put(word, out);
-                expr(value, out);
-            }
-            put(", count ", out);
-            whole(u64::from(*count), out);
-        }
-        Pattern::List(points) => {
-            for (at, to) in points.iter().enumerate() {
-                put(if at > 0 { ", (" } else { "(" }, out);
-                point(to, b"", out);
-                put(")", out);
-            }
-        }
-        Pattern::Grid { start, columns, rows, serpentine } => {
-            if let Some(start) = start {
-                put("start ", out);
-                pair(start, out);
-                put(", ", out);
-            }
-            put("columns ", out);
-            row(columns, out);
-            put(", rows ", out);
-            row(rows, out);
-            put(if *serpentine { ", serpentine" } else { "" }, out);
-        }
-    }
-}
-
-fn pair([a, b]: &[Coord; 2], out: &mut Vec<u8>) {
-    put("(", out);
-    coord(a, out);
-    put(", ", out);
-    coord(b, out);
-    put(")", out);
-}
-
-fn row(r: &Row, out: &mut Vec<u8>) {
-    put("(", out);
-    match &r.along {
-        Along::Axis(axis) => out.push(axis.letter()),
-        Along::Angle(angle) => {
-            put("angle ", out);
-            expr(angle, out);
-        }
-    }
-    put(", ", out);
-    expr(&r.pitch, out);
-    put(", ", out);
-    whole(u64::from(r.count), out);
-    put(")", out);
-}
-
 fn call(c: &Call, out: &mut Vec<u8>) {
     name(&c.name, out);
     if c.times != 1 {
@@ -710,7 +386,7 @@ fn distance(d: Distance) -> &'static str {
     }
 }
 
-fn plane(p: Plane) -> &'static str {
+pub(super) fn plane(p: Plane) -> &'static str {
     match p {
         Plane::Xy => "XY",
         Plane::Zx => "ZX",
@@ -726,29 +402,16 @@ fn feed_mode(f: FeedMode) -> &'static str {
     }
 }
 
-fn return_level(r: ReturnLevel) -> &'static str {
+pub(super) fn return_level(r: ReturnLevel) -> &'static str {
     match r {
         ReturnLevel::Initial => "initial",
         ReturnLevel::Retract => "retract",
     }
 }
 
-fn turn(t: Turn) -> &'static str {
+pub(super) fn turn(t: Turn) -> &'static str {
     match t {
         Turn::Clockwise => "clockwise",
         Turn::Counterclockwise => "counterclockwise",
-    }
-}
-
-fn slot(s: FrameSlot) -> &'static str {
-    match s {
-        FrameSlot::Shift => "shift",
-        FrameSlot::Local => "local",
-        FrameSlot::Rotation => "rotation",
-        FrameSlot::Scale => "scale",
-        FrameSlot::Mirror => "mirror",
-        FrameSlot::Polar => "polar",
-        FrameSlot::Tilt => "tilt",
-        FrameSlot::Chain => "chain",
     }
 }

@@ -148,7 +148,7 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
                 ncc_ir::program::ReferencePoint::Fixed(n) => vec![format!("fixed {n}")],
                 ncc_ir::program::ReferencePoint::Stored(n) => vec![format!("stored {n}")],
             };
-            let said = |point: &String| Said::new(&format!("GO_TO_REFERENCE({point}, Z{keeps})"));
+            let said = |point: &String| Said::new(format!("GO_TO_REFERENCE({point}, Z{keeps})"));
             points.iter().map(said).collect()
         }
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),

@@ -1,0 +1,106 @@
+//! Slots of the coordinate chain and steps of the chain of frames, as the `ir` text has them.
+
+use ncc_ir::canon::Axis;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Frame, FrameSlot, FrameStep, Slot};
+
+use super::expr::expr;
+use super::op::{coord, plane, put};
+
+/// Values along axes, with commas between; `before` goes before the first.
+pub(super) fn axis_words(words: &[Option<Expr>], before: &str, out: &mut Vec<u8>) {
+    let mut before = before;
+    for (axis, word) in Axis::ALL.into_iter().zip(words) {
+        if let Some(value) = word {
+            put(before, out);
+            before = ", ";
+            out.push(axis.letter());
+            put(" ", out);
+            expr(value, out);
+        }
+    }
+}
+
+/// What a slot of the coordinate chain is given.
+pub(super) fn filled(s: &Slot, out: &mut Vec<u8>) {
+    match s {
+        Slot::Shift { origin, axes } => {
+            put(if *origin { "shift" } else { "local" }, out);
+            axis_words(&axes[..], ", ", out);
+        }
+        Slot::Rotation { plane: p, centre, angle } => {
+            put(p.known().map_or("entry", plane), out);
+            axis_words(&centre[..], ", ", out);
+            put(", angle ", out);
+            coord(angle, out);
+        }
+        Slot::Scale { centre, factors } => {
+            put("centre(", out);
+            axis_words(&centre[..], "", out);
+            put(")", out);
+            axis_words(&factors[..], ", ", out);
+        }
+        Slot::Mirror(lines) => axis_words(&lines[..], "", out),
+        Slot::NoMirror(axes) => {
+            let mut before = "";
+            for (axis, _) in Axis::ALL.into_iter().zip(axes).filter(|(_, over)| **over) {
+                put(before, out);
+                before = ", ";
+                out.push(axis.letter());
+            }
+        }
+    }
+}
+
+/// Values along axes, each after a comma.
+pub(super) fn words(words: &[Option<Expr>], out: &mut Vec<u8>) {
+    for (axis, word) in Axis::ALL.into_iter().zip(words) {
+        if let Some(value) = word {
+            put(", ", out);
+            out.push(axis.letter());
+            put(" ", out);
+            expr(value, out);
+        }
+    }
+}
+
+pub(super) fn frame(f: &Frame, out: &mut Vec<u8>) {
+    match &f.step {
+        FrameStep::Translate(by) => {
+            put("translate", out);
+            words(&by[..], out);
+        }
+        FrameStep::Rotate { plane: p, angle } => {
+            put("rotate, ", out);
+            put(p.known().map_or("entry", plane), out);
+            put(", ", out);
+            expr(angle, out);
+        }
+        FrameStep::Scale(by) => {
+            put("scale", out);
+            words(&by[..], out);
+        }
+        FrameStep::Mirror(axes) => {
+            put("mirror", out);
+            for (axis, turned) in Axis::ALL.into_iter().zip(axes) {
+                if *turned {
+                    put(", ", out);
+                    out.push(axis.letter());
+                }
+            }
+        }
+    }
+}
+
+pub(super) fn slot(s: FrameSlot) -> &'static str {
+    match s {
+        FrameSlot::Shift => "shift",
+        FrameSlot::Local => "local",
+        FrameSlot::Rotation => "rotation",
+        FrameSlot::Scale => "scale",
+        FrameSlot::Mirror => "mirror",
+        FrameSlot::Polar => "polar",
+        FrameSlot::Tilt => "tilt",
+        FrameSlot::Chain => "chain",
+    }
+}
