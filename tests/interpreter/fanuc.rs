@@ -314,7 +314,7 @@ impl Control {
             };
             self.m.record(What::Dwell(seconds));
         } else if let Some(code) = machine {
-            self.to_machine(code, &words)?;
+            self.machine_point(code, &words)?;
         } else if let Some(cycle) = self.cycle {
             self.hole(cycle, &words)?;
         } else {
@@ -348,7 +348,7 @@ impl Control {
             return self.m.halt("a frame under G91 or in a cycle");
         }
         let axes = self.axis_words(words);
-        let at = self.m.from_offset();
+        let at = self.m.in_offset();
         let (first, second, _) = self.m.axes();
         let mut changed = axes.map(|word| word.is_some());
         match code {
@@ -404,7 +404,7 @@ impl Control {
     }
 
     /// G53 and G28: both rapid; what is left of a tool's length by G28 is not looked at.
-    fn to_machine(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
+    fn machine_point(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
         if self.cycle.is_some() {
             return self.m.halt("a move of the machine within a cycle");
         }

@@ -101,7 +101,7 @@ impl Control {
                     return self.m.halt("G92 under G91");
                 }
                 let axes = self.axis_words(&words, unit);
-                let at = self.m.from_offset();
+                let at = self.m.in_offset();
                 let mut slots = self.m.slots.clone();
                 slots.set_position(&self.m, at, axes)?;
                 self.m.slots = slots;

@@ -277,7 +277,7 @@ impl Machine {
     }
 
     /// Where the machine stands, counted from the work offset.
-    fn from_offset(&self) -> Place {
+    fn in_offset(&self) -> Place {
         let slots = self.slots.shift();
         std::array::from_fn(|axis| self.at[axis] - self.shift(axis) + slots[axis])
     }
