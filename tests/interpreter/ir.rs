@@ -338,9 +338,8 @@ impl Control {
                 self.fill(name, a)?;
             }
             "CLEAR_FRAME" => {
-                if self.word(a)? == "chain" && self.frame != Frame::NONE {
-                    self.frame = Frame::NONE;
-                    self.m.settled[..3].fill(false);
+                if self.word(a)? == "chain" {
+                    self.use_frame(Frame::NONE);
                 }
             }
             "SET_FRAME" => self.set_frame(Frame::NONE, a)?,

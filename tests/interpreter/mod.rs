@@ -282,12 +282,19 @@ impl Machine {
         std::array::from_fn(|axis| self.at[axis] - self.shift(axis) + slots[axis])
     }
 
-    /// After the slots have changed; these axes are where they were, and called something else.
+    /// After the slots have changed; these axes are where they were, and an incremental word of one that
+    /// is called something else is undecided.
     fn use_slots(&mut self, axes: [bool; 6]) {
         let (turn, shift) = (self.slots.turn(), self.slots.shift());
-        for axis in 0..6 {
-            let other = shift[axis] != self.slot_shift[axis] || axis < 3 && turn != self.turn;
-            self.settled[axis] &= !(axes[axis] && other);
+        let whole = |turn: &Frame, shift: &Place| Frame::shift([shift[0], shift[1], shift[2]]).then(turn);
+        let (before, after) = (whole(&self.turn, &self.slot_shift), whole(&turn, &shift));
+        for axis in 0..3 {
+            // In a turned frame a shift along one axis is one along others as well.
+            let named = axes[axis] || turn != Frame::NONE;
+            self.settled[axis] &= !named || after.agrees(&before, axis);
+        }
+        for axis in 3..6 {
+            self.settled[axis] &= !axes[axis] || shift[axis] == self.slot_shift[axis];
         }
         (self.turn, self.slot_shift) = (turn, shift);
     }

@@ -347,8 +347,12 @@ impl<'a> Control<'a> {
             }
             _ => return self.m.halt(format!("{name} with these words")),
         };
-        self.frame = if name.starts_with('A') { self.frame.then(&inner) } else { inner };
-        self.m.settled[..3].fill(false);
+        let before = self.frame;
+        self.frame = if name.starts_with('A') { before.then(&inner) } else { inner };
+        // What SD 42440 FRAME_OFFSET_INCR_PROG settles is open where an axis is called something else.
+        for axis in 0..3 {
+            self.m.settled[axis] &= self.frame.agrees(&before, axis);
+        }
         Ok(())
     }
 

@@ -397,9 +397,17 @@ impl Control {
             }
             _ => return self.m.halt("a frame of another kind"),
         };
-        self.frame = outer.then(&inner);
-        self.m.settled[..3].fill(false);
+        let frame = outer.then(&inner);
+        self.use_frame(frame);
         Ok(())
+    }
+
+    /// Another chain: an incremental word of an axis that is called something else by it is undecided.
+    pub(super) fn use_frame(&mut self, frame: Frame) {
+        for axis in 0..3 {
+            self.m.settled[axis] &= frame.agrees(&self.frame, axis);
+        }
+        self.frame = frame;
     }
 }
 

@@ -60,6 +60,15 @@ impl Frame {
         [det(d, b, c) / whole, det(a, d, c) / whole, det(a, b, d) / whole]
     }
 
+    /// Whether every place has the same coordinate of an axis here and in another frame: then a word of
+    /// that axis says the same in both, from zero or from where it stands.
+    pub(in crate::interpreter) fn agrees(&self, other: &Frame, axis: usize) -> bool {
+        const FAR: f64 = 1000.0;
+        [[0.0; 3], [FAR, 0.0, 0.0], [0.0, FAR, 0.0], [0.0, 0.0, FAR]]
+            .into_iter()
+            .all(|place| (self.undo(place)[axis] - other.undo(place)[axis]).abs() < 1e-9)
+    }
+
     /// Whether words of one axis move more than one axis of the machine.
     pub(in crate::interpreter) fn turns(&self) -> bool {
         (0..3).any(|i| (0..3).any(|j| i != j && self.m[i][j].abs() > 1e-12))
