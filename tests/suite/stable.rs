@@ -7,17 +7,19 @@
 //!
 //! Apart are edits after which the target can say less, or more, of the program's structure than before: a
 //! plane for which it has no word takes the form of a cycle from every hole, a length offset that is not
-//! cancelled the calls from a program. They must stay rare.
+//! cancelled the calls from a program; a mirror left out of a chain of frames makes words of frames of what
+//! was worked into the coordinates. They must stay rare.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use fastrand::Rng;
 use ncc::job::Outcome;
-use ncc_ir::canon::{Distance, Fact, Modes};
+use ncc_ir::canon::{AXES, Distance, Fact, Modes};
 use ncc_ir::exec::{Event, Exec, Kind, Runner};
+use ncc_ir::expr::Expr;
 use ncc_ir::passes::{PASSES, Target};
-use ncc_ir::program::{Op, Program, Stmt};
+use ncc_ir::program::{FrameSlot, FrameStep, Op, Program, Slot, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::world::World;
@@ -139,13 +141,80 @@ impl Meaning {
     fn said(&self, text: &Program) -> (Vec<String>, Vec<Span>) {
         let mut program = self.program.clone();
         if structure(text)[0] == 0 {
-            for pass in PASSES.iter().filter(|p| p.name == "expand-calls" || p.name == "expand-repeats") {
-                (pass.run)(&mut program, &Target::default(), &Tracker::unknown(), &mut Vec::new());
-            }
+            write_out(&mut program);
         }
         let said = |s: &Stmt| (format!("{:?} {:?} {:?}", s.skip, s.op, s.comment), s.span);
         program.procedures.iter().flat_map(|p| p.body.iter().map(said)).unzip()
     }
+}
+
+/// Without calls and repetitions.
+fn write_out(program: &mut Program) {
+    for pass in PASSES.iter().filter(|p| p.name == "expand-calls" || p.name == "expand-repeats") {
+        (pass.run)(program, &Target::default(), &Tracker::unknown(), &mut Vec::new());
+    }
+}
+
+/// How many moves are made outside of frames, and within.
+fn framed(program: &Program) -> [usize; 2] {
+    let is_frame = |s: &Stmt| matches!(s.op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_));
+    if !program.procedures.iter().flat_map(|p| &p.body).any(is_frame) {
+        return [0; 2];
+    }
+    let mut program = program.clone();
+    write_out(&mut program);
+    let zero = |word: &Option<Expr>| word.as_ref().and_then(Expr::literal).is_some_and(|n| n.mantissa == 0);
+    let nothing = |words: &[Option<Expr>]| words.iter().all(|word| word.is_none() || zero(word));
+    let (mut moves, mut chain, mut origin, mut rotation, mut scale) = ([0; 2], false, false, false, false);
+    let (mut local, mut mirror) = ([false; AXES], [false; 3]);
+    for stmt in program.procedures.iter().take(1).flat_map(|p| &p.body) {
+        match &stmt.op {
+            Op::SetFrame(frame) => {
+                let none = matches!(&frame.step, FrameStep::Translate(words) if nothing(&**words));
+                chain = frame.added && chain || !none;
+            }
+            Op::SetPosition(_) => origin = true,
+            Op::SetSlot(slot) => match &**slot {
+                Slot::Shift { origin: true, axes } => origin = !nothing(&**axes),
+                Slot::Shift { origin: false, axes } => {
+                    for (local, word) in local.iter_mut().zip(axes.iter()).filter(|(_, w)| w.is_some()) {
+                        *local = !zero(word);
+                    }
+                }
+                Slot::Rotation { .. } => rotation = true,
+                Slot::Scale { .. } => scale = true,
+                Slot::Mirror(lines) => {
+                    mirror.iter_mut().zip(lines.iter()).for_each(|(m, line)| *m |= line.is_some());
+                }
+                Slot::NoMirror(axes) => mirror.iter_mut().zip(axes).for_each(|(m, off)| *m &= !off),
+            },
+            Op::ClearFrame(FrameSlot::Chain) => chain = false,
+            Op::ClearFrame(FrameSlot::Shift) => origin = false,
+            Op::ClearFrame(FrameSlot::Local) => local = [false; AXES],
+            Op::ClearFrame(FrameSlot::Rotation) => rotation = false,
+            Op::ClearFrame(FrameSlot::Scale) => scale = false,
+            Op::ClearFrame(FrameSlot::Mirror) => mirror = [false; 3],
+            Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::ArcFeed(_) | Op::Hole(_) | Op::Pattern(_) => {
+                let within = chain || origin || rotation || scale;
+                let within = within || local.contains(&true) || mirror.contains(&true);
+                moves[usize::from(within)] += 1;
+            }
+            _ => {}
+        }
+    }
+    moves
+}
+
+/// Whether frames of a source are said in one output, and worked into coordinates in the other: moves
+/// that the source makes within a frame are made outside of all.
+fn frames_in_another_form(sources: [&Program; 2], outputs: [&Program; 2]) -> bool {
+    let (sources, outputs) = (sources.map(framed), outputs.map(framed));
+    // Without a word of frames in the output the form is the same: coordinates.
+    if sources.iter().chain(&outputs).any(|moves| moves[1] == 0) {
+        return false;
+    }
+    let worked_in = |at: usize| outputs[at][0] > sources[at][0] && outputs[at][1] < sources[at][1];
+    worked_in(0) != worked_in(1)
 }
 
 /// How many calls and repetitions, and statements of cycles, there are.
@@ -162,7 +231,7 @@ fn structure(program: &Program) -> [i64; 2] {
 }
 
 /// Whether an output's structure changed as the source's did not; or a cycle came or went whose holes are
-/// written out, or a mode whose words say themselves what they are.
+/// written out, or a mode whose words say themselves what they are; or frames took another form.
 fn another_form(sources: [&Program; 2], outputs: [&Program; 2], qualified: bool) -> bool {
     let ([old, new], [was, is]) = (sources.map(structure), outputs.map(structure));
     let count = |program: &Program, of: fn(&Op) -> bool| {
@@ -173,7 +242,7 @@ fn another_form(sources: [&Program; 2], outputs: [&Program; 2], qualified: bool)
     let written_out = (was[1], is[1]) == (0, 0) && starts_old != starts_new;
     let by_words = qualified && modes_old != modes_new;
     let changed = (0..2).any(|at| (was[at], is[at]) != (0, 0) && is[at] - was[at] != new[at] - old[at]);
-    changed || written_out || by_words
+    changed || written_out || by_words || frames_in_another_form(sources, outputs)
 }
 
 /// How a line names places.
