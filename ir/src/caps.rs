@@ -287,6 +287,7 @@ impl Caps {
                 Slot::Scale { .. } => self.scale,
                 Slot::Mirror(_) | Slot::NoMirror(_) => self.mirror,
             },
+            Op::ClearFrame(FrameSlot::Shift) => self.clears_shift,
             Op::ClearFrame(FrameSlot::Local) => self.local_shift,
             Op::ClearFrame(FrameSlot::Rotation) => self.rotation,
             Op::ClearFrame(FrameSlot::Scale) => self.scale,

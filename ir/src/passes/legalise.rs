@@ -316,7 +316,8 @@ impl Legaliser {
         self.walk.assume(&assumed);
         let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.target.caps);
         // Where the frames can be said, subprograms stay what they are.
-        if frames && rest.procedures.len() > 1 && self.lacks & CALL == 0 {
+        let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.target.caps);
+        if apart && rest.procedures.len() > 1 && self.lacks & CALL == 0 {
             let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
             own.run_whole(&mut program, Subprograms::Keep, &mut found);
             let worked_in = |d: &Diagnostic| {

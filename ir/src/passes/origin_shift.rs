@@ -1,7 +1,7 @@
 //! `origin-shift`: a control without a word that cancels a temporary shift of the origin is taken
 //! to start without one.
 //!
-//! A program cannot set such a shift yet, so there is none but what an earlier program left.
+//! Not here: a shift that the program has set itself, which `expand-frames` takes back before.
 
 use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};

@@ -9,23 +9,21 @@
 //! Refused by name: arcs that the chain does not leave arcs, cycles whose drilling axis it turns,
 //! mirrors or scales, frames that may be skipped, and frames under calls, jumps and repetitions.
 
+mod holes;
+mod words;
+
 use super::frame_forms::{self, shifted};
 use super::walk::Walk;
-use super::write::{EXACT, Rebuild, exact, rebuild, rounded, unit_of};
-use super::{Target, arc_form, each_body, expand_patterns, pattern_forms};
+use super::write::{EXACT, Rebuild, exact, rebuild, unit_of};
+use super::{Target, arc_form, each_body};
 use crate::canon::{AXES, Axis, Distance, Fact, Plane};
 use crate::caps::Caps;
-use crate::cycle::{Along, Cycle, First, Pattern, Row, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::{Chain, Frames as Slots, Present};
 use crate::expr::Expr;
 use crate::kinds::{conduct, flow, frames, machine, miscellaneous, modes, tooling};
-use crate::num::{Nanos, Num, ONE, POW10, Unit};
-use crate::places::Places;
-use crate::program::{
-    Arc, Centre, CentreFrom, Coord, Data, DataMode, FrameSlot, Move, Op, Point, Program, Reference, Slot,
-    Stmt, Synchronised,
-};
+use crate::num::{Nanos, Unit};
+use crate::program::{Coord, Data, DataMode, FrameSlot, Op, Program, Reference, Slot, Stmt, Synchronised};
 use crate::track::Tracker;
 
 /// Less than this is no share of an axis.
@@ -89,7 +87,34 @@ pub(super) fn concerns(op: &Op, caps: &Caps) -> bool {
 /// Whether any procedure of a program sets a frame that the target cannot say as it is.
 pub(super) fn has_frames(program: &Program, caps: &Caps) -> bool {
     let sets = |op: &Op| matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_));
-    program.procedures.iter().flat_map(|p| &p.body).any(|s| sets(&s.op) && !caps.says_frame(&s.op))
+    let unsaid = |s: &Stmt| sets(&s.op) && !caps.says_frame(&s.op);
+    program.procedures.iter().flat_map(|p| &p.body).any(unsaid) || takes_origin_back(program, caps)
+}
+
+/// Whether a subprogram sets or ends a shift of the origin that the target ends by the present point only:
+/// where that is, and whether a shift is in force, is known without calls.
+pub(super) fn shifts_origin_in_calls(program: &Program, caps: &Caps) -> bool {
+    let shifts = |op: &Op| sets_origin(op) || *op == Op::ClearFrame(FrameSlot::Shift);
+    takes_origin_back(program, caps)
+        && program.procedures.iter().skip(1).flat_map(|p| &p.body).any(|s| shifts(&s.op))
+}
+
+/// Whether a program ends a shift of the origin for which the target has no word.
+fn takes_origin_back(program: &Program, caps: &Caps) -> bool {
+    let any = |of: fn(&Op) -> bool| program.procedures.iter().flat_map(|p| &p.body).any(|s| of(&s.op));
+    caps.origin_shift
+        && !caps.clears_shift
+        && any(sets_origin)
+        && any(|op| *op == Op::ClearFrame(FrameSlot::Shift))
+}
+
+/// Whether a statement shifts the origin.
+fn sets_origin(op: &Op) -> bool {
+    match op {
+        Op::SetPosition(_) => true,
+        Op::SetSlot(slot) => matches!(**slot, Slot::Shift { origin: true, .. }),
+        _ => false,
+    }
 }
 
 /// The same for one piece of a body. The walk stands before what is made of it.
@@ -176,7 +201,7 @@ impl Frames<'_> {
         self.outer.enter(stmt.skip);
         let is_change = match &stmt.op {
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => true,
-            Op::ClearFrame(FrameSlot::Shift) => self.set.slots.origin != [None; AXES],
+            Op::ClearFrame(FrameSlot::Shift) => self.set.lost || self.set.slots.origin != [None; AXES],
             Op::ClearFrame(_) => true,
             _ => false,
         };
@@ -189,9 +214,11 @@ impl Frames<'_> {
                     // What an earlier program left is another's business.
                     let shift = Op::ClearFrame(FrameSlot::Shift);
                     if stmt.op == shift && !ops.contains(&shift) {
-                        ops.push(shift);
+                        ops.push(shift.clone());
                     }
-                    for op in &ops {
+                    // That word is left out where the target has none (`origin_shift`).
+                    let is_said = |op: &&Op| **op != shift || self.target.caps.clears_shift;
+                    for op in ops.iter().filter(is_said) {
                         self.outer.step(&Stmt::new(stmt.span, op.clone()));
                         self.note(op);
                     }
@@ -343,9 +370,16 @@ impl Frames<'_> {
             return Ok(ops);
         }
         // What can be said as it stands is, while nothing else is in the way.
-        if caps.says_frame(op) && self.set.chain == Chain::NONE && self.set.said == self.set.slots {
-            self.set.said = slots.clone();
-            return Ok(Some(vec![op.clone()]));
+        if self.set.chain == Chain::NONE && self.set.said == self.set.slots {
+            if caps.says_frame(op) {
+                self.set.said = slots.clone();
+                return Ok(Some(vec![op.clone()]));
+            }
+            if caps.origin_shift && *op == Op::ClearFrame(FrameSlot::Shift) {
+                let ops = self.origin_back(slots)?;
+                self.set.said = slots.clone();
+                return Ok(Some(ops));
+            }
         }
         if self.set.said.origin != [None; AXES] {
             return Ok(None);
@@ -358,6 +392,35 @@ impl Frames<'_> {
         }
         self.set.said = wanted;
         Ok(Some(ops))
+    }
+
+    /// The statements that take a shift of the origin back where no word does: the present point gets the
+    /// coordinates that it has without one, and the local shift, which that ends, is said again.
+    fn origin_back(&self, slots: &Slots) -> Result<Vec<Op>, Fault> {
+        if slots.is_turned() {
+            return Err(cannot("the end of an origin shift in a turned or scaled frame"));
+        }
+        if self.inner.at.cycle.is_some() || self.inner.at.cycle_in_doubt {
+            return Err(cannot("the end of an origin shift while a cycle is in force"));
+        }
+        let here = self.set.whole.place_known(&self.inner.at.position);
+        let unit = self.inner.unit();
+        let mut axes = std::array::from_fn(|_| None);
+        let mut left = slots.clone();
+        for (i, axis) in Axis::ALL.into_iter().enumerate() {
+            if self.set.said.origin[i].is_none() {
+                continue;
+            }
+            if axis == Axis::Z && self.inner.waiting {
+                return Err(cannot("the end of an origin shift along Z before a length offset is taken up"));
+            }
+            let at = here[i].ok_or(Fault::PositionUnknown { axis: axis.letter() as char })?;
+            axes[i] = Some(Expr::Num(exact(at, unit_of(axis, unit))));
+            left.local[i] = 0;
+        }
+        let mut ops = vec![Op::SetPosition(Box::new(axes))];
+        ops.extend(frame_forms::between(&left, slots, &self.target.caps, unit));
+        Ok(ops)
     }
 
     /// The statements that take back what was said of frames, before coordinates are worked on.
@@ -391,28 +454,6 @@ impl Frames<'_> {
             }
             _ => {}
         }
-    }
-
-    /// Both axes of the plane in which the tool must be placed, as absolute words.
-    fn placed(&self, out: &mut Point, after: &[Option<Nanos>; AXES]) -> Result<(), Fault> {
-        let Some(plane) = self.set.unplaced else { return Ok(()) };
-        let (first, second, _) = plane.axes();
-        let in_force = self.inner.at.modes.distance;
-        let is_absolute = |axis: Axis, out: &Point| {
-            let word = out.get(axis);
-            word.is_some_and(|w| w.distance.known().or(in_force) == Some(Distance::Absolute))
-        };
-        if [first, second].iter().all(|axis| out.get(*axis).is_none()) {
-            return Ok(());
-        }
-        for axis in [first, second] {
-            if !is_absolute(axis, out) {
-                let nanos = after[axis as usize];
-                let nanos = nanos.ok_or(Fault::PositionUnknown { axis: axis.letter() as char })?;
-                out.set(axis, absolute(exact(nanos, unit_of(axis, self.inner.unit()))));
-            }
-        }
-        Ok(())
     }
 
     /// What becomes of a statement under the chain; nothing if it stays as it is.
@@ -463,316 +504,6 @@ impl Frames<'_> {
     /// The shift of the origin.
     fn shift(&self) -> [Nanos; AXES] {
         self.set.slots.origin.map(Option::unwrap_or_default)
-    }
-
-    /// Digits of a computed length: all, where the chain leaves it exact, or as many as the target
-    /// has.
-    fn decimals(&self) -> u8 {
-        if self.is_exact() { EXACT } else { self.target.decimals_in(self.inner.unit()) }
-    }
-
-    /// Whether the chain is one of translations, mirrors and quarter turns.
-    fn is_exact(&self) -> bool {
-        let whole = |v: &f64| v.abs() < NOTHING || (v.abs() - 1.0).abs() < NOTHING;
-        self.set.chain.turn().is_none_or(|m| m.iter().flatten().all(whole))
-    }
-
-    /// A coordinate moved along its axis.
-    fn shifted(&self, word: &Coord, axis: Axis) -> Result<Coord, Fault> {
-        let at = &self.inner.at;
-        let by = self.set.chain.shift()[axis as usize];
-        match word.distance.known().or(at.modes.distance) {
-            None => Err(Fault::EntryFactNeeded { fact: ModeName::Distance }),
-            Some(Distance::Incremental) => Ok(word.clone()),
-            Some(Distance::Absolute) if by == 0 => Ok(word.clone()),
-            Some(Distance::Absolute) => {
-                let value = value_of(at, &word.value)?;
-                let unit = unit_of(axis, self.inner.unit());
-                Ok(absolute(exact(value.wrapping_add(by), unit)))
-            }
-        }
-    }
-
-    fn moved(&self, m: &Move) -> Result<Move, Fault> {
-        Ok(Move { to: self.point(&m.to)?, said: m.said })
-    }
-
-    fn point(&self, to: &Point) -> Result<Point, Fault> {
-        self.point_to(to, self.decimals())
-    }
-
-    fn point_to(&self, to: &Point, decimals: u8) -> Result<Point, Fault> {
-        let unit = self.inner.unit();
-        let mut out = Point::default();
-        let after = self.set.chain.place_known(&self.inner.at.target(to));
-        for (i, axis) in Axis::ALL.into_iter().enumerate() {
-            let Some(row) = self.set.chain.turn().and_then(|m| m.get(i)) else {
-                if let Some(word) = to.get(axis) {
-                    out.set(axis, self.shifted(word, axis)?);
-                }
-                continue;
-            };
-            let from = || (0..3).filter(|j| row[*j].abs() >= NOTHING);
-            let word = to.get(axis);
-            let takes_up = axis == Axis::Z && self.inner.waiting;
-            if !(from().any(|j| to.axes[j].is_some()) || takes_up && word.is_some()) {
-                continue;
-            }
-            if takes_up && word.is_none() {
-                return Err(cannot("a length offset that waits in a turned frame"));
-            }
-            // Along its own axis an increment is one outside as well.
-            if from().eq([i])
-                && (row[i].abs() - 1.0).abs() < NOTHING
-                && let Some(word) = word
-                && word.distance.known().or(self.inner.at.modes.distance) == Some(Distance::Incremental)
-            {
-                out.set(axis, if row[i] > 0.0 { word.clone() } else { negative(word)? });
-                continue;
-            }
-            let Some(nanos) = after[i] else {
-                let target = self.inner.at.target(to);
-                let unknown = from().find(|j| target[*j].is_none()).unwrap_or(i);
-                return Err(self.unknown(Axis::ALL[unknown], to));
-            };
-            out.set(axis, absolute(rounded(nanos, decimals, unit_of(axis, unit))));
-        }
-        self.placed(&mut out, &after)?;
-        Ok(out)
-    }
-
-    /// Why it is not known where an axis goes.
-    fn unknown(&self, axis: Axis, to: &Point) -> Fault {
-        let distance = |w: &Coord| w.distance.known().or(self.inner.at.modes.distance).is_none();
-        match to.get(axis) {
-            Some(word) if distance(word) => Fault::EntryFactNeeded { fact: ModeName::Distance },
-            Some(_) | None => Fault::PositionUnknown { axis: axis.letter() as char },
-        }
-    }
-
-    fn arc(&self, arc: &Arc) -> Result<Arc, Fault> {
-        let at = &self.inner.at;
-        let plane = at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
-        let (first, second, _) = plane.axes();
-        if self.set.unplaced.is_some() {
-            return Err(cannot("an arc as the first move of another rotation"));
-        }
-        let mut out = arc.clone();
-        // How a third axis goes with several turns depends on the very angle.
-        let decimals = if arc.turns > 0 { EXACT } else { self.decimals() };
-        out.to = self.point_to(&arc.to, decimals)?;
-        if self.set.chain.turn().is_none() {
-            if let Centre::Point { words, from: CentreFrom::Zero } = &mut out.centre {
-                for axis in [first, second] {
-                    if let Some(word) = &mut words[axis as usize] {
-                        *word = self.shifted(&absolute(word.clone()), axis)?.value;
-                    }
-                }
-            }
-            return Ok(out);
-        }
-        let sense = self.set.chain.sense(plane, arc.turn);
-        out.turn = sense.ok_or_else(|| cannot("an arc in a frame that does not leave it an arc"))?;
-        out.plane = Fact::Known(plane);
-        let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
-        let centre = at.centre(arc).ok_or_else(|| unknown(first))?;
-        let mut middle = at.target(&arc.to);
-        let start = [first, second].map(|a| at.position[a as usize]);
-        let end = [first, second].map(|a| middle[a as usize]);
-        for (axis, place) in [first, second].into_iter().zip(centre) {
-            middle[axis as usize] = Some(place);
-        }
-        let middle = self.set.chain.place_known(&middle);
-        if start == end {
-            // A whole circle stays one, however its ends are rounded.
-            out.to.axes[first as usize] = None;
-            out.to.axes[second as usize] = None;
-        }
-        let mut words: [Option<Expr>; 3] = [None, None, None];
-        for axis in [first, second] {
-            // From where the axis stands as it is written.
-            let from = self.outer.at.position[axis as usize].ok_or_else(|| unknown(axis))?;
-            let to = middle[axis as usize].ok_or_else(|| unknown(axis))?;
-            let unit = self.inner.unit();
-            let way = rounded(to.wrapping_sub(from), decimals, unit_of(axis, unit));
-            words[axis as usize] = Some(way.into());
-        }
-        out.centre = Centre::Point { words, from: CentreFrom::Start };
-        Ok(out)
-    }
-
-    fn cycle(&self, cycle: &Cycle) -> Result<Cycle, Fault> {
-        let plane = self.inner.at.plane(cycle.plane);
-        let plane = plane.ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
-        let (_, _, normal) = plane.axes();
-        let n = normal as usize;
-        if !leaves_alone(&self.set.chain, n) {
-            return Err(cannot("a cycle in a frame that turns, mirrors or scales its drilling axis"));
-        }
-        let mut out = cycle.clone();
-        out.plane = Fact::Known(plane);
-        out.retract = self.shifted(&cycle.retract, normal)?;
-        out.depth = self.shifted(&cycle.depth, normal)?;
-        out.return_plane = cycle.return_plane.as_ref().map(|p| self.shifted(p, normal)).transpose()?;
-        Ok(out)
-    }
-
-    fn pattern(&self, pattern: &Pattern) -> Result<Vec<Op>, Fault> {
-        let at = &self.inner.at;
-        let plane = at.cycle.as_ref().map_or(Fact::Entry, |c| c.cycle.plane);
-        let plane = at.plane(plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
-        let (first, second, _) = plane.axes();
-        let axes = [first, second];
-        let off = axes.into_iter().any(|axis| self.is_rounded(axis as usize));
-        if self.set.chain.turn().is_none() && !off && self.set.unplaced.is_none() {
-            return Ok(vec![Op::Pattern(Box::new(self.shifted_pattern(pattern, axes)?))]);
-        }
-        let unknown = |axis: Axis| Fault::PositionUnknown { axis: axis.letter() as char };
-        let places = at.places(pattern).filter(|p| p.count() <= expand_patterns::MOST_HOLES);
-        let places = places.ok_or_else(|| {
-            unknown(axes.into_iter().find(|a| at.position[*a as usize].is_none()).unwrap_or(first))
-        })?;
-        let outside = |place: [Nanos; 2]| {
-            let mut p = at.position;
-            (p[first as usize], p[second as usize]) = (Some(place[0]), Some(place[1]));
-            let p = self.set.chain.place_known(&p);
-            Ok::<_, Fault>([
-                p[first as usize].ok_or_else(|| unknown(first))?,
-                p[second as usize].ok_or_else(|| unknown(second))?,
-            ])
-        };
-        let all: Vec<[Nanos; 2]> =
-            (0..places.count()).map(|k| outside(places.get(k))).collect::<Result<_, _>>()?;
-        let (f, s) = (first as usize, second as usize);
-        let turn = self.set.chain.turn().filter(|m| {
-            (m[f][f] - m[s][s]).abs() < NOTHING
-                && (m[f][s] + m[s][f]).abs() < NOTHING
-                && (m[f][f].hypot(m[s][f]) - 1.0).abs() < 1e-9
-        });
-        if let (Some(m), false, None) = (turn, off, self.set.unplaced) {
-            let angle = (m[s][f].atan2(m[f][f]).to_degrees() * ONE as f64).round() as Nanos;
-            if let Some(form) = self.turned(pattern, &places, angle, axes, &outside)?
-                && self.says(&form, plane, &all)
-            {
-                return Ok(vec![Op::Pattern(Box::new(form))]);
-            }
-        }
-        let unit = self.inner.unit();
-        let hole = |place: &[Nanos; 2]| {
-            let mut to = Point::default();
-            for (axis, place) in axes.into_iter().zip(place) {
-                to.set(axis, absolute(rounded(*place, self.decimals(), unit_of(axis, unit))));
-            }
-            Op::Hole(Move { to, said: false })
-        };
-        Ok(all.iter().map(hole).collect())
-    }
-
-    /// Whether the target has this very form, and its holes are where they must be.
-    fn says(&self, form: &Pattern, plane: Plane, places: &[[Nanos; 2]]) -> bool {
-        let at_once = pattern_forms::fit(self.outer, form, plane, self.target);
-        let unit = self.inner.unit();
-        let half = POW10[9 - self.target.decimals_in(unit).min(9) as usize];
-        let half = if unit == Unit::Inch { half * 254 / 10 } else { half } / 2;
-        let near = |a: &[Nanos; 2], b: &[Nanos; 2]| (0..2).all(|i| a[i].abs_diff(b[i]) <= half as u64);
-        at_once.is_some_and(|forms| forms == [form.clone()])
-            && self.outer.at.positions(form).is_some_and(|own| {
-                own.len() == places.len() && own.iter().zip(places).all(|(a, b)| near(a, b))
-            })
-    }
-
-    /// A pattern turned in its plane; `None` if that is better said by its holes.
-    fn turned(
-        &self,
-        pattern: &Pattern,
-        places: &Places,
-        by: Nanos,
-        axes: [Axis; 2],
-        outside: &dyn Fn([Nanos; 2]) -> Result<[Nanos; 2], Fault>,
-    ) -> Result<Option<Pattern>, Fault> {
-        let at = &self.inner.at;
-        // With all digits, for what is computed from them later.
-        let words = |place: [Nanos; 2]| {
-            let (place, unit) = (outside(place)?, self.inner.unit());
-            Ok::<_, Fault>([0, 1].map(|i| absolute(exact(place[i], unit_of(axes[i], unit)))))
-        };
-        let start = |said: &Option<[Coord; 2]>, place: [Nanos; 2]| match said {
-            Some(_) => words(place).map(Some),
-            None => Ok(None),
-        };
-        let further = |angle: Nanos| -> Expr {
-            let whole = 360 * ONE;
-            let angle = (angle.rem_euclid(whole) + by).rem_euclid(whole);
-            let angle = if angle > 180 * ONE { angle - whole } else { angle };
-            Num::from_nanos(angle, 9, Unit::Degree).into()
-        };
-        Ok(match (pattern, places) {
-            (Pattern::Circle { centre, first, step, count }, Places::Circle { centre: c, first: f, .. }) => {
-                let first = match first {
-                    // Two roundings would add up on the way round.
-                    First::At(_) if !self.is_exact() => return Ok(None),
-                    First::At(_) => First::At(words(*f)?),
-                    First::Polar { radius, angle } => {
-                        First::Polar { radius: radius.clone(), angle: further(value_of(at, angle)?) }
-                    }
-                };
-                let centre = start(centre, *c)?;
-                Some(Pattern::Circle { centre, first, step: step.clone(), count: *count })
-            }
-            (
-                Pattern::Line { start: s, offset, pitch, count, .. },
-                Places::Line { start: place, angle, .. },
-            ) => {
-                let start = start(s, *place)?;
-                let (offset, pitch) = (offset.clone(), pitch.clone());
-                Some(Pattern::Line { start, angle: further(*angle), offset, pitch, count: *count })
-            }
-            (
-                Pattern::Grid { start: s, columns, rows, serpentine },
-                Places::Grid { start: place, columns: c, rows: r, .. },
-            ) => {
-                let start = start(s, *place)?;
-                let row = |row: &Row, along: Result<usize, Nanos>| Row {
-                    along: Along::Angle(further(along.map_or_else(|a| a, |side| side as Nanos * 90 * ONE))),
-                    pitch: row.pitch.clone(),
-                    count: row.count,
-                };
-                let (columns, rows) = (row(columns, c.along), row(rows, r.along));
-                Some(Pattern::Grid { start, columns, rows, serpentine: *serpentine })
-            }
-            _ => None,
-        })
-    }
-
-    fn shifted_pattern(&self, pattern: &Pattern, axes: [Axis; 2]) -> Result<Pattern, Fault> {
-        let mut out = pattern.clone();
-        let shift = |pair: &mut [Coord; 2]| {
-            for (word, axis) in pair.iter_mut().zip(axes) {
-                *word = self.shifted(word, axis)?;
-            }
-            Ok::<_, Fault>(())
-        };
-        match &mut out {
-            Pattern::Circle { centre, first, .. } => {
-                centre.iter_mut().try_for_each(shift)?;
-                if let First::At(first) = first {
-                    shift(first)?;
-                }
-            }
-            Pattern::Line { start, .. } | Pattern::Grid { start, .. } => {
-                start.iter_mut().try_for_each(shift)?;
-            }
-            Pattern::List(points) => {
-                for point in points {
-                    for axis in axes {
-                        if let Some(word) = &mut point.axes[axis as usize] {
-                            *word = self.shifted(word, axis)?;
-                        }
-                    }
-                }
-            }
-        }
-        Ok(out)
     }
 }
 
@@ -840,11 +571,4 @@ fn value_of(at: &Tracker, value: &Expr) -> Result<Nanos, Fault> {
         Some(n) if n.unit == Unit::Entry => Fault::EntryFactNeeded { fact: ModeName::Units },
         Some(_) | None => cannot("a computed word in a frame"),
     })
-}
-
-/// The same increment the other way.
-fn negative(word: &Coord) -> Result<Coord, Fault> {
-    let n = word.value.literal().ok_or_else(|| cannot("a computed word in a frame"))?;
-    let value = Num { mantissa: n.mantissa.wrapping_neg(), ..n };
-    Ok(Coord { value: value.into(), distance: Fact::Known(Distance::Incremental) })
 }
