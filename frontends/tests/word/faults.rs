@@ -72,14 +72,14 @@ fn codes_that_are_refused() {
     assert_eq!(faults("fanuc", "M77\n"), ["UnknownCode { code: 'M77' } at 'M77'"]);
     assert_eq!(faults("fanuc", "U5.\n"), ["UnknownCode { code: 'U5.' } at 'U5.'"]);
     assert_eq!(
-        faults("fanuc", "G5.1 Q1\n"),
-        ["NotSupported { code: 'G05.1', name: 'AI contour control' } at 'G5.1'"]
+        faults("fanuc", "G12.1\n"),
+        ["NotSupported { code: 'G12.1', name: 'polar interpolation' } at 'G12.1'"]
     );
     assert_eq!(
-        faults("fanuc", "G41 D1 X1. G5\n"),
+        faults("fanuc", "G41 D1 X1. G12.1\n"),
         [
             "NotSupported { code: 'G41', name: 'cutter compensation left' } at 'G41'",
-            "NotSupported { code: 'G05', name: 'high-precision contour control' } at 'G5'"
+            "NotSupported { code: 'G12.1', name: 'polar interpolation' } at 'G12.1'"
         ]
     );
     assert_eq!(

@@ -130,9 +130,9 @@ fn faults_point_into_the_file() {
         ),
         ("[[code]]\nsource = \"s\"\n", (4, 1), "a row of [[code]] needs `code`"),
         (
-            "[[cycle]]\ncode = \"G84\"\nkind = \"drill\"\ndepth = \"Z\"\nretract = \"R\"\nsource = \"s\"\n",
+            "[[cycle]]\ncode = \"G88\"\nkind = \"drill\"\ndepth = \"Z\"\nretract = \"R\"\nsource = \"s\"\n",
             (5, 8),
-            "row G84: is a cycle, and no row of [[code]] starts it",
+            "row G88: is a cycle, and no row of [[code]] starts it",
         ),
         ("[comment\n", (4, 9), ""),
     ] {

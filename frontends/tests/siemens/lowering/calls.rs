@@ -215,7 +215,7 @@ fn a_subprogram_after_each_move() {
             "POSITION X?4u"
         ]
     );
-    assert_eq!(after_head("MCALL CYCLE81(5,0,2,-3)\nMCALL POCKET\nMCALL\n")[1..], ["END CYCLE"]);
+    assert_eq!(after_head("MCALL CYCLE81(5,0,2,-3)\nMCALL POCKET\nMCALL\n")[1..], ["EndCycle"]);
     let refused = |name: &str, at: &str, code: &str| {
         [format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'")]
     };

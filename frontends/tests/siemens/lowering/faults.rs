@@ -57,7 +57,8 @@ fn words_that_are_known_and_not_translated() {
     refused("C=DC(90)", "C=DC(90)", "way of a turning axis", "C=DC(90)");
     refused("H5", "H5", "auxiliary function", "H5");
     refused("FA[X]=100", "FA", "feed of an axis", "FA[X]=100");
-    refused("SPOS=90", "SPOS", "spindle positioning", "SPOS=90");
+    refused("SPOSA=90", "SPOSA", "spindle positioning", "SPOSA=90");
+    assert_eq!(faults("SPOS=90\n"), [] as [&str; 0]);
     refused("TRAORI(1)", "TRAORI", "transformation of axes", "TRAORI(1)");
     refused("CYCLE800()", "CYCLE800", "swivelled plane", "CYCLE800()");
     refused("ID=1 WHEN $A DO M8", "ID=1 WHEN $A DO M8", "synchronised action", "ID=1 WHEN $A DO M8");
