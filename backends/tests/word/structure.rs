@@ -290,9 +290,13 @@ fn facts_that_a_control_has_alone_need_no_word() {
 
 #[test]
 fn what_has_no_word_is_refused() {
+    let per_turn = lines(vec![rapid("X0."), Op::SetFeedMode(FeedMode::PerRevolution)]);
+    assert_eq!(clean("fanuc", &per_turn), "G00 X0.\nG95\n");
+    refused("mach9", &per_turn);
+    let turned_back = lines(vec![rapid("X0."), Op::ClearFrame(FrameSlot::Rotation)]);
+    assert_eq!(clean("fanuc", &turned_back), "G00 X0.\nG69\n");
+    refused("mach9", &turned_back);
     for op in [
-        Op::SetFeedMode(FeedMode::PerRevolution),
-        Op::ClearFrame(FrameSlot::Rotation),
         Op::SetFrame(Box::new(Frame { added: true, step: FrameStep::Mirror([true, false, false]) })),
         Op::UseMachineCoordinates { length: true },
         Op::UseToolEdge { edge: count("1"), said: true },
@@ -307,7 +311,9 @@ fn what_has_no_word_is_refused() {
         refused("mach9", &lines(vec![rapid("X0."), op]));
     }
     refused("fanuc", &lines(vec![rapid("X0."), Op::SetOriginOffsets(7)]));
-    refused("fanuc", &lines(vec![Op::SetFeedMode(FeedMode::InverseTime), rapid("X0.")]));
+    let by_time = lines(vec![Op::SetFeedMode(FeedMode::InverseTime), rapid("X0.")]);
+    assert_eq!(clean("fanuc", &by_time), "G21 G17 G90 G40 G49 G80 G93\nG54\nG00 X0.\n");
+    refused("mach9", &by_time);
     refused("mach9", &lines(vec![rapid("A90.")]));
     // A length offset of a control that may move by it at once.
     refused("fanuc", &lines(vec![rapid("X0."), Op::UseToolLengthOffset(count("1")), rapid("Z1.")]));
