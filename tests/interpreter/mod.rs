@@ -288,13 +288,13 @@ impl Machine {
         let (turn, shift) = (self.slots.turn(), self.slots.shift());
         let whole = |turn: &Frame, shift: &Place| Frame::shift([shift[0], shift[1], shift[2]]).then(turn);
         let (before, after) = (whole(&self.turn, &self.slot_shift), whole(&turn, &shift));
-        for axis in 0..3 {
+        for (axis, named) in axes.into_iter().enumerate() {
+            let linear = axis < 3;
+            let other =
+                if linear { !after.agrees(&before, axis) } else { shift[axis] != self.slot_shift[axis] };
             // In a turned frame a shift along one axis is one along others as well.
-            let named = axes[axis] || turn != Frame::NONE;
-            self.settled[axis] &= !named || after.agrees(&before, axis);
-        }
-        for axis in 3..6 {
-            self.settled[axis] &= !axes[axis] || shift[axis] == self.slot_shift[axis];
+            let named = named || linear && turn != Frame::NONE;
+            self.settled[axis] &= !(named && other);
         }
         (self.turn, self.slot_shift) = (turn, shift);
     }
