@@ -180,6 +180,14 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>) -> Result<(
     Ok(())
 }
 
+/// What a dialect was given and cannot give back, and why.
+const NO_WAY_BACK: [(&str, &str); 1] = [(
+    "haas/g84.nc through siemens",
+    "a hole left to the initial level follows holes left to R: as a call of its own it has a return plane \
+     above where the tool stands, which only a cycle written out can have there, and a rigid tap is not \
+     written out in words",
+)];
+
 /// The corpus, there and back: every program that a dialect takes comes back as the same cut.
 #[test]
 fn the_corpus_there_and_back() {
@@ -213,7 +221,8 @@ fn the_corpus_there_and_back() {
     }
     println!("{done} there and back");
     // What a dialect was given it can give back.
-    assert!(refused.is_empty(), "refused on the way back: {refused:?}");
+    let listed: Vec<&str> = NO_WAY_BACK.iter().map(|(what, _)| *what).collect();
+    assert_eq!(refused, listed, "refused on the way back");
     failures.finish();
 }
 
