@@ -84,7 +84,9 @@ fn a_mutant_is_different() {
     for (at, program) in corpus::all().into_iter().enumerate() {
         for (to_at, to) in DIALECTS.into_iter().enumerate() {
             // Between dialects: what two programs for one control do not say is the same for both.
-            if to == program.dialect || (at + to_at) % 3 != 0 {
+            // Of a source that is coarser than its target all are looked at, of other pairs a third.
+            let coarser = program.dialect == "siemens" && to == "canon";
+            if to == program.dialect || (at + to_at) % 3 != 0 && !coarser {
                 continue;
             }
             let mut job = job(program.dialect, to, &program.file);
