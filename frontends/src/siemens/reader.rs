@@ -15,6 +15,7 @@ use ncc_ir::program::{Procedure, Text};
 use ncc_ir::source::Span;
 
 use super::calls::procedure_name;
+use super::facts::InForce;
 use super::letters::letter_for_zero;
 use super::lower::Lower;
 use super::parse;
@@ -257,6 +258,11 @@ impl Reader {
         match letter_for_zero(src, line) {
             Some(letter) => self.fault(Fault::LetterOForZero, letter, out),
             None => self.fault(fault, at, out),
+        }
+        // What follows is not blamed for having no cycle.
+        let text = src.text(line).to_ascii_uppercase();
+        if text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').any(|word| word == "MCALL") {
+            self.lower.state.cycle = InForce::Refused;
         }
     }
 
