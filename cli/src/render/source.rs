@@ -393,11 +393,11 @@ mod tests {
 
     #[test]
     fn a_long_line_is_cut_around_the_place() {
-        let text = [vec![b'X'; 100_000], b"?".to_vec(), vec![b'Y'; 100_000]].concat();
+        let text = [vec![b'A'; 100_000], b"?".to_vec(), vec![b'B'; 100_000]].concat();
         let (lines, excerpt) = excerpt(&text, &[(100_000, 100_001)]);
         assert_eq!(excerpt.snippet(&lines, Span::new(100_000, 100_001)), "?");
         assert_eq!(excerpt.location(&lines, 100_000), Some((1, 100_001)));
-        assert!(excerpt.text.starts_with("…XXX") && excerpt.text.ends_with("YYY…\n"));
+        assert!(excerpt.text.starts_with("…AAA") && excerpt.text.ends_with("BBB…\n"));
         assert!(excerpt.text.len() < 300);
     }
 

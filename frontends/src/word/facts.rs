@@ -113,6 +113,8 @@ pub(super) struct State {
     pub(super) turned: u8,
     /// Axes that the first move in a new rotation must name absolutely, a bit each.
     pub(super) unplaced: u8,
+    /// Another length is in force, and no absolute Z was named since.
+    pub(super) level_open: bool,
     /// A feed that was said in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
 }
@@ -139,6 +141,7 @@ impl State {
             rigid: false,
             turned: 0,
             unplaced: 0,
+            level_open: false,
             cycle_feed: None,
         }
     }
@@ -164,6 +167,7 @@ impl State {
         }
         self.turned |= before.turned;
         self.unplaced |= before.unplaced;
+        self.level_open |= before.level_open;
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost;
         }

@@ -80,6 +80,7 @@ impl Lower {
             || state.no_motion
             || state.cycle != InForce::None
             || state.unplaced != 0
+            || self.level_open()
             || self.ended
         {
             return None;

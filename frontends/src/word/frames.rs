@@ -72,6 +72,9 @@ impl Lower {
                 axes.map(|axes| Op::SetSlot(Box::new(Slot::Shift { origin, axes: Box::new(axes) })))
             }
             Meaning::SetPosition => {
+                if words.get(b'Z').is_some() && self.level_open() {
+                    self.refuse_level(code.span, out);
+                }
                 let axes = self.frame_axes(code, words, src, out);
                 axes.map(|axes| Op::SetPosition(Box::new(axes)))
             }

@@ -247,6 +247,7 @@ impl Lower {
                 let word = words.take(self.roles.length_entry);
                 if word.is_none() && code.row.own_tool {
                     self.state.length_offset = Know::Said(());
+                    self.state.level_open = true;
                     let edge = Expr::int(1);
                     return self.push(code.span, Op::UseToolEdge { edge, said: true }, out);
                 }
@@ -259,6 +260,7 @@ impl Lower {
             }
             Meaning::CancelToolLengthOffset => {
                 self.state.length_offset = Know::Said(());
+                self.state.level_open = true;
                 Op::UseToolLengthOffset(Expr::int(0))
             }
             Meaning::ProgramStop => Op::ProgramStop,
@@ -266,6 +268,10 @@ impl Lower {
             Meaning::ProgramEnd => {
                 self.ended |= self.now.skip.is_none();
                 Op::ProgramEnd
+            }
+            Meaning::Call | Meaning::Return if self.level_open() => {
+                // What is called, or called this, need not know of the length.
+                return self.refuse_level(code.span, out);
             }
             Meaning::Call => return self.call(code, words, src, out),
             Meaning::Return => return self.return_from(code, out),
@@ -295,6 +301,7 @@ impl Lower {
 
     fn length_offset(&mut self, word: &Word, span: Span, words: &Words, src: Source, out: &mut Batch) {
         self.state.length_offset = Know::Said(());
+        self.state.level_open = true;
         let Some(num) = self.entry(word, src, out) else {
             return;
         };

@@ -175,7 +175,28 @@ impl Lower {
         if self.state.unplaced != 0 {
             self.place_first(&to, block, out);
         }
+        if self.level_open() {
+            let absolute = |word: &Coord| word.distance == Fact::Known(Distance::Absolute);
+            match to.get(Axis::Z) {
+                Some(word) if absolute(word) && without.is_none() => self.state.level_open = false,
+                None if without.is_none() => {}
+                Some(_) | None => self.refuse_level(block, out),
+            }
+        }
         to
+    }
+
+    /// Whether the tool stands at another Z than the statements say, since its length is another.
+    pub(super) fn level_open(&self) -> bool {
+        self.state.level_open && self.settings.dialect.can.length_at_once
+    }
+
+    /// Refuses what depends on where that is.
+    pub(super) fn refuse_level(&mut self, block: Span, out: &mut Batch) {
+        let row = self.settings.dialect.code_for(Meaning::UseToolLengthOffset);
+        let code = row.map_or("", |row| row.code.as_str()).into();
+        let name = "length offset without an absolute Z before what depends on it".into();
+        self.fault(Fault::NotSupported { code, name }, block, out);
     }
 
     fn arc(&mut self, turn: Turn, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {

@@ -549,6 +549,10 @@ pub struct OptionRow {
 pub struct Can {
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
+    /// A length offset is taken up at once and moves nothing: the tool stands at another Z. An incremental
+    /// Z, a cycle, or a new zero of Z before the next absolute one is then not what it is on a control that
+    /// takes the length up with the next Z, and is refused.
+    pub length_at_once: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,
     /// Grids are written only up to this many columns and rows.
