@@ -3,12 +3,14 @@
 
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use ncc_ir::canon::{Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Spindle as Turning, Turn, Units};
+use ncc_ir::canon::{
+    Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
+};
 use ncc_ir::exec::{Event, Kind};
 use ncc_ir::num::Nanos;
 use ncc_ir::world::World;
 
-use crate::interpreter::{self, Machine, PowerOn, Setup, Spindle, What};
+use crate::interpreter::{self, Corner, Machine, Per, PowerOn, Setup, Spindle, What};
 
 /// An event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,8 +19,12 @@ pub struct Plain {
     pub what: Happening,
     /// Where the axes stand after it.
     pub at: [f64; 6],
-    /// Feed in mm/min of a cutting move, else 0.
+    /// Feed of a cutting move, else 0.
     pub feed: f64,
+    /// What it counts.
+    pub per: Per,
+    /// How the corner at a move's end is taken; unsaid of anything else.
+    pub corner: Corner,
     /// Tool in the spindle.
     pub tool: Option<i64>,
     /// Speed of a turning spindle, negative counter-clockwise; 0 while it stands.
@@ -45,8 +51,8 @@ pub enum Happening {
         pitch: f64,
         chuck: bool,
     },
-    /// The spindle stopped at an angle, degrees.
-    Orient(f64),
+    /// The spindle stopped at an angle.
+    Orient,
     Dwell(f64),
     ToolChange,
     Coolant,
@@ -69,13 +75,37 @@ pub struct Tolerance {
     pub place: f64,
     /// Feeds, mm/min.
     pub feed: f64,
+    /// How corners are held together.
+    pub corners: Corners,
+}
+
+/// What of corners two dialects both have words for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // The names are the meaning.
+pub enum Corners {
+    All,
+    /// Going through one is said as a stop.
+    StopOrRounded,
+    Nothing,
+}
+
+impl Corners {
+    /// Of two dialects.
+    pub fn between(a: &str, b: &str) -> Corners {
+        match [a, b] {
+            // Its corners are always rounded, and it has no words for it.
+            pair if pair.contains(&"mach9") => Corners::Nothing,
+            pair if pair.iter().any(|d| matches!(*d, "fanuc" | "haas" | "siemens")) => Corners::StopOrRounded,
+            _ => Corners::All,
+        }
+    }
 }
 
 impl Tolerance {
     /// Both computed from the same numbers.
-    pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6 };
+    pub const SAME: Tolerance = Tolerance { place: 2e-6, feed: 1e-6, corners: Corners::All };
     /// Rounded to three digits in mm, or four in inches.
-    pub const ROUNDED: Tolerance = Tolerance { place: 0.002, feed: 0.002 };
+    pub const ROUNDED: Tolerance = Tolerance { place: 0.002, feed: 0.002, corners: Corners::All };
 }
 
 /// A world in the second interpreter's terms.
@@ -129,6 +159,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 Happening::Arc { normal, centre, sweep, radius }
             }
             What::Thread(pitch, chuck) => Happening::Thread { pitch, chuck },
+            What::Orient => Happening::Orient,
             What::Dwell(seconds) => Happening::Dwell(seconds),
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
@@ -142,6 +173,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
         };
         from = event.machine;
         let cutting = matches!(what, Happening::Feed | Happening::Arc { .. });
+        let moves = cutting || matches!(what, Happening::Traverse | Happening::Thread { .. });
         let speed = event.speed.unwrap_or(0.0);
         push(
             &mut list,
@@ -154,6 +186,8 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                     _ if cutting => event.feed.unwrap_or(0.0),
                     _ => 0.0,
                 },
+                per: if cutting { event.per } else { Per::Minute },
+                corner: if moves { event.corner } else { Corner::Unsaid },
                 tool: event.tool.map(i64::from),
                 speed: match event.spindle {
                     Spindle::Stopped => 0.0,
@@ -194,7 +228,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 Happening::Arc { normal, centre, sweep, radius }
             }
             Kind::Synchronised { pitch, chuck } => Happening::Thread { pitch: mm(*pitch), chuck: *chuck },
-            Kind::Orient(angle) => Happening::Orient(mm(*angle)),
+            Kind::Orient(_) => Happening::Orient,
             Kind::Dwell(seconds) => Happening::Dwell(mm(*seconds)),
             Kind::ToolChange => Happening::ToolChange,
             Kind::Coolant => Happening::Coolant,
@@ -217,6 +251,19 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::Attribute(_) => continue,
         };
         from = at;
+        let cutting = matches!(what, Happening::Feed | Happening::Arc { .. });
+        let moves = cutting || matches!(what, Happening::Traverse | Happening::Thread { .. });
+        let corner = match event.state.path {
+            None => Corner::Unsaid,
+            Some(PathMode::ExactStop) => Corner::Stop,
+            Some(PathMode::ExactPath) => Corner::Through,
+            Some(_) => Corner::Rounded,
+        };
+        let per = match event.state.feed_mode {
+            FeedMode::PerMinute => Per::Minute,
+            FeedMode::PerRevolution => Per::Turn,
+            FeedMode::InverseTime => Per::Move,
+        };
         let speed = mm(event.state.speed);
         push(
             &mut list,
@@ -225,6 +272,8 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 what,
                 at,
                 feed: mm(event.rate),
+                per: if cutting { per } else { Per::Minute },
+                corner: if moves { corner } else { Corner::Unsaid },
                 tool: (event.state.tool >= 0).then_some(event.state.tool),
                 speed: match event.state.spindle {
                     Turning::Stopped => 0.0,
@@ -297,8 +346,16 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
     if !a.at.iter().zip(b.at).all(|(x, y)| near(*x, y, within.place)) {
         return Some("another end point");
     }
-    if !near(a.feed, b.feed, within.feed) {
+    if a.per != b.per || !near(a.feed, b.feed, within.feed) {
         return Some("another feed");
+    }
+    let told = |corner: Corner| match (within.corners, corner) {
+        (Corners::Nothing, _) => Corner::Unsaid,
+        (Corners::StopOrRounded, Corner::Through) => Corner::Stop,
+        (_, corner) => corner,
+    };
+    if told(a.corner) != told(b.corner) {
+        return Some("another corner");
     }
     if a.tool != b.tool || a.coolant != b.coolant || !near(a.speed, b.speed, 1e-6) {
         return Some("another tool, spindle or coolant");
@@ -310,8 +367,8 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
 pub fn show(event: &Plain) -> String {
     let at = event.at.map(|v| format!("{v:.4}")).join(" ");
     format!(
-        "{:?} at {at} F{} T{:?} S{} coolant {:?}",
-        event.what, event.feed, event.tool, event.speed, event.coolant
+        "{:?} at {at} F{} {:?} corner {:?} T{:?} S{} coolant {:?}",
+        event.what, event.feed, event.per, event.corner, event.tool, event.speed, event.coolant
     )
 }
 

@@ -106,6 +106,8 @@ pub struct Caps {
     pub arc_turns: bool,
     /// Highest block-skip level; 0 if there is no block skip.
     pub skip_levels: u8,
+    /// What is said for one move may stand before its block.
+    pub one_move_apart: bool,
     /// Incremental coordinates.
     pub incremental: bool,
     /// Both units of length.

@@ -128,9 +128,10 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
     let has_option = |name: &str| from.option.iter().any(|o| o.name == name);
     let edges = |dialect: &Dialect| dialect.letter_for(Role::ToolEdge).is_some();
     Some(match fault {
-        // Where the motion at power-on is a fact, it is the one around a cycle that is meant.
+        // Where the motion at power-on is a fact, or nothing is taken for granted of it, it is the one
+        // around a cycle that is meant.
         Fault::AssumedMode { fact: ModeName::Motion, .. }
-            if from.power_on.motion.as_ref().is_some_and(|row| row.always) =>
+            if from.power_on.motion.as_ref().is_none_or(|row| row.always) =>
         {
             (side, Place::Confirmed(MOTION_AT_CYCLES.to_owned()))
         }

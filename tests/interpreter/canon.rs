@@ -2,7 +2,7 @@
 //! functions, their own description for the print (`_` for an axis that stays, `/` for block skip,
 //! numbers of work offsets and length entries).
 
-use super::{Halt, Machine, Setup, Spindle, What};
+use super::{Corner, Halt, Machine, Per, Setup, Spindle, What};
 
 /// Runs a program.
 ///
@@ -58,7 +58,14 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
     let unit = if m.inch { 25.4 } else { 1.0 };
     match (name, a) {
         ("STOP_CUTTER_RADIUS_COMPENSATION" | "CLEAR_ORIGIN_SHIFT", []) => {}
-        ("SET_FEED_MODE", ["CANON_PER_MINUTE"]) => {}
+        ("SET_FEED_MODE", ["CANON_PER_MINUTE"]) => m.count_feed(Per::Minute),
+        ("SET_FEED_MODE", ["CANON_PER_REVOLUTION"]) => m.count_feed(Per::Turn),
+        ("SET_FEED_MODE", ["CANON_INVERSE_TIME"]) => m.count_feed(Per::Move),
+        ("EXACT_STOP", []) => m.stop_once = true,
+        ("SET_MOTION_CONTROL_MODE", ["CANON_EXACT_STOP"]) => m.corners = Corner::Stop,
+        ("SET_MOTION_CONTROL_MODE", ["CANON_EXACT_PATH"]) => m.corners = Corner::Through,
+        ("SET_MOTION_CONTROL_MODE", ["CANON_CONTINUOUS", ..]) => m.corners = Corner::Rounded,
+        ("ORIENT_SPINDLE", []) => m.orient(),
         ("USE_LENGTH_UNITS", ["CANON_UNITS_MM"]) => m.inch = false,
         ("USE_LENGTH_UNITS", ["CANON_UNITS_INCHES"]) => m.inch = true,
         ("SELECT_PLANE", ["CANON_PLANE_XY"]) => m.plane = 17,
@@ -68,7 +75,10 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let offset = only(m, a)? as u32;
             m.use_offset(offset);
         }
-        ("SET_FEED_RATE", _) => m.feed = Some(only(m, a)? * unit),
+        ("SET_FEED_RATE", _) => {
+            let unit = if m.per == Per::Move { 1.0 } else { unit };
+            m.feed = Some(only(m, a)? * unit);
+        }
         ("SET_SPINDLE_SPEED", _) => m.speed = Some(only(m, a)?),
         ("SELECT_TOOL", _) => m.selected = Some(only(m, a)? as u32),
         ("CHANGE_TOOL", []) => m.change_tool()?,
@@ -101,6 +111,7 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
                 _ if m.feed.is_none() && to == m.at => {}
                 _ => m.straight(to)?,
             }
+            m.begin_block();
         }
         ("ARC_FEED", [end_1, end_2, centre_1, centre_2, rotation, along, rotary @ ..])
             if rotary.is_empty() || rotary.len() == 3 =>
@@ -116,6 +127,7 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             }
             let to = place(m, &ends, [first, second, normal, 3, 4, 5])?;
             m.arc_of_turns(to, centre, rotation < 0.0, rotation.abs() as u32 - 1)?;
+            m.begin_block();
         }
         ("PROGRAM_STOP", []) => m.record(What::Stop),
         ("OPTIONAL_PROGRAM_STOP", []) => m.record(What::OptionalStop),

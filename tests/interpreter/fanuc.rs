@@ -2,7 +2,7 @@
 //! differ as its section on close relatives says: the feed's increments, P in seconds where it has a
 //! point, L for repetition, five digits, work offsets G110 to G129.
 
-use super::{Halt, Hole, Machine, Setup, Spindle, What, characters};
+use super::{Corner, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
 
 /// Runs the first program of a text.
 ///
@@ -207,7 +207,12 @@ impl Control {
         let mut motion_last = None;
         let mut slot = None;
         let mut machine = None;
+        self.m.begin_block();
         for g in codes('G') {
+            // High precision and contour control, with P or Q: the programmed path stays.
+            if g == 51 {
+                continue;
+            }
             if matches!(g, 500 | 501 | 510 | 511 | 520 | 680 | 690 | 920) {
                 slot = Some(g);
                 continue;
@@ -222,8 +227,16 @@ impl Control {
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
                 21 => self.m.inch = false,
-                // Nothing that they end can have begun: G41, G42 and G95 are out of scope.
-                40 | 94 => {}
+                // Nothing that it ends can have begun: G41 and G42 are out of scope.
+                40 => {}
+                // Its P is of this block: look-ahead asks for no other path.
+                5 | 8 => {}
+                9 => self.m.stop_once = true,
+                61 => self.m.corners = Corner::Stop,
+                64 => self.m.corners = Corner::Rounded,
+                93 => self.m.count_feed(Per::Move),
+                94 => self.m.count_feed(Per::Minute),
+                95 => self.m.count_feed(Per::Turn),
                 43 => length = Some(43),
                 49 => length = Some(49),
                 28 => machine = Some(28),
@@ -254,13 +267,17 @@ impl Control {
             None => {}
         }
         if let Some((feed, point)) = number(&words, 'F') {
+            if !point && self.m.per != Per::Minute {
+                return self.m.halt("a feed of a turn or of a move without a point");
+            }
             let step = match (point, self.haas, self.m.inch) {
                 (true, ..) | (false, false, false) => 1.0,
                 (false, false, true) => 0.01,
                 (false, true, false) => 0.001,
                 (false, true, true) => 0.0001,
             };
-            self.m.feed = Some(feed * step * if self.m.inch { 25.4 } else { 1.0 });
+            let inch = self.m.inch && self.m.per != Per::Move;
+            self.m.feed = Some(feed * step * if inch { 25.4 } else { 1.0 });
         }
         if let Some((speed, _)) = number(&words, 'S') {
             self.m.speed = Some(speed);
@@ -276,6 +293,7 @@ impl Control {
             Some(4) => self.m.turn(Spindle::Counterclockwise),
             Some(7) => self.m.cool(self.m.coolant.0, true),
             Some(8) => self.m.cool(true, self.m.coolant.1),
+            Some(19) if number(&words, 'R').or(number(&words, 'P')).is_none() => self.m.orient(),
             Some(29) if !self.haas => self.rigid = true,
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),

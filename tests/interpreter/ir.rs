@@ -8,7 +8,7 @@ mod text;
 use std::collections::HashMap;
 
 use super::siemens::frame::Frame;
-use super::{Halt, Machine, Place, Setup, Spindle, What};
+use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What};
 use text::{Line, Token, label, tokens};
 
 /// Runs a program.
@@ -127,6 +127,7 @@ impl Control {
             lines = after;
             let at = all.len() - lines.len() - 1;
             self.m.line = *line;
+            self.m.stop_once = false;
             let mut rest = &tokens[..];
             if let [Token::Name(n), Token::Number(times, _), Token::Sign('{')] = rest
                 && n == "repeat"
@@ -353,7 +354,25 @@ impl Control {
                 let edge = self.first(a)? as u32;
                 self.take_length(Some((self.m.tool, edge)), 0);
             }
-            "SET_FEED_MODE" if self.word(a)? == "per-minute" => {}
+            "SET_FEED_MODE" => match self.word(a)? {
+                "per-minute" => self.m.count_feed(Per::Minute),
+                "per-revolution" => self.m.count_feed(Per::Turn),
+                "inverse-time" => self.m.count_feed(Per::Move),
+                _ => return self.m.halt("another feed mode"),
+            },
+            "EXACT_STOP" => self.m.stop_once = true,
+            "SET_MOTION_CONTROL_MODE" => {
+                self.m.corners = match a.first() {
+                    Some(Token::Text(name)) => match name.as_str() {
+                        "exact-stop" => Corner::Stop,
+                        "exact-path" => Corner::Through,
+                        _ => Corner::Rounded,
+                    },
+                    _ => return self.m.halt("a path mode without its name"),
+                };
+            }
+            "ADVISE" | "LIMIT_SPINDLE_SPEED" => {}
+            "ORIENT_SPINDLE" if a.is_empty() => self.m.orient(),
             "USE_LENGTH_UNITS" => self.m.inch = self.word(a)? == "inch",
             "SET_DISTANCE_MODE" => self.m.absolute = self.word(a)? == "absolute",
             "SELECT_PLANE" => self.m.plane = self.plane(self.word(a)?)?,
@@ -384,12 +403,17 @@ impl Control {
                 self.motion = u32::from(name == "STRAIGHT_FEED");
                 self.cycle = None;
                 self.go(a)?;
+                self.m.begin_block();
             }
             "POSITION" if self.cycle.is_some() => self.hole_word(a)?,
             "POSITION" => self.go(a)?,
-            "ARC_FEED" => self.arc(a)?,
+            "ARC_FEED" => {
+                self.arc(a)?;
+                self.m.begin_block();
+            }
             "ARC_BY_ANGLE" | "ARC_ABOUT_BY_ANGLE" | "ARC_ABOUT" | "ARC_THROUGH" | "ARC_TANGENT" => {
                 self.arc_form(name, a)?;
+                self.m.begin_block();
             }
             "START_CYCLE" => self.start(a)?,
             "HOLE" => self.hole_word(a)?,

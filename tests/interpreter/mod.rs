@@ -105,6 +105,30 @@ pub enum Spindle {
     Counterclockwise,
 }
 
+/// What a feed counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Per {
+    /// Millimetres a minute.
+    Minute,
+    /// Millimetres a turn of the spindle.
+    Turn,
+    /// Moves a minute.
+    Move,
+}
+
+/// How the corner at the end of a move is taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Corner {
+    /// The program has not said it.
+    Unsaid,
+    /// By a stop.
+    Stop,
+    /// Through it.
+    Through,
+    /// Rounded, one way or another.
+    Rounded,
+}
+
 /// What happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum What {
@@ -124,6 +148,8 @@ pub enum What {
     /// In step with the spindle to the event's place: millimetres a turn, and whether a chuck makes good
     /// the rest.
     Thread(f64, bool),
+    /// The spindle was stopped at an angle that the program does not say.
+    Orient,
     /// Standing still for so many seconds.
     Dwell(f64),
     /// The spindle was started, stopped or reversed.
@@ -159,8 +185,12 @@ pub struct Event {
     pub offset: u32,
     /// Entry of the length table in force.
     pub entry: u32,
-    /// Feed, mm/min.
+    /// Feed, in millimetres.
     pub feed: Option<f64>,
+    /// What it counts.
+    pub per: Per,
+    /// The corner at its end.
+    pub corner: Corner,
     /// Speed, rev/min.
     pub speed: Option<f64>,
     /// Spindle.
@@ -225,8 +255,14 @@ pub struct Machine {
     pub offset: u32,
     /// Length entry.
     pub entry: u32,
-    /// mm/min.
+    /// Millimetres, or moves a minute.
     pub feed: Option<f64>,
+    /// What it counts.
+    pub per: Per,
+    /// How corners are taken.
+    pub corners: Corner,
+    /// The moves of this block end in a stop.
+    pub stop_once: bool,
     /// rev/min.
     pub speed: Option<f64>,
     /// Spindle.
@@ -260,6 +296,9 @@ impl Machine {
             offset: modes.offset,
             entry: modes.entry,
             feed: None,
+            per: Per::Minute,
+            corners: Corner::Unsaid,
+            stop_once: false,
             speed: None,
             spindle: Spindle::Stopped,
             tool: None,
@@ -382,6 +421,8 @@ impl Machine {
             offset: self.offset,
             entry: self.entry,
             feed: self.feed,
+            per: self.per,
+            corner: if self.stop_once { Corner::Stop } else { self.corners },
             speed: self.speed,
             spindle: self.spindle,
             tool: self.tool,
@@ -572,6 +613,28 @@ impl Machine {
         if seconds > 0.0 {
             self.record(What::Dwell(seconds));
         }
+    }
+
+    /// Another unit of the feed: what was said in the one before says nothing in it.
+    pub fn count_feed(&mut self, per: Per) {
+        if self.per != per {
+            self.feed = None;
+        }
+        self.per = per;
+    }
+
+    /// What is said for one block, or one move, is over: a stop, and a feed that counts moves.
+    pub fn begin_block(&mut self) {
+        self.stop_once = false;
+        if self.per == Per::Move {
+            self.feed = None;
+        }
+    }
+
+    /// The spindle stops at an angle.
+    pub fn orient(&mut self) {
+        self.spindle = Spindle::Stopped;
+        self.record(What::Orient);
     }
 
     /// Spindle words.

@@ -2,7 +2,7 @@
 //!
 //! What it takes for granted of the machine: M6 changes and takes edge 1 with it; a tool's length
 //! lies along Z in every plane; the plain slash is the first skip level; F stays in millimetres under
-//! G70. Not here: variables and expressions, cutter compensation, feeds other than G94, polar
+//! G70. Not here: variables and expressions, cutter compensation, polar
 //! coordinates, rounded corners, frames about other axes than the plane's, cycles out of G17.
 
 pub(super) mod arcs;
@@ -11,7 +11,7 @@ pub(super) mod frame;
 mod moves;
 mod text;
 
-use super::{Halt, Machine, Place, Setup, Spindle, What, characters};
+use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
 use text::{Argument, Block, Item, Mark, Unit, Value};
 
@@ -108,6 +108,13 @@ impl Words<'_> {
 const AXES: [char; 6] = ['X', 'Y', 'Z', 'A', 'B', 'C'];
 const FRAMES: [&str; 8] = ["TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE", "MIRROR", "AMIRROR"];
 const SUPPRESS: [u32; 2] = [53, 153];
+/// Words of an arc.
+const CENTRE: [&str; 6] = ["CR", "AR", "TURN", "I1", "J1", "K1"];
+/// How far from a corner rounding begins; and the limit of a speed, which no corpus program reaches.
+const ROUNDING: [&str; 3] = ["ADIS", "ADISPOS", "LIMS"];
+/// Words of the drives, of look-ahead and of tolerances: the programmed path stays.
+const ADVICE: [&str; 10] =
+    ["FFWON", "FFWOF", "SOFT", "BRISK", "DRIVE", "COMPOF", "COMPON", "COMPCURV", "COMPCAD", "CFC"];
 
 impl<'a> Control<'a> {
     /// Runs the blocks from one place up to another.
@@ -272,6 +279,7 @@ impl<'a> Control<'a> {
         let Some(first) = w.names.first() else { return Ok(None) };
         match *first {
             "SUPA" | "CIP" | "CT" => return Ok(None),
+            name if ADVICE.contains(&name) => return Ok(None),
             "MCALL" if bare && w.names.len() == 1 => (self.modal, self.modal_call) = (None, None),
             "MCALL" if bare && w.names.len() == 2 => {
                 (self.modal, self.modal_call) = (None, Some(w.names[1].to_owned()))
@@ -406,15 +414,15 @@ impl<'a> Control<'a> {
     }
 
     fn words(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
+        self.m.begin_block();
         if let Some((letter, ..)) = w.letters.iter().find(|l| !"XYZABCIJKFSTDMG".contains(l.0)) {
             return self.m.halt(format!("the word {letter}"));
         }
-        if let Some((name, _)) =
-            w.named.iter().find(|n| !["CR", "AR", "TURN", "I1", "J1", "K1"].contains(&n.0))
-        {
+        if let Some((name, _)) = w.named.iter().find(|n| !CENTRE.contains(&n.0) && !ROUNDING.contains(&n.0)) {
             return self.m.halt(format!("the word {name}"));
         }
-        if let Some(name) = w.names.iter().find(|n| !["SUPA", "CIP", "CT"].contains(n)) {
+        if let Some(name) = w.names.iter().find(|n| !["SUPA", "CIP", "CT"].contains(n) && !ADVICE.contains(n))
+        {
             return self.m.halt(format!("{name} among other words"));
         }
         self.suppressed = w.name("SUPA");
@@ -434,7 +442,8 @@ impl<'a> Control<'a> {
             .map(|l| self.whole(l.1.number))
             .collect::<Result<_, _>>()?;
         let axes: Vec<usize> = (0..6).filter(|axis| w.letter(AXES[*axis]).is_some()).collect();
-        let centre = w.letters.iter().any(|l| "IJK".contains(l.0)) || !w.named.is_empty();
+        let centre =
+            w.letters.iter().any(|l| "IJK".contains(l.0)) || w.named.iter().any(|n| CENTRE.contains(&n.0));
         let moves = !axes.is_empty() || centre;
         if dwell {
             let (1, Some(seconds)) = (w.letters.len() - 1, w.letter('F')) else {
@@ -444,7 +453,8 @@ impl<'a> Control<'a> {
             return Ok(Next::Block);
         }
         if let Some(feed) = w.letter('F') {
-            self.m.feed = Some(feed.number * if self.feed_inch { 25.4 } else { 1.0 });
+            let inch = self.feed_inch && self.m.per != Per::Move;
+            self.m.feed = Some(feed.number * if inch { 25.4 } else { 1.0 });
         }
         if let Some(speed) = w.letter('S') {
             self.m.speed = Some(speed.number);
@@ -469,6 +479,7 @@ impl<'a> Control<'a> {
                 4 => self.m.turn(Spindle::Counterclockwise),
                 7 => self.m.cool(self.m.coolant.0, true),
                 8 => self.m.cool(true, self.m.coolant.1),
+                19 if !moves => self.m.orient(),
                 5 | 9 if moves => {
                     return self.m.halt("M5 or M9 with a move: machine data decide which is first");
                 }
@@ -538,9 +549,26 @@ impl<'a> Control<'a> {
                     self.m.plane = code;
                     group(6)
                 }
-                // Nothing that they end can have begun.
+                // Nothing that it ends can have begun.
                 40 => group(7),
-                94 => group(15),
+                93..=95 => {
+                    self.m.count_feed([Per::Move, Per::Minute, Per::Turn][code as usize - 93]);
+                    group(15)
+                }
+                9 => {
+                    self.m.stop_once = true;
+                    group(11)
+                }
+                60 => {
+                    self.m.corners = Corner::Stop;
+                    group(10)
+                }
+                64 | 641..=645 => {
+                    self.m.corners = Corner::Rounded;
+                    group(10)
+                }
+                // How near is near enough for a stop.
+                601..=603 => group(12),
                 code if SUPPRESS.contains(&code) => {
                     self.suppressed = true;
                     group(9)
@@ -576,7 +604,8 @@ impl<'a> Control<'a> {
                     self.motion = Some(Motion::Tangent);
                     group(1)
                 }
-                _ => group(9),
+                "SUPA" => group(9),
+                _ => false,
             };
         }
         if twice { self.m.halt("two codes of a group") } else { Ok(dwell) }

@@ -10,7 +10,7 @@ use std::cell::OnceCell;
 use ncc_ir::num::ONE;
 use ncc_tests::corpus::Program;
 use ncc_tests::interpreter::{PowerOn, Setup};
-use ncc_tests::plain::{self, Plain, Tolerance};
+use ncc_tests::plain::{self, Corners, Plain, Tolerance};
 
 use crate::words::{Change, Is, Mutant};
 
@@ -98,7 +98,8 @@ pub(crate) fn rounded(
     let has = |code: &[u8]| emitted.text.windows(code.len()).any(|w| w == code);
     let inch = [&b"G20"[..], b"G70", b"INCHES", b"inch"].iter().any(|code| has(code));
     let half = if inch { 0.00128 } else { 0.000_501 };
-    let within = Tolerance { place: half, feed: half };
+    let corners = Corners::between(source.dialect, emitted.dialect);
+    let within = Tolerance { place: half, feed: half, corners };
     for seed in [0, 1, 2] {
         let mut world = plain::world(seed);
         (world.peck_clearance, world.break_lift) = (ONE, ONE);

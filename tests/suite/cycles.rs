@@ -8,8 +8,9 @@ use std::path::PathBuf;
 use ncc_tests::corpus;
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
+use ncc_tests::interpreter::{Corner, Per};
 use ncc_tests::page::{self, Page};
-use ncc_tests::plain::{self, Happening, Plain, Tolerance};
+use ncc_tests::plain::{self, Corners, Happening, Plain, Tolerance};
 use ncc_tests::translate;
 
 /// Dialects of cited programs.
@@ -70,7 +71,8 @@ fn read(path: &PathBuf) -> Cited {
             }
             other => panic!("{name}: {other}"),
         };
-        moves.push(Plain { what, at, feed, tool: None, speed: 0.0, coolant: (false, false) });
+        let (per, corner) = (Per::Minute, Corner::Unsaid);
+        moves.push(Plain { what, at, feed, per, corner, tool: None, speed: 0.0, coolant: (false, false) });
     }
     let place = if page.fact("digits") == Some("3") { 0.0005001 } else { 1e-6 };
     Cited {
@@ -80,7 +82,7 @@ fn read(path: &PathBuf) -> Cited {
         start,
         unit,
         moves,
-        within: Tolerance { place, feed: 1e-6 },
+        within: Tolerance { place, feed: 1e-6, corners: Corners::All },
         refused: page.fact("canon").and_then(|f| f.strip_prefix("refused ")).map(str::to_owned),
     }
 }

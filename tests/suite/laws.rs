@@ -11,7 +11,7 @@ use ncc_ir::passes::Legaliser;
 use ncc_ir::program::Op;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::interpreter::{PowerOn, Setup};
-use ncc_tests::plain::{self, Tolerance};
+use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::sketch::{self, SPELLED, pieces, spell};
 use ncc_tests::translate::{self, job, rendered};
 use proptest::prelude::*;
@@ -150,11 +150,12 @@ fn only(there: &Outcome, through: &str) -> Option<u16> {
 
 /// Whether two programs of a dialect make the same cut.
 fn same_cut(dialect: &str, a: &[u8], b: &[u8]) -> Result<(), String> {
-    same_cut_at(dialect, a, b, None)
+    same_cut_at(dialect, a, b, None, Corners::All)
 }
 
-/// The same, where `only` is the work offset that the second program knows as its first.
-fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>) -> Result<(), String> {
+/// The same, where `only` is the work offset that the second program knows as its first, and so much of
+/// `corners` could be said on the way.
+fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Corners) -> Result<(), String> {
     let (a, mut b) = (translate::read(dialect, a)?, translate::read(dialect, b)?);
     let mut stmts = a.procedures.iter().flat_map(|p| &p.body);
     let within = match stmts.any(|s| s.op == Op::UseLengthUnits(Units::Inch)) {
@@ -162,6 +163,7 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>) -> Result<(
         true => Tolerance { feed: 0.0005 * 25.4 + 0.002, ..Tolerance::ROUNDED },
         false => Tolerance::ROUNDED,
     };
+    let within = Tolerance { corners, ..within };
     for stmt in b.procedures.iter_mut().flat_map(|p| &mut p.body) {
         if let (Op::SetOriginOffsets(1), Some(only)) = (&stmt.op, only) {
             stmt.op = Op::SetOriginOffsets(only);
@@ -206,7 +208,8 @@ fn the_corpus_there_and_back() {
             match back.release {
                 Ok(()) => {
                     done += 1;
-                    let result = same_cut_at(from, &program.text, &returned, only(&there, through));
+                    let corners = Corners::between(from, through);
+                    let result = same_cut_at(from, &program.text, &returned, only(&there, through), corners);
                     failures.check(
                         &what,
                         result.map_err(|e| format!("{e}\n{}", String::from_utf8_lossy(&returned))),

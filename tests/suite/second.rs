@@ -6,7 +6,7 @@ use ncc_ir::program::Op;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
-use ncc_tests::plain::{self, Tolerance};
+use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::translate;
 
 /// Every program of the corpus is in the second interpreter's scope.
@@ -66,7 +66,7 @@ fn emitted_programs_make_the_same_moves() {
                 Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => Some(offset),
                 _ => None,
             });
-            let within = rounded(&program);
+            let within = Tolerance { corners: Corners::between(program.dialect, to), ..rounded(&program) };
             for mut world in [0, 1, 2].map(plain::world) {
                 // Where a peck cycle was written out, this is what the head says was assumed.
                 world.peck_clearance = ncc_ir::num::ONE;

@@ -191,6 +191,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         skip_levels: if everything { 10 } else { dialect.block.skip_levels },
         incremental: everything || says(Meaning::SetDistanceMode(ncc_ir::canon::Distance::Incremental)),
         inch: true,
+        one_move_apart: everything || dialect.can.flat,
         flat: dialect.can.flat,
         inherits_motion: everything || dialect.can.inherits_motion,
         synchronised: everything,

@@ -10,14 +10,14 @@ use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
-    one_distance, origin_shift, path_control, return_plane, skip_levels, specialise_procedures,
+    one_distance, one_move, origin_shift, path_control, return_plane, skip_levels, specialise_procedures,
     state_clearance, taps, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::{Caps, CycleForm, References};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::exec::Seen;
-use crate::kinds::{conduct, miscellaneous, modes};
+use crate::kinds::{conduct, miscellaneous};
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, Data, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
@@ -40,6 +40,7 @@ const MACHINE: u32 = 8192;
 const TABLE: u32 = 16384;
 const MEASURE: u32 = 32768;
 const PATH: u32 = 1 << 16;
+const MOVE: u32 = 1 << 17;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -54,6 +55,7 @@ pub struct Legaliser {
     walk: Walk,
     cycles: expand_cycles::State,
     length: offset_with_z::State,
+    one: one_move::State,
     work: work_offset::State,
     shift: origin_shift::State,
     path: path_control::State,
@@ -86,6 +88,7 @@ impl Legaliser {
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
+            one: one_move::State::default(),
             work: work_offset::State::default(),
             shift: origin_shift::State::default(),
             path: path_control::State::default(),
@@ -150,6 +153,9 @@ impl Legaliser {
             stmts.iter().for_each(|stmt| self.taps.note(stmt));
         }
         let start = (needs != 0).then(|| self.walk.clone());
+        if needs & MOVE == 0 && self.lacks & MOVE != 0 {
+            self.one.note(stmts);
+        }
         if needs & FRAME == 0 && self.lacks & FRAME != 0 {
             self.frames.note(stmts);
         }
@@ -196,6 +202,10 @@ impl Legaliser {
         }
         if self.path.is_busy() {
             needs |= PATH;
+        }
+        if (needs & MOVE != 0 || self.one.is_busy()) && self.lacks & MOVE != 0 {
+            let concerned = needs & PATH != 0 || self.one.concerns(stmts);
+            needs = if concerned { needs | MOVE } else { needs & !MOVE };
         }
         if self.frames.is_busy() {
             needs |= FRAME;
@@ -304,6 +314,9 @@ impl Legaliser {
         if needs & LENGTH != 0 {
             offset_with_z::over(stmts, &mut start.clone(), &mut self.length, diags);
         }
+        if needs & MOVE != 0 {
+            one_move::over(stmts, &mut self.one);
+        }
         if needs & EVERY != 0 {
             flatten_facts::over(stmts, &mut start.clone(), diags);
         }
@@ -386,6 +399,7 @@ impl Legaliser {
             self.taps = taps::State::default();
             self.edge.start_over();
             self.path.start_over();
+            self.one = one_move::State::default();
             self.arcs = arc_form::State::default();
             self.frames.start_over();
             self.machine = machine_moves::State::default();
@@ -397,6 +411,7 @@ impl Legaliser {
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.length.flush(stmts, diags);
+        self.one.flush(stmts);
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
@@ -549,6 +564,7 @@ fn lacks(caps: &Caps) -> u32 {
     needs(PATTERN, patterns);
     needs(CYCLE, cycles);
     needs(LENGTH, !caps.offset_with_z);
+    needs(MOVE, caps.one_move_apart);
     needs(WORK, caps.work_offsets == u16::MAX);
     needs(SHIFT, caps.clears_shift);
     needs(ARC, caps.helix && caps.arc_turns && caps.arc_forms);
@@ -588,12 +604,16 @@ fn interest(stmt: &Stmt) -> u32 {
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,
-        conduct!() => PATH,
+        conduct!() => PATH | MOVE,
+        Op::SetFeedMode(_) => MOVE,
         Op::SelectTool(_)
         | Op::SelectToolByName(_)
         | Op::ProgramEnd
         | Op::Assign(..)
-        | miscellaneous!()
-        | modes!() => 0,
+        | Op::UseLengthUnits(_)
+        | Op::SetDistanceMode(_)
+        | Op::SelectPlane(_)
+        | Op::SetReturnLevel(_)
+        | miscellaneous!() => 0,
     }
 }

@@ -31,6 +31,7 @@ pub mod machine_numbers;
 pub mod number_names;
 pub mod offset_with_z;
 pub mod one_distance;
+pub mod one_move;
 pub mod origin_shift;
 mod path_control;
 mod pattern_forms;
@@ -209,6 +210,11 @@ pub const PASSES: &[Pass] = &[
         name: "offset-with-z",
         about: "moves a tool-length offset into the block that takes it up",
         run: offset_with_z::run,
+    },
+    Pass {
+        name: "one-move",
+        about: "puts an exact stop of one move, and its feed by time, into the block of the move",
+        run: one_move::run,
     },
     // Last: afterwards every move names every axis.
     Pass {

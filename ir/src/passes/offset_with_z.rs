@@ -9,6 +9,7 @@ use super::write::Rebuild;
 use super::{Target, each_body};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
+use crate::kinds::flow;
 use crate::program::{Op, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
@@ -127,7 +128,7 @@ fn calls_up(walk: &Walk, op: &Op) -> bool {
 
 /// Whether the program goes on where this pass does not follow.
 fn leaves(op: &Op) -> bool {
-    matches!(op, Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_))
+    matches!(op, flow!())
 }
 
 fn cannot(diags: &mut Vec<Diagnostic>, span: Span) {
@@ -156,10 +157,7 @@ fn take_up(stmt: Stmt, state: &mut State, made: &mut Rebuild, diags: &mut Vec<Di
 
 /// Puts a statement into the block of another, in its place within the block.
 fn put_before(mut stmt: Stmt, mut offset: Stmt, made: &mut Rebuild) {
-    if matches!(
-        stmt.op,
-        Op::ProgramEnd | Op::Call(_) | Op::Return | Op::Control(_) | Op::Goto(_) | Op::Label(_)
-    ) {
+    if matches!(stmt.op, flow!() | Op::ProgramEnd) {
         // It goes into no block, but before the whole of this one.
         let block = if stmt.joined && made.is_open() {
             made.out.iter().rev().take_while(|s| s.joined).count() + 1
