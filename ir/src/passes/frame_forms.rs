@@ -52,8 +52,9 @@ pub(super) fn as_chain(slots: &Frames, before: bool, unit: Unit) -> Option<Vec<O
     Some(steps.into_iter().enumerate().map(frame).collect())
 }
 
-/// The slots that amount to a chain, with places of so many digits; `None` if none do.
-pub(super) fn as_slots(chain: &Chain, caps: &Caps, decimals: u8, unit: Unit) -> Option<Frames> {
+/// The slots that amount to a chain, with places of so many digits; `None` if none do. A local shift
+/// that is in force `now` stays where it can.
+pub(super) fn as_slots(chain: &Chain, now: &Frames, caps: &Caps, decimals: u8, unit: Unit) -> Option<Frames> {
     let sayable = |slots: &Frames| {
         let lengths = slots.local.iter().take(3).copied();
         let mut lengths = lengths
@@ -73,7 +74,10 @@ pub(super) fn as_slots(chain: &Chain, caps: &Caps, decimals: u8, unit: Unit) -> 
         let slots = Frames { local: t, ..Frames::NONE };
         return sayable(&slots).then_some(slots);
     };
-    candidates(m, t).into_iter().map(|slots| snapped(slots, decimals, unit)).find(sayable)
+    let mut found = candidates(m, t).into_iter().map(|slots| snapped(slots, decimals, unit)).filter(sayable);
+    let best = found.next()?;
+    let stays = |slots: &Frames| slots.local != [0; AXES] && slots.local == now.local;
+    Some(if stays(&best) { best } else { found.find(stays).unwrap_or(best) })
 }
 
 /// What a matrix and a shift may be, the best first.

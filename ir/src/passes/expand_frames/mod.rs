@@ -385,7 +385,9 @@ impl Frames<'_> {
             return Ok(None);
         }
         let digits = self.target.decimals_in(unit);
-        let Some(wanted) = frame_forms::as_slots(new, caps, digits, unit) else { return Ok(None) };
+        let Some(wanted) = frame_forms::as_slots(new, &self.set.said, caps, digits, unit) else {
+            return Ok(None);
+        };
         let ops = frame_forms::between(&self.set.said, &wanted, caps, unit);
         if !ops.is_empty() && (self.inner.at.cycle.is_some() || self.inner.at.cycle_in_doubt) {
             return Ok(None);
