@@ -17,7 +17,7 @@ use ncc_ir::world::World;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::page::{self, Page};
-use ncc_tests::plain::{self, Tolerance};
+use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::translate::{job, rendered, stopping, translate};
 
 #[test]
@@ -116,7 +116,9 @@ fn blocks_agree_by_the_second_interpreter() {
                 };
                 for (dialect, list) in rest {
                     compared += 1;
-                    let result = list.clone().and_then(|l| plain::compare(expected, &l, Tolerance::ROUNDED));
+                    let within =
+                        Tolerance { corners: Corners::between(first, dialect), ..Tolerance::ROUNDED };
+                    let result = list.clone().and_then(|l| plain::compare(expected, &l, within));
                     failures.check(format!("{name}: {first} and {dialect}, skip {skip:b}"), result);
                 }
             }
