@@ -6,8 +6,9 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
 };
-use ncc_ir::exec::{Event, Kind};
+use ncc_ir::exec::{Event, Kind, Stored};
 use ncc_ir::num::Nanos;
+use ncc_ir::program::ToolValue;
 use ncc_ir::world::World;
 
 use crate::interpreter::{self, Corner, Machine, Per, PowerOn, Setup, Spindle, What};
@@ -58,8 +59,8 @@ pub enum Happening {
     Coolant,
     /// Its name, hashed.
     MachineFunction(u64),
-    /// A value put into a table, hashed.
-    Data(u64),
+    /// A value put into a table: which, which entry, and what it holds now.
+    Data(&'static str, u32, [f64; 6]),
     Stop,
     OptionalStop,
     End,
@@ -110,11 +111,12 @@ impl Tolerance {
 
 /// A world in the second interpreter's terms.
 pub fn setup(world: &World, skip: u16) -> Setup {
-    let (offsets, lengths, edges) = (world.clone(), world.clone(), world.clone());
+    let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
         length: Box::new(move |entry| mm(lengths.tool_length(entry))),
+        wear: Box::new(move |entry| mm(wears.length_wear(entry))),
         edge_length: Box::new(move |tool, edge| mm(edges.edge_length(tool.map_or(-1, i64::from), edge))),
         skip: std::array::from_fn(|level| skip >> level & 1 == 1),
         peck_clearance: mm(world.peck_clearance),
@@ -164,6 +166,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
             What::Message => Happening::Message,
+            What::Data(table, entry, values) => Happening::Data(table, entry, values),
             What::Stop => Happening::Stop,
             What::OptionalStop => Happening::OptionalStop,
             What::End => Happening::End,
@@ -238,9 +241,20 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 Happening::MachineFunction(hasher.finish())
             }
             Kind::Data(stored) => {
-                let mut hasher = DefaultHasher::new();
-                stored.hash(&mut hasher);
-                Happening::Data(hasher.finish())
+                let alone = |value: Nanos| [mm(value), 0.0, 0.0, 0.0, 0.0, 0.0];
+                match **stored {
+                    Stored::Offset(offset, zero) => Happening::Data("zero", offset, zero.map(mm)),
+                    Stored::Length(entry, length) => Happening::Data("length", entry, alone(length)),
+                    Stored::Value(entry, which, added, value) => {
+                        let table = match (which == ToolValue::RadiusWear, added) {
+                            (false, false) => "radius",
+                            (false, true) => "radius, added",
+                            (true, false) => "wear of the radius",
+                            (true, true) => "wear of the radius, added",
+                        };
+                        Happening::Data(table, entry, alone(value))
+                    }
+                }
             }
             Kind::ProgramStop => Happening::Stop,
             Kind::OptionalProgramStop => Happening::OptionalStop,
@@ -338,6 +352,9 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
                 && near(sweep, s, slack)
         }
         (Happening::Dwell(x), Happening::Dwell(y)) => near(x, y, 0.0006),
+        (Happening::Data(a, n, x), Happening::Data(b, m, y)) => {
+            a == b && n == m && x.iter().zip(y).all(|(x, y)| near(*x, y, within.place))
+        }
         (x, y) => x == y,
     };
     if !same_kind {

@@ -105,6 +105,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
     dialect.code.push(CodeRow {
         code: code.clone(),
         upto: None,
+        count: None,
         // A derived dictionary lives as long as the process.
         means: Some(Meaning::MachineFunction(Box::leak(function.clone().into_boxed_str()))),
         refuse: None,

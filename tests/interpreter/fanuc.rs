@@ -203,6 +203,7 @@ impl Control {
         let m = m_codes.first().map(|m| m / 10);
 
         let mut dwell = false;
+        let mut table = false;
         let mut length = None;
         let mut motion_last = None;
         let mut slot = None;
@@ -217,6 +218,16 @@ impl Control {
                 slot = Some(g);
                 continue;
             }
+            if g == 541 && !self.haas || g == 1540 && self.haas {
+                let most = if self.haas { 99 } else { 48 };
+                match number(&words, 'P') {
+                    Some((p, false)) if (1.0..=f64::from(most)).contains(&p) => {
+                        self.m.use_offset(6 + p as u32)
+                    }
+                    _ => return self.m.halt("a further work offset without its P"),
+                }
+                continue;
+            }
             if g % 10 != 0 {
                 return self.m.halt(format!("G{}", f64::from(g) / 10.0));
             }
@@ -224,6 +235,7 @@ impl Control {
                 g @ 0..=3 => motion_last = Some(g),
                 g @ (73 | 74 | 80..=86 | 89) => motion_last = Some(g),
                 4 => dwell = true,
+                10 => table = true,
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
                 21 => self.m.inch = false,
@@ -321,7 +333,9 @@ impl Control {
             None => {}
         }
 
-        if dwell {
+        if table {
+            self.table(&words)?;
+        } else if dwell {
             let seconds = match (number(&words, 'X'), number(&words, 'P')) {
                 (Some(_), None) if self.haas => return self.m.halt("G04 X"),
                 (Some((x, true)), None) => x,
@@ -418,6 +432,31 @@ impl Control {
             }
         }
         self.m.use_slots(changed);
+        Ok(())
+    }
+
+    /// G10: L says which table, P which entry; under G91 values are added.
+    fn table(&mut self, words: &[Word]) -> Result<(), Halt> {
+        let whole = |letter| number(words, letter).map(|(value, _)| value as u32);
+        let (Some(table), Some(entry @ 1..)) = (whole('L'), whole('P')) else {
+            return self.m.halt("G10 without L, or P0");
+        };
+        if self.cycle.is_some() {
+            return self.m.halt("G10 within a cycle");
+        }
+        let added = !self.m.absolute;
+        let value = self.length(words, 'R');
+        match (table, entry, value) {
+            (2, 1..=6, None) => self.m.store_zero(entry, self.axis_words(words), added),
+            (20, _, None) => self.m.store_zero(6 + entry, self.axis_words(words), added),
+            (10 | 11, _, Some(value)) => self.m.store_length(entry, value, table == 11, added)?,
+            // On a Haas the value is a diameter.
+            (12 | 13, _, Some(value)) => {
+                let radius = if self.haas { value / 2.0 } else { value };
+                self.m.store_radius(entry, radius, table == 13, added);
+            }
+            _ => return self.m.halt("G10 of another kind"),
+        }
         Ok(())
     }
 

@@ -2,6 +2,7 @@
 //! with their arguments, procedures, cycles, patterns and frames. No expressions, no loops.
 
 mod cycles;
+mod data;
 mod moves;
 mod text;
 
@@ -265,7 +266,7 @@ impl Control {
     /// What lies between program and machine beside the frames.
     fn shift(&self) -> Place {
         let setup = &self.m.setup;
-        let mut shift = if self.machine_once { [0.0; 6] } else { (setup.work_offset)(self.m.offset) };
+        let mut shift = if self.machine_once { [0.0; 6] } else { self.m.zero_of(self.m.offset) };
         if !self.machine_once {
             let slots = self.m.slots.shift();
             shift = std::array::from_fn(|axis| shift[axis] + slots[axis]);
@@ -274,7 +275,7 @@ impl Control {
         shift[2] += match self.edge {
             _ if none => 0.0,
             Some((tool, edge)) => (setup.edge_length)(tool, edge),
-            None => (setup.length)(self.m.entry),
+            None => self.m.length_of(self.m.entry),
         };
         shift
     }
@@ -381,6 +382,8 @@ impl Control {
                 let number = self.first(a)? as u32;
                 self.m.use_offset(number);
             }
+            "SET_OFFSET_DATA" => self.offset_data(a)?,
+            "SET_TOOL_DATA" => self.tool_data(a)?,
             "SET_FEED_RATE" => self.m.feed = Some(self.first(a)?),
             "SET_SPINDLE_SPEED" => self.m.speed = Some(self.first(a)?),
             "SELECT_TOOL" => self.m.selected = Some(self.first(a)? as u32),

@@ -13,9 +13,11 @@ pub mod ir;
 pub mod mach9;
 pub mod siemens;
 mod slots;
+mod stored;
 
 use siemens::frame::Frame;
 use slots::Slots;
+use stored::Stored;
 
 /// X Y Z A B C; millimetres and degrees.
 pub type Place = [f64; 6];
@@ -28,6 +30,8 @@ pub struct Setup {
     pub work_offset: Box<dyn Fn(u32) -> Place>,
     /// Length of each entry of the tool table; 0 is none.
     pub length: Box<dyn Fn(u32) -> f64>,
+    /// How much of that is wear.
+    pub wear: Box<dyn Fn(u32) -> f64>,
     /// Length of an edge of a tool, on a control whose tools have edges; `None` is a tool that was
     /// in the spindle at power-on and that nothing is known of. Edge 0 is none.
     pub edge_length: Box<dyn Fn(Option<u32>, u32) -> f64>,
@@ -87,6 +91,7 @@ impl Setup {
             start: [0.0; 6],
             work_offset: Box::new(|_| [0.0; 6]),
             length: Box::new(|_| 0.0),
+            wear: Box::new(|_| 0.0),
             edge_length: Box::new(|_, _| 0.0),
             skip: [false; 11],
             peck_clearance: 1.0,
@@ -158,6 +163,8 @@ pub enum What {
     Coolant(bool, bool),
     /// A tool came into the spindle.
     Tool(u32),
+    /// A value was put into a table: which table, which entry, what it holds now (axis by axis).
+    Data(&'static str, u32, Place),
     /// A program stop.
     Stop,
     /// A text for the operator.
@@ -234,6 +241,8 @@ pub enum Hole {
 pub struct Machine {
     /// Its tables and switches.
     pub setup: Setup,
+    /// What the program has put into its tables.
+    stored: Stored,
     /// Where it stands, machine coordinates.
     pub at: Place,
     /// Shifts, rotation, scale and mirror of a control that has them in slots.
@@ -286,6 +295,7 @@ impl Machine {
         Machine {
             at: setup.start,
             setup,
+            stored: Stored::default(),
             slots: Slots::default(),
             turn: Frame::NONE,
             slot_shift: [0.0; 6],
@@ -311,8 +321,8 @@ impl Machine {
 
     /// What separates program from machine coordinates on an axis.
     pub fn shift(&self, axis: usize) -> f64 {
-        let length = if axis == 2 { (self.setup.length)(self.entry) } else { 0.0 };
-        (self.setup.work_offset)(self.offset)[axis] + length + self.slots.shift()[axis]
+        let length = if axis == 2 { self.length_of(self.entry) } else { 0.0 };
+        self.zero_of(self.offset)[axis] + length + self.slots.shift()[axis]
     }
 
     /// Where the machine stands, counted from the work offset.

@@ -19,7 +19,7 @@ fn built_in_dictionaries_read_back() {
         }
         // Every row of the dictionary has its line.
         let has = |table: &str, row: &str| {
-            rows.iter().any(|r| r.table == table && r.row.split(' ').next() == Some(row))
+            rows.iter().any(|r| r.table == table && (r.row == row || r.row.split(' ').next() == Some(row)))
         };
         if !matches!(dialect.family, Family::Canon | Family::Ir) {
             for (table, row) in dialect
@@ -30,6 +30,7 @@ fn built_in_dictionaries_read_back() {
                 })
                 .map(|c| ("code", c.code.clone()))
                 .chain(dialect.cycle.iter().map(|c| ("cycle", c.code.clone())))
+                .chain(dialect.data.iter().map(|d| ("data", d.name.clone())))
                 .chain(dialect.pattern.iter().map(|c| ("pattern", c.code().to_owned())))
                 .chain(dialect.name.iter().map(|n| ("name", n.name.clone())))
                 .chain(dialect.call.iter().map(|c| ("call", c.name.clone())))

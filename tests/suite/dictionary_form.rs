@@ -26,6 +26,8 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[[cycle]]`", "CycleRow", "[[cycle]]\ncode = \"G84\"\n@"),
     ("`dwell` of a cycle, `dwell` of a code", "DwellWord", "[[code]]\ncode = \"G04\"\ndwell = [{ @ }]"),
     ("`[[code]]`", "CodeRow", "[[code]]\ncode = \"G04\"\n@"),
+    ("`[[data]]`", "DataRow", "[[data]]\nname = \"G10 L2\"\n@"),
+    ("`values` of a table", "ValueWord", "[[data]]\nname = \"G10 L2\"\nvalues = [{ @ }]"),
     ("`[[name]]`", "NameRow", "[[name]]\nname = \"ZZ\"\n@"),
     ("`[[call]]`", "CallRow", "[[call]]\nname = \"ZZ\"\n@"),
     ("`parameters` of a call", "Parameter", "[[call]]\nname = \"ZZ\"\nparameters = [{ @ }]"),
@@ -45,6 +47,8 @@ const VALUES: &[(&str, &str)] = &[
     ("NameRole", "[[name]]\nname = \"ZZ\"\nrole = \"@\""),
     ("CallKind", "[[call]]\nname = \"ZZ\"\nkind = \"@\""),
     ("ParameterRole", "[[call]]\nname = \"ZZ\"\nparameters = [{ role = \"@\" }]"),
+    ("DataKind", "[[data]]\nname = \"G10 L2\"\nkind = \"@\""),
+    ("ValueName", "[[data]]\nname = \"G10 L2\"\nvalues = [{ of = \"@\" }]"),
     ("SafeStart", "safe_start = [\"@\"]"),
 ];
 
@@ -57,7 +61,7 @@ struct Entry {
 }
 
 fn sources() -> String {
-    ["schema.rs", "names.rs", "power_on.rs"]
+    ["schema.rs", "names.rs", "power_on.rs", "stored.rs"]
         .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
         .join("\n")
 }
@@ -149,9 +153,8 @@ fn form(of: &str) -> String {
     }
     if let Some(inner) = of.strip_prefix("Vec<").and_then(|t| t.strip_suffix('>')) {
         return match inner {
-            "Address" | "CycleRow" | "PatternRow" | "CodeRow" | "NameRow" | "CallRow" | "OptionRow" => {
-                "rows".into()
-            }
+            "Address" | "CycleRow" | "PatternRow" | "CodeRow" | "DataRow" | "NameRow" | "CallRow"
+            | "OptionRow" => "rows".into(),
             inner => format!("list of {}", form(inner)),
         };
     }

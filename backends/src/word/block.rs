@@ -80,6 +80,9 @@ impl Need {
             }
             self.clash |= self.groups & code.group != 0;
             self.groups |= code.group;
+            if code.letter != 0 {
+                self.letters |= bit(code.letter);
+            }
         }
         self
     }

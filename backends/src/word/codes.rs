@@ -3,17 +3,22 @@
 //! A row counts only if its word reads back to the same meaning, so every code here was found by
 //! its meaning and checked by its number. Not here: when a word is written.
 
-use ncc_dialects::{Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
+use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
 use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint};
+use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint, ToolValue};
 
 use super::number::Format;
+
+/// Longest code, with a word that belongs to it.
+const LONGEST: usize = 12;
 
 /// A G or M code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Code {
-    text: [u8; 8],
+    text: [u8; LONGEST],
     len: u8,
+    /// Letter of a word that belongs to it; 0 for none.
+    pub letter: u8,
     /// One bit for its modal group, 0 for a one-shot.
     pub group: u64,
     /// What it means, if no source confirms it.
@@ -21,10 +26,10 @@ pub(crate) struct Code {
 }
 
 impl Code {
-    /// The text with what fills it up, and its length.
+    /// The text of a code without a word, with what fills it up, and its length.
     #[inline]
     pub(crate) fn padded(&self) -> (&[u8; 8], usize) {
-        (&self.text, usize::from(self.len))
+        (self.text.first_chunk().unwrap_or(&[0; 8]), usize::from(self.len))
     }
 
     pub(crate) fn text(&self) -> &[u8] {
@@ -93,6 +98,19 @@ pub(crate) struct AdviceCode {
     pub word: Option<(u8, u32)>,
 }
 
+/// A table that values are put into.
+#[derive(Clone, Debug)]
+pub(crate) struct DataCode {
+    pub row: &'static DataRow,
+    pub code: Code,
+    /// Letter and number that say which table.
+    pub select: (u8, u32),
+    /// Letter of the entry.
+    pub entry: u8,
+    /// Words of values of tools.
+    pub values: Vec<(ToolValue, Letter)>,
+}
+
 /// A call's words: the number, and the count where it has a letter of its own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct CallCode {
@@ -140,6 +158,8 @@ pub(crate) struct Codes {
     pub machine: [Option<Code>; 2],
     /// To points of the machine, with the letter that names a further one.
     pub references: Vec<(ReferencePoint, Code, Option<Letter>)>,
+    /// Tables that values are put into.
+    pub tables: Vec<DataCode>,
     pub length: Option<Code>,
     pub no_length: Option<Code>,
     /// Centres are measured from the start point.
@@ -187,12 +207,12 @@ pub(crate) struct Codes {
 }
 
 /// Looks rows up, and gives every modal group a bit.
-struct Finder<'d> {
-    dialect: &'d Dialect,
-    groups: Vec<&'d str>,
+struct Finder {
+    dialect: &'static Dialect,
+    groups: Vec<&'static str>,
 }
 
-impl<'d> Finder<'d> {
+impl Finder {
     fn code(&self, meaning: Meaning) -> Option<Code> {
         self.row(&self.dialect.code_for(meaning)?.code, meaning)
     }
@@ -207,14 +227,35 @@ impl<'d> Finder<'d> {
             return None;
         }
         let group = self.groups.iter().position(|g| *g == row.group).filter(|_| !row.group.is_empty());
-        let mut text = [0; 8];
+        let mut text = [0; LONGEST];
         text[..code.len()].copy_from_slice(code.as_bytes());
         Some(Code {
             text,
             len: code.len() as u8,
+            letter: 0,
             group: group.map_or(0, |g| 1 << g.min(63)),
             unsure: (!row.sure).then_some(meaning),
         })
+    }
+
+    /// The code of a work offset; one of several that share a code has a word that says which.
+    fn origin(&self, number: u16) -> Option<Code> {
+        if let Some(code) = self.code(Meaning::SetOriginOffsets(number)).filter(|code| code.letter == 0)
+            && self.dialect.counted_offsets().is_none_or(|row| row.code.as_bytes() != code.text())
+        {
+            return Some(code);
+        }
+        let row = self.dialect.counted_offsets()?;
+        let Some(first @ Meaning::SetOriginOffsets(from)) = row.means else { return None };
+        let which = number.checked_sub(from).filter(|n| *n < row.count.unwrap_or(0))? + 1;
+        let letter = row.words.bytes().next()?;
+        let mut code = self.row(&row.code, first)?;
+        let blank = if self.dialect.block.blanks { " " } else { "" };
+        let word = format!("{blank}{}{which}", letter as char);
+        let len = usize::from(code.len);
+        code.text.get_mut(len..len + word.len())?.copy_from_slice(word.as_bytes());
+        (code.len, code.letter) = ((len + word.len()) as u8, letter);
+        Some(code)
     }
 
     fn format(&self, quantity: Quantity) -> Format {
@@ -309,6 +350,24 @@ impl<'d> Finder<'d> {
         }
     }
 
+    fn tables(&self) -> Vec<DataCode> {
+        let rows = self.dialect.data.iter();
+        rows.filter_map(|row| {
+            let (code, letter, number) = row.selected()?;
+            let values = row.values.iter();
+            Some(DataCode {
+                row,
+                code: self.row(code, Meaning::SetData)?,
+                select: (letter, number),
+                entry: u8::try_from(row.entry).ok()?,
+                values: values
+                    .filter_map(|v| Some((v.of.into(), self.letter(v.letter, Quantity::Length)?)))
+                    .collect(),
+            })
+        })
+        .collect()
+    }
+
     fn pair(&self, letters: [char; 2], quantity: Quantity) -> Option<[Letter; 2]> {
         Some([self.letter(letters[0], quantity)?, self.letter(letters[1], quantity)?])
     }
@@ -322,9 +381,9 @@ impl<'d> Finder<'d> {
     /// Edge 0 of the tool is no length.
     fn no_edge(&self) -> Option<Code> {
         let letter = self.role(Role::ToolEdge)?.letter;
-        let mut text = [0; 8];
+        let mut text = [0; LONGEST];
         text[..2].copy_from_slice(&[letter, b'0']);
-        Some(Code { text, len: 2, group: 0, unsure: None })
+        Some(Code { text, len: 2, letter: 0, group: 0, unsure: None })
     }
 
     fn dwell_code(&self) -> Option<(Code, Dwell)> {
@@ -334,17 +393,16 @@ impl<'d> Finder<'d> {
 }
 
 impl Codes {
-    pub(crate) fn new(dialect: &Dialect) -> Codes {
+    pub(crate) fn new(dialect: &'static Dialect) -> Codes {
         let mut groups: Vec<&str> = dialect.code.iter().map(|row| row.group.as_str()).collect();
         groups.sort_unstable();
         groups.dedup();
         let find = Finder { dialect, groups };
         let code = |meaning| find.code(meaning);
-        let last = dialect.code.iter().filter_map(|row| match row.means {
-            Some(Meaning::SetOriginOffsets(n)) => Some(n),
-            _ => None,
-        });
-        let last = last.max().unwrap_or(0);
+        let last = match dialect.caps.work_offsets {
+            u16::MAX => 0,
+            last => last,
+        };
         let axis = |axis: Axis| {
             let row = dialect.address_row(axis.letter()).filter(|row| row.role == Role::Axis)?;
             find.letter(row.letter, row.quantity)
@@ -360,7 +418,7 @@ impl Codes {
             feed_mode: [FeedMode::PerMinute, FeedMode::PerRevolution, FeedMode::InverseTime]
                 .map(|f| code(Meaning::SetFeedMode(f))),
             level: [ReturnLevel::Initial, ReturnLevel::Retract].map(|l| code(Meaning::SetReturnLevel(l))),
-            origins: (1..=last).map(|n| code(Meaning::SetOriginOffsets(n))).collect(),
+            origins: (1..=last).map(|n| find.origin(n)).collect(),
             no_origin: code(Meaning::SetOriginOffsets(0)),
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
             frames: find.frames(),
@@ -380,6 +438,7 @@ impl Codes {
                     Some((point, find.row(&row.code, meaning)?, letter))
                 })
                 .collect(),
+            tables: find.tables(),
             length: code(Meaning::UseToolLengthOffset),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
             centre_from_start: code(Meaning::SetCentreMode(CentreFrom::Start)),

@@ -10,6 +10,7 @@ pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
 mod cycles;
+mod data;
 mod force;
 mod frame;
 mod frames;

@@ -67,7 +67,7 @@ impl Writer {
                 Ok(())
             }
             Op::GoToReference(reference) => self.reference(reference, span, sink),
-            Op::SetData(_) => Err(cannot("values of tables")),
+            Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
             Op::SynchronisedFeed(_) => Err(cannot("a move in step with the spindle")),

@@ -310,7 +310,9 @@ fn what_has_no_word_is_refused() {
         refused("fanuc", &lines(vec![rapid("X0."), op.clone()]));
         refused("mach9", &lines(vec![rapid("X0."), op]));
     }
-    refused("fanuc", &lines(vec![rapid("X0."), Op::SetOriginOffsets(7)]));
+    let further = lines(vec![rapid("X0."), Op::SetOriginOffsets(54)]);
+    assert_eq!(clean("fanuc", &further), "G00 X0.\nG54.1 P48\n");
+    refused("fanuc", &lines(vec![rapid("X0."), Op::SetOriginOffsets(55)]));
     let by_time = lines(vec![Op::SetFeedMode(FeedMode::InverseTime), rapid("X0.")]);
     assert_eq!(clean("fanuc", &by_time), "G21 G17 G90 G40 G49 G80 G93\nG54\nG00 X0.\n");
     refused("mach9", &by_time);

@@ -1,6 +1,9 @@
 //! G and M codes, the canned cycles and patterns that they call up, and their letters.
 
-use ncc_dialects::{CodeRow, CycleRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity};
+use ncc_dialects::{
+    CodeRow, CycleRow, DataKind, DataRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity,
+    ValueName, ValueWord,
+};
 use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
 use ncc_ir::program::CentreFrom;
@@ -24,6 +27,12 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
             Meaning::SetCentreMode(from) => centre(bench, row, from, rows),
             Meaning::Pattern => {}
             Meaning::Dwell => dwells(bench, row, rows),
+            Meaning::SetData => {
+                let first = d.tables_of(&row.code).next().map(stored_by).unwrap_or_default();
+                let said = Said::new(first.first().map_or("", String::as_str));
+                rows.push(must_show(bench.both_ways(&said), &row.code).row("code", &row.code, row.sure));
+            }
+            Meaning::SetOriginOffsets(first) if row.count.is_some() => counted(bench, row, first, rows),
             _ => {
                 for said in said(d, meaning, &row.code) {
                     rows.push(code(bench, row, meaning, &said).row("code", row.code.clone(), row.sure));
@@ -36,6 +45,62 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
     }
     for row in &d.pattern {
         pattern(bench, row, rows);
+    }
+    for row in &d.data {
+        stored(bench, row, rows);
+    }
+}
+
+/// Work offsets of which a word of the block says one: the first and the last of them. One that has a code
+/// of its own is not written so.
+fn counted(bench: &Bench, row: &CodeRow, first: u16, rows: &mut Vec<Row>) {
+    let d = bench.dialect;
+    for number in [first, first + row.count.unwrap_or(1) - 1] {
+        let own = d.code_for(Meaning::SetOriginOffsets(number)).is_some_and(|code| code.code != row.code);
+        let said = Said::new(format!("SET_ORIGIN_OFFSETS({number})"));
+        let letter = row.words.chars().next().unwrap_or(' ');
+        let name = format!("{} {letter}{}", row.code, number - first + 1);
+        if !own {
+            let tried = must_show(bench.both_ways(&said), &row.code);
+            rows.push(tried.row("code", name, row.sure));
+        }
+    }
+}
+
+/// Statements that put values into the last entry of a table.
+fn stored_by(row: &DataRow) -> Vec<String> {
+    let added: &[&str] = if row.adds { &["", "added "] } else { &[""] };
+    match row.kind {
+        DataKind::Offset | DataKind::OffsetHere => {
+            let last = row.first + row.count - 1;
+            let here = if row.kind == DataKind::OffsetHere { "here, " } else { "" };
+            let mode = |added: &&str| if added.is_empty() { here } else { "added, " };
+            let words = "X 12.345mm, Y -6.7mm";
+            added.iter().map(|a| format!("SET_OFFSET_DATA({last}, {}{words})", mode(a))).collect()
+        }
+        DataKind::Tool => {
+            let name = |of| match of {
+                ValueName::Length => "length",
+                ValueName::LengthWear => "length-wear",
+                ValueName::Radius => "tool-radius",
+                ValueName::RadiusWear => "tool-radius-wear",
+            };
+            let each = |v: &ValueWord| {
+                let of = name(v.of);
+                added.iter().map(move |a| format!("SET_TOOL_DATA({}, {of}, {a}6.15mm)", row.count))
+            };
+            row.values.iter().flat_map(each).collect()
+        }
+    }
+}
+
+/// A table that values are put into.
+fn stored(bench: &Bench, row: &DataRow, rows: &mut Vec<Row>) {
+    let select = row.name.split(' ').nth(1).unwrap_or_default();
+    for say in stored_by(row) {
+        let tried = must_show(bench.both_ways(&Said::new(say)), select);
+        let sure = bench.dialect.code.iter().any(|code| row.name.starts_with(&code.code) && code.sure);
+        rows.push(tried.row("data", row.name.clone(), sure));
     }
 }
 
@@ -151,6 +216,7 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             let said = |point: &String| Said::new(format!("GO_TO_REFERENCE({point}, Z{keeps})"));
             points.iter().map(said).collect()
         }
+        Meaning::SetData => Vec::new(),
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
         Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),
         Meaning::CancelToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(0)"),

@@ -39,7 +39,7 @@ const MOST_STRETCHES: usize = 1000;
 const MOST_PLACES: usize = 1000;
 
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
-pub const KINDS: [&str; 14] = [
+pub const KINDS: [&str; 15] = [
     "STRAIGHT_TRAVERSE",
     "STRAIGHT_FEED",
     "ARC_FEED",
@@ -54,6 +54,7 @@ pub const KINDS: [&str; 14] = [
     "MESSAGE",
     "SYNCHRONISED_FEED",
     "ORIENT_SPINDLE",
+    "SET_DATA",
 ];
 
 /// A kind's place in [`KINDS`]; `None` is no event of a comparison.

@@ -49,6 +49,9 @@ impl Lower {
             match code.meaning {
                 Meaning::SetFeedMode(_) if before_feed => {}
                 Meaning::Advise(kind, None) => self.advise(code, kind, words, src, out),
+                Meaning::SetOriginOffsets(first) if code.row.count.is_some() => {
+                    self.counted_offset(code, first, words, src, out);
+                }
                 meaning if is_frame(meaning) => {
                     self.frame(code, functions, words, src, out);
                     if self.now.failed {
@@ -263,6 +266,7 @@ impl Lower {
                 self.state.level_open = true;
                 Op::UseToolLengthOffset(Expr::int(0))
             }
+            Meaning::SetData => return self.data(code, words, src, out),
             Meaning::ProgramStop => Op::ProgramStop,
             Meaning::OptionalProgramStop => Op::OptionalProgramStop,
             Meaning::ProgramEnd => {

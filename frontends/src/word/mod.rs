@@ -14,6 +14,7 @@
 pub(crate) mod block;
 mod call;
 mod cycle;
+mod data;
 pub(crate) mod facts;
 pub(crate) mod fast;
 mod frame;

@@ -253,6 +253,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::Dwell | Meaning::MachineFunction(_) => 13,
         Meaning::RigidTapping => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
+        Meaning::SetData => 15,
         Meaning::OrientSpindle => 16,
         Meaning::ExactStop => 17,
         Meaning::EndCycle => RANK_MOTION,

@@ -7,6 +7,7 @@ use ncc_ir::program::{FrameSlot, ReferencePoint};
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
 use crate::schema::{CycleRow, Dialect, Family, PatternRow};
+use crate::stored::DataKind;
 
 /// The capabilities that follow from a dictionary's rows.
 pub(crate) fn caps(dialect: &Dialect) -> Caps {
@@ -152,9 +153,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             };
             dialect.code.iter().any(keeps)
         }),
-        offset_data: [everything; 3],
-        tool_data: [everything; 4],
-        tool_data_added: everything,
+        offset_data: if everything { [true; 3] } else { dialect.sets_offsets() },
+        tool_data: if everything { [true; 4] } else { dialect.sets_tools() },
+        tool_data_added: everything || dialect.data.iter().any(|r| r.kind == DataKind::Tool && r.adds),
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
         return_planes: either(states),
         arc_forms: everything || names(NameMeaning::ArcThrough),
@@ -172,8 +173,11 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         work_offsets: if everything || dialect.family == Family::Canon {
             u16::MAX
         } else {
-            dialect.code.iter().filter(|r| matches!(r.means, Some(Meaning::SetOriginOffsets(1..)))).count()
-                as u16
+            let last = |row: &crate::schema::CodeRow| match row.means {
+                Some(Meaning::SetOriginOffsets(n)) => Some(n.saturating_add(row.count.unwrap_or(1)) - 1),
+                _ => None,
+            };
+            dialect.code.iter().filter_map(last).max().unwrap_or(0)
         },
         clears_shift: everything
             || dialect.can.flat

@@ -9,6 +9,7 @@ use crate::fault::DialectFault;
 use crate::meaning::Meaning;
 use crate::names::{NameRow, ParameterRole};
 use crate::schema::{CodeIndex, CodeRow, Dialect};
+use crate::stored::DataKind;
 
 /// A fault, and the place of its row in the texts laid end to end.
 pub(crate) type Fault = (DialectFault, Option<Range<usize>>);
@@ -23,6 +24,7 @@ pub(crate) struct Places {
     pub(crate) name: Vec<Range<usize>>,
     pub(crate) call: Vec<Range<usize>>,
     pub(crate) option: Vec<Range<usize>>,
+    pub(crate) data: Vec<Range<usize>>,
 }
 
 /// Kinds of cycles, as `ncc_ir::cycle::CycleKind::name` has them.
@@ -111,6 +113,10 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         if row.means.is_some() == row.refuse.is_some() {
             return Err(wrong("needs either `means` or `refuse`"));
         }
+        let offsets = matches!(row.means, Some(Meaning::SetOriginOffsets(1..)));
+        if row.count.is_some() && (row.words.is_empty() || !offsets) {
+            return Err(wrong("has `count`, and is no code of work offsets with a word of its own"));
+        }
         if row.means == Some(Meaning::StartCycle) && dialect.cycle_row(&row.code).is_none() {
             return Err(wrong("has no [[cycle]] row"));
         }
@@ -154,6 +160,7 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         }
     }
     names(dialect, places)?;
+    tables(dialect, places)?;
     for (at, row) in dialect.address.iter().enumerate() {
         let wrong = |wrong| fault(&row.letter.to_string(), wrong, &places.address, at);
         let place = row.letter as usize;
@@ -180,6 +187,37 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
 
 fn fault(row: &str, wrong: &'static str, places: &[Range<usize>], at: usize) -> Fault {
     (DialectFault::Row { row: row.to_owned(), wrong }, places.get(at).cloned())
+}
+
+/// Checks the tables that a program puts values into.
+fn tables(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
+    for (at, row) in dialect.data.iter().enumerate() {
+        let wrong = |wrong| fault(&row.name, wrong, &places.data, at);
+        let (code, ..) = row.selected().ok_or_else(|| wrong("is no code with a word behind it"))?;
+        let sets = |c: &CodeRow| c.code == code && c.means == Some(Meaning::SetData);
+        if !dialect.code.iter().any(sets) {
+            return Err(wrong("is a table, and no row of [[code]] puts values into one"));
+        }
+        if (row.kind == DataKind::Tool) == row.values.is_empty() {
+            return Err(wrong("needs `values` if it is of tools, and has none else"));
+        }
+        if row.first == 0 || row.count == 0 {
+            return Err(wrong("has no entries"));
+        }
+        if row.source.is_empty() {
+            return Err(wrong("names no source"));
+        }
+        if dialect.data.iter().take(at).any(|other| other.name == row.name) {
+            return Err(wrong("stands twice"));
+        }
+    }
+    let sets = |row: &CodeRow| row.means == Some(Meaning::SetData);
+    for (at, row) in dialect.code.iter().enumerate().filter(|(_, row)| sets(row)) {
+        if dialect.tables_of(&row.code).next().is_none() {
+            return Err(fault(&row.code, "has no [[data]] row", &places.code, at));
+        }
+    }
+    Ok(())
 }
 
 /// Checks the words of several letters and the calls.

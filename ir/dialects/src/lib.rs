@@ -17,6 +17,7 @@ mod names;
 mod power_on;
 mod schema;
 mod settings;
+mod stored;
 
 pub use fault::{DialectError, DialectFault, Place, Text};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
@@ -25,3 +26,4 @@ pub use names::*;
 pub use power_on::*;
 pub use schema::*;
 pub use settings::{CYCLE_APPROACH, SettingError, Settings, TAPPING};
+pub use stored::{DataKind, DataRow, RADIUS_DATA, ValueName, ValueWord};

@@ -275,6 +275,7 @@ fn places(tree: &DeTable<'_>) -> Places {
         name: rows("name"),
         call: rows("call"),
         option: rows("option"),
+        data: rows("data"),
     }
 }
 

@@ -49,6 +49,8 @@ pub enum Meaning {
         point: ReferencePoint,
         keeps_length: bool,
     },
+    /// Puts values into the table of the row of `[[data]]` that a word of the block names.
+    SetData,
     StopCutterRadiusCompensation,
     SetMotionControlMode(PathMode),
     ExactStop,
@@ -146,6 +148,7 @@ impl fmt::Display for Meaning {
                     ReferencePoint::Stored(n) => write!(f, "GO_TO_REFERENCE stored {n}{keeps}"),
                 };
             }
+            Meaning::SetData => "SET_DATA",
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::SetMotionControlMode(mode) => {
                 return write!(f, "SET_MOTION_CONTROL_MODE {}", mode.name());
@@ -250,6 +253,7 @@ impl FromStr for Meaning {
             ("GO_TO_REFERENCE", "stored 2 keeps-length") => {
                 Meaning::GoToReference { point: ReferencePoint::Stored(2), keeps_length: true }
             }
+            ("SET_DATA", "") => Meaning::SetData,
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(
                 PathMode::named(mode).ok_or_else(|| format!("no way of taking corners: {text}"))?,

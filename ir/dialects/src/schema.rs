@@ -11,6 +11,7 @@ use serde::Deserialize;
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
 use crate::power_on::{ApproachName, PathName, PowerOn, ReturnLevelName, SafeStart};
+use crate::stored::DataRow;
 
 /// A dialect's dictionary.
 #[derive(Clone, Debug, Deserialize)]
@@ -61,6 +62,9 @@ pub struct Dialect {
     /// G and M codes.
     #[serde(default)]
     pub code: Vec<CodeRow>,
+    /// Tables that a program puts values into.
+    #[serde(default)]
+    pub data: Vec<DataRow>,
     /// Words of several letters.
     #[serde(default)]
     pub name: Vec<NameRow>,
@@ -484,6 +488,10 @@ pub struct CodeRow {
     /// with the next number: `G505` up to 599. The loader makes a row of each.
     #[serde(default)]
     pub upto: Option<u16>,
+    /// How many work offsets the code has, if a word of the block says which of them: the word's 1 is
+    /// the one that the row means. Its letter is the first of `words`.
+    #[serde(default)]
+    pub count: Option<u16>,
     /// What it means; without, it is refused by `refuse`.
     #[serde(default)]
     pub means: Option<Meaning>,
@@ -596,6 +604,11 @@ impl Dialect {
     /// The row that is written for a meaning.
     pub fn code_for(&self, meaning: Meaning) -> Option<&CodeRow> {
         self.code.iter().find(|row| row.write && row.means == Some(meaning))
+    }
+
+    /// The row of a code of several work offsets, of which a word of the block says one.
+    pub fn counted_offsets(&self) -> Option<&CodeRow> {
+        self.code.iter().find(|row| row.write && row.count.is_some())
     }
 
     /// The row of an address letter.

@@ -1,0 +1,107 @@
+//! Values put into the control's tables: a code with the words that say which table and which entry.
+
+use ncc_dialects::{DataKind, RADIUS_DATA};
+use ncc_ir::canon::{Axis, Distance, Fact};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::Num;
+use ncc_ir::program::{Coord, Data, DataMode, ToolValue};
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::codes::{DataCode, Letter};
+use super::modes::{Inserted, cannot};
+use super::{Sink, Writer};
+
+impl Writer {
+    /// Puts values into a table, in a block of its own.
+    pub(crate) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let tables = &self.codes.tables;
+        match data {
+            Data::Offset { offset, mode, words } => {
+                let kind = match mode {
+                    DataMode::Set | DataMode::Add => DataKind::Offset,
+                    DataMode::Here => DataKind::OffsetHere,
+                };
+                let has = |table: &&DataCode| {
+                    let row = table.row;
+                    row.kind == kind && offset.checked_sub(row.first).is_some_and(|n| n < row.count)
+                };
+                let what = || cannot(format!("the zero of work offset {offset}"));
+                let table = tables.iter().find(has).ok_or_else(what)?.clone();
+                let mut own = Vec::new();
+                for (axis, word) in Axis::ALL.into_iter().zip(words.iter()) {
+                    if let Some(word) = word {
+                        let letter = self.codes.axes[axis as usize];
+                        own.push((letter.ok_or_else(|| cannot("this axis"))?, word.clone()));
+                    }
+                }
+                let entry = u32::from(offset - table.row.first) + 1;
+                self.stored(&table, entry, *mode == DataMode::Add, &own, span, sink)
+            }
+            Data::Tool { entry, which, added, value } => {
+                let has = |table: &DataCode| {
+                    let letter = table.values.iter().find(|(own, _)| own == which)?.1;
+                    (*entry <= u32::from(table.row.count)).then(|| (table.clone(), letter))
+                };
+                let found = tables.iter().find_map(has);
+                let (table, letter) = found.ok_or_else(|| cannot("this value in the control's tables"))?;
+                let radius = matches!(which, ToolValue::Radius | ToolValue::RadiusWear);
+                let mut value = value.clone();
+                if radius && self.settings.get(RADIUS_DATA) == "diameter" {
+                    value = twice(&value).ok_or_else(|| cannot("this diameter"))?;
+                }
+                if radius {
+                    self.rely(RADIUS_DATA, span, sink);
+                }
+                self.stored(&table, *entry, *added, &[(letter, value)], span, sink)
+            }
+        }
+    }
+
+    fn stored(
+        &mut self,
+        table: &DataCode,
+        entry: u32,
+        added: bool,
+        own: &[(Letter, Expr)],
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let mut inserted = Inserted::default();
+        if table.row.adds {
+            let distance = if added { Distance::Incremental } else { Distance::Absolute };
+            let counted =
+                |(_, value): &(Letter, Expr)| Coord { value: value.clone(), distance: Fact::Known(distance) };
+            let coords: Vec<Coord> = own.iter().map(counted).collect();
+            self.need_distance(coords.iter(), &mut inserted)?;
+        } else if added {
+            return Err(cannot("a value added to one in the control's tables"));
+        }
+        if !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        let mut need =
+            Need::new(Rank::Alone).code(Some(table.code)).letter(table.select.0).letter(table.entry);
+        let mut shaped = Vec::new();
+        for (letter, value) in own {
+            need = need.letter(letter.letter);
+            shaped.push((letter.letter, self.value(letter, value, span, sink)?));
+        }
+        self.admit_with(need, inserted, sink)?;
+        self.block.code(Part::Mode, &table.code);
+        self.block.digits(Part::Mode, table.select.0, &table.select.1.to_string());
+        self.block.digits(Part::Mode, table.entry, &entry.to_string());
+        for (letter, value) in shaped {
+            self.block.word(Part::Axes, letter, value);
+        }
+        Ok(())
+    }
+}
+
+/// Twice a literal.
+fn twice(value: &Expr) -> Option<Expr> {
+    let num = value.literal()?;
+    Some(Expr::Num(Num { mantissa: num.mantissa.checked_mul(2)?, ..num }))
+}

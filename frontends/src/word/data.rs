@@ -1,0 +1,166 @@
+//! Lowering of work offsets that a word of the block names, and of values put into the control's tables.
+//!
+//! Refused by name: tables that the dictionary does not have, entries outside their numbers, and values
+//! put in while a cycle is in force or where it is not known whether they are added.
+
+use ncc_dialects::{DataKind, DataRow, Quantity, RADIUS_DATA};
+use ncc_ir::canon::{AXES, Axis, Distance, Fact};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::Num;
+use ncc_ir::program::{Data, DataMode, Op, ToolValue};
+
+use super::Source;
+use super::facts::{InForce, Know};
+use super::lower::Lower;
+use super::sort::{Code, Words};
+use crate::Batch;
+
+impl Lower {
+    /// A work offset of several that share a code.
+    pub(super) fn counted_offset(
+        &mut self,
+        code: &Code,
+        first: u16,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        self.check_shut(code, out);
+        let letter = code.row.words.bytes().next().unwrap_or(b'P');
+        let Some(word) = words.take(letter) else {
+            let word = char::from(letter).to_string().into();
+            let code_text = code.row.code.as_str().into();
+            return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+        };
+        let Some(which) = self.whole(&word, src, out) else { return };
+        let count = u32::from(code.row.count.unwrap_or(0));
+        let Some(offset) = (1..=count).contains(&which).then(|| first + (which - 1) as u16) else {
+            return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+        };
+        self.state.work_offset = Know::Said(offset);
+        self.push(code.span.to(word.span), Op::SetOriginOffsets(offset), out);
+    }
+
+    /// Values put into a table.
+    pub(super) fn data(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
+        let code_text: Box<str> = code.row.code.as_str().into();
+        let dialect = self.settings.dialect;
+        let rows = || dialect.tables_of(&code.row.code).filter_map(|row| Some((row, row.selected()?)));
+        let Some(letter) = rows().next().map(|(_, (_, letter, _))| letter) else { return };
+        let Some(word) = words.take(letter) else {
+            let word = char::from(letter).to_string().into();
+            return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+        };
+        let Some(number) = self.whole(&word, src, out) else { return };
+        let Some((row, _)) = rows().find(|(_, (.., own))| *own == number) else {
+            // What the other words are for is another table's matter.
+            words.left = 0;
+            let text = format!("{code_text} {}{number}", char::from(letter)).into();
+            let name = "data input of this kind".into();
+            return self.fault(Fault::NotSupported { code: text, name }, code.span.to(word.span), out);
+        };
+        self.table(code, row, words, src, out);
+    }
+
+    fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
+        let row_name = || Box::<str>::from(row.name.as_str());
+        if !matches!(self.state.cycle, InForce::None) {
+            let name = "data input while a cycle is in force".into();
+            self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
+        }
+        let Some(entry) = words.take(row.entry as u8) else {
+            let word = row.entry.to_string().into();
+            return self.fault(Fault::WordMissing { code: row_name(), word }, code.span, out);
+        };
+        let Some(number) = self.whole(&entry, src, out) else { return };
+        if !(1..=u32::from(row.count)).contains(&number) {
+            let name = match number {
+                0 => "data input for what has no number of its own",
+                _ => "data input for an entry that there is not",
+            };
+            let code = format!("{} {}", row.name, src.text(entry.span)).into();
+            return self.fault(Fault::NotSupported { code, name: name.into() }, entry.span, out);
+        }
+        let added = match row.adds {
+            false => false,
+            true => match self.distance(code.span, out) {
+                Fact::Known(distance) => distance == Distance::Incremental,
+                Fact::Entry => {
+                    let name = "data input where it is not known whether values are added".into();
+                    return self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
+                }
+            },
+        };
+        if row.kind == DataKind::Tool {
+            return self.tool_data(code, row, number, added, words, src, out);
+        }
+        self.check_shut(code, out);
+        if words.get(b'Z').is_some() && self.level_open() {
+            return self.refuse_level(code.span, out);
+        }
+        let mut by = [const { None }; AXES];
+        for axis in Axis::ALL {
+            let Some(axis_row) = self.axis_row(axis) else { continue };
+            if let Some(word) = words.take(axis.letter()) {
+                by[axis as usize] = self.number(&word, axis_row.quantity, src, out).map(Expr::Num);
+            }
+        }
+        if by.iter().all(Option::is_none) {
+            return self.fault(Fault::WordMissing { code: row_name(), word: "X".into() }, code.span, out);
+        }
+        let mode = match (row.kind, added) {
+            (DataKind::OffsetHere, _) => {
+                self.rely_on_frames(by[Axis::Z as usize].is_some(), code.span, out);
+                DataMode::Here
+            }
+            (_, true) => DataMode::Add,
+            (_, false) => DataMode::Set,
+        };
+        let offset = row.first + (number - 1) as u16;
+        let data = Data::Offset { offset, mode, words: Box::new(by) };
+        self.push(code.span, Op::SetData(Box::new(data)), out);
+    }
+
+    #[allow(clippy::too_many_arguments)] // All that the block says.
+    fn tool_data(
+        &mut self,
+        code: &Code,
+        row: &'static DataRow,
+        entry: u32,
+        added: bool,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let mut any = false;
+        for value in &row.values {
+            let Some(word) = words.take(value.letter as u8) else { continue };
+            any = true;
+            let which = ToolValue::from(value.of);
+            let Some(mut num) = self.number(&word, Quantity::Length, src, out) else { continue };
+            let radius = matches!(which, ToolValue::Radius | ToolValue::RadiusWear);
+            if radius && self.option(RADIUS_DATA, word.span, out) == "diameter" {
+                let Some(half) = half(num) else {
+                    self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+                    continue;
+                };
+                num = half;
+            }
+            let data = Data::Tool { entry, which, added, value: Expr::Num(num) };
+            self.push(code.span, Op::SetData(Box::new(data)), out);
+        }
+        if !any {
+            let word = row.values.first().map_or(' ', |value| value.letter).to_string().into();
+            self.fault(Fault::WordMissing { code: row.name.as_str().into(), word }, code.span, out);
+        }
+    }
+}
+
+/// Half of a number, exactly.
+fn half(num: Num) -> Option<Num> {
+    if num.mantissa % 2 == 0 {
+        return Some(Num { mantissa: num.mantissa / 2, ..num });
+    }
+    Some(Num { mantissa: num.mantissa.checked_mul(5)?, scale: num.scale + 1, point: true, ..num })
+}

@@ -1,0 +1,75 @@
+//! What a program puts into the tables of a control: zeros of work offsets, lengths and radii of tools,
+//! from `reference/fanuc.md` section 3 (G10).
+
+use std::collections::BTreeMap;
+
+use super::{Halt, Machine, Place, What};
+
+/// Values that stand in the place of those that were there at the start.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stored {
+    zeros: BTreeMap<u32, Place>,
+    /// Length without wear, and wear.
+    lengths: BTreeMap<u32, (f64, f64)>,
+}
+
+impl Machine {
+    /// Zero of a work offset.
+    pub(super) fn zero_of(&self, offset: u32) -> Place {
+        self.stored.zeros.get(&offset).copied().unwrap_or_else(|| (self.setup.work_offset)(offset))
+    }
+
+    /// Length of an entry, wear included.
+    pub(super) fn length_of(&self, entry: u32) -> f64 {
+        self.stored.lengths.get(&entry).map_or_else(|| (self.setup.length)(entry), |(bare, wear)| bare + wear)
+    }
+
+    /// Puts the zero of a work offset into its table, for the axes with a value.
+    pub(super) fn store_zero(&mut self, offset: u32, values: [Option<f64>; 6], added: bool) {
+        let mut zero = self.zero_of(offset);
+        for (axis, value) in values.into_iter().enumerate() {
+            let Some(value) = value else { continue };
+            zero[axis] = if added { zero[axis] + value } else { value };
+            // What an increment of such an axis counts from is undecided.
+            self.settled[axis] &= offset != self.offset;
+        }
+        self.stored.zeros.insert(offset, zero);
+        self.record(What::Data("zero", offset, zero));
+    }
+
+    /// Puts a length or its wear into the table of tools.
+    pub(super) fn store_length(
+        &mut self,
+        entry: u32,
+        value: f64,
+        wear: bool,
+        added: bool,
+    ) -> Result<(), Halt> {
+        if entry == self.entry {
+            return self.halt("another length of the tool that is in use");
+        }
+        let own = (self.setup.wear)(entry);
+        let there = ((self.setup.length)(entry) - own, own);
+        let mut now = self.stored.lengths.get(&entry).copied().unwrap_or(there);
+        let place = if wear { &mut now.1 } else { &mut now.0 };
+        *place = if added { *place + value } else { value };
+        self.stored.lengths.insert(entry, now);
+        self.record(What::Data("length", entry, alone(now.0 + now.1)));
+        Ok(())
+    }
+
+    /// Puts a radius or its wear into that table. Nothing looks at it.
+    pub(super) fn store_radius(&mut self, entry: u32, value: f64, wear: bool, added: bool) {
+        let table = match (wear, added) {
+            (false, false) => "radius",
+            (false, true) => "radius, added",
+            (true, false) => "wear of the radius",
+            (true, true) => "wear of the radius, added",
+        };
+        self.record(What::Data(table, entry, alone(value)));
+    }
+}
+
+fn alone(value: f64) -> Place {
+    [value, 0.0, 0.0, 0.0, 0.0, 0.0]
+}
