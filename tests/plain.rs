@@ -8,7 +8,7 @@ use ncc_ir::canon::{
 };
 use ncc_ir::exec::{Event, Kind, Stored};
 use ncc_ir::num::Nanos;
-use ncc_ir::program::ToolValue;
+use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::world::World;
 
 use crate::interpreter::{self, Corner, Machine, Per, PowerOn, Setup, Spindle, What};
@@ -52,8 +52,8 @@ pub enum Happening {
         pitch: f64,
         chuck: bool,
     },
-    /// The spindle stopped at an angle.
-    Orient,
+    /// The spindle stopped at an angle, degrees.
+    Orient(f64),
     Dwell(f64),
     ToolChange,
     Coolant,
@@ -112,6 +112,7 @@ impl Tolerance {
 /// A world in the second interpreter's terms.
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
+    let points = world.clone();
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
@@ -121,6 +122,9 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         skip: std::array::from_fn(|level| skip >> level & 1 == 1),
         peck_clearance: mm(world.peck_clearance),
         break_lift: mm(world.break_lift),
+        reference: Box::new(move |point| points.reference(ReferencePoint::Further(point as u8)).map(mm)),
+        bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
+        orientation: mm(world.orientation),
         power_on: PowerOn::default(),
     }
 }
@@ -161,7 +165,9 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 Happening::Arc { normal, centre, sweep, radius }
             }
             What::Thread(pitch, chuck) => Happening::Thread { pitch, chuck },
-            What::Orient => Happening::Orient,
+            What::Orient(angle) => Happening::Orient(angle),
+            What::Gear(0) => Happening::MachineFunction(hash_of("automatic spindle gear")),
+            What::Gear(number) => Happening::MachineFunction(hash_of(&format!("spindle gear {number}"))),
             What::Dwell(seconds) => Happening::Dwell(seconds),
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
@@ -204,6 +210,12 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
     list
 }
 
+fn hash_of(name: &str) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    name.hash(&mut hasher);
+    hasher.finish()
+}
+
 /// The compiler's events.
 pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
     let mut list = Vec::new();
@@ -231,15 +243,11 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 Happening::Arc { normal, centre, sweep, radius }
             }
             Kind::Synchronised { pitch, chuck } => Happening::Thread { pitch: mm(*pitch), chuck: *chuck },
-            Kind::Orient(_) => Happening::Orient,
+            Kind::Orient(angle) => Happening::Orient(mm(*angle)),
             Kind::Dwell(seconds) => Happening::Dwell(mm(*seconds)),
             Kind::ToolChange => Happening::ToolChange,
             Kind::Coolant => Happening::Coolant,
-            Kind::MachineFunction(name) => {
-                let mut hasher = DefaultHasher::new();
-                name.hash(&mut hasher);
-                Happening::MachineFunction(hasher.finish())
-            }
+            Kind::MachineFunction(name) => Happening::MachineFunction(hash_of(name)),
             Kind::Data(stored) => {
                 let alone = |value: Nanos| [mm(value), 0.0, 0.0, 0.0, 0.0, 0.0];
                 match **stored {
@@ -355,6 +363,7 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
         (Happening::Data(a, n, x), Happening::Data(b, m, y)) => {
             a == b && n == m && x.iter().zip(y).all(|(x, y)| near(*x, y, within.place))
         }
+        (Happening::Orient(x), Happening::Orient(y)) => near(x, y, 0.0006),
         (x, y) => x == y,
     };
     if !same_kind {

@@ -9,7 +9,7 @@ use ncc::render::About;
 use ncc::render::human::{self, Loudness};
 use ncc_dialects::{Settings, builtin};
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::world::World;
@@ -81,6 +81,15 @@ pub fn read(dialect: &str, text: &[u8]) -> Result<Program, String> {
     let mut procedures = vec![Procedure { body: batch.stmts, ..Procedure::default() }];
     procedures.append(&mut batch.procedures);
     Ok(Program { name: batch.name, assumed: batch.assumed, procedures })
+}
+
+/// What is found while a user's text is read.
+pub fn faults(dialect: &str, text: &[u8]) -> Vec<Fault> {
+    let mut reader = Reader::new(settings(dialect), true);
+    let mut batch = Batch::default();
+    reader.read(text, 0, &mut batch);
+    reader.finish(&mut batch);
+    batch.diagnostics.into_iter().map(|d| d.fault).collect()
 }
 
 /// Executes a program in a world, under a setting of the block-skip switches.

@@ -65,7 +65,11 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
         ("SET_MOTION_CONTROL_MODE", ["CANON_EXACT_STOP"]) => m.corners = Corner::Stop,
         ("SET_MOTION_CONTROL_MODE", ["CANON_EXACT_PATH"]) => m.corners = Corner::Through,
         ("SET_MOTION_CONTROL_MODE", ["CANON_CONTINUOUS", ..]) => m.corners = Corner::Rounded,
-        ("ORIENT_SPINDLE", []) => m.orient(),
+        ("ORIENT_SPINDLE", []) => m.orient(None),
+        ("ORIENT_SPINDLE", _) => {
+            let angle = only(m, a)?;
+            m.orient(Some(angle));
+        }
         ("USE_LENGTH_UNITS", ["CANON_UNITS_MM"]) => m.inch = false,
         ("USE_LENGTH_UNITS", ["CANON_UNITS_INCHES"]) => m.inch = true,
         ("SELECT_PLANE", ["CANON_PLANE_XY"]) => m.plane = 17,
@@ -128,6 +132,11 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let to = place(m, &ends, [first, second, normal, 3, 4, 5])?;
             m.arc_of_turns(to, centre, rotation < 0.0, rotation.abs() as u32 - 1)?;
             m.begin_block();
+        }
+        ("LIMIT_SPINDLE_SPEED", [_]) | ("ADVISE", _) => {}
+        ("MACHINE_FUNCTION", [name]) => {
+            let Some(gear) = super::gear(name.trim_matches('"')) else { return m.halt("a function") };
+            m.record(What::Gear(gear));
         }
         ("PROGRAM_STOP", []) => m.record(What::Stop),
         ("OPTIONAL_PROGRAM_STOP", []) => m.record(What::OptionalStop),

@@ -233,7 +233,7 @@ impl Control {
             }
             match g / 10 {
                 g @ 0..=3 => motion_last = Some(g),
-                g @ (73 | 74 | 80..=86 | 89) => motion_last = Some(g),
+                g @ (73 | 74 | 76 | 80..=86 | 89) => motion_last = Some(g),
                 4 => dwell = true,
                 10 => table = true,
                 g @ 17..=19 => self.m.plane = g,
@@ -251,7 +251,7 @@ impl Control {
                 95 => self.m.count_feed(Per::Turn),
                 43 => length = Some(43),
                 49 => length = Some(49),
-                28 => machine = Some(28),
+                g @ (28 | 30) => machine = Some(g),
                 53 => machine = Some(53),
                 g @ 54..=59 => self.m.use_offset(g - 53),
                 g @ 110..=129 if self.haas => self.m.use_offset(g - 103),
@@ -305,7 +305,7 @@ impl Control {
             Some(4) => self.m.turn(Spindle::Counterclockwise),
             Some(7) => self.m.cool(self.m.coolant.0, true),
             Some(8) => self.m.cool(true, self.m.coolant.1),
-            Some(19) if number(&words, 'R').or(number(&words, 'P')).is_none() => self.m.orient(),
+            Some(19) if number(&words, 'R').or(number(&words, 'P')).is_none() => self.m.orient(None),
             Some(29) if !self.haas => self.rigid = true,
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
@@ -319,7 +319,7 @@ impl Control {
 
         match motion_last {
             Some(80) => self.end_cycle(),
-            Some(cycle @ (73 | 74 | 81..=89)) => {
+            Some(cycle @ (73 | 74 | 76 | 81..=89)) => {
                 if self.cycle.is_none() {
                     self.initial = self.m.at[2];
                     self.initial_known = self.m.settled[2];
@@ -460,7 +460,7 @@ impl Control {
         Ok(())
     }
 
-    /// G53 and G28: both rapid; what is left of a tool's length by G28 is not looked at.
+    /// G53, G28 and G30: all rapid; what is left of a tool's length by G28 is not looked at.
     fn machine_point(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
         if self.cycle.is_some() {
             return self.m.halt("a move of the machine within a cycle");
@@ -480,8 +480,12 @@ impl Control {
                 self.m.traverse(way);
             }
             to = way;
-            for (to, word) in to.iter_mut().zip(named) {
-                *to = if word.is_some() { 0.0 } else { *to };
+            let point = match code {
+                28 => [0.0; 6],
+                _ => (self.m.setup.reference)(number(words, 'P').map_or(2, |(p, _)| p as u32)),
+            };
+            for ((to, word), point) in to.iter_mut().zip(named).zip(point) {
+                *to = if word.is_some() { point } else { *to };
             }
         }
         self.m.traverse(to);
@@ -601,6 +605,7 @@ impl Control {
                 let into = if cycle == 74 { Spindle::Counterclockwise } else { Spindle::Clockwise };
                 Hole::Tap(into, self.rigid || self.haas, p.unwrap_or(0.0))
             }
+            (76, Some(q), p) => Hole::Fine(q, p.unwrap_or(0.0)),
             (86, ..) => Hole::Stop,
             (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),
             _ => return self.m.halt("a cycle without its Q or P"),

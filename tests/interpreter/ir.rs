@@ -373,7 +373,10 @@ impl Control {
                 };
             }
             "ADVISE" | "LIMIT_SPINDLE_SPEED" => {}
-            "ORIENT_SPINDLE" if a.is_empty() => self.m.orient(),
+            "ORIENT_SPINDLE" => {
+                let angle = if a.is_empty() { None } else { Some(self.first(a)?) };
+                self.m.orient(angle);
+            }
             "USE_LENGTH_UNITS" => self.m.inch = self.word(a)? == "inch",
             "SET_DISTANCE_MODE" => self.m.absolute = self.word(a)? == "absolute",
             "SELECT_PLANE" => self.m.plane = self.plane(self.word(a)?)?,
@@ -425,6 +428,11 @@ impl Control {
             "POSITION_LIST" => self.list(a)?,
             "RECTANGULAR_LAYOUT" => self.grid(a)?,
             "END_CYCLE" => self.cycle = None,
+            "MACHINE_FUNCTION" => {
+                let [Token::Text(name)] = a else { return self.m.halt("a function without its name") };
+                let Some(gear) = super::gear(name) else { return self.m.halt("a function") };
+                self.m.record(What::Gear(gear));
+            }
             "MESSAGE" => self.m.record(What::Message),
             "PROGRAM_STOP" => self.m.record(What::Stop),
             "OPTIONAL_PROGRAM_STOP" => self.m.record(What::OptionalStop),

@@ -41,6 +41,12 @@ pub struct Setup {
     pub peck_clearance: f64,
     /// A Fanuc's parameter 5114, millimetres.
     pub break_lift: f64,
+    /// The second, third and fourth reference point, in machine coordinates.
+    pub reference: Box<dyn Fn(u32) -> Place>,
+    /// Where a Fanuc shifts a tool off the wall of a bore: which axis of the plane, and its sign.
+    pub bore_shift: (usize, f64),
+    /// Where M19 stops the spindle, degrees.
+    pub orientation: f64,
     /// Modes at power-on.
     pub power_on: PowerOn,
 }
@@ -96,6 +102,9 @@ impl Setup {
             skip: [false; 11],
             peck_clearance: 1.0,
             break_lift: 1.0,
+            reference: Box::new(|_| [0.0; 6]),
+            bore_shift: (0, 1.0),
+            orientation: 0.0,
             power_on: PowerOn::default(),
         }
     }
@@ -153,8 +162,10 @@ pub enum What {
     /// In step with the spindle to the event's place: millimetres a turn, and whether a chuck makes good
     /// the rest.
     Thread(f64, bool),
-    /// The spindle was stopped at an angle that the program does not say.
-    Orient,
+    /// The spindle was stopped at an angle, degrees.
+    Orient(f64),
+    /// A gear of the spindle; 0 is the control's own choice.
+    Gear(u32),
     /// Standing still for so many seconds.
     Dwell(f64),
     /// The spindle was started, stopped or reversed.
@@ -235,6 +246,9 @@ pub enum Hole {
     Tap(Spindle, bool, f64),
     /// Feed in, spindle stopped, rapid out, spindle clockwise.
     Stop,
+    /// Feed in, dwell if not zero, spindle stopped at its angle, off the wall by so much, rapid out, back
+    /// over the hole, spindle clockwise.
+    Fine(f64, f64),
 }
 
 /// The machine, as far as programs see it.
@@ -597,6 +611,12 @@ impl Machine {
                 self.straight(level(self.at, z))?;
                 self.turn(Spindle::Stopped);
             }
+            Hole::Fine(by, seconds) => {
+                self.straight(level(self.at, z))?;
+                self.stay(seconds);
+                self.orient(None);
+                self.shift_tool(self.off_the_wall(by));
+            }
             Hole::Bore(seconds) => {
                 self.straight(level(self.at, z))?;
                 if seconds > 0.0 {
@@ -606,11 +626,20 @@ impl Machine {
             }
         }
         self.traverse(level(self.at, back));
-        if hole == Hole::Stop {
+        if let Hole::Fine(by, _) = hole {
+            self.shift_tool(self.off_the_wall(-by));
+        }
+        if matches!(hole, Hole::Stop | Hole::Fine(..)) {
             self.turn(Spindle::Clockwise);
         }
         self.settled[2] = true;
         Ok(())
+    }
+
+    /// The way off the wall of a bore in XY.
+    fn off_the_wall(&self, by: f64) -> [f64; 3] {
+        let (axis, sign) = self.setup.bore_shift;
+        std::array::from_fn(|a| if a == axis { by * sign } else { 0.0 })
     }
 
     /// In step with the spindle.
@@ -641,10 +670,19 @@ impl Machine {
         }
     }
 
-    /// The spindle stops at an angle.
-    pub fn orient(&mut self) {
+    /// The spindle stops at an angle: where nothing is said, the control's own.
+    pub fn orient(&mut self, angle: Option<f64>) {
         self.spindle = Spindle::Stopped;
-        self.record(What::Orient);
+        self.record(What::Orient(angle.unwrap_or(self.setup.orientation)));
+    }
+
+    /// A rapid by so much along X, Y, Z.
+    pub fn shift_tool(&mut self, by: [f64; 3]) {
+        let mut to = self.at;
+        for (to, by) in to.iter_mut().zip(by) {
+            *to += by;
+        }
+        self.traverse(to);
     }
 
     /// Spindle words.
@@ -669,6 +707,14 @@ impl Machine {
         self.tool = Some(tool);
         self.record(What::Tool(tool));
         Ok(())
+    }
+}
+
+/// The gear that a function of the machine names.
+pub fn gear(name: &str) -> Option<u32> {
+    match name.strip_prefix("spindle gear ") {
+        Some(number) => number.parse().ok(),
+        None => (name == "automatic spindle gear").then_some(0),
     }
 }
 

@@ -110,11 +110,50 @@ const FRAMES: [&str; 8] = ["TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE", 
 const SUPPRESS: [u32; 2] = [53, 153];
 /// Words of an arc.
 const CENTRE: [&str; 6] = ["CR", "AR", "TURN", "I1", "J1", "K1"];
-/// How far from a corner rounding begins; and the limit of a speed, which no corpus program reaches.
-const ROUNDING: [&str; 3] = ["ADIS", "ADISPOS", "LIMS"];
+/// How far from a corner rounding begins; the limit of a speed, and the angle at which the spindle stops.
+const ROUNDING: [&str; 4] = ["ADIS", "ADISPOS", "LIMS", "SPOS"];
 /// Words of the drives, of look-ahead and of tolerances: the programmed path stays.
-const ADVICE: [&str; 10] =
-    ["FFWON", "FFWOF", "SOFT", "BRISK", "DRIVE", "COMPOF", "COMPON", "COMPCURV", "COMPCAD", "CFC"];
+const ADVICE: [&str; 39] = [
+    "FFWON",
+    "FFWOF",
+    "SOFT",
+    "BRISK",
+    "DRIVE",
+    "COMPOF",
+    "COMPON",
+    "COMPCURV",
+    "COMPCAD",
+    "COMPSURF",
+    "CFC",
+    "CFTCP",
+    "CFIN",
+    "NORM",
+    "KONT",
+    "KONTC",
+    "KONTT",
+    "CUT2D",
+    "CUT2DF",
+    "CDON",
+    "CDOF",
+    "CDOF2",
+    "DYNNORM",
+    "DYNPOS",
+    "DYNROUGH",
+    "DYNSEMIFIN",
+    "DYNFINISH",
+    "DIAMOF",
+    "CP",
+    "SPATH",
+    "UPATH",
+    "STARTFIFO",
+    "STOPFIFO",
+    "FIFOCTRL",
+    "STOPRE",
+    "ORIWKS",
+    "ORIMKS",
+    "WALIMON",
+    "WALIMOF",
+];
 
 impl<'a> Control<'a> {
     /// Runs the blocks from one place up to another.
@@ -473,13 +512,20 @@ impl<'a> Control<'a> {
         } else if let Some(edge) = edge {
             self.take_edge(edge, self.m.tool);
         }
+        if let Some(angle) = w.named("SPOS") {
+            if moves {
+                return self.m.halt("SPOS with a move");
+            }
+            self.m.orient(Some(angle.number));
+        }
         for code in &m_codes {
             match code {
                 3 => self.m.turn(Spindle::Clockwise),
                 4 => self.m.turn(Spindle::Counterclockwise),
                 7 => self.m.cool(self.m.coolant.0, true),
                 8 => self.m.cool(true, self.m.coolant.1),
-                19 if !moves => self.m.orient(),
+                19 if !moves => self.m.orient(None),
+                40..=45 => self.m.record(What::Gear(code - 40)),
                 5 | 9 if moves => {
                     return self.m.halt("M5 or M9 with a move: machine data decide which is first");
                 }
@@ -569,6 +615,10 @@ impl<'a> Control<'a> {
                 }
                 // How near is near enough for a stop.
                 601..=603 => group(12),
+                // How compensation goes round corners and how it begins, where none is on.
+                450 | 451 => group(18),
+                460..=462 => group(48),
+                290 => group(47),
                 code if SUPPRESS.contains(&code) => {
                     self.suppressed = true;
                     group(9)

@@ -19,6 +19,7 @@ mod pages;
 mod pairs;
 mod passes;
 mod provenance;
+mod rows;
 mod rs274;
 mod schema;
 mod second;

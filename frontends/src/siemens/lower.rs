@@ -369,7 +369,8 @@ impl Lower {
                 self.repeat(*label, Some(*label), count.as_ref(), head, src, out);
             }
             Statement::Call { .. } | Statement::CallByPath { .. } => {
-                self.refuse_word("PCALL", head.span, out);
+                let word = if matches!(statement, Statement::CallByPath { .. }) { "PCALL" } else { "CALL" };
+                self.refuse_word(word, head.span, out);
             }
             Statement::CallExternal(_) => self.refuse_word("EXTCALL", head.span, out),
             Statement::CallIso(_) => self.refuse_word("ISOCALL", head.span, out),

@@ -52,6 +52,13 @@ enum Hole {
         stop: bool,
         after: Spindle,
     },
+    Fine {
+        turn: Option<Spindle>,
+        dwell: Option<f64>,
+        angle: Option<f64>,
+        shift: [f64; 3],
+        after: Spindle,
+    },
 }
 
 /// What is done between strokes.
@@ -81,6 +88,16 @@ fn sense(kind: &[Token], after: &str) -> Option<Spindle> {
 }
 
 impl Control {
+    /// The sense in which the spindle turns into a bore, if it is said.
+    fn turn_in(kind: &[Token]) -> Option<Spindle> {
+        kind.iter().enumerate().find_map(|(at, token)| match (token, at.checked_sub(1)) {
+            (Token::Name(n), Some(before)) if !matches!(&kind[before], Token::Name(b) if b == "after") => {
+                spindle(n)
+            }
+            _ => None,
+        })
+    }
+
     pub(super) fn start(&mut self, a: &[Token]) -> Result<(), Halt> {
         let parts = split(a);
         let [kind, [Token::Name(plane)], ..] = &parts[..] else { return self.m.halt("no cycle") };
@@ -111,16 +128,25 @@ impl Control {
                 let (pitch, settle) = (number("pitch"), number("settle"));
                 Hole::Tap { into, rigid: name == "tap-rigid", pitch, dwell, settle, after }
             }
+            ("bore-fine", dwell, _) => {
+                let Some(after) = sense(kind, "after") else {
+                    return self.m.halt("a spindle as before");
+                };
+                let turn = Control::turn_in(kind);
+                let shift = match (number("parameter"), ["X", "Y", "Z"].map(number)) {
+                    (Some(by), _) => {
+                        let (axis, sign) = self.m.setup.bore_shift;
+                        std::array::from_fn(|a| if a == axis { by * sign } else { 0.0 })
+                    }
+                    (None, along) => along.map(|by| by.unwrap_or(0.0)),
+                };
+                Hole::Fine { turn, dwell, angle: number("angle"), shift, after }
+            }
             ("bore-stop", dwell, _) => {
                 let Some(after) = sense(kind, "after") else {
                     return self.m.halt("a spindle as before");
                 };
-                let turn = kind.iter().enumerate().find_map(|(at, token)| match (token, at.checked_sub(1)) {
-                    (Token::Name(n), Some(before)) if !matches!(&kind[before], Token::Name(b) if b == "after") => {
-                        spindle(n)
-                    }
-                    _ => None,
-                });
+                let turn = Control::turn_in(kind);
                 let stop = kind.iter().any(|t| matches!(t, Token::Name(n) if n == "program-stop"));
                 Hole::Stop { turn, dwell, stop, after }
             }
@@ -203,8 +229,18 @@ impl Control {
         self.m.straight(to)
     }
 
+    /// A rapid by so much along the program's axes.
+    fn move_by(&mut self, by: [f64; 3]) {
+        let mut to = self.here();
+        for (to, by) in to.iter_mut().zip(by) {
+            *to += by;
+        }
+        let to = self.machine(to);
+        self.m.traverse(to);
+    }
+
     fn stay(&mut self, seconds: Option<f64>) {
-        if let Some(seconds) = seconds {
+        if let Some(seconds) = seconds.filter(|seconds| *seconds > 0.0) {
             self.m.record(What::Dwell(seconds));
         }
     }
@@ -292,6 +328,15 @@ impl Control {
                     self.m.record(What::Stop);
                 }
             }
+            Hole::Fine { turn, dwell, angle, shift, .. } => {
+                if let Some(turn) = turn {
+                    self.m.turn(turn);
+                }
+                self.feed(z)?;
+                self.stay(dwell);
+                self.m.orient(angle);
+                self.move_by(shift);
+            }
             Hole::Bore { dwell, feed_out } => {
                 self.feed(z)?;
                 self.stay(dwell);
@@ -309,12 +354,18 @@ impl Control {
                     return self.m.halt("the initial level is not known");
                 };
                 let mut to = self.m.at;
-                to[2] = initial;
+                // NIST, 3.5.20: a tool that went up to the retract plane first does not go below it again.
+                let first = if cycle.raise_first { self.at_level(r)[2] } else { initial };
+                to[2] = initial.max(first);
                 self.m.traverse(to);
             }
         }
         match cycle.hole {
             Hole::Tap { rigid: true, after, .. } | Hole::Stop { after, .. } => self.m.turn(after),
+            Hole::Fine { shift, after, .. } => {
+                self.move_by([-shift[0], -shift[1], 0.0]);
+                self.m.turn(after);
+            }
             _ => {}
         }
         self.m.settled[2] = true;

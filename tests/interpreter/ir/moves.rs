@@ -76,9 +76,11 @@ impl Control {
     /// A rapid move to the machine's zero, by way of a point; what bare words do stays.
     pub(super) fn reference(&mut self, a: &[Token]) -> Result<(), Halt> {
         let [Token::Name(point), rest @ ..] = a else { return self.m.halt("no point") };
-        if point != "home" {
-            return self.m.halt(format!("the point {point}"));
-        }
+        let (point, rest) = match (point.as_str(), rest) {
+            ("home", rest) => ([0.0; 6], rest),
+            ("further", [Token::Number(n, _), rest @ ..]) => ((self.m.setup.reference)(*n as u32), rest),
+            _ => return self.m.halt(format!("the point {point}")),
+        };
         let via = rest.iter().position(|t| matches!(t, Token::Name(n) if n == "via"));
         if let Some(at) = via {
             let open = rest[at..].iter().position(|t| *t == Token::Sign('('));
@@ -95,7 +97,7 @@ impl Control {
             if let Token::Name(name) = token
                 && let Some(axis) = AXES.iter().position(|a| a == name)
             {
-                to[axis] = 0.0;
+                to[axis] = point[axis];
                 self.m.settled[axis] = false;
             }
         }

@@ -47,6 +47,12 @@ enum Kind {
     Stop {
         turn: Spindle,
     },
+    /// Spindle stopped at an angle, off the wall, rapid out, back over the hole.
+    Fine {
+        turn: Spindle,
+        angle: f64,
+        shift: [f64; 3],
+    },
     /// Out at the feed in force.
     Same,
     Deep {
@@ -100,6 +106,7 @@ pub(super) fn is_cycle(name: &str) -> bool {
             | "CYCLE84"
             | "CYCLE840"
             | "CYCLE85"
+            | "CYCLE86"
             | "CYCLE87"
             | "CYCLE88"
             | "CYCLE89"
@@ -131,6 +138,7 @@ impl Control<'_> {
             "CYCLE82" => (Some(5), 6, 10.0),
             "CYCLE85" => (Some(5), 8, 10.0),
             "CYCLE84" | "CYCLE840" => (Some(5), 21, 10.0),
+            "CYCLE86" => (Some(5), 11, 10.0),
             "CYCLE87" => (None, 6, 10.0),
             "CYCLE88" => (Some(5), 7, 10.0),
             "CYCLE89" => (Some(5), 6, 10.0),
@@ -165,6 +173,11 @@ impl Control<'_> {
                 }
                 Kind::Chuck { pitch, back: self.sense(a.or_zero(6))?, after: self.sense(a.or_zero(7))? }
             }
+            "CYCLE86" => Kind::Fine {
+                turn: self.sense(a.or_zero(6))?,
+                angle: a.or_zero(10),
+                shift: [7, 8, 9].map(|place| a.length(place).unwrap_or(0.0)),
+            },
             "CYCLE87" => Kind::Stop { turn: self.sense(a.or_zero(5))? },
             "CYCLE88" => Kind::Stop { turn: self.sense(a.or_zero(6))? },
             "CYCLE89" => Kind::Same,
@@ -301,6 +314,13 @@ impl Control<'_> {
                 self.m.turn(Spindle::Stopped);
                 self.m.record(What::Stop);
             }
+            Kind::Fine { turn, angle, shift } => {
+                self.m.turn(turn);
+                self.feed_to(cycle.depth)?;
+                self.stay(cycle.dwell);
+                self.m.orient(Some(angle));
+                self.move_by(shift);
+            }
             Kind::Same => {
                 self.feed_to(cycle.depth)?;
                 self.stay(cycle.dwell);
@@ -340,6 +360,9 @@ impl Control<'_> {
             }
         }
         self.rapid_to(cycle.retract);
+        if let Kind::Fine { shift, .. } = cycle.kind {
+            self.move_by([-shift[0], -shift[1], 0.0]);
+        }
         if let Kind::Rigid { after, .. } = cycle.kind {
             self.m.turn(after);
         }
@@ -356,6 +379,16 @@ impl Control<'_> {
         let mut at = self.here();
         at[2] = z;
         at
+    }
+
+    /// A rapid by so much along the program's axes.
+    fn move_by(&mut self, by: [f64; 3]) {
+        let mut to = self.here();
+        for (to, by) in to.iter_mut().zip(by) {
+            *to += by;
+        }
+        let to = self.machine(to);
+        self.m.traverse(to);
     }
 
     fn rapid_to(&mut self, z: f64) {

@@ -18,10 +18,11 @@ const STOPPED: &str = "no statement of the spindle is read as part of a hole: wh
     hole is the program's business too, and one stop more or less of it is another program";
 
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 10] = [
+const LOST: [(&str, &str, &str); 11] = [
     ("fanuc/g86.nc", "cycle bore-stop of 1", STOPPED),
     ("fanuc/g86.nc", "cycle bore-stop of 2", STOPPED),
     ("siemens/boring-stop.mpf", "cycle bore-stop of 1", STOPPED),
+    ("siemens/fine-boring.mpf", "cycle bore-fine of 1", STOPPED),
     (
         "siemens/cycle-args.mpf",
         "cycle drill of 2",
