@@ -399,7 +399,7 @@ pub struct Checked {
 
 /// Whether a statement may cut.
 fn cuts(op: &Op, exec: &Exec) -> bool {
-    match op {
+    match op.unwrapped() {
         Op::StraightFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) | Op::Hole(_) | Op::Pattern(_) => true,
         Op::Position(_) => exec.motion() != Motion::Traverse,
         _ => false,

@@ -110,6 +110,7 @@ fn separates(op: &Op) -> bool {
             [Axis::X, Axis::Y].into_iter().any(|axis| m.to.get(axis).is_some()) && m.to.get(Axis::Z).is_none()
         }
         Op::ArcFeed(_) | Op::ArcForm(_) | Op::ChangeTool | Op::EndCycle | Op::ProgramEnd => true,
+        Op::Polar(polar) => !matches!(polar.op, Op::Hole(_) | Op::Position(_)),
         _ => false,
     }
 }

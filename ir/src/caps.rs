@@ -118,6 +118,8 @@ pub struct Caps {
     pub inherits_motion: bool,
     /// Straight moves in step with the spindle.
     pub synchronised: bool,
+    /// How points by radius and angle are said.
+    pub polar: PolarForm,
     /// Messages to the operator.
     pub messages: bool,
     /// Modes of taking corners, a bit each.
@@ -132,6 +134,22 @@ pub struct Caps {
     pub advice: Vec<(AdviceKind, u8)>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
+}
+
+/// How a target says points by radius and angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PolarForm {
+    /// Not at all.
+    #[default]
+    None,
+    /// In a mode of its own, about program zero, with one way of measuring for all words of a block. A word
+    /// that is missing or added counts from the polar point before, if nothing has moved since. Arcs by
+    /// radius.
+    Modal,
+    /// About a pole that a block of its own sets. Arcs about the pole. A radius is no increment.
+    Pole,
+    /// In any way.
+    Any,
 }
 
 /// Points of the machine that a target has words for, each up to which number; 0 is none.

@@ -108,4 +108,11 @@ macro_rules! flow {
             | $crate::program::Op::Label(_)
     };
 }
-pub(crate) use {conduct, flow, frames, machine, miscellaneous, modes, moves, tooling};
+/// Points by radius and angle, and the pole that they are about. A polar move does what its own
+/// operation does, to a point that is not in its words.
+macro_rules! polar {
+    () => {
+        $crate::program::Op::SetPole(_) | $crate::program::Op::Polar(_)
+    };
+}
+pub(crate) use {conduct, flow, frames, machine, miscellaneous, modes, moves, polar, tooling};

@@ -19,6 +19,7 @@ pub mod maps;
 pub mod num;
 pub mod passes;
 pub mod places;
+pub mod polar;
 pub mod program;
 pub mod round;
 pub mod source;

@@ -13,10 +13,12 @@
 mod arc;
 mod frame;
 mod machine;
+mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot};
 pub use machine::{Data, DataMode, Reference, ReferencePoint, ToolValue};
+pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use crate::canon::{
     AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn,
@@ -317,6 +319,10 @@ pub enum Op {
     /// `ARC_BY_ANGLE`, `ARC_ABOUT_BY_ANGLE`, `ARC_ABOUT`, `ARC_THROUGH`, `ARC_TANGENT`: arcs in other
     /// forms.
     ArcForm(Box<ArcForm>),
+    /// `SET_POLE`: about which point polar words are.
+    SetPole(Box<SetPole>),
+    /// `POLAR`: a move to a point by radius and angle.
+    Polar(Box<Polar>),
     /// `POSITION`: axis words that do whatever motion is in force.
     Position(Move),
 
@@ -356,6 +362,14 @@ pub enum Op {
 }
 
 impl Op {
+    /// The move itself, where its point is polar; else the operation.
+    pub fn unwrapped(&self) -> &Op {
+        match self {
+            Op::Polar(polar) => &polar.op,
+            op => op,
+        }
+    }
+
     /// Its upper-case name in text; control has lower-case words.
     pub const fn name(&self) -> &'static str {
         match self {
@@ -411,6 +425,8 @@ impl Op {
             Op::SynchronisedFeed(_) => "SYNCHRONISED_FEED",
             Op::ArcFeed(_) => "ARC_FEED",
             Op::ArcForm(arc) => arc.shape.name(),
+            Op::SetPole(_) => "SET_POLE",
+            Op::Polar(_) => "POLAR",
             Op::Position(_) => "POSITION",
             Op::StartCycle(_) => "START_CYCLE",
             Op::Hole(_) => "HOLE",

@@ -10,7 +10,10 @@ use crate::geometry;
 use crate::kinds::{conduct, flow, miscellaneous};
 use crate::num::Nanos;
 use crate::places::{Here, Places};
-use crate::program::{Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Shape, Slot, Stmt};
+use crate::polar::{self, About, Pole};
+use crate::program::{
+    Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Polar, SetPole, Shape, Slot, Stmt,
+};
 use crate::round::{Around, round};
 
 /// State of the abstract execution.
@@ -44,6 +47,10 @@ pub struct Tracker {
     pub raw: bool,
     /// Whether that move is measured with the tool's length.
     pub raw_length: bool,
+    /// The pole of polar words.
+    pub pole: Pole,
+    /// Whether it is not known.
+    pub pole_lost: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -110,6 +117,34 @@ impl Around for Turning<'_> {
     }
 }
 
+/// What is known of a polar point.
+struct Polarly<'t>(&'t Tracker);
+
+impl About for Polarly<'_> {
+    type Unknown = ();
+
+    fn value(&self, value: &Expr) -> Result<Nanos, ()> {
+        self.0.nanos(value).ok_or(())
+    }
+
+    fn is_increment(&self, distance: Fact<Distance>) -> Result<bool, ()> {
+        let distance = distance.known().or(self.0.modes.distance).ok_or(())?;
+        Ok(distance == Distance::Incremental)
+    }
+
+    fn here(&self, axis: Axis) -> Result<Nanos, ()> {
+        self.0.position[axis as usize].ok_or(())
+    }
+
+    fn pole(&self) -> Result<Pole, ()> {
+        if self.0.pole_lost { Err(()) } else { Ok(self.0.pole) }
+    }
+
+    fn missing(&self, _: &'static str) {}
+
+    fn out_of_range(&self, _: &'static str) {}
+}
+
 impl Tracker {
     /// A start with these facts in force and no axis known.
     pub fn new(entry: Modes) -> Tracker {
@@ -118,7 +153,14 @@ impl Tracker {
 
     /// The start of a subprogram: whatever its caller has done.
     pub fn unknown() -> Tracker {
-        Tracker { framed: true, chained: true, turned: true, local_lost: true, ..Tracker::default() }
+        Tracker {
+            framed: true,
+            chained: true,
+            turned: true,
+            local_lost: true,
+            pole_lost: true,
+            ..Tracker::default()
+        }
     }
 
     /// The value of a literal in nanos; `None` if it is computed, too fine, or of unknown unit.
@@ -256,6 +298,7 @@ impl Tracker {
         self.turned |= other.turned;
         self.local_lost |= other.local_lost || self.local != other.local;
         self.raw |= other.raw;
+        self.pole_lost |= other.pole_lost || self.pole != other.pole;
     }
 
     /// Executes an operation, whatever the block-skip switches say.
@@ -282,6 +325,8 @@ impl Tracker {
                     self.position[..3].fill(None);
                 }
             },
+            Op::SetPole(set) => self.set_pole(set),
+            Op::Polar(polar) => self.go_polar(polar),
             Op::StartCycle(cycle) => self.start_cycle(cycle),
             Op::Hole(m) => self.hole(m),
             Op::Pattern(pattern) => {
@@ -401,6 +446,39 @@ impl Tracker {
                 _ => {}
             },
             Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | conduct!() => {}
+        }
+    }
+
+    /// Where a polar point is, its plane, and the pole behind it, as far as they are known.
+    pub fn polar(&self, polar: &Polar) -> Option<([Nanos; 2], Plane, Pole)> {
+        let plane = self.plane(polar.plane)?;
+        let (at, pole) = polar::point(polar, plane, &Polarly(self)).ok()?;
+        Some((at, plane, pole))
+    }
+
+    fn set_pole(&mut self, set: &SetPole) {
+        let found = self.plane(set.plane).and_then(|plane| polar::pole(set, plane, &Polarly(self)).ok());
+        self.pole_lost = found.is_none();
+        self.pole = found.unwrap_or_default();
+    }
+
+    fn go_polar(&mut self, polar: &Polar) {
+        let found = self.polar(polar);
+        self.pole_lost = found.is_none();
+        if let Some((at, plane, pole)) = found {
+            self.pole = pole;
+            if let Some(op) = polar::with_words(polar, plane, at, polar::exact) {
+                return self.apply(&op);
+            }
+        }
+        self.apply(&polar.op);
+        match self.plane(polar.plane) {
+            Some(plane) => {
+                let (first, second, _) = plane.axes();
+                self.position[first as usize] = None;
+                self.position[second as usize] = None;
+            }
+            None => self.position[..3].fill(None),
         }
     }
 

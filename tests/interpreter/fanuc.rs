@@ -2,6 +2,8 @@
 //! differ as its section on close relatives says: the feed's increments, P in seconds where it has a
 //! point, L for repetition, five digits, work offsets G110 to G129.
 
+mod polar;
+
 use super::{Corner, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
 
 /// Runs the first program of a text.
@@ -33,6 +35,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         return_initial: modes.return_initial,
         depth: 0,
         rigid: false,
+        polar: None,
         haas,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
@@ -112,6 +115,8 @@ struct Control {
     depth: u32,
     /// M29 was said.
     rigid: bool,
+    /// G16 is on: the last point in polar words, if nothing else has moved the plane since.
+    polar: Option<Option<(f64, f64)>>,
     haas: bool,
 }
 
@@ -236,6 +241,8 @@ impl Control {
                 g @ (73 | 74 | 76 | 80..=86 | 89) => motion_last = Some(g),
                 4 => dwell = true,
                 10 => table = true,
+                15 if !self.haas => self.polar = None,
+                16 if !self.haas => self.polar = Some(self.polar.flatten()),
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
                 21 => self.m.inch = false,
@@ -263,6 +270,10 @@ impl Control {
             }
         }
 
+        let leads_away = slot.is_some() || machine.is_some() || matches!(m, Some(98 | 99));
+        if self.polar.is_some() && leads_away {
+            return self.m.halt("G16, and something that leads away from it");
+        }
         match slot {
             Some(500) => {
                 self.m.slots.scale = None;
@@ -523,7 +534,7 @@ impl Control {
         if any_centre && self.motion < 2 {
             return self.m.halt("a centre or radius without an arc");
         }
-        let to = self.m.target(axes)?;
+        let to = self.place(axes, words)?;
         match self.motion {
             0 => self.m.traverse(to),
             1 => self.m.straight(to)?,
@@ -612,7 +623,7 @@ impl Control {
         };
         let back = if self.return_initial { self.initial.max(r) } else { r };
         for _ in 0..times {
-            let to = self.m.target(axes)?;
+            let to = self.place(axes, words)?;
             if let Hole::Tap(_, true, _) = hole {
                 self.m.turn(Spindle::Stopped);
             }

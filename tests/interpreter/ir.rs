@@ -28,6 +28,8 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         machine_once: false,
         without_length: false,
         tangent: None,
+        pole: moves::Pole::default(),
+        polar: None,
         procedures: HashMap::new(),
         depth: 0,
     };
@@ -88,6 +90,10 @@ struct Control {
     without_length: bool,
     /// Direction in which the last move at feed ended, in program coordinates.
     tangent: Option<[f64; 3]>,
+    /// The pole, its plane, and the last radius and angle about it.
+    pole: moves::Pole,
+    /// Where a polar point puts the axes of the move that follows.
+    polar: Option<[(usize, f64); 2]>,
     procedures: HashMap<String, Vec<Line>>,
     depth: u32,
 }
@@ -197,6 +203,12 @@ impl Control {
                 if level == 0 || !self.m.setup.skip[level] {
                     let next = match name.as_str() {
                         "REPEAT_BLOCKS" => self.again(all, at, arguments)?,
+                        "POLAR" => {
+                            // The move itself follows, under the same switch.
+                            joined = true;
+                            self.polar_point(arguments)?;
+                            Next::On
+                        }
                         name => self.call(name, arguments)?,
                     };
                     match next {
@@ -204,7 +216,7 @@ impl Control {
                         other => return Ok(other),
                     }
                 }
-                if !rest.is_empty() && rest[0] != Token::Sign('&') {
+                if !rest.is_empty() && rest[0] != Token::Sign('&') && name != "POLAR" {
                     return self.m.halt("words after a function");
                 }
             }
@@ -405,6 +417,7 @@ impl Control {
                 let seconds = self.first(a)?;
                 self.m.record(What::Dwell(seconds));
             }
+            "SET_POLE" => self.set_pole(a)?,
             "STRAIGHT_TRAVERSE" | "STRAIGHT_FEED" => {
                 self.motion = u32::from(name == "STRAIGHT_FEED");
                 self.cycle = None;

@@ -2,8 +2,8 @@
 //!
 //! What it takes for granted of the machine: M6 changes and takes edge 1 with it; a tool's length
 //! lies along Z in every plane; the plain slash is the first skip level; F stays in millimetres under
-//! G70. Not here: variables and expressions, cutter compensation, polar
-//! coordinates, rounded corners, frames about other axes than the plane's, cycles out of G17.
+//! G70. Not here: variables and expressions, cutter compensation, rounded corners, frames about other
+//! axes than the plane's, cycles out of G17.
 
 pub(super) mod arcs;
 mod cycles;
@@ -35,6 +35,9 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         modal: None,
         modal_call: None,
         tangent: None,
+        pole: (0.0, 0.0),
+        radius: None,
+        angle: None,
         depth: 0,
     };
     let Some(main) = units.iter().find(|unit| unit.main) else { return control.m.halt("no main program") };
@@ -79,6 +82,10 @@ struct Control<'a> {
     modal_call: Option<String>,
     /// Direction in which the last move at feed ended, in program coordinates.
     tangent: Option<[f64; 3]>,
+    /// The pole, and the last radius and angle about it.
+    pole: (f64, f64),
+    radius: Option<f64>,
+    angle: Option<f64>,
     depth: u32,
 }
 
@@ -110,6 +117,8 @@ const FRAMES: [&str; 8] = ["TRANS", "ATRANS", "ROT", "AROT", "SCALE", "ASCALE", 
 const SUPPRESS: [u32; 2] = [53, 153];
 /// Words of an arc.
 const CENTRE: [&str; 6] = ["CR", "AR", "TURN", "I1", "J1", "K1"];
+/// Polar words.
+const POLAR: [&str; 2] = ["AP", "RP"];
 /// How far from a corner rounding begins; the limit of a speed, and the angle at which the spindle stops.
 const ROUNDING: [&str; 4] = ["ADIS", "ADISPOS", "LIMS", "SPOS"];
 /// Words of the drives, of look-ahead and of tolerances: the programmed path stays.
@@ -249,7 +258,7 @@ impl<'a> Control<'a> {
                     w.letters.push((*letter, *value, written));
                 }
                 Item::Named(name, value) => {
-                    let centre = ["I1", "J1", "K1"].contains(&name.as_str());
+                    let centre = ["I1", "J1", "K1", "AP"].contains(&name.as_str());
                     if w.named(name).is_some() || (!centre && value.mark != Mark::None) {
                         return self.m.halt(format!("{name} twice, or with AC or IC"));
                     }
@@ -454,10 +463,18 @@ impl<'a> Control<'a> {
 
     fn words(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
         self.m.begin_block();
+        if w.letters.iter().any(|l| l.0 == 'G' && (110.0..=112.0).contains(&l.1.number)) {
+            self.set_pole(w)?;
+            return Ok(Next::Block);
+        }
         if let Some((letter, ..)) = w.letters.iter().find(|l| !"XYZABCIJKFSTDMG".contains(l.0)) {
             return self.m.halt(format!("the word {letter}"));
         }
-        if let Some((name, _)) = w.named.iter().find(|n| !CENTRE.contains(&n.0) && !ROUNDING.contains(&n.0)) {
+        if let Some((name, _)) = w
+            .named
+            .iter()
+            .find(|n| !CENTRE.contains(&n.0) && !ROUNDING.contains(&n.0) && !POLAR.contains(&n.0))
+        {
             return self.m.halt(format!("the word {name}"));
         }
         if let Some(name) = w.names.iter().find(|n| !["SUPA", "CIP", "CT"].contains(n) && !ADVICE.contains(n))
@@ -481,8 +498,8 @@ impl<'a> Control<'a> {
             .map(|l| self.whole(l.1.number))
             .collect::<Result<_, _>>()?;
         let axes: Vec<usize> = (0..6).filter(|axis| w.letter(AXES[*axis]).is_some()).collect();
-        let centre =
-            w.letters.iter().any(|l| "IJK".contains(l.0)) || w.named.iter().any(|n| CENTRE.contains(&n.0));
+        let centre = w.letters.iter().any(|l| "IJK".contains(l.0))
+            || w.named.iter().any(|n| CENTRE.contains(&n.0) || POLAR.contains(&n.0));
         let moves = !axes.is_empty() || centre;
         if dwell {
             let (1, Some(seconds)) = (w.letters.len() - 1, w.letter('F')) else {

@@ -333,6 +333,8 @@ impl Writer {
             | Op::RepeatBlocks(_)
             | Op::StartCycle(_)
             | Op::Hole(_)
+            | Op::SetPole(_)
+            | Op::Polar(_)
             | Op::Pattern(_)
             | Op::Call(_)
             | Op::Return

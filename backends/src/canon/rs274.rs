@@ -131,6 +131,7 @@ fn rank(op: &Op) -> u8 {
         | Op::UseMachineCoordinates { .. }
         | Op::GoToReference(_)
         | Op::SetData(_)
+        | Op::SetPole(_)
         | Op::ExactStop => 19,
         Op::EndCycle => 20,
         Op::StraightTraverse(_)
@@ -141,6 +142,7 @@ fn rank(op: &Op) -> u8 {
         | Op::Position(_)
         | Op::StartCycle(_)
         | Op::Hole(_)
+        | Op::Polar(_)
         | Op::Pattern(_) => 21,
         Op::ProgramStop
         | Op::OptionalProgramStop
@@ -351,6 +353,8 @@ impl Printer<'_> {
             | Op::ArcForm(_)
             | Op::Position(_)
             | Op::Hole(_)
+            | Op::SetPole(_)
+            | Op::Polar(_)
             | Op::Pattern(_)
             | Op::Call(_)
             | Op::RepeatBlocks(_)

@@ -8,6 +8,7 @@ mod expr;
 mod frame;
 mod machine;
 mod op;
+mod polar;
 
 use ncc_dialects::Settings;
 use ncc_ir::canon::Modes;

@@ -10,6 +10,7 @@ use super::cycle::{cycle, further_turn, pattern, pitch};
 use super::expr::{expr, var};
 use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
+use super::polar::{polar_move, pole};
 use crate::canon::text::{quote, whole};
 
 /// Writes what a statement does; of a control statement what stands before its body.
@@ -19,6 +20,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         Op::ArcFeed(arc) => arc.said,
         Op::ArcForm(arc) => arc.said,
         Op::UseToolEdge { said, .. } => *said,
+        Op::Polar(polar) => return polar_move(polar, out),
         Op::Assign(v, value) => {
             var(v, out);
             put(" = ", out);
@@ -41,6 +43,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::UseMachineCoordinates { .. }
         | Op::GoToReference(_)
         | Op::SetData(_)
+        | Op::SetPole(_)
         | Op::RepeatBlocks(_)
         | Op::StopCutterRadiusCompensation
         | Op::SetMotionControlMode(_)
@@ -151,7 +154,9 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::UseMachineCoordinates { length } => put(if *length { "" } else { "no-length" }, out),
         Op::GoToReference(r) => machine::reference(r, out),
         Op::SetData(d) => machine::data(d, out),
-        Op::Blank
+        Op::SetPole(set) => pole(set, out),
+        Op::Polar(_)
+        | Op::Blank
         | Op::ExactStop
         | Op::StopCutterRadiusCompensation
         | Op::ChangeTool

@@ -12,6 +12,7 @@ mod frame;
 mod motion;
 mod names;
 mod pattern;
+mod polar;
 mod statement;
 mod tool;
 mod unit;

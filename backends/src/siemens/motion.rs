@@ -36,7 +36,13 @@ impl Writer {
     }
 
     /// What has to be said before a move so that it is only that.
-    fn before_move(&mut self, to: &Point, feeds: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+    pub(super) fn before_move(
+        &mut self,
+        to: &Point,
+        feeds: bool,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
         self.end_modal(sink)?;
         if feeds {
             self.restate_feed(span, sink)?;
@@ -133,7 +139,7 @@ impl Writer {
 
     /// Puts an arc into a block.
     #[allow(clippy::too_many_arguments)] // One place where the parts of a block come together.
-    fn arc_block(
+    pub(super) fn arc_block(
         &mut self,
         code: Option<Code>,
         name: Option<&str>,

@@ -128,6 +128,8 @@ impl Writer {
             Op::StraightFeed(to) => self.straight(&to.to, true, stmt, sink),
             Op::ArcFeed(arc) => self.arc(arc, span, sink),
             Op::ArcForm(arc) => self.arc_form(arc, span, sink),
+            Op::SetPole(set) => self.pole(set, span, sink),
+            Op::Polar(polar) => self.polar(polar, span, sink),
             Op::Position(_) => {
                 self.pay_call(sink)?;
                 self.words.statement(stmt, sink)

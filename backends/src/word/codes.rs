@@ -177,6 +177,8 @@ pub(crate) struct Codes {
     /// Ways of taking corners, in the order of [`PathMode::ALL`].
     pub path: [Option<Code>; 9],
     pub exact_stop: Option<Code>,
+    /// Points by radius and angle: off, on.
+    pub polar: [Option<Code>; 2],
     pub advice: Vec<AdviceCode>,
     pub change_tool: Option<Code>,
     /// Functions of the machine, by name.
@@ -451,6 +453,7 @@ impl Codes {
             orient: code(Meaning::OrientSpindle),
             path: PathMode::ALL.map(|(mode, _)| code(Meaning::SetMotionControlMode(mode))),
             exact_stop: code(Meaning::ExactStop),
+            polar: [false, true].map(|on| code(Meaning::PolarWords(on))),
             advice: dialect
                 .code
                 .iter()

@@ -18,6 +18,7 @@ pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod number;
 mod plain;
+mod polar;
 mod start;
 pub(crate) mod statement;
 
@@ -103,6 +104,8 @@ pub struct Writer {
     offset_waits: Option<Span>,
     /// The next straight move is in machine coordinates, by this code.
     machine: Option<codes::Code>,
+    /// Whether the words of the plane's axes are radius and angle.
+    polar: bool,
     /// Units that the text states anywhere.
     units_stated: [bool; 2],
     /// A literal that relies on one unit being in force throughout, and where.
@@ -168,6 +171,7 @@ impl Writer {
             split: false,
             offset_waits: None,
             machine: None,
+            polar: false,
             units_stated: [false; 2],
             units_relied: None,
             page: [0; plain::PAGE],

@@ -60,6 +60,8 @@ impl Setting {
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)
             | Op::RepeatBlocks(_)
+            | Op::SetPole(_)
+            | Op::Polar(_)
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
             | Op::Advise(_)

@@ -21,6 +21,7 @@ impl Writer {
         if self.preamble.is_some() && self.absorb(stmt, sink)? {
             return Ok(());
         }
+        self.leave_polar(stmt, sink)?;
         let span = stmt.span;
         let codes = &self.codes;
         match &stmt.op {
@@ -76,6 +77,10 @@ impl Writer {
                 self.m_code(Rank::SpindleOn, codes.orient, "a spindle stopped at an angle", sink)
             }
             Op::RepeatBlocks(_) => Err(cannot("a repetition of blocks")),
+            // The mode of polar words is about program zero alone; a pass has seen to it.
+            Op::SetPole(_) if codes.polar[1].is_some() => Ok(()),
+            Op::SetPole(_) => Err(cannot("a pole")),
+            Op::Polar(polar) => self.polar(polar, stmt, sink),
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::SetSpindleSpeed(speed) => {
                 let letter = codes.speed;

@@ -6,11 +6,14 @@ use ncc_dialects::{
 };
 use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
-use ncc_ir::program::CentreFrom;
+use ncc_ir::program::{CentreFrom, PoleFrom};
 
 use super::Row;
 use super::proof::{Bench, Said, Tried, in_place, refusal};
 use super::words::with_procedure;
+
+/// A polar point about program zero.
+const POLAR: &str = "SET_POLE(XY, zero) & POLAR(XY, radius 12.5mm, angle 30.25deg) said STRAIGHT_FEED()";
 
 /// The rows of the codes.
 pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
@@ -179,6 +182,16 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         Meaning::SetShift(origin) => {
             let slot = if origin { "shift" } else { "local" };
             one(&format!("SET_SHIFT({slot}, X 12.345mm, Y -6.7mm)"))
+        }
+        Meaning::SetPole(PoleFrom::Zero) => one("SET_POLE(XY, zero, X 12.345mm, Y -6.7mm)"),
+        Meaning::SetPole(PoleFrom::Here) => one("SET_POLE(XY, here, X 12.345mm, Y -6.7mm)"),
+        Meaning::SetPole(PoleFrom::Pole) => vec![
+            Said::new("SET_POLE(XY, pole, X 12.345mm, Y -6.7mm)"),
+            Said::new("SET_POLE(XY, pole, radius 12.345mm, angle 30.5deg)"),
+        ],
+        Meaning::PolarWords(true) => vec![Said::new(POLAR)],
+        Meaning::PolarWords(false) => {
+            vec![Said::new("said STRAIGHT_FEED(X 12.345mm, Y -6.7mm)").after(POLAR)]
         }
         Meaning::SetPosition => one("SET_POSITION(X 12.345mm, Y -6.7mm)"),
         Meaning::SetRotation => ["XY", "ZX", "YZ"]

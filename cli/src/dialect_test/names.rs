@@ -114,6 +114,9 @@ fn address(role: NameRole) -> Said {
         }
         NameRole::Rounding => "SET_MOTION_CONTROL_MODE(\"distance\", 0.5mm)",
         NameRole::RoundingInRapids => "SET_MOTION_CONTROL_MODE(\"distance\", 0.5mm, 1.25mm)",
+        NameRole::PolarRadius | NameRole::PolarAngle => {
+            "POLAR(XY, radius 12.5mm, angle 30.25deg) said STRAIGHT_FEED()"
+        }
         NameRole::SpindleLimit => "LIMIT_SPINDLE_SPEED(2500)",
         NameRole::SpindleAngle => "ORIENT_SPINDLE(45deg)",
         NameRole::PlaneAngle => "SET_FRAME(rotate, XY, 12.5deg)",

@@ -130,6 +130,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::ArcReformatted
         | Fault::Rounded { .. }
         | Fault::PatternExpanded { .. }
+        | Fault::PolarExpanded
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
         | Fault::RepeatExpanded { .. }

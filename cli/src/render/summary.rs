@@ -200,6 +200,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
         Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
         Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
+        Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
         Fault::FramesExpanded => "frames into the coordinates".to_owned(),

@@ -228,6 +228,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("pattern written out as {holes} {}", plural(u64::from(*holes), "position")),
             format!("{to} has no word for it"),
         ),
+        Fault::PolarExpanded => (
+            "point by radius and angle written by its coordinates".into(),
+            format!("{to} does not say it so"),
+        ),
         Fault::CycleExpanded { kind } => {
             (format!("{} cycle written out as moves", plain(kind)), format!("{to} has no word for it"))
         }

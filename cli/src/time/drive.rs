@@ -417,7 +417,7 @@ impl<'d> Drive<'d> {
 
     /// Whether a statement belongs to a cycle.
     fn is_call(&self, op: &Op) -> bool {
-        match op {
+        match op.unwrapped() {
             Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) | Op::EndCycle => true,
             Op::Position(_) => self.exec.cycle_levels().is_some(),
             _ => false,
@@ -427,7 +427,7 @@ impl<'d> Drive<'d> {
     /// Tells a statement of a cycle as it is called; its holes are made for the position alone.
     fn call(&mut self, stmt: &Stmt, text: &[u8]) -> io::Result<Result<(), Diagnostic>> {
         let (_, said) = self.place(stmt.span, text);
-        let holes = matches!(stmt.op, Op::Hole(_) | Op::Pattern(_) | Op::Position(_));
+        let holes = matches!(stmt.op.unwrapped(), Op::Hole(_) | Op::Pattern(_) | Op::Position(_));
         if holes {
             self.moved = true;
             self.sink.called(stmt, &self.exec, &said.block)?;

@@ -46,6 +46,10 @@ pub(crate) fn of(op: &Op, exec: &Exec) -> (&'static str, Parameters) {
         Op::StartCycle(cycle) => ("START_CYCLE", start(cycle, exec)),
         Op::Pattern(p) => (pattern_name(p), pattern(p, exec)),
         Op::Hole(m) | Op::Position(m) => ("HOLE", point(&m.to, exec)),
+        Op::Polar(polar) => match exec.by_coordinates(polar) {
+            Some(op) => of(&op, exec),
+            None => of(&polar.op, exec),
+        },
         Op::EndCycle => ("END_CYCLE", Map::new()),
         other => (other.name(), Map::new()),
     }

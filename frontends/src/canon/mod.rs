@@ -162,6 +162,8 @@ impl State {
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)
+            | Op::SetPole(_)
+            | Op::Polar(_)
             | Op::UseToolLengthOffset(_) => {
                 self.stands = [None; AXES];
             }

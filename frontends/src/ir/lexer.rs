@@ -220,6 +220,12 @@ pub(crate) enum Token {
     SetMirror,
     #[token("CLEAR_MIRROR")]
     ClearMirror,
+    #[token("SET_POLE")]
+    SetPole,
+    #[token("POLAR")]
+    PolarMove,
+    #[token("pole")]
+    Pole,
     #[token("USE_TOOL_EDGE")]
     UseToolEdge,
     #[token("USE_MACHINE_COORDINATES")]

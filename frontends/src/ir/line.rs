@@ -6,7 +6,7 @@ use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::Num;
-use ncc_ir::program::{Advice, Coord, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text};
+use ncc_ir::program::{Advice, Coord, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::lexer::{LexFault, Literal};
@@ -217,6 +217,18 @@ pub(crate) fn axes(named: &[Axis], l: usize, r: usize) -> Parsed<[bool; AXES]> {
         }
     }
     Ok(all)
+}
+
+/// A move whose point can be polar.
+pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
+    match ncc_ir::polar::end_of(&op) {
+        Some(_) => Ok(op),
+        None => refuse(
+            l,
+            r,
+            Fault::Syntax { found: op.name().into(), expected: "a move to a point of the plane".into() },
+        ),
+    }
 }
 
 /// The number of a point of the machine.

@@ -14,6 +14,7 @@ use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
+use super::polar::Pole;
 use crate::Batch;
 use crate::word::facts::{Know, report, take};
 use crate::word::number::unit_of;
@@ -95,6 +96,7 @@ pub(super) struct State {
     /// Whether a tool was selected.
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
+    pub(super) pole: Pole,
 }
 
 impl State {
@@ -115,6 +117,7 @@ impl State {
             feed: Know::Lost,
             tool: Know::Lost,
             cycle,
+            pole: Pole::Lost,
         }
     }
 
@@ -132,6 +135,7 @@ impl State {
         self.no_shift.join(before.no_shift);
         self.feed.join(before.feed);
         self.tool.join(before.tool);
+        self.pole.join(before.pole);
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost { own_feed: self.cycle.own_feed() || before.cycle.own_feed() };
         }

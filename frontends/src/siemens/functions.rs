@@ -46,7 +46,14 @@ impl Lower {
         }
         let frame = words.find(|m| matches!(m, NameMeaning::SetFrame(_) | NameMeaning::AddFrame(_)));
         let dwell = words.find(|m| m == NameMeaning::Code(Meaning::Dwell));
-        if let Some(code) = frame {
+        let pole = words.codes.iter().find_map(|code| match code.meaning {
+            NameMeaning::Code(Meaning::SetPole(from)) => Some((*code, from)),
+            _ => None,
+        });
+        if let Some((code, from)) = pole {
+            self.pole(code, from, words, src, out);
+        } else if let Some(code) = frame {
+            self.state.pole.lose();
             self.frame(code, words, src, out);
         } else if let Some(code) = dwell {
             self.dwell(code, words, src, out);
@@ -79,20 +86,20 @@ impl Lower {
             let op = match meaning {
                 Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
                 Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
-                Meaning::MachineFunction(_) if words.has_any(b"XYZABC") => {
+                Meaning::MachineFunction(_) if words.has_point() => {
                     // Whether it comes before or after the move is a matter of the machine.
                     let name = "function of the machine in a block with axis words";
                     self.not_supported(code.name, name, code.span, out);
                     continue;
                 }
-                Meaning::OrientSpindle if words.has_any(b"XYZABC") => {
+                Meaning::OrientSpindle if words.has_point() => {
                     let name = "stop of the spindle at an angle in a block with axis words";
                     self.not_supported(code.name, name, code.span, out);
                     continue;
                 }
                 Meaning::OrientSpindle => Op::OrientSpindle(None),
                 // Without a move there is nothing to stop.
-                Meaning::ExactStop if words.has_any(b"XYZABC") => Op::ExactStop,
+                Meaning::ExactStop if words.has_point() => Op::ExactStop,
                 Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
@@ -102,7 +109,7 @@ impl Lower {
         }
         let machine =
             coded.clone().find(|(_, m)| matches!(m, Meaning::UseMachineCoordinates { .. })).map(|(c, _)| *c);
-        let moves = words.has_any(b"XYZABC");
+        let moves = words.has_point();
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
         self.motion_words(motion, machine, head.span, words, src, out);
         for (code, meaning) in coded {
@@ -128,6 +135,9 @@ impl Lower {
         match meaning {
             Meaning::UseLengthUnits(units) => self.set_units(code, units, out),
             Meaning::SelectPlane(plane) => {
+                if self.state.plane.value() != Some(plane) {
+                    self.state.pole.lose();
+                }
                 self.state.plane = Know::Said(plane);
                 self.again.say(PLANE);
                 if let Some(at) = self.only_plane.see(plane) {
@@ -147,6 +157,7 @@ impl Lower {
             }
             Meaning::SetOriginOffsets(offset) => {
                 self.state.work_offset = Know::Said(offset);
+                self.state.pole.lose();
                 self.stand.forget();
             }
             _ => {}
@@ -276,7 +287,7 @@ impl Lower {
             self.push(given.span, Op::LimitSpindleSpeed(Expr::Num(num)), out);
         }
         if let Some(given) = words.take_named(NameRole::SpindleAngle) {
-            if words.has_any(b"XYZABC") {
+            if words.has_point() {
                 let name = "stop of the spindle at an angle in a block with axis words";
                 self.not_supported(&src.text(given.span), name, given.span, out);
             } else if let Some(num) = self.number(given, Quantity::Angle, src, out) {

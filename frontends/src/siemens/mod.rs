@@ -24,6 +24,7 @@ mod lower;
 mod motion;
 mod patterns;
 pub(crate) mod pieces;
+mod polar;
 mod reader;
 mod sort;
 #[cfg(test)]

@@ -23,7 +23,6 @@ use crate::Batch;
 use crate::word::Source;
 use crate::word::facts::Know;
 
-const AXES: &[u8] = b"XYZABC";
 const CENTRE: &[u8] = b"IJK";
 
 /// Most turns that can be added to an arc.
@@ -64,7 +63,7 @@ impl Lower {
         let arc_now =
             matches!(self.state.motion.value(), Some(m) if !matches!(m, Motion::Traverse | Motion::Feed));
         let arc_words = words.has_any(CENTRE) || NAMED.iter().any(|&role| words.named(role).is_some());
-        if !(words.has_any(AXES) || arc_now && arc_words) {
+        if !(words.has_point() || arc_now && arc_words) {
             if let Some(code) = machine {
                 // Without a move it does nothing.
                 self.push(code.span, Op::NoEffect(code.name.into()), out);
@@ -97,8 +96,9 @@ impl Lower {
                 }
                 if self.is_position(machine, block, words, out) {
                     self.call_up_again(&cycle, block, out);
+                    let Ok(polar) = self.polar_words(words, src, out) else { return };
                     let to = self.point(true, None, words, src, out);
-                    self.push(block, Op::Hole(Move { to, said: false }), out);
+                    self.push_to(polar, block, Op::Hole(Move { to, said: false }), out);
                 } else {
                     self.push(block, Op::EndCycle, out);
                     self.path(motion.is_some(), machine, block, words, src, out);
@@ -143,8 +143,9 @@ impl Lower {
 
     /// Axis words that do whatever is in force when the program runs.
     fn position(&mut self, words: &mut Words, block: Span, src: Source, out: &mut Batch) {
+        let Ok(polar) = self.polar_words(words, src, out) else { return };
         let to = self.point(true, None, words, src, out);
-        self.push(block, Op::Position(Move { to, said: false }), out);
+        self.push_to(polar, block, Op::Position(Move { to, said: false }), out);
     }
 
     /// The move itself; gives what is in force after it, if that is known.
@@ -170,7 +171,11 @@ impl Lower {
                 if line == Motion::Feed {
                     self.rely_on_feed(block, out);
                 }
+                let polar = self.polar_words(words, src, out).ok()?;
                 let to = self.point(false, machine, words, src, out);
+                if let (Some(code), true) = (machine, polar.is_some()) {
+                    self.not_supported(code.name, "polar words in machine coordinates", code.span, out);
+                }
                 if let Some(code) = machine {
                     self.push(code.span, Op::UseMachineCoordinates { length: true }, out);
                 }
@@ -179,7 +184,7 @@ impl Lower {
                     Motion::Feed => Op::StraightFeed(to),
                     _ => Op::StraightTraverse(to),
                 };
-                self.push(block, op, out);
+                self.push_to(polar, block, op, out);
             }
             Some(arc) => {
                 if let Some(code) = machine {
@@ -280,7 +285,14 @@ impl Lower {
     /// `G2` and `G3`
     fn arc(&mut self, turn: Turn, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
         let plane = self.plane(block, out);
+        let Ok(polar) = self.polar_words(words, src, out) else { return };
         let to = self.point(false, None, words, src, out);
+        if let Some(polar) = polar {
+            // The pole is the centre: words of another one are left, and blamed as ones that nothing uses.
+            let Some(centre) = self.about_pole(&polar, block, out) else { return };
+            let arc = Arc { plane, turn, to, centre, turns: 0, said };
+            return self.push_to(Some(polar), block, Op::ArcFeed(Box::new(arc)), out);
+        }
         let mut centre: [CentreWord; 3] = [None, None, None];
         for (place, letter) in CENTRE.iter().enumerate() {
             // The word along the normal is left, and blamed as one that nothing uses.

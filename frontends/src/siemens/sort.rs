@@ -49,7 +49,7 @@ pub(super) struct Words {
 }
 
 /// Number of roles of named addresses.
-const NAMED: usize = 11;
+const NAMED: usize = 13;
 
 impl Words {
     /// Nothing, with the memory of what was.
@@ -260,7 +260,14 @@ impl Lower {
                     self.now.refused = true;
                     return;
                 };
-                let through = matches!(role, NameRole::ThroughX | NameRole::ThroughY | NameRole::ThroughZ);
+                let through = matches!(
+                    role,
+                    NameRole::ThroughX
+                        | NameRole::ThroughY
+                        | NameRole::ThroughZ
+                        | NameRole::PolarRadius
+                        | NameRole::PolarAngle
+                );
                 if given.distance.is_some() && !through {
                     let name = "AC or IC of a word that is no coordinate";
                     return self.not_supported(&src.text(span), name, span, out);

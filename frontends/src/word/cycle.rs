@@ -251,7 +251,7 @@ impl Lower {
             if self.now.failed {
                 return;
             }
-            self.push(block, Op::Hole(Move { to: to.clone(), said: said && turn == 0 }), out);
+            self.push_move(block, Op::Hole(Move { to: to.clone(), said: said && turn == 0 }), out);
             if turn > 0 {
                 self.separate(out);
             }

@@ -15,6 +15,7 @@ use ncc_ir::program::{CentreFrom, Coord};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
+use super::polar::Words;
 use crate::Batch;
 
 /// What is known of a modal fact.
@@ -111,6 +112,8 @@ pub(super) struct State {
     pub(super) rigid: bool,
     /// Rotation, factors or a mirror that the program has in force, a bit each.
     pub(super) turned: u8,
+    /// What the words of the plane's axes are.
+    pub(super) words: Words,
     /// Axes that the first move in a new rotation must name absolutely, a bit each.
     pub(super) unplaced: u8,
     /// Another length is in force, and no absolute Z was named since.
@@ -140,6 +143,7 @@ impl State {
             cycle: InForce::Lost,
             rigid: false,
             turned: 0,
+            words: Words::Cartesian,
             unplaced: 0,
             level_open: false,
             cycle_feed: None,
@@ -167,6 +171,7 @@ impl State {
         }
         self.turned |= before.turned;
         self.unplaced |= before.unplaced;
+        self.words.join(before.words);
         self.level_open |= before.level_open;
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost;

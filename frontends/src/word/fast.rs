@@ -18,6 +18,7 @@ use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::number::unit_of;
 use super::plain;
+use super::polar::Words;
 use crate::Batch;
 
 /// What a plain move needs.
@@ -80,6 +81,7 @@ impl Lower {
             || state.no_motion
             || state.cycle != InForce::None
             || state.unplaced != 0
+            || state.words != Words::Cartesian
             || self.level_open()
             || self.ended
         {

@@ -45,9 +45,13 @@ impl Lower {
             self.feed_word(motion, words, src, out);
         }
         let before_feed = self.settings.dialect.block.feed_before_units;
+        if !codes.iter().any(|code| code.meaning == Meaning::PolarWords(false)) {
+            codes.iter().for_each(|code| self.check_polar(code, out));
+        }
         for code in settings {
             match code.meaning {
                 Meaning::SetFeedMode(_) if before_feed => {}
+                Meaning::PolarWords(on) => self.polar_words(code, on, out),
                 Meaning::Advise(kind, None) => self.advise(code, kind, words, src, out),
                 Meaning::SetOriginOffsets(first) if code.row.count.is_some() => {
                     self.counted_offset(code, first, words, src, out);

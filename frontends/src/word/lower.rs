@@ -92,6 +92,8 @@ pub(super) struct Now {
     pub(super) recall: bool,
     /// Whether the last comment is a message.
     pub(super) message: bool,
+    /// Whether a code has no statement of its own.
+    pub(super) silent: bool,
 }
 
 impl Lower {
@@ -314,6 +316,7 @@ impl Lower {
         let comment = join_comments(&block.comments[..comments], src);
         match (comment, self.now.pushed) {
             (None, true) => {}
+            (None, false) if self.now.silent => {}
             (None, false) => self.push(block.span, Op::Blank, out),
             (Some(text), false) => self.push(block.span, Op::Comment(text), out),
             (Some(text), true) => {

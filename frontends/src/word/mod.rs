@@ -28,6 +28,7 @@ pub(crate) mod number;
 mod pattern;
 pub(crate) mod pieces;
 pub(crate) mod plain;
+mod polar;
 pub(crate) mod sort;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]

@@ -95,12 +95,12 @@ impl Lower {
             Ok(None | Some(Motion::Cycle)) => self.position(block, words, src, out),
             Ok(Some(Motion::Traverse)) => {
                 let to = self.point(None, block, words, src, out);
-                self.push(block, Op::StraightTraverse(Move { to, said }), out);
+                self.push_move(block, Op::StraightTraverse(Move { to, said }), out);
             }
             Ok(Some(Motion::Feed)) => {
                 self.rely_on_feed(block, out);
                 let to = self.point(None, block, words, src, out);
-                self.push(block, Op::StraightFeed(Move { to, said }), out);
+                self.push_move(block, Op::StraightFeed(Move { to, said }), out);
             }
             Ok(Some(Motion::Arc(turn))) => {
                 self.rely_on_feed(block, out);
@@ -121,7 +121,7 @@ impl Lower {
     fn position(&mut self, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
         if self.has_axis_word(words) {
             let to = self.point(None, block, words, src, out);
-            self.push(block, Op::Position(Move { to, said: false }), out);
+            self.push_move(block, Op::Position(Move { to, said: false }), out);
         }
     }
 
@@ -165,7 +165,8 @@ impl Lower {
             };
             if let Some(word) = words.take(letter) {
                 let distance = self.distance(word.span, out);
-                if let Some(num) = self.number(&word, row.quantity, src, out) {
+                let quantity = self.quantity_of(axis, row.quantity);
+                if let Some(num) = self.number(&word, quantity, src, out) {
                     to.set(axis, Coord { value: Expr::Num(num), distance });
                 }
             }
@@ -253,7 +254,7 @@ impl Lower {
             None if self.now.failed => return,
             None => return self.fault(Fault::ArcWithoutCentre, block, out),
         };
-        self.push(block, Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said })), out);
+        self.push_move(block, Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said })), out);
     }
 
     /// Turns of an arc beyond the first, partial one.

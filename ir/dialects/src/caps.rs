@@ -1,8 +1,8 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Turn};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, References};
-use ncc_ir::program::{FrameSlot, ReferencePoint};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, References};
+use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
 
 use crate::meaning::Meaning;
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
@@ -219,6 +219,15 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
             .filter(|(kind, value)| everything || says_advice(dialect, *kind, *value))
             .collect(),
+        polar: if everything {
+            PolarForm::Any
+        } else if says(Meaning::PolarWords(true)) && says(Meaning::PolarWords(false)) {
+            PolarForm::Modal
+        } else if says(Meaning::SetPole(PoleFrom::Zero)) {
+            PolarForm::Pole
+        } else {
+            PolarForm::None
+        },
         messages: everything
             || dialect.can.flat
             || !dialect.comment.message.is_empty()

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
-use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint};
+use ncc_ir::program::{CentreFrom, FrameSlot, PoleFrom, ReferencePoint};
 use serde::{Deserialize, Deserializer};
 
 /// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
@@ -51,6 +51,11 @@ pub enum Meaning {
     },
     /// Puts values into the table of the row of `[[data]]` that a word of the block names.
     SetData,
+    /// The block's axis words, or polar ones, say about which point polar words are.
+    SetPole(PoleFrom),
+    /// From here on, the words of the plane's axes are radius and angle about program zero (`true`), or
+    /// coordinates again. No statement: points carry it.
+    PolarWords(bool),
     StopCutterRadiusCompensation,
     SetMotionControlMode(PathMode),
     ExactStop,
@@ -149,6 +154,11 @@ impl fmt::Display for Meaning {
                 };
             }
             Meaning::SetData => "SET_DATA",
+            Meaning::SetPole(PoleFrom::Zero) => "SET_POLE zero",
+            Meaning::SetPole(PoleFrom::Here) => "SET_POLE here",
+            Meaning::SetPole(PoleFrom::Pole) => "SET_POLE pole",
+            Meaning::PolarWords(true) => "POLAR on",
+            Meaning::PolarWords(false) => "POLAR off",
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::SetMotionControlMode(mode) => {
                 return write!(f, "SET_MOTION_CONTROL_MODE {}", mode.name());
@@ -254,6 +264,11 @@ impl FromStr for Meaning {
                 Meaning::GoToReference { point: ReferencePoint::Stored(2), keeps_length: true }
             }
             ("SET_DATA", "") => Meaning::SetData,
+            ("SET_POLE", "zero") => Meaning::SetPole(PoleFrom::Zero),
+            ("SET_POLE", "here") => Meaning::SetPole(PoleFrom::Here),
+            ("SET_POLE", "pole") => Meaning::SetPole(PoleFrom::Pole),
+            ("POLAR", "on") => Meaning::PolarWords(true),
+            ("POLAR", "off") => Meaning::PolarWords(false),
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(
                 PathMode::named(mode).ok_or_else(|| format!("no way of taking corners: {text}"))?,

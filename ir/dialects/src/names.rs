@@ -165,6 +165,10 @@ pub enum NameRole {
     Rounding,
     /// The same in rapids.
     RoundingInRapids,
+    /// Length from the pole.
+    PolarRadius,
+    /// Angle about the pole.
+    PolarAngle,
     /// Highest speed of the spindle.
     SpindleLimit,
     /// Angle at which the spindle is stopped.

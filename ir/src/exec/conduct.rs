@@ -3,12 +3,12 @@
 //!
 //! Not here: moves themselves.
 
-use super::Exec;
+use super::{Event, Exec};
 use crate::canon::PathMode;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::ONE;
-use crate::program::Op;
+use crate::program::{Op, Stmt};
 use crate::source::Span;
 
 impl Exec {
@@ -52,6 +52,27 @@ impl Exec {
         Ok(())
     }
 
+    /// Executes a statement; if it moves, it ends in an exact stop.
+    #[cold]
+    pub(super) fn step_and_stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let done = self.do_step(stmt, out);
+        let moves = matches!(
+            stmt.op,
+            Op::StraightFeed(_)
+                | Op::StraightTraverse(_)
+                | Op::ArcFeed(_)
+                | Op::ArcForm(_)
+                | Op::Position(_)
+                | Op::Hole(_)
+                | Op::Polar(_)
+                | Op::Pattern(_)
+        );
+        if moves && let Some(path) = self.after_stop.take() {
+            self.state.path = path;
+        }
+        done
+    }
+
     /// A length of the path mode or of advice; none is 0.
     fn length_within(&self, length: &Option<Expr>, span: Span) -> Result<i32, Diagnostic> {
         let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
@@ -72,6 +93,7 @@ impl Exec {
             && self.last == other.last
             && self.heading == other.heading
             && self.raw == other.raw
+            && self.pole == other.pole
             && self.after_stop == other.after_stop
             && self.waiting == other.waiting
             && self.feed == other.feed
@@ -93,6 +115,7 @@ impl Exec {
         self.last = other.last;
         self.heading = other.heading;
         self.raw = other.raw;
+        self.pole = other.pole;
         self.after_stop = other.after_stop;
         self.waiting = other.waiting;
         self.feed = other.feed;

@@ -11,6 +11,7 @@ mod data;
 mod event;
 mod frame;
 mod holes;
+mod polar;
 mod run;
 mod slots;
 mod thread;
@@ -28,6 +29,7 @@ use crate::canon::{
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, Unit};
+use crate::polar::Pole;
 use crate::program::{Coord, Op, Point, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
@@ -61,6 +63,8 @@ pub struct Exec {
     after_stop: Option<Option<PathMode>>,
     /// The next straight move is in machine coordinates, with the tool's length or without.
     raw: Option<bool>,
+    /// About which polar points are.
+    pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
     feed: Nanos,
@@ -142,6 +146,7 @@ impl Exec {
             heading: Heading::None,
             after_stop: None,
             raw: None,
+            pole: Pole::ZERO,
             waiting: None,
             feed: 0,
             selected: -1,
@@ -462,26 +467,6 @@ impl Exec {
         self.do_step(stmt, out)
     }
 
-    /// Executes a statement; if it moves, it ends in an exact stop.
-    #[cold]
-    fn step_and_stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        let done = self.do_step(stmt, out);
-        let moves = matches!(
-            stmt.op,
-            Op::StraightFeed(_)
-                | Op::StraightTraverse(_)
-                | Op::ArcFeed(_)
-                | Op::ArcForm(_)
-                | Op::Position(_)
-                | Op::Hole(_)
-                | Op::Pattern(_)
-        );
-        if moves && let Some(path) = self.after_stop.take() {
-            self.state.path = path;
-        }
-        done
-    }
-
     #[inline]
     fn do_step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
@@ -592,6 +577,8 @@ impl Exec {
             Op::UseMachineCoordinates { length } => self.raw = Some(*length),
             Op::GoToReference(reference) => self.go_to_reference(reference, span, out)?,
             Op::SetData(data) => self.set_data(data, span, out)?,
+            Op::SetPole(set) => self.set_pole(set, span)?,
+            Op::Polar(polar) => self.polar(polar, span, out)?,
             Op::SetSpindleSpeed(speed) => {
                 self.state.speed = self.value(speed, span)?;
                 self.tell(Attribute::SpindleSpeed(self.state.speed), span, out)?;

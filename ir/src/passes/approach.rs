@@ -161,7 +161,7 @@ fn first_hole(body: &[Stmt], i: usize) -> Option<(usize, Option<&Point>)> {
 /// Whether the cycle called up at `i` surely ends before another is called up.
 fn is_last(body: &[Stmt], i: usize) -> bool {
     for stmt in &body[i + 1..] {
-        match &stmt.op {
+        match stmt.op.unwrapped() {
             Op::EndCycle | Op::ProgramEnd | moves!() if stmt.skip.is_none() => return true,
             Op::StartCycle(_) | Op::Position(_) | flow!() => return false,
             _ => {}

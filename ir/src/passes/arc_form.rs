@@ -111,6 +111,12 @@ impl State {
                 if before == walk.at.position { self.heading } else { Heading::From(before) }
             }
             Op::ArcFeed(_) if stmt.skip.is_none() => bent,
+            Op::Polar(polar)
+                if stmt.skip.is_none()
+                    && matches!(polar.op, Op::StraightTraverse(_) | Op::StraightFeed(_)) =>
+            {
+                if before == walk.at.position { self.heading } else { Heading::From(before) }
+            }
             op if keeps(op) => self.heading,
             _ => Heading::Unknown,
         };

@@ -14,7 +14,10 @@ use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, miscellaneous, tooling};
 use crate::num::{Num, Unit};
-use crate::program::{Centre, Coord, Data, FrameStep, Op, Pitch, Point, Program, Shape, Slot, Stmt};
+use crate::polar;
+use crate::program::{
+    Centre, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Program, Shape, Slot, Stmt,
+};
 use crate::track::Tracker;
 
 /// Everything in millimetres.
@@ -97,6 +100,21 @@ impl Converter<'_> {
                     .try_for_each(|length| self.loose(length))?;
             }
             Op::Advise(advice) => advice.amount.iter_mut().try_for_each(|length| self.loose(length))?,
+            Op::SetPole(set) => match &mut set.at {
+                PoleWords::Along(words) => words.iter_mut().flatten().try_for_each(|w| self.loose(w))?,
+                PoleWords::Polar { radius, .. } => self.loose(radius)?,
+            },
+            Op::Polar(polar) => {
+                polar.radius.iter_mut().try_for_each(|word| self.loose(&mut word.value))?;
+                if let Some(to) = polar::end(&mut polar.op) {
+                    self.hole(to)?;
+                }
+                if let Op::ArcFeed(arc) = &mut polar.op
+                    && let Centre::Radius(radius) = &mut arc.centre
+                {
+                    self.loose(radius)?;
+                }
+            }
             Op::SetFeedRate(feed) => self.loose(feed)?,
             Op::StartCycle(cycle) => self.cycle(cycle)?,
             Op::Pattern(pattern) => self.pattern(pattern)?,

@@ -116,7 +116,7 @@ fn speed_after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
 
 /// Whether a move has surely ended any cycle before.
 fn moved_after(stmt: &Stmt, before: bool) -> bool {
-    match &stmt.op {
+    match stmt.op.unwrapped() {
         Op::EndCycle | moves!() => before || stmt.skip.is_none(),
         Op::Call(_) | Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) => false,
         _ => before,

@@ -15,7 +15,8 @@ use crate::expr::{Expr, Node};
 use crate::kinds::{conduct, flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{
-    Call, Centre, Control, Coord, Data, FrameStep, Op, Pitch, Point, Procedure, Program, Shape, Slot, Stmt,
+    Call, Centre, Control, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Procedure, Program, Shape,
+    Slot, Stmt,
 };
 use crate::source::Span;
 use crate::track::Tracker;
@@ -207,6 +208,20 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
             match &mut arc.centre {
                 Centre::Point { words, .. } => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
                 Centre::Radius(radius) => settle_expr(radius, here),
+            }
+        }
+        Op::Polar(polar) => {
+            settle_fact(&mut polar.plane, here.modes.plane);
+            for word in [&mut polar.radius, &mut polar.angle].into_iter().flatten() {
+                settle_coord(word, here);
+            }
+            settle(&mut polar.op, here);
+        }
+        Op::SetPole(set) => {
+            settle_fact(&mut set.plane, here.modes.plane);
+            match &mut set.at {
+                PoleWords::Along(words) => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
+                PoleWords::Polar { radius, .. } => settle_expr(radius, here),
             }
         }
         Op::StartCycle(cycle) => {

@@ -18,7 +18,7 @@
 use super::spindle_holes::with_spindle;
 use super::walk::Walk;
 use super::write::{Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebuild, traverse, unit_of};
-use super::{Target, each_body, expand_patterns};
+use super::{Target, each_body, expand_patterns, polar_words};
 use crate::canon::{Axis, Motion, ReturnLevel};
 use crate::caps::{Caps, CycleCap, CycleForm};
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Shift, absolute};
@@ -103,6 +103,23 @@ pub(super) fn over(
                     made.leave_out(stmt);
                 }
             }
+            Op::Polar(polar) if state.expanding && matches!(polar.op, Op::Hole(_) | Op::Position(_)) => {
+                match polar_words::by_coordinates(polar, walk, target) {
+                    Ok(Op::Hole(m) | Op::Position(m)) => {
+                        // The pole and its words are those behind the point.
+                        let mut behind = walk.at.clone();
+                        behind.apply(&stmt.op);
+                        (walk.at.pole, walk.at.pole_lost) = (behind.pole, behind.pole_lost);
+                        state.holes(stmt, Ok(vec![m.to]), walk, target, made, diags);
+                    }
+                    Ok(_) => {}
+                    Err(fault) => {
+                        diags.push(Diagnostic::new(fault, stmt.span));
+                        walk.step(&stmt);
+                        made.push(stmt);
+                    }
+                }
+            }
             Op::Hole(m) if state.expanding => {
                 let holes = Ok(vec![m.to.clone()]);
                 state.holes(stmt, holes, walk, target, made, diags);
@@ -152,7 +169,7 @@ pub(super) fn over(
             }
             _ => {
                 walk.step(&stmt);
-                if state.expanding && ends(&stmt.op) {
+                if state.expanding && ends(stmt.op.unwrapped()) {
                     // A move ends a cycle; one that may be skipped ends it perhaps.
                     state.expanding = stmt.skip.is_some();
                     state.pay(&mut stmt, made);

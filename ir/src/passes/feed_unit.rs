@@ -50,7 +50,7 @@ impl State {
 pub(super) fn again(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, target: &Target) {
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
-        let cuts = match &stmt.op {
+        let cuts = match stmt.op.unwrapped() {
             Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
             Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
             Op::StartCycle(cycle) => cycle.feed.is_none(),

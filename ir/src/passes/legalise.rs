@@ -10,14 +10,14 @@ use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
-    one_distance, one_move, origin_shift, path_control, return_plane, skip_levels, specialise_procedures,
-    state_clearance, taps, tool_edge, work_offset,
+    one_distance, one_move, origin_shift, path_control, polar_words, return_plane, skip_levels,
+    specialise_procedures, state_clearance, taps, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
-use crate::caps::{Caps, CycleForm, References};
+use crate::caps::{Caps, CycleForm, PolarForm, References};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::exec::Seen;
-use crate::kinds::{conduct, miscellaneous};
+use crate::kinds::{conduct, miscellaneous, moves};
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, Data, FrameSlot, Op, Program, Stmt};
 use crate::track::Tracker;
@@ -41,6 +41,7 @@ const TABLE: u32 = 16384;
 const MEASURE: u32 = 32768;
 const PATH: u32 = 1 << 16;
 const MOVE: u32 = 1 << 17;
+const POLAR: u32 = 1 << 18;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -59,6 +60,7 @@ pub struct Legaliser {
     work: work_offset::State,
     shift: origin_shift::State,
     path: path_control::State,
+    polar: polar_words::State,
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
@@ -83,7 +85,8 @@ impl Legaliser {
             },
             lacks,
             measures: false,
-            follow: lacks & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME | MACHINE)
+            follow: lacks
+                & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME | MACHINE | POLAR)
                 != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
@@ -92,6 +95,7 @@ impl Legaliser {
             work: work_offset::State::default(),
             shift: origin_shift::State::default(),
             path: path_control::State::default(),
+            polar: polar_words::State::default(),
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
@@ -235,6 +239,57 @@ impl Legaliser {
         if needs & CONTROL != 0 {
             expand_repeats::over(stmts, &self.target, diags);
         }
+        if needs & POLAR != 0 {
+            match self.with_polar_words(stmts, needs, start, assumed) {
+                Some(mut found) => return diags.append(&mut found),
+                None => {
+                    polar_words::over(stmts, &mut start.clone(), &mut self.polar, &self.target, false, diags);
+                }
+            }
+        }
+        self.mend_further(stmts, needs & !POLAR, start, assumed, diags);
+    }
+
+    /// The same with polar points in the target's form; `None`, and nothing done, if another pass has to
+    /// write out what they belong to.
+    fn with_polar_words(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        needs: u32,
+        start: &Walk,
+        assumed: &Modes,
+    ) -> Option<Vec<Diagnostic>> {
+        let looks_into = needs & (FRAME | EVERY) != 0 || self.cycles.is_busy() || self.taps.is_busy();
+        if self.target.caps.polar == PolarForm::None || looks_into {
+            return None;
+        }
+        let (mut own, mut kept, mut found) = (self.clone(), stmts.clone(), Vec::new());
+        polar_words::over(&mut kept, &mut start.clone(), &mut own.polar, &own.target, true, &mut found);
+        let holes = |stmts: &[Stmt]| {
+            let polar = stmts.iter().filter(|stmt| matches!(stmt.op, Op::Polar(_))).count();
+            let calls = stmts.iter().filter(|stmt| matches!(stmt.op, Op::StartCycle(_))).count();
+            let others =
+                stmts.iter().filter(|s| matches!(s.op, Op::Hole(_) | Op::Pattern(_) | moves!())).count();
+            [polar, calls, others]
+        };
+        let before = holes(&kept);
+        own.mend_further(&mut kept, needs & !POLAR, start, assumed, &mut found);
+        let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
+        if refused || needs & (CYCLE | PATTERN) != 0 && holes(&kept) != before {
+            return None;
+        }
+        (*self, *stmts) = (own, kept);
+        Some(found)
+    }
+
+    fn mend_further(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        needs: u32,
+        start: &Walk,
+        assumed: &Modes,
+        diags: &mut Vec<Diagnostic>,
+    ) {
         if needs & WORK != 0 {
             work_offset::over(stmts, &mut self.work, assumed, &self.target, diags);
         }
@@ -400,6 +455,7 @@ impl Legaliser {
             self.edge.start_over();
             self.path.start_over();
             self.one = one_move::State::default();
+            self.polar = polar_words::State::default();
             self.arcs = arc_form::State::default();
             self.frames.start_over();
             self.machine = machine_moves::State::default();
@@ -580,6 +636,7 @@ fn lacks(caps: &Caps) -> u32 {
     let points =
         caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
     needs(MACHINE, caps.machine_coordinates && caps.machine_length.is_none() && data && points);
+    needs(POLAR, caps.polar == PolarForm::Any);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
 }
@@ -588,11 +645,17 @@ fn lacks(caps: &Caps) -> u32 {
 #[inline]
 fn interest(stmt: &Stmt) -> u32 {
     let skip = if stmt.skip.is_some() { SKIP } else { 0 };
-    skip | match &stmt.op {
+    skip | interest_of(&stmt.op)
+}
+
+fn interest_of(op: &Op) -> u32 {
+    match op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
         Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
         Op::SynchronisedFeed(_) => ARC,
         Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
+        Op::SetPole(_) => POLAR,
+        Op::Polar(polar) => POLAR | interest_of(&polar.op),
         Op::Pattern(_) => PATTERN | CYCLE,
         Op::UseToolLengthOffset(_) => LENGTH | TABLE,
         Op::UseToolEdge { .. } => LENGTH | EDGE,

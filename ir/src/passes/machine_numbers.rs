@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{conduct, miscellaneous, modes, moves};
+use crate::kinds::{conduct, miscellaneous, modes, moves, polar};
 use crate::maps::{Maps, Numbered};
 use crate::program::{Control, Data, Op, Program, ProgramName, Stmt, Text};
 use crate::source::Span;
@@ -34,6 +34,7 @@ macro_rules! unnumbered {
             | Op::GoToReference(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
+            | polar!()
             | Op::StartCycle(_)
             | Op::Hole(_)
             | Op::Pattern(_)

@@ -35,6 +35,7 @@ pub mod one_move;
 pub mod origin_shift;
 mod path_control;
 mod pattern_forms;
+mod polar_words;
 pub mod return_plane;
 pub mod skip_levels;
 pub mod specialise_procedures;
@@ -159,6 +160,11 @@ pub const PASSES: &[Pass] = &[
         run: tool_edge::run,
     },
     // Before everything that looks at coordinates.
+    Pass {
+        name: "polar-words",
+        about: "says points by radius and angle in the target's form, or by coordinates",
+        run: polar_words::run,
+    },
     Pass {
         name: "expand-frames",
         about: "works chains of frames into the coordinates",

@@ -85,7 +85,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
     let input = std::mem::take(body);
     let mut made = Rebuild::new(input.len());
     for stmt in input {
-        let place = match &stmt.op {
+        let place = match stmt.op.unwrapped() {
             Op::SetFeedMode(mode) => {
                 state.by_time = *mode == FeedMode::InverseTime;
                 made.push(stmt);
@@ -97,6 +97,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
             | Op::ArcFeed(_)
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)
+            | Op::Polar(_)
             | Op::Position(_) => {
                 take_up(stmt, state, 2, &mut made);
                 continue;
@@ -116,6 +117,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
             | Op::UseLengthUnits(_)
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
+            | Op::SetPole(_)
             | Op::SetReturnLevel(_)
             | Op::StartCycle(_)
             | Op::EndCycle

@@ -218,7 +218,7 @@ fn first_hole(body: &[Stmt], i: usize, states_feed: bool) -> Option<usize> {
         return None;
     }
     for (k, stmt) in body.iter().enumerate().skip(i + 1) {
-        match &stmt.op {
+        match stmt.op.unwrapped() {
             _ if stmt.skip.is_some() => return None,
             Op::Hole(_) | Op::Pattern(_) => return Some(k),
             Op::Comment(_) | Op::Blank | Op::NoEffect(_) | Op::SelectTool(_) | Op::Message(_) => {}
@@ -232,7 +232,10 @@ fn first_hole(body: &[Stmt], i: usize, states_feed: bool) -> Option<usize> {
 /// Whether the cycle in force may make a hole in what follows.
 fn makes_more(body: &[Stmt]) -> bool {
     let makes = |s: &&Stmt| {
-        matches!(s.op, Op::Hole(_) | Op::Pattern(_) | Op::Position(_) | Op::Call(_) | Op::Label(_))
+        matches!(
+            s.op.unwrapped(),
+            Op::Hole(_) | Op::Pattern(_) | Op::Position(_) | Op::Call(_) | Op::Label(_)
+        )
     };
     let over = |s: &&Stmt| (ends(s) || matches!(s.op, Op::StartCycle(_))) && s.skip.is_none();
     body.iter().find(|s| makes(s) || over(s)).is_none_or(|s| makes(&s))
@@ -240,7 +243,7 @@ fn makes_more(body: &[Stmt]) -> bool {
 
 /// Whether a statement ends the cycle in force.
 fn ends(stmt: &Stmt) -> bool {
-    matches!(stmt.op, Op::EndCycle | Op::ProgramEnd | moves!())
+    matches!(stmt.op.unwrapped(), Op::EndCycle | Op::ProgramEnd | moves!())
 }
 
 /// Whether no further cycle, called up before this one is ended, counts from the level at which the

@@ -78,7 +78,7 @@ pub(super) fn over(
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         let ends = state.changed
-            && match &stmt.op {
+            && match stmt.op.unwrapped() {
                 Op::EndCycle | Op::StartCycle(_) | Op::ProgramEnd | moves!() | flow!() => true,
                 Op::Position(_) => walk.at.modes.motion != Some(Motion::Cycle),
                 _ => false,

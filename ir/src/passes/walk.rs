@@ -164,6 +164,11 @@ impl Walk {
             // Its places are in the plane of X and Y, above which it drills, or in one with Z.
             Op::Pattern(pattern) => super::approach::has_holes(pattern),
             Op::GoToReference(reference) => reference.via.get(Axis::Z).is_some(),
+            Op::Polar(polar) => {
+                let of_plane = self.at.plane(polar.plane).is_some_and(|plane| plane != Plane::Xy);
+                of_plane || self.commands_z(&polar.op)
+            }
+            Op::SetPole(_) => false,
             Op::SetData(_)
             | Op::SetFeedRate(_)
             | Op::StartCycle(_)

@@ -9,13 +9,78 @@ use super::text::{Token, split};
 
 const AXES: [&str; 6] = ["X", "Y", "Z", "A", "B", "C"];
 
+/// The pole in force, and the last words about it.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Pole {
+    at: (f64, f64),
+    radius: Option<f64>,
+    angle: Option<f64>,
+}
+
 impl Control {
+    fn in_plane(&mut self, plane: &[Token]) -> Result<[usize; 2], Halt> {
+        let [Token::Name(plane)] = plane else { return self.m.halt("polar words without a plane") };
+        let before = self.m.plane;
+        self.m.plane = self.plane(plane)?;
+        let (first, second, _) = self.m.axes();
+        self.m.plane = before;
+        Ok([first, second])
+    }
+
+    /// `SET_POLE`: from zero, from here or from the last pole, by coordinates or by radius and angle.
+    pub(super) fn set_pole(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let parts = split(a);
+        let [plane, [Token::Name(from)], ..] = parts[..] else { return self.m.halt("a pole") };
+        let axes = self.in_plane(plane)?;
+        let here = self.here();
+        let mut at = match from.as_str() {
+            "zero" => (0.0, 0.0),
+            "here" => (here[axes[0]], here[axes[1]]),
+            _ => self.pole.at,
+        };
+        if let (Some(radius), Some(angle)) = (self.after(a, "radius"), self.after(a, "angle")) {
+            at.0 += radius * angle.to_radians().cos();
+            at.1 += radius * angle.to_radians().sin();
+        } else {
+            at.0 += self.after(a, AXES[axes[0]]).unwrap_or(0.0);
+            at.1 += self.after(a, AXES[axes[1]]).unwrap_or(0.0);
+        }
+        self.pole = Pole { at, radius: None, angle: None };
+        Ok(())
+    }
+
+    /// `POLAR`: where the move that follows leads in its plane.
+    pub(super) fn polar_point(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let parts = split(a);
+        let axes = self.in_plane(parts.first().copied().unwrap_or_default())?;
+        for part in &parts[1..] {
+            let [Token::Name(name), rest @ ..] = part else { return self.m.halt("a polar word") };
+            let (absolute, rest) = self.distance(rest);
+            let [Token::Number(v, u)] = rest else { return self.m.halt("a polar word without a number") };
+            let value = self.base(*v, u);
+            let word = if name == "radius" { &mut self.pole.radius } else { &mut self.pole.angle };
+            *word = if absolute { Some(value) } else { word.map(|last| last + value) };
+        }
+        let (Some(radius), Some(angle)) = (self.pole.radius, self.pole.angle) else {
+            return self.m.halt("polar words of which one is missing");
+        };
+        let (sin, cos) = angle.to_radians().sin_cos();
+        self.polar =
+            Some([(axes[0], self.pole.at.0 + radius * cos), (axes[1], self.pole.at.1 + radius * sin)]);
+        Ok(())
+    }
+
     /// Axis words, each with its own measure: `X 1.mm`, `Y inc 2.mm`, `Z entry 3.mm`; the place in
     /// program coordinates, and which axes have a word.
     pub(super) fn target(&mut self, tokens: &[Token]) -> Result<(Place, [bool; 6]), Halt> {
         let from = self.here();
         let mut to = from;
         let mut named = [false; 6];
+        for (axis, at) in self.polar.take().into_iter().flatten() {
+            to[axis] = at;
+            named[axis] = true;
+            self.m.settled[axis] = true;
+        }
         let mut rest = tokens;
         while !rest.is_empty() {
             if let [Token::Sign(','), after @ ..] = rest {

@@ -27,9 +27,19 @@ impl<'a> Control<'a> {
             }
         }
         let Some(motion) = self.motion else { return self.m.halt("a motion and no code for it yet") };
+        let polar = w.named("AP").is_some() || w.named("RP").is_some();
+        if polar {
+            let (first, second, _) = self.m.axes();
+            if self.suppressed || axes.contains(&first) || axes.contains(&second) {
+                return self.m.halt("polar words with SUPA or coordinates of the plane");
+            }
+            (to[first], to[second]) = self.polar_point(w)?;
+            (self.m.settled[first], self.m.settled[second]) = (true, true);
+        }
         let straight = matches!(motion, Motion::Rapid | Motion::Straight);
-        let extra = w.letters.iter().any(|l| "IJK".contains(l.0)) || !w.named.is_empty();
-        if straight && extra {
+        let extra = w.letters.iter().any(|l| "IJK".contains(l.0))
+            || w.named.iter().any(|n| !matches!(n.0, "AP" | "RP"));
+        if (straight || polar) && extra {
             return self.m.halt("a centre or radius without an arc");
         }
         match motion {
@@ -39,6 +49,11 @@ impl<'a> Control<'a> {
             }
             Motion::Straight => self.straight(from, to)?,
             _ if self.suppressed => return self.m.halt("an arc with SUPA"),
+            Motion::Clockwise | Motion::Counterclockwise if polar => {
+                // The pole is the centre.
+                self.circle(from, to, self.pole, motion == Motion::Clockwise, 0)?;
+            }
+            _ if polar => return self.m.halt("polar words of this motion"),
             Motion::ThroughPoint => self.through_point(w, from, to)?,
             Motion::Tangent => self.tangential(extra, from, to)?,
             Motion::Clockwise | Motion::Counterclockwise => {
@@ -46,6 +61,58 @@ impl<'a> Control<'a> {
             }
         }
         Ok(())
+    }
+
+    /// G110 from the place reached last, G111 from zero, G112 from the last pole: by coordinates or by
+    /// radius and angle. What was said about the pole before is forgotten.
+    pub(super) fn set_pole(&mut self, w: &Words<'a>) -> Result<(), Halt> {
+        let (first, second, _) = self.m.axes();
+        let code = w.letter('G').map_or(0.0, |v| v.number);
+        let others = w.letters.iter().any(|l| l.0 != 'G' && l.0 != AXES[first] && l.0 != AXES[second]);
+        if w.letters.iter().filter(|l| l.0 == 'G').count() != 1 || others || !w.names.is_empty() {
+            return self.m.halt("a pole and other words");
+        }
+        let unit = self.unit();
+        let along = |letter| w.letter(letter).map_or(0.0, |v| v.number * unit);
+        let by = match (w.named("RP"), w.named("AP")) {
+            (None, None) => (along(AXES[first]), along(AXES[second])),
+            (Some(radius), Some(angle)) if angle.mark == Mark::None && w.letters.len() == 1 => {
+                let turn = angle.number.to_radians();
+                (radius.number * unit * turn.cos(), radius.number * unit * turn.sin())
+            }
+            _ => return self.m.halt("a pole by some of its words"),
+        };
+        let here = self.here();
+        let from = match code as u32 {
+            110 => (here[first], here[second]),
+            111 => (0.0, 0.0),
+            _ => self.pole,
+        };
+        self.pole = (from.0 + by.0, from.1 + by.1);
+        (self.radius, self.angle) = (None, None);
+        Ok(())
+    }
+
+    fn polar_point(&mut self, w: &Words<'a>) -> Result<(f64, f64), Halt> {
+        if let Some(radius) = w.named("RP") {
+            self.radius = Some(radius.number * self.unit());
+        }
+        if let Some(angle) = w.named("AP") {
+            self.angle = match (angle.mark, self.angle) {
+                (Mark::Absolute, _) => Some(angle.number),
+                (Mark::None, _) if self.m.absolute => Some(angle.number),
+                (Mark::None, _) => return self.m.halt("AP under G91 without AC or IC"),
+                (_, Some(last)) => Some(last + angle.number),
+                (_, None) => None,
+            };
+        }
+        match (self.radius, self.angle) {
+            (Some(radius), Some(angle)) if radius >= 0.0 => {
+                let turn = angle.to_radians();
+                Ok((self.pole.0 + radius * turn.cos(), self.pole.1 + radius * turn.sin()))
+            }
+            _ => self.m.halt("polar words of which one is missing"),
+        }
     }
 
     fn straight(&mut self, from: Place, to: Place) -> Result<(), Halt> {

@@ -333,6 +333,16 @@ fn reference() -> impl Strategy<Value = Reference> {
     })
 }
 
+fn pole() -> impl Strategy<Value = Op> {
+    let words = prop_oneof![
+        (of(expr()), of(expr()), of(expr())).prop_map(|(x, y, z)| PoleWords::Along(Box::new([x, y, z]))),
+        (expr(), expr()).prop_map(|(radius, angle)| PoleWords::Polar { radius, angle }),
+    ];
+    let from = select(vec![PoleFrom::Zero, PoleFrom::Here, PoleFrom::Pole]);
+    (fact(planes()), from, words)
+        .prop_map(|(plane, from, at)| Op::SetPole(Box::new(SetPole { plane, from, at })))
+}
+
 /// A statement's operation that has no body.
 fn simple() -> BoxedStrategy<Op> {
     let bare = select(vec![
@@ -391,6 +401,18 @@ fn simple() -> BoxedStrategy<Op> {
         moves().prop_map(Op::StraightTraverse),
         moves().prop_map(Op::StraightFeed),
         moves().prop_map(Op::Position),
+        (fact(planes()), of(coord()), of(coord()), moves(), 0u8..4).prop_map(
+            |(plane, radius, angle, to, kind)| {
+                let op = match kind {
+                    0 => Op::StraightTraverse(to),
+                    1 => Op::StraightFeed(to),
+                    2 => Op::Hole(to),
+                    _ => Op::Position(to),
+                };
+                Op::Polar(Box::new(Polar { plane, radius, angle, op }))
+            }
+        ),
+        pole(),
         (point(), pitch(), any::<bool>(), of(turn())).prop_map(|(to, pitch, chuck, turn)| {
             Op::SynchronisedFeed(Box::new(Synchronised { to, pitch, chuck, turn }))
         }),

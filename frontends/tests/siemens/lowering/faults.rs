@@ -49,7 +49,7 @@ fn words_that_are_known_and_not_translated() {
     };
     refused("G41 X1", "G41", "cutter compensation left", "G41");
     refused("G1 X1 RND=2", "RND", "rounding of a corner", "RND=2");
-    refused("G1 AP=30 RP=5", "AP", "polar words", "AP=30");
+    refused("G1 RP=IC(5)", "RP=IC(5)", "increment of a polar radius", "RP=IC(5)");
     refused("X1=5", "X1", "axis by its number", "X1=5");
     refused("S2=500", "S2", "spindle by its number", "S2=500");
     refused("T=\"DRILL 8.5\"", "T='DRILL 8.5'", "name as a value", "T='DRILL 8.5'");

@@ -21,7 +21,7 @@ use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::{Chain, Frames as Slots, Present};
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous, modes, tooling};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, modes, polar, tooling};
 use crate::num::{Nanos, Unit};
 use crate::program::{Coord, Data, DataMode, FrameSlot, Op, Program, Reference, Slot, Stmt, Synchronised};
 use crate::track::Tracker;
@@ -478,6 +478,10 @@ impl Frames<'_> {
             Op::ArcForm(_) => return Ok(Vec::new()),
             Op::StartCycle(cycle) => Op::StartCycle(Box::new(self.cycle(cycle)?)),
             Op::Pattern(pattern) => return self.pattern(pattern),
+            polar!() if self.set.chain != Chain::NONE => {
+                return Err(cannot("a point by radius and angle in a frame that is worked in"));
+            }
+            polar!() => return Ok(Vec::new()),
             flow!() if self.set.chain != Chain::NONE => {
                 return Err(cannot("a frame where the program does not go straight on"));
             }
@@ -550,6 +554,7 @@ fn moves_in(op: &Op, plane: Plane) -> bool {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
             m.to.get(first).is_some() || m.to.get(second).is_some()
         }
+        Op::Polar(_) => true,
         _ => false,
     }
 }

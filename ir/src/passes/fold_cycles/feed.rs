@@ -2,7 +2,7 @@
 
 use crate::cycle::CycleKind;
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, tooling};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, polar, tooling};
 use crate::num::Num;
 use crate::program::{Op, Stmt};
 
@@ -32,6 +32,7 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
         | Op::SetReturnLevel(_)
         | Op::Position(_)
         | Op::Hole(_)
+        | polar!()
         | Op::Pattern(_)
         | Op::EndCycle
         | Op::ProgramEnd
@@ -59,6 +60,7 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | Op::ArcForm(_)
             | Op::Position(_)
             | Op::Hole(_)
+            | polar!()
             | Op::Pattern(_)
             | Op::StartCycle(_)
             | Op::UseLengthUnits(_)

@@ -301,7 +301,7 @@ fn one(moves: &[Stmt], ops: Vec<(bool, Op)>, made: &mut Rebuild) {
 /// Whether what comes next may do whatever motion is in force.
 fn inherits_motion(rest: &[Stmt]) -> bool {
     for stmt in rest {
-        match &stmt.op {
+        match stmt.op.unwrapped() {
             Op::Position(_) | flow!() => return true,
             Op::StartCycle(_) | Op::ProgramEnd | moves!() if stmt.skip.is_none() => return false,
             _ => {}

@@ -1,0 +1,123 @@
+//! Poles, and moves to points by radius and angle about them.
+
+use ncc_dialects::{Meaning, NameRole, Quantity};
+use ncc_ir::canon::{Axis, Distance, Motion};
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Centre, Coord, Op, Polar, PoleWords, SetPole};
+use ncc_ir::source::Span;
+
+use super::{Modal, Sink, Writer, digits};
+use crate::word::block::{Need, Rank};
+use crate::word::codes::Code;
+use crate::word::modes::{Inserted, cannot};
+use crate::word::number;
+
+impl Writer {
+    /// A pole, in a block of its own.
+    pub(super) fn pole(&mut self, set: &SetPole, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.code_for(Meaning::SetPole(set.from)).ok_or_else(|| cannot("a pole"))?;
+        let mut inserted = Inserted::default();
+        self.words.need_plane(set.plane, &mut inserted)?;
+        self.words.admit_with(Need::new(Rank::Setting), inserted, sink)?;
+        let mut text = row.code.clone();
+        match &set.at {
+            PoleWords::Along(words) => {
+                let plane = set.plane.known().or(self.words.force.plane);
+                let plane = plane.ok_or_else(|| cannot("a pole in a plane that is not known"))?;
+                let (first, second, _) = plane.axes();
+                for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| *a == first || *a == second) {
+                    let name = (axis.letter() as char).to_string();
+                    let letter = self.letter(&name, Quantity::Length);
+                    let value = match &words[axis as usize] {
+                        Some(value) => self.value(&letter, value, span, sink)?.to_string(),
+                        None => "0".to_owned(),
+                    };
+                    text.push_str(&format!(" {name}{value}"));
+                }
+            }
+            PoleWords::Polar { radius, angle } => {
+                let angle = self.named(NameRole::PolarAngle, angle, None, span, sink)?;
+                let radius = self.named(NameRole::PolarRadius, radius, None, span, sink)?;
+                text = format!("{text} {angle} {radius}");
+            }
+        }
+        self.alone(&text, sink)
+    }
+
+    /// A move to a polar point.
+    pub(super) fn polar(&mut self, polar: &Polar, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        self.raw = false;
+        let hole = matches!(polar.op, Op::Hole(_));
+        let to = ncc_ir::polar::end_of(&polar.op).ok_or_else(|| cannot("this function to a polar point"))?;
+        if hole {
+            self.pay_call(sink)?;
+            if self.standing.modal == Modal::Off {
+                return Err(cannot("a hole of a cycle that is not known"));
+            }
+            if !to.is_empty() {
+                return Err(cannot("a hole position outside the plane"));
+            }
+        } else {
+            let feeds = !matches!(polar.op, Op::StraightTraverse(_));
+            self.before_move(to, feeds, span, sink)?;
+        }
+        let mut inserted = Inserted::default();
+        self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
+        self.words.need_plane(polar.plane, &mut inserted)?;
+        let mut words = Vec::new();
+        for (role, word) in [(NameRole::PolarAngle, &polar.angle), (NameRole::PolarRadius, &polar.radius)] {
+            if let Some(word) = word {
+                words.push(self.polar_word(role, word, span, sink)?);
+            }
+        }
+        let codes = &self.words.codes;
+        let (motion, code, said): (Motion, Option<Code>, bool) = if let Op::StraightTraverse(m) = &polar.op {
+            (Motion::Traverse, codes.traverse, m.said)
+        } else if let Op::StraightFeed(m) = &polar.op {
+            (Motion::Feed, codes.feed, m.said)
+        } else if hole {
+            (Motion::Traverse, codes.traverse, false)
+        } else if let Op::ArcFeed(arc) = &polar.op
+            && matches!(arc.centre, Centre::Point { .. })
+            && arc.turns == 0
+        {
+            // About the pole; a pass has seen to it.
+            (Motion::Arc(arc.turn), codes.arcs[arc.turn as usize], arc.said)
+        } else {
+            return Err(cannot("this function to a polar point"));
+        };
+        let code = code.ok_or_else(|| cannot("this move"))?;
+        let says = said || self.words.force.motion != Some(motion);
+        self.arc_block(says.then_some(code), None, to, inserted, &words, span, sink)?;
+        self.words.force.motion = Some(motion);
+        // Where a rounded point is, is not followed.
+        self.words.residue[..3].fill(0);
+        Ok(())
+    }
+
+    /// `AP` or `RP`. Under incremental words, one from zero says so.
+    fn polar_word(
+        &mut self,
+        role: NameRole,
+        word: &Coord,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<String, Fault> {
+        let distance = word.distance.known().or(self.words.force.distance);
+        let qualifier = match (role, distance, self.words.force.distance) {
+            (NameRole::PolarAngle, Some(Distance::Incremental), _) => Some("IC"),
+            (NameRole::PolarRadius, Some(Distance::Incremental), _) | (_, None, _) => {
+                return Err(cannot("an increment of a polar radius"));
+            }
+            (NameRole::PolarRadius, ..) | (_, _, Some(Distance::Absolute)) => None,
+            (_, _, Some(Distance::Incremental) | None) => Some("AC"),
+        };
+        let row = self.dialect.name_with(role).ok_or_else(|| cannot("a polar word"))?;
+        let letter = self.letter(&row.name, row.quantity.unwrap_or(Quantity::Length));
+        let value = self.words.value(&letter, &word.value, span, sink)?;
+        Ok(match qualifier {
+            Some(qualifier) => number::qualified(&row.name, qualifier, value),
+            None => format!("{}={}", row.name, digits(value)),
+        })
+    }
+}

@@ -1,0 +1,74 @@
+//! Points by radius and angle, in a mode of their own: the words of the plane's axes are radius and
+//! angle while it is on, and coordinates again when it is off.
+//!
+//! What can be said so at all, a pass has seen to.
+
+use ncc_ir::diag::Fault;
+use ncc_ir::polar;
+use ncc_ir::program::{Op, Polar, Stmt};
+
+use super::block::{Need, Part, Rank};
+use super::modes::cannot;
+use super::{Sink, Writer};
+
+impl Writer {
+    /// Writes a move to a polar point.
+    ///
+    /// # Errors
+    /// The dialect has no such mode, or the point is not one of it.
+    pub(crate) fn polar(&mut self, polar: &Polar, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let on = self.codes.polar[1].ok_or_else(|| cannot("a point by radius and angle"))?;
+        if stmt.skip.is_some() {
+            return Err(cannot("a point by radius and angle in a block that can be skipped"));
+        }
+        let plane = polar.plane.known().or(self.force.plane);
+        let plane =
+            plane.ok_or_else(|| cannot("a point by radius and angle in a plane that is not known"))?;
+        let mut inserted = super::modes::Inserted::default();
+        self.need_plane(polar.plane, &mut inserted)?;
+        self.admit_with(Need::new(Rank::Setting), inserted, sink)?;
+        if !self.polar {
+            self.admit(&Need::new(Rank::Setting).code(Some(on)), sink)?;
+            self.block.code(Part::Mode, &on);
+            self.polar = true;
+        }
+        let (first, second, _) = plane.axes();
+        let mut op = polar.op.clone();
+        let to = polar::end(&mut op).ok_or_else(|| cannot("this function to a polar point"))?;
+        for (axis, word) in [(first, &polar.radius), (second, &polar.angle)] {
+            if let Some(word) = word {
+                to.set(axis, word.clone());
+            }
+        }
+        let span = stmt.span;
+        if let Op::StraightTraverse(to) = &op {
+            self.straight(to, true, span, sink)
+        } else if let Op::StraightFeed(to) = &op {
+            self.straight(to, false, span, sink)
+        } else if let Op::ArcFeed(arc) = &op {
+            self.arc(arc, span, sink)
+        } else if let Op::Hole(to) = &op {
+            self.hole(to, stmt, sink)
+        } else {
+            Err(cannot("this function to a polar point"))
+        }
+    }
+
+    /// Goes back to coordinates before a statement that the mode would change.
+    pub(crate) fn leave_polar(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.polar || !polar::leaves_points(&stmt.op, self.force.plane) {
+            return Ok(());
+        }
+        let off = self.codes.polar[0].ok_or_else(|| cannot("the end of points by radius and angle"))?;
+        // A block that is skipped must not say it.
+        let skip = self.block.skip.take();
+        self.admit(&Need::new(Rank::Setting).code(Some(off)), sink)?;
+        self.block.code(Part::Mode, &off);
+        if skip.is_some() {
+            self.flush(false, sink);
+            self.block.skip = skip;
+        }
+        self.polar = false;
+        Ok(())
+    }
+}

@@ -1,0 +1,153 @@
+//! Lowering of points by radius and angle, in a mode of their own: while it is on, the words of the
+//! plane's axes are radius and angle about program zero.
+//!
+//! A radius that is an increment is about where the tool stands; from where its angle is counted no
+//! source says, and it is refused. So is a word that is missing or an increment where something other
+//! than a polar point has moved the plane's axes last: it would count from where the tool stands.
+
+use ncc_dialects::{Meaning, Quantity};
+use ncc_ir::canon::{Axis, Distance, Fact, Plane};
+use ncc_ir::diag::Fault;
+use ncc_ir::polar;
+use ncc_ir::program::{Centre, Op, Polar, PoleFrom, PoleWords, SetPole};
+use ncc_ir::source::Span;
+
+use super::lower::Lower;
+use super::sort::Code;
+use crate::Batch;
+
+/// What the words of the plane's axes are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Words {
+    /// Coordinates.
+    #[default]
+    Cartesian,
+    /// Radius and angle.
+    Polar {
+        plane: Plane,
+        /// Whether the last thing that moved in the plane was a polar point.
+        follows: bool,
+    },
+}
+
+impl Words {
+    /// What is known after a block that may have been skipped.
+    pub(super) fn join(&mut self, before: Words) {
+        if let (Words::Polar { follows, .. }, Words::Polar { follows: other, .. }) = (self, before) {
+            *follows &= other;
+        }
+    }
+}
+
+impl Lower {
+    /// The code of the mode, or of its end.
+    pub(super) fn polar_words(&mut self, code: &Code, on: bool, out: &mut Batch) {
+        let is_on = matches!(self.state.words, Words::Polar { .. });
+        if on != is_on && self.now.skip.is_some() {
+            return self.no_polar(code.row.code.as_str(), "in a block that can be skipped", code.span, out);
+        }
+        if !on {
+            self.state.words = Words::Cartesian;
+            self.now.silent = true;
+            return;
+        }
+        let Fact::Known(plane) = self.plane(code.span, out) else {
+            return self.no_polar(code.row.code.as_str(), "in a plane that is not known", code.span, out);
+        };
+        if is_on {
+            self.now.silent = true;
+            return;
+        }
+        self.state.words = Words::Polar { plane, follows: false };
+        let at = PoleWords::Along(Box::default());
+        let set = SetPole { plane: Fact::Known(plane), from: PoleFrom::Zero, at };
+        self.push(code.span, Op::SetPole(Box::new(set)), out);
+    }
+
+    fn no_polar(&mut self, code: &str, why: &str, at: Span, out: &mut Batch) {
+        let name = format!("polar words {why}").into();
+        self.fault(Fault::NotSupported { code: code.into(), name }, at, out);
+    }
+
+    /// Refuses a code whose words are coordinates, or that leads where the mode is another.
+    pub(super) fn check_polar(&mut self, code: &Code, out: &mut Batch) {
+        let leaves = match code.meaning {
+            Meaning::SelectPlane(plane) => {
+                !matches!(self.state.words, Words::Polar { plane: p, .. } if p == plane)
+            }
+            Meaning::SetShift(_)
+            | Meaning::SetPosition
+            | Meaning::SetRotation
+            | Meaning::SetScale
+            | Meaning::SetMirror
+            | Meaning::ClearMirror
+            | Meaning::ClearFrame(_)
+            | Meaning::SetOriginOffsets(_)
+            | Meaning::UseMachineCoordinates { .. }
+            | Meaning::GoToReference { .. }
+            | Meaning::Pattern
+            | Meaning::Call
+            | Meaning::Return => true,
+            _ => false,
+        };
+        if leaves && matches!(self.state.words, Words::Polar { .. }) {
+            let name = "while words are polar".into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
+        }
+    }
+
+    /// What the word of an axis counts.
+    pub(super) fn quantity_of(&self, axis: Axis, quantity: Quantity) -> Quantity {
+        match self.state.words {
+            Words::Polar { plane, .. } if plane.axes().1 == axis => Quantity::Angle,
+            Words::Polar { .. } | Words::Cartesian => quantity,
+        }
+    }
+
+    /// Adds a move, to a polar point where its words are polar.
+    pub(super) fn push_move(&mut self, span: Span, op: Op, out: &mut Batch) {
+        match self.state.words {
+            Words::Cartesian => self.push(span, op, out),
+            Words::Polar { plane, follows } => self.push_polar(plane, follows, span, op, out),
+        }
+    }
+
+    #[cold]
+    fn push_polar(&mut self, plane: Plane, follows: bool, span: Span, mut op: Op, out: &mut Batch) {
+        let (first, second, _) = plane.axes();
+        let Some(to) = polar::end(&mut op) else {
+            return self.push(span, op, out);
+        };
+        let radius = to.axes[first as usize].take();
+        let angle = to.axes[second as usize].take();
+        if radius.is_none() && angle.is_none() {
+            return self.push(span, op, out);
+        }
+        let refuse = |name: &str| Fault::NotSupported { code: "G16".into(), name: name.into() };
+        let adds = |word: &Option<ncc_ir::program::Coord>| {
+            word.as_ref().is_some_and(|word| word.distance != Fact::Known(Distance::Absolute))
+        };
+        if adds(&radius) {
+            return self.fault(refuse("polar radius from where the tool stands"), span, out);
+        }
+        if !follows && (radius.is_none() || angle.is_none() || adds(&angle)) {
+            return self.fault(refuse("polar word that counts from where the tool stands"), span, out);
+        }
+        let negative = radius.as_ref().and_then(|r| r.value.literal()).is_some_and(|n| n.mantissa < 0);
+        if negative {
+            return self.fault(refuse("negative polar radius"), span, out);
+        }
+        match &op {
+            Op::Position(_) => {
+                return self.fault(refuse("position of a caller's cycle in polar words"), span, out);
+            }
+            Op::ArcFeed(arc) if !matches!(arc.centre, Centre::Radius(_)) => {
+                return self.fault(refuse("arc about a centre in polar words"), span, out);
+            }
+            _ => {}
+        }
+        self.state.words = Words::Polar { plane, follows: true };
+        let polar = Polar { plane: Fact::Known(plane), radius, angle, op };
+        self.push(span, Op::Polar(Box::new(polar)), out);
+    }
+}
