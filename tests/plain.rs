@@ -1,7 +1,10 @@
 //! Events in their plainest form, so that the second interpreter's, the compiler's and those of a
 //! book can be laid side by side. Millimetres, degrees, seconds, machine coordinates.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
+use std::rc::Rc;
 
 use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
@@ -113,12 +116,22 @@ impl Tolerance {
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
     let points = world.clone();
+    let named = Rc::new(RefCell::new(BTreeMap::new()));
+    let known = named.clone();
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
         length: Box::new(move |entry| mm(lengths.tool_length(entry))),
         wear: Box::new(move |entry| mm(wears.length_wear(entry))),
-        edge_length: Box::new(move |tool, edge| mm(edges.edge_length(tool.map_or(-1, i64::from), edge))),
+        edge_length: Box::new(move |tool, edge| {
+            let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));
+            mm(edges.edge_length(tool.map_or(-1, own), edge))
+        }),
+        named_tool: Box::new(move |name| {
+            let tool = ncc_ir::exec::named_tool(name);
+            named.borrow_mut().insert(by_name(tool), tool);
+            by_name(tool)
+        }),
         skip: std::array::from_fn(|level| skip >> level & 1 == 1),
         peck_clearance: mm(world.peck_clearance),
         break_lift: mm(world.break_lift),
@@ -144,6 +157,11 @@ pub fn world(seed: u32) -> World {
         no_origin_shift: Some(true),
     };
     World { power_on, ..World::generate(seed, &Modes::default()) }
+}
+
+/// A number for a tool with a name.
+fn by_name(tool: i64) -> u32 {
+    tool as u32 | 1 << 31
 }
 
 fn mm(nanos: Nanos) -> f64 {
@@ -296,7 +314,11 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 feed: mm(event.rate),
                 per: if cutting { per } else { Per::Minute },
                 corner: if moves { corner } else { Corner::Unsaid },
-                tool: (event.state.tool >= 0).then_some(event.state.tool),
+                tool: match event.state.tool {
+                    -1 => None,
+                    named @ ..-1 => Some(i64::from(by_name(named))),
+                    tool => Some(tool),
+                },
                 speed: match event.state.spindle {
                     Turning::Stopped => 0.0,
                     Turning::Clockwise => speed,

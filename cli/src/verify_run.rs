@@ -7,7 +7,7 @@ use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::{Event, Exec, Progress, Runner};
+use ncc_ir::exec::{Event, Exec, Progress, Runner, named_tool};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
@@ -131,6 +131,9 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let mut target = World::generate(seed, &to);
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
+    let named = &target.renaming.tool_names;
+    source.tables.named_lengths =
+        named.iter().map(|(n, name)| (named_tool(name), target.edge_length(i64::from(*n), 1))).collect();
     // A control without a word for it takes corners in its one way.
     let caps = &job.to.dialect.caps;
     let path = caps.only_path.filter(|mode| !caps.says_path(*mode));
@@ -146,7 +149,7 @@ impl Verifier {
             .map(|seed| {
                 let [source, target] = worlds_of(job, seed);
                 let mut comparison = Comparison::new(resolution(&job.to), source.start);
-                comparison.rename_tools(renaming.tools.clone());
+                comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
                 comparison.see(job.to.dialect.caps.seen());
                 Run {
                     skip: 0,

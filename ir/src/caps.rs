@@ -79,6 +79,8 @@ pub struct Caps {
     pub tool_data: [bool; 4],
     /// Whether a value can be added to one of that table.
     pub tool_data_added: bool,
+    /// Tools by name.
+    pub tool_names: bool,
     /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
     /// if either.
     pub tool_edges: Option<bool>,

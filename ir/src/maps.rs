@@ -37,6 +37,8 @@ impl Numbered {
 pub struct Maps {
     /// Tools.
     pub tools: Option<BTreeMap<u32, u32>>,
+    /// Tools that the source calls by name, where the target calls them by number.
+    pub tool_names: BTreeMap<Text, u32>,
     /// Entries of the length table; 0, which is none, is always 0 and has no row.
     pub entries: Option<BTreeMap<u32, u32>>,
     /// Work offsets; 1 is the first.
@@ -59,6 +61,7 @@ impl Maps {
     /// Whether nothing is mapped.
     pub fn is_empty(&self) -> bool {
         self.tools.is_none()
+            && self.tool_names.is_empty()
             && self.entries.is_none()
             && self.offsets.is_none()
             && self.programs.is_empty()
@@ -101,6 +104,8 @@ impl Maps {
 pub struct Renaming {
     /// Tools.
     pub tools: Option<BTreeMap<u32, u32>>,
+    /// Names by which the source may call tools, by the target's numbers.
+    pub tool_names: BTreeMap<u32, Text>,
     /// Entries of the length table, without 0.
     pub entries: Option<BTreeMap<u32, u32>>,
     /// Work offsets.
@@ -111,7 +116,7 @@ pub struct Renaming {
 }
 
 impl Renaming {
-    /// Whether every number is its own.
+    /// Whether every number is its own; a tool that the source calls by name has none.
     pub fn is_empty(&self) -> bool {
         self.tools.is_none() && self.entries.is_none() && self.offsets.is_none()
     }

@@ -8,10 +8,10 @@
 use std::collections::BTreeMap;
 
 use crate::canon::{AXES, Axis, Turn, same_point};
-use crate::exec::{Event, Kind, Seen, State, Stored};
+use crate::exec::{Event, Kind, Seen, State, Stored, named_tool};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, POW10};
-use crate::program::{Op, Point, Stmt};
+use crate::program::{Op, Point, Stmt, Text};
 use crate::source::Span;
 
 /// Half a unit of the sixth digit of a pitch in millimetres.
@@ -186,6 +186,8 @@ pub struct Comparison {
     seen: Option<Seen>,
     /// What the source calls the target's tools, where that may be another number.
     tools: Option<BTreeMap<u32, u32>>,
+    /// What the source's tools are that it calls by name, by the target's numbers.
+    named: BTreeMap<u32, i64>,
     /// Pairs of events found equal.
     pub events: u64,
     /// The pairs themselves, if somebody asked.
@@ -208,6 +210,7 @@ impl Comparison {
             target_at: start,
             seen: None,
             tools: None,
+            named: BTreeMap::new(),
             events: 0,
             pairs: None,
             within: 0,
@@ -217,8 +220,10 @@ impl Comparison {
 
     /// The same tool has another number in the target: `tools` says what the source calls each of the
     /// target's. One that is not among them is none of the source's.
-    pub fn rename_tools(&mut self, tools: Option<BTreeMap<u32, u32>>) {
+    /// `names` has those that the source may call by name.
+    pub fn rename_tools(&mut self, tools: Option<BTreeMap<u32, u32>>, names: &BTreeMap<u32, Text>) {
         self.tools = tools;
+        self.named = names.iter().map(|(number, name)| (*number, named_tool(name))).collect();
     }
 
     /// The target has words for so much of the machine's state alone: the rest does not count.
@@ -318,6 +323,14 @@ impl Comparison {
 
     #[inline]
     fn same_tooled(&self, a: &State, b: &State) -> bool {
+        if self.tools.is_none() && self.named.is_empty() {
+            return a.same(b);
+        }
+        // One that the source calls by name is told from all that it calls by number.
+        let named = u32::try_from(b.tool).ok().and_then(|tool| self.named.get(&tool));
+        if named == Some(&a.tool) {
+            return a.same(&State { tool: a.tool, ..*b });
+        }
         let Some(tools) = &self.tools else { return a.same(b) };
         // The tool that nobody named is the same on both.
         let tool = match u32::try_from(b.tool) {

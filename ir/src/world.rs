@@ -81,6 +81,8 @@ pub struct Tables {
     pub wears: BTreeMap<u32, Nanos>,
     /// Points of the machine, in machine coordinates, axis by axis.
     pub references: BTreeMap<ReferencePoint, [Option<Nanos>; AXES]>,
+    /// Lengths of edge 1 of tools with a name.
+    pub named_lengths: BTreeMap<i64, Nanos>,
     /// The entry that edge 1 of a tool has, where it is not the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
 }
@@ -215,6 +217,7 @@ impl World {
         let entry = known.unwrap_or(if tool == -1 { 97 } else { tool as u32 | FOREIGN });
         match edge {
             0 => 0,
+            1 if self.tables.named_lengths.contains_key(&tool) => self.tables.named_lengths[&tool],
             1 if entry != 0 && known.is_ok() => self.tool_length(self.edge_entry(entry)),
             1 if entry != 0 => self.own_length(entry),
             _ if self.seed == 0 => 0,

@@ -17,6 +17,17 @@ use crate::schema::{ToolRow, WorkOffsetRow};
 /// The target's numbers of what the source calls by its own. Tools and work offsets are mapped where
 /// both machines name any; programs by what either says, as their controls call by number or by name.
 pub fn maps(from: Option<&Profile>, to: Option<&Profile>, target: &Dialect) -> Maps {
+    let mut maps = numbers(from, to, target);
+    let Some(to) = to.filter(|_| !target.caps.tool_names) else { return maps };
+    // Whose length has another number is known only where numbers go by names altogether.
+    let told = |tool: &Tool| tool.entry == tool.number || maps.tools.is_some();
+    let named = tools(to).into_iter().filter(|(_, tool)| told(tool));
+    maps.tool_names = named.map(|(name, tool)| (name.into(), tool.number)).collect();
+    maps
+}
+
+/// The maps of what the source calls by numbers, and of programs.
+fn numbers(from: Option<&Profile>, to: Option<&Profile>, target: &Dialect) -> Maps {
     let mut maps = Maps::default();
     if target.caps.calls {
         programs(from, to, target.caps.call_digits > 0, &mut maps);
@@ -60,6 +71,11 @@ pub fn maps(from: Option<&Profile>, to: Option<&Profile>, target: &Dialect) -> M
 /// What the source calls what the target's text says, for worlds that compare the two.
 pub fn renaming(from: Option<&Profile>, to: Option<&Profile>) -> Renaming {
     let mut renaming = Renaming::default();
+    for row in to.iter().flat_map(|to| to.schema.tool.iter().map(toml::Spanned::get_ref)) {
+        if let (Some(number), Some(name)) = (row.number.value, &row.name.value) {
+            renaming.tool_names.insert(number, name.as_str().into());
+        }
+    }
     let (Some(from), Some(to)) = (from, to) else { return renaming };
     let named = |profile: &Profile| {
         profile

@@ -118,6 +118,9 @@ const AUTOMATIC: &str = "-automatic";
 /// Machine data of which another value would change where a tool's length counts.
 const LENGTH_CONST: &str = "SD-42940-TOOL_LENGTH_CONST";
 
+/// Machine data that say which spindle words without a number mean.
+const MASTER_SPINDLE: &str = "MD-20090-SPIND_DEF_MASTER_SPIND";
+
 /// The fact that an assumption rests on, or that is missing where an M code is refused; `None` for
 /// anything else.
 pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Option<(Side, Place)> {
@@ -148,7 +151,10 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
             other => (side, Place::Confirmed(slug(other))),
         },
         Fault::UnknownCode { code } if is_m_code(code) => (Side::From, Place::Code(code.to_string())),
-        Fault::CannotSay { what } => (Side::To, Place::Function(what.strip_prefix(FUNCTION)?.to_owned())),
+        Fault::CannotSay { what } => match what.strip_prefix(TOOL) {
+            Some(name) => (Side::To, Place::Number(Numbered::Tool, name.to_owned())),
+            None => (Side::To, Place::Function(what.strip_prefix(FUNCTION)?.to_owned())),
+        },
         Fault::AssumedNoEffect { code } => (side, Place::Confirmed(code.to_string())),
         Fault::AssumedRow { code, .. } => (side, Place::Confirmed(row_key(code))),
         // Where the target wants the offset with a Z word, it is still the source that takes it up so.
@@ -171,6 +177,9 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
 
 /// What a writer says before the name of a function of the machine that it has no code for.
 const FUNCTION: &str = "the machine function ";
+
+/// What a writer says before the name of a tool that it has no number for.
+const TOOL: &str = "a tool called ";
 
 fn is_m_code(code: &str) -> bool {
     code.strip_prefix('M').is_some_and(|n| !n.is_empty() && n.bytes().all(|b| b.is_ascii_digit()))
@@ -216,7 +225,8 @@ fn slug(words: &str) -> String {
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
-    if [OFFSET_WITH_Z, BARE_NUMBERS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, LENGTH_CONST].contains(&key) {
+    let readings = [OFFSET_WITH_Z, BARE_NUMBERS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES];
+    if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE].contains(&key) {
         return true;
     }
     let call = |name: &str| dialect.call_row(name).is_some();

@@ -402,6 +402,10 @@ impl Control {
             "SET_FEED_RATE" => self.m.feed = Some(self.first(a)?),
             "SET_SPINDLE_SPEED" => self.m.speed = Some(self.first(a)?),
             "SELECT_TOOL" => self.m.selected = Some(self.first(a)? as u32),
+            "SELECT_TOOL_BY_NAME" => {
+                let [Token::Text(name)] = a else { return self.m.halt("a name is needed") };
+                self.m.selected = Some((self.m.setup.named_tool)(name));
+            }
             "CHANGE_TOOL" => self.m.change_tool()?,
             "USE_TOOL_LENGTH_OFFSET" => {
                 let entry = self.first(a)? as u32;

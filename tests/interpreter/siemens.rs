@@ -96,6 +96,8 @@ struct Words<'b> {
     named: Vec<(&'b str, Value)>,
     names: Vec<&'b str>,
     call: Option<(&'b str, &'b [Argument])>,
+    /// A tool by its name.
+    tool: Option<&'b str>,
 }
 
 impl Words<'_> {
@@ -264,6 +266,8 @@ impl<'a> Control<'a> {
                     }
                     w.named.push((name, *value));
                 }
+                Item::Quoted('T', name) if w.tool.is_none() => w.tool = Some(name),
+                Item::Quoted(letter, _) => return self.m.halt(format!("{letter} with a text")),
                 Item::Name(name) => w.names.push(name),
                 Item::Call(name, arguments) if w.call.is_none() => w.call = Some((name, arguments)),
                 Item::Call(..) => return self.m.halt("two calls in a block"),
@@ -308,6 +312,9 @@ impl<'a> Control<'a> {
                     let cycle = self.cycle(name, arguments)?;
                     self.run_cycle(cycle)?;
                 }
+                // The master spindle is the first one, and a tolerance of the path is advice.
+                ("SETMS", true, []) if matches!(arguments, [Argument::Number(n)] if *n == 1.0) => {}
+                ("CYCLE832", true, []) => {}
                 ("HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802", true, []) => self.pattern(name, arguments)?,
                 _ => return self.m.halt(format!("the call of {name}, or other words beside it")),
             }
@@ -338,6 +345,7 @@ impl<'a> Control<'a> {
                 }
                 return Ok(Some(Next::Back));
             }
+            "SETMS" if bare && w.names.len() == 1 => {}
             "PROC" if bare && w.names.len() >= 2 => {}
             name if FRAMES.contains(&name) && w.names.len() == 1 => self.change_frame(name, w)?,
             name if w.names.len() == 1 => return self.call(name, w, 0).map(Some),
@@ -517,6 +525,9 @@ impl<'a> Control<'a> {
         }
         if let Some(tool) = w.letter('T') {
             self.m.selected = Some(self.whole(tool.number)?);
+        }
+        if let Some(name) = w.tool {
+            self.m.selected = Some((self.m.setup.named_tool)(name));
         }
         let edge = w.letter('D').map(|d| self.whole(d.number)).transpose()?;
         if m_codes.contains(&6) {

@@ -1,8 +1,9 @@
 //! One statement: which words say it.
 
-use ncc_dialects::{Meaning, NameMeaning, NameRole};
+use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity};
+use ncc_ir::canon::AdviceKind;
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{FrameSlot, Op, PathControl, Stmt};
+use ncc_ir::program::{Advice, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
@@ -44,7 +45,6 @@ impl Writer {
             | Op::ExactStop
             | Op::SetSpindleMode(_)
             | Op::SelectTool(_)
-            | Op::SelectToolByName(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
             | Op::SynchronisedFeed(_)
@@ -84,6 +84,9 @@ impl Writer {
                 words.iter().for_each(|word| self.words.block.text(Part::Mode, word));
                 Ok(())
             }
+            Op::Advise(advice) if advice.kind == AdviceKind::PathTolerance => {
+                self.path_tolerance(advice, span, sink)
+            }
             Op::Advise(advice) => {
                 let meaning = NameMeaning::Code(Meaning::Advise(advice.kind, Some(advice.value)));
                 match self.dialect.name_for(meaning) {
@@ -120,6 +123,7 @@ impl Writer {
                 self.standing.feed_said = true;
                 Ok(())
             }
+            Op::SelectToolByName(name) => self.tool_by_name(name, sink),
             Op::ChangeTool => self.change_tool(stmt, sink),
             Op::UseToolLengthOffset(entry) => self.length_offset(entry, span, sink),
             Op::UseToolEdge { edge, said } => self.edge(edge, *said, span, sink),
@@ -158,6 +162,23 @@ impl Writer {
     ) -> Result<(), Fault> {
         let word = self.named(role, value, None, span, sink)?;
         self.alone(&word, sink)
+    }
+
+    /// The tolerance of the path, with the stage of machining as a number.
+    fn path_tolerance(&mut self, advice: &Advice, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.name_for(NameMeaning::Code(Meaning::Advise(advice.kind, None)));
+        let row = row.ok_or_else(|| cannot("a tolerance of the path"))?;
+        let stage = match advice.value_name() {
+            "finishing" => 1,
+            "semi-finishing" => 2,
+            "roughing" => 3,
+            _ => return self.alone(&format!("{}(0,0,1)", row.name), sink),
+        };
+        let amount =
+            advice.amount.as_ref().ok_or_else(|| cannot("a tolerance of the path without its value"))?;
+        let letter = self.letter("X", Quantity::Length);
+        let amount = self.value(&letter, amount, span, sink)?;
+        self.alone(&format!("{}({amount},{stage},1)", row.name), sink)
     }
 
     fn no_effect(&mut self, name: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {

@@ -21,6 +21,16 @@ impl Writer {
         Ok(())
     }
 
+    /// A tool by its name, in quotation marks.
+    pub(super) fn tool_by_name(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.address.iter().find(|row| row.role == Role::Tool && row.named);
+        let plain = !name.is_empty() && !name.chars().any(|c| c == '"' || c.is_control());
+        let row = row.filter(|_| plain).ok_or_else(|| cannot(format!("a tool called {name}")))?;
+        self.words.admit(&Need::new(Rank::Tool).letter(row.letter as u8), sink)?;
+        self.words.block.text(Part::Tail, &format!("{}=\"{name}\"", row.letter));
+        Ok(())
+    }
+
     /// An edge of the tool in the spindle.
     pub(super) fn edge(&mut self, edge: &Expr, said: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let first = edge.literal().and_then(|n| n.whole()) == Some(1);

@@ -248,12 +248,14 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         }
         Meaning::ExactStop => one("EXACT_STOP() & said STRAIGHT_TRAVERSE(X 12.345mm, Y -6.7mm)"),
         Meaning::Advise(kind, value) => {
-            let values = value.map_or(vec![0, 1], |value| vec![value]);
-            let name = |value: u8| kind.values()[usize::from(value)];
-            values
-                .into_iter()
-                .map(|value| Said::new(format!("ADVISE(\"{}\", \"{}\")", kind.name(), name(value))))
-                .collect()
+            let all = 0..kind.values().len() as u8;
+            let values = value.map_or(all.collect(), |value| vec![value]);
+            let say = |value: u8| {
+                let amount = if kind.has_amount() && value > 0 { ", 0.05mm" } else { "" };
+                let name = kind.values()[usize::from(value)];
+                Said::new(format!("ADVISE(\"{}\", \"{name}\"{amount})", kind.name()))
+            };
+            values.into_iter().map(say).collect()
         }
         Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
         Meaning::ChangeTool => one(match d.caps.tool_edges {

@@ -142,6 +142,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
+        Fault::CannotSay { what } if what.starts_with("a tool called ") => {
+            vec![
+                "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
+                    .into(),
+            ]
+        }
         Fault::CannotSay { .. } => {
             vec![format!("write it in a way that {to} has words for: `ncc dialects show {to}`")]
         }

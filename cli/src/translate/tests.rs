@@ -134,3 +134,47 @@ fn with_a_map_both_sides_are_executed() {
     }
     assert!(level, "nothing would be shown");
 }
+
+/// A part of a control that calls tools by name.
+const NAMED: &str = "G710 G17 G90 G40 G94\nG54\nT=\"drill\" M6\nD1\nS500 M3\nG0 X0 Y0 Z5\nG1 Z-1 F100\nX10\nG0 Z50\nT=\"mill\" M6\nD1\nG0 X1 Y2 Z3\nM30\n";
+
+fn named(both: bool, change: impl Fn(&mut Maps)) -> Outcome {
+    let settings = |id| Settings::new(builtin(id).expect("a built-in dialect"));
+    let rows = |entry: &str, from: u32| {
+        format!("[[tool]]\nnumber = {from}\nname = \"drill\"\n{entry}[[tool]]\nnumber = 3\nname = \"mill\"\n")
+    };
+    let to = match both {
+        true => machine(&rows("length_entry = 27\n", 7)),
+        false => machine(&rows("", 7)),
+    };
+    let text = format!("id = \"shop\"\ntitle = \"\"\ndialect = \"siemens\"\n{}", rows("", 5));
+    let from = both.then(|| Arc::new(Profile::parse(&text, &builtin).expect("a profile")));
+    let job = Job::new(settings("siemens"), settings("fanuc"), "part.mpf");
+    let job = Job { machines: Machines { from, to }, ..job };
+    let mut maps = job.machines.maps(job.to.dialect);
+    change(&mut maps);
+    let mut line = Line::new(&job);
+    line.renumbering = Renumbering::new(maps);
+    line.piece(NAMED.as_bytes(), 0).expect("an output in memory");
+    line.end().expect("an output in memory");
+    line.outcome([0; 32], NAMED.len() as u64)
+}
+
+#[test]
+fn a_tool_by_name_gets_the_number_of_the_target() {
+    for both in [false, true] {
+        let outcome = named(both, |_| {});
+        assert_eq!((told(&outcome), outcome.release), (Vec::new(), Ok(())), "{both}");
+        let swapped = named(both, |maps| {
+            maps.tool_names.insert("drill".into(), 3);
+            maps.tool_names.insert("mill".into(), 7);
+        });
+        assert_eq!(told(&swapped), [601], "{both}");
+        let other = named(both, |maps| {
+            maps.tool_names.insert("mill".into(), 99);
+        });
+        assert_eq!(told(&other), [601], "{both}");
+        // One that the target's machine has no number for cannot be said.
+        assert!(told(&named(both, |maps| maps.tool_names.clear())).contains(&501), "{both}");
+    }
+}

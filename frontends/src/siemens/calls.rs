@@ -83,6 +83,7 @@ impl Lower {
             return self.not_supported(&name, "call beside other words", head.span, out);
         }
         match row {
+            None if self.is_word_with_arguments(&name) => self.word_with_arguments(&name, called, src, out),
             None => self.message(called, src, out),
             Some(row) if is_cycle(row.kind) => self.cycle(row, called, false, src, out),
             Some(row) => self.pattern(row, called, src, out),

@@ -304,6 +304,9 @@ impl Lower {
                 self.push(given.span, Op::SelectTool(Expr::int(tool.into())), out);
             }
         }
+        if let Some(name) = words.tool_name.take() {
+            self.select_by_name(name, src, out);
+        }
         if let Some(change) = change {
             if self.state.tool == Know::Unsaid {
                 self.fault(Fault::NoToolSelected, change.span, out);

@@ -428,7 +428,8 @@ impl Lower {
     fn is_call(&self, called: &Called, src: Source) -> bool {
         let name = src.text(called.name).to_ascii_uppercase();
         match self.settings.dialect.name_row(&name) {
-            Some(row) => row.means == Some(NameMeaning::Message),
+            Some(row) if row.means == Some(NameMeaning::Message) => true,
+            Some(_) => called.arguments.is_some() && self.is_word_with_arguments(&name),
             None => true,
         }
     }

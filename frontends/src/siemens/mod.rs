@@ -27,6 +27,7 @@ pub(crate) mod pieces;
 mod polar;
 mod reader;
 mod sort;
+mod spindles;
 #[cfg(test)]
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;

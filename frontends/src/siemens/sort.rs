@@ -46,6 +46,8 @@ pub(super) struct Words {
     pub(super) codes: Vec<Code>,
     letters: [Option<Given>; 26],
     named: [Option<Given>; NAMED],
+    /// A tool by its name, with the quotes.
+    pub(super) tool_name: Option<Span>,
 }
 
 /// Number of roles of named addresses.
@@ -57,6 +59,7 @@ impl Words {
         self.codes.clear();
         self.letters = [None; 26];
         self.named = [None; NAMED];
+        self.tool_name = None;
     }
 
     pub(super) fn get(&self, letter: u8) -> Option<Given> {
@@ -244,6 +247,20 @@ impl Lower {
         }
         let name: Box<str> = match (place.address, place.extension) {
             (Address::System(_), _) | (Address::Letter(b'R'), _) => return self.fault(computed, span, out),
+            (Address::Letter(letter), None | Some(1)) if self.is_tool_name(letter, value) => {
+                if place.extension.is_some() {
+                    self.master_spindle(span, out);
+                }
+                return self.tool_name(value, span, words, src, out);
+            }
+            // The first spindle is the master spindle, which a word without a number means.
+            (Address::Letter(letter @ (b'S' | b'M' | b'T')), Some(1)) => {
+                self.master_spindle(span, out);
+                return match self.constant(value, span, src, out) {
+                    Some(given) => self.letter(letter, given, words, src, out),
+                    None => self.now.refused = true,
+                };
+            }
             (Address::Letter(letter), None) => {
                 return match self.constant(value, span, src, out) {
                     Some(given) => self.letter(letter, given, words, src, out),

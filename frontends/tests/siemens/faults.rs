@@ -69,7 +69,7 @@ fn statements() {
         ("CALL", "Syntax { found: 'end of block', expected: 'an expression' } at ''"),
         ("CALL AA(1)", "Syntax { found: '(', expected: 'the end of the block' } at '(1)'"),
         ("PCALL", "Syntax { found: 'end of block', expected: 'a path' } at ''"),
-        ("MCALL X5 Y5", "Syntax { found: 'Y', expected: 'the end of the block' } at 'Y'"),
+        ("MCALL X5 Y5", "Syntax { found: 'Y', expected: '(' } at 'Y'"),
         ("DEF AA", "Syntax { found: 'end of block', expected: 'a type' } at ''"),
         ("PROC", "Syntax { found: 'end of block', expected: 'a name' } at ''"),
         ("DEFINE AA", "Syntax { found: 'end of block', expected: 'AS' } at ''"),

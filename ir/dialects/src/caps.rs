@@ -156,6 +156,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         offset_data: if everything { [true; 3] } else { dialect.sets_offsets() },
         tool_data: if everything { [true; 4] } else { dialect.sets_tools() },
         tool_data_added: everything || dialect.data.iter().any(|r| r.kind == DataKind::Tool && r.adds),
+        tool_names: everything
+            || dialect.family == Family::Canon
+            || dialect.address.iter().any(|row| row.role == crate::Role::Tool && row.named),
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
         return_planes: either(states),
         arc_forms: everything || names(NameMeaning::ArcThrough),
@@ -241,5 +244,10 @@ fn says_advice(dialect: &Dialect, kind: AdviceKind, value: u8) -> bool {
     let meaning = Meaning::Advise(kind, Some(value));
     let by_word =
         value < 2 && kind.values().len() == 2 && dialect.code_for(Meaning::Advise(kind, None)).is_some();
-    by_word || dialect.code_for(meaning).is_some() || dialect.name_for(NameMeaning::Code(meaning)).is_some()
+    // A word that is called with the value.
+    let called = dialect.name_for(NameMeaning::Code(Meaning::Advise(kind, None))).is_some();
+    by_word
+        || called
+        || dialect.code_for(meaning).is_some()
+        || dialect.name_for(NameMeaning::Code(meaning)).is_some()
 }

@@ -297,6 +297,9 @@ pub struct Address {
     /// by which it is refused.
     #[serde(default)]
     pub refuse: Option<String>,
+    /// Whether the value may be a name in quotation marks.
+    #[serde(default)]
+    pub named: bool,
     /// Whether it is confirmed that entry 0 of a table is none.
     #[serde(default = "yes")]
     pub zero_sure: bool,

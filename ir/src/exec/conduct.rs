@@ -128,7 +128,7 @@ impl Exec {
 
 /// The number by which a tool with a name is told from others: less than -1, the same wherever the name
 /// is met.
-pub(super) fn named_tool(name: &str) -> i64 {
+pub fn named_tool(name: &str) -> i64 {
     let hash = name
         .bytes()
         .fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));

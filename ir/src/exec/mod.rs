@@ -16,6 +16,7 @@ mod run;
 mod slots;
 mod thread;
 
+pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
@@ -588,7 +589,7 @@ impl Exec {
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
             Op::SelectToolByName(name) => {
-                self.selected = conduct::named_tool(name);
+                self.selected = named_tool(name);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
             Op::ChangeTool => {

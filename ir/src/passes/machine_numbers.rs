@@ -24,7 +24,6 @@ macro_rules! unnumbered {
             | modes!()
             | moves!()
             | Op::ChangeTool
-            | Op::SelectToolByName(_)
             | Op::UseToolEdge { .. }
             | Op::ClearFrame(_)
             | Op::SetFrame(_)
@@ -78,6 +77,7 @@ impl Renumbering {
     fn concerns(&self, op: &Op) -> bool {
         match op {
             Op::SelectTool(_) => self.maps.tools.is_some(),
+            Op::SelectToolByName(name) => self.maps.tool_names.contains_key(name),
             Op::UseToolLengthOffset(_) => self.maps.entries.is_some(),
             Op::SetOriginOffsets(_) => self.maps.offsets.is_some(),
             Op::SetData(data) => match **data {
@@ -116,6 +116,14 @@ impl Renumbering {
             match &mut stmt.op {
                 Op::SelectTool(tool) if self.maps.tools.is_some() => {
                     self.put_in(tool, Numbered::Tool, at, diags);
+                }
+                Op::SelectToolByName(name) => {
+                    // Without a number it stays as it is, and who has no words for it refuses it.
+                    if let Some(&number) = self.maps.tool_names.get(name) {
+                        let text = number.to_string().into();
+                        self.used.insert((Numbered::Tool, std::mem::take(name), text));
+                        stmt.op = Op::SelectTool(Expr::int(i64::from(number)));
+                    }
                 }
                 Op::UseToolLengthOffset(entry) if self.maps.entries.is_some() => {
                     self.put_in(entry, Numbered::LengthEntry, at, diags);

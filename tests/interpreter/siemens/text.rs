@@ -48,6 +48,8 @@ pub(super) enum Item {
     Word(char, Value, String),
     /// More than one letter, or a letter and a number, then `=`.
     Named(String, Value),
+    /// One letter and a text behind `=`.
+    Quoted(char, String),
     /// A name alone.
     Name(String),
     /// A name with arguments.
@@ -211,11 +213,29 @@ impl Reader {
         self.at += 1;
         self.blanks();
         if self.peek(0) == '=' {
+            let start = self.at;
+            self.take('=');
+            self.blanks();
+            if let Some(text) = self.quoted() {
+                return Ok(Item::Quoted(letter, text));
+            }
+            self.at = start;
             return Ok(Item::Word(letter, self.assigned()?, String::new()));
         }
         let start = self.at;
         let digits = self.digits();
         self.blanks();
+        // The first spindle is the master spindle.
+        if digits == "1" && self.peek(0) == '=' && "SMT".contains(letter) {
+            self.take('=');
+            self.blanks();
+            return match self.quoted() {
+                Some(text) => Ok(Item::Quoted(letter, text)),
+                None => {
+                    Ok(Item::Word(letter, Value { number: self.number()?, mark: Mark::None }, String::new()))
+                }
+            };
+        }
         if !digits.is_empty() && self.peek(0) == '=' {
             return Ok(Item::Named(format!("{letter}{digits}"), self.assigned()?));
         }
@@ -223,6 +243,15 @@ impl Reader {
         let number = self.number()?;
         let written = self.text[start..self.at].iter().collect();
         Ok(Item::Word(letter, Value { number, mark: Mark::None }, written))
+    }
+
+    /// A text in quotation marks.
+    fn quoted(&mut self) -> Option<String> {
+        let end = (self.at + 1..self.text.len()).find(|at| self.text[*at] == '"');
+        let end = end.filter(|_| self.peek(0) == '"')?;
+        let text = self.text[self.at + 1..end].iter().collect();
+        self.at = end + 1;
+        Some(text)
     }
 
     fn assigned(&mut self) -> Result<Value, String> {
@@ -262,6 +291,11 @@ impl Reader {
                     }
                     self.at += 1;
                     Argument::Text
+                }
+                // A constant by its name.
+                '_' => {
+                    let named = self.name().is_some();
+                    if named { Argument::Text } else { return Err("a name of one sign".into()) }
                 }
                 _ => Argument::Number(self.number()?),
             });

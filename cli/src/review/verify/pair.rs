@@ -142,7 +142,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         tolerance,
         resolution: found.resolution,
         own: resolution(&job.to),
-        tools: job.machines.renaming().tools,
+        tools: job.machines.renaming(),
         seen: job.from.dialect.caps.seen().both(job.to.dialect.caps.seen()),
     };
     let mut beyond = false;
@@ -286,7 +286,7 @@ struct Plan {
     resolution: Resolution,
     /// What the output's own digits resolve.
     own: Resolution,
-    tools: Option<std::collections::BTreeMap<u32, u32>>,
+    tools: ncc_ir::maps::Renaming,
     seen: Seen,
 }
 
@@ -308,7 +308,7 @@ impl Plan {
     fn comparisons(&self) -> Vec<Comparison> {
         let comparison = |start: &[Nanos; AXES]| {
             let mut comparison = Comparison::new(self.resolution, *start);
-            comparison.rename_tools(self.tools.clone());
+            comparison.rename_tools(self.tools.tools.clone(), &self.tools.tool_names);
             comparison.measure(self.tolerance);
             comparison.see(self.seen);
             comparison.measure_by(self.own);

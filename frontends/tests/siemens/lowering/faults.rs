@@ -52,7 +52,16 @@ fn words_that_are_known_and_not_translated() {
     refused("G1 RP=IC(5)", "RP=IC(5)", "increment of a polar radius", "RP=IC(5)");
     refused("X1=5", "X1", "axis by its number", "X1=5");
     refused("S2=500", "S2", "spindle by its number", "S2=500");
-    refused("T=\"DRILL 8.5\"", "T='DRILL 8.5'", "name as a value", "T='DRILL 8.5'");
+    refused("T=\"\"", "T=''", "tool of this name", "T=''");
+    refused("F=\"FAST\"", "F='FAST'", "name as a value", "F='FAST'");
+    refused("SETMS(2)", "SETMS(2)", "another master spindle", "SETMS(2)");
+    refused(
+        "CYCLE832(0.01,112001)",
+        "CYCLE832",
+        "tolerance of the path in another coding",
+        "CYCLE832(0.01,112001)",
+    );
+    refused("CYCLE832(0.01,1,0.5)", "CYCLE832", "tolerance of the orientation", "CYCLE832(0.01,1,0.5)");
     refused("M=QU(7)", "M=QU(7)", "auxiliary function that is not waited for", "M=QU(7)");
     refused("C=DC(90)", "C=DC(90)", "way of a turning axis", "C=DC(90)");
     refused("H5", "H5", "auxiliary function", "H5");

@@ -12,6 +12,15 @@ fn numbers_count_whole_units_and_keep_their_digits() {
 }
 
 #[test]
+fn the_first_spindle_and_tools_by_name() {
+    assert_eq!(
+        after_head("S1=900 M1=3\nT=\"DRILL 8.5\"\nT1=4\n"),
+        ["S900", "& StartSpindleClockwise", "SelectToolByName(\"DRILL 8.5\")", "T4"]
+    );
+    assert_eq!(after_head("SETMS(1)\nSETMS\n"), ["NoEffect(\"SETMS\")", "NoEffect(\"SETMS\")"]);
+}
+
+#[test]
 fn a_word_says_by_itself_from_where_it_is_measured() {
     assert_eq!(
         after_head("G91\nX1 Y=AC(2)\nG90 X=IC(-3) Y4\n"),

@@ -1,0 +1,157 @@
+//! Spindles and tools that are named: the first spindle by its number, the master spindle, tools by name;
+//! and words of the dictionary with arguments of their own.
+//!
+//! Refused by name: other spindles than the first, and tolerances of the path in the coding of older
+//! controls.
+
+use ncc_dialects::{Meaning, NameMeaning, Role};
+use ncc_ir::canon::AdviceKind;
+use ncc_ir::diag::Fault;
+use ncc_ir::num::Num;
+use ncc_ir::program::{Advice, Op, Text};
+use ncc_ir::source::Span;
+
+use super::lower::Lower;
+use super::sort::Words;
+use super::tree::{Address, Called, Expr, Value};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::facts::Know;
+use crate::word::lower::decode;
+use crate::word::number::unit_of;
+
+/// The machine data that say which spindle the words without a number mean.
+const MASTER: &str = "MD 20090 SPIND_DEF_MASTER_SPIND";
+
+/// The word that makes a spindle the master spindle.
+const SET_MASTER: &str = "SETMS";
+
+/// Names of the stages of machining, in the order of [`AdviceKind::PathTolerance`]'s values, with the numbers
+/// that stand for them.
+const STAGES: [(&str, i64); 4] = [("_OFF", 0), ("_ROUGH", 3), ("_SEMIFIN", 2), ("_FINISH", 1)];
+
+impl Lower {
+    /// Whether a value is the name of a tool.
+    pub(super) fn is_tool_name(&self, letter: u8, value: &Value) -> bool {
+        let named = |row: &ncc_dialects::Address| row.role == Role::Tool && row.named;
+        matches!(value, Value::Expr(Expr::Text(_)))
+            && self.settings.dialect.address_row(letter).is_some_and(named)
+    }
+
+    /// Notes a tool's name; it is selected where tools are.
+    pub(super) fn tool_name(
+        &mut self,
+        value: &Value,
+        span: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let Value::Expr(Expr::Text(text)) = value else { return };
+        let bytes = src.bytes(*text);
+        if bytes.len() <= 2 || bytes[1..bytes.len() - 1].contains(&b'"') {
+            return self.not_supported(&src.text(span), "tool of this name", span, out);
+        }
+        let number = self.settings.dialect.letter_for(Role::Tool).map_or(0, |letter| letter as u8);
+        if words.get(number).is_some() || words.tool_name.replace(*text).is_some() {
+            self.fault(Fault::WordTwice { letter: char::from(number) }, span, out);
+        }
+    }
+
+    /// A tool by its name.
+    pub(super) fn select_by_name(&mut self, text: Span, src: Source, out: &mut Batch) {
+        self.state.tool = Know::Said(());
+        let bytes = src.bytes(text);
+        let name: Text = decode(bytes.get(1..bytes.len() - 1).unwrap_or_default());
+        self.push(text, Op::SelectToolByName(name), out);
+    }
+
+    /// Which spindle the words without a number mean is taken for granted, and told once.
+    pub(super) fn master_spindle(&mut self, at: Span, out: &mut Batch) {
+        if self.first_time(MASTER) {
+            let (parameter, value) = (MASTER.into(), "1".into());
+            out.report(Fault::AssumedParameter { parameter, value }, at);
+        }
+    }
+
+    /// Whether a word of the dictionary has arguments of its own.
+    pub(super) fn is_word_with_arguments(&self, name: &str) -> bool {
+        let row = self.settings.dialect.name_row(name);
+        match row.and_then(|row| row.means) {
+            Some(NameMeaning::Code(Meaning::Advise(kind, None))) => kind == AdviceKind::PathTolerance,
+            Some(NameMeaning::Code(Meaning::NoEffect)) => name == SET_MASTER,
+            _ => false,
+        }
+    }
+
+    /// Such a word.
+    pub(super) fn word_with_arguments(&mut self, name: &str, called: &Called, src: Source, out: &mut Batch) {
+        let arguments = called.arguments.as_deref().unwrap_or_default();
+        if name != SET_MASTER {
+            return self.path_tolerance(name, called, arguments, src, out);
+        }
+        if !arguments.is_empty() && (arguments.len() > 1 || number(arguments.first()) != Some(1)) {
+            return self.not_supported(&src.text(called.span), "another master spindle", called.span, out);
+        }
+        self.master_spindle(called.span, out);
+        self.push(called.span, Op::NoEffect(name.into()), out);
+    }
+
+    /// `CYCLE832(0.05,_ROUGH)`; without arguments it is off.
+    fn path_tolerance(
+        &mut self,
+        name: &str,
+        called: &Called,
+        arguments: &[Option<Expr>],
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let stage = match arguments.get(1) {
+            None | Some(None) if arguments.is_empty() => Some(0),
+            Some(Some(Expr::Place(place))) if place.extension.is_none() && place.index.is_empty() => {
+                let stage = |name: Span| {
+                    let text = src.text(name).to_ascii_uppercase();
+                    STAGES.iter().position(|(own, _)| *own == text)
+                };
+                match place.address {
+                    Address::Name(name) => stage(name),
+                    Address::Letter(_) | Address::System(_) => None,
+                }
+            }
+            stage @ Some(Some(_)) => {
+                let stage = number(stage);
+                STAGES.iter().position(|(_, own)| Some(*own) == stage)
+            }
+            None | Some(None) => None,
+        };
+        let Some(stage) = stage else {
+            return self.not_supported(name, "tolerance of the path in another coding", called.span, out);
+        };
+        let amount = match (arguments.first(), stage) {
+            (_, 0) => None,
+            (Some(Some(Expr::Number(digits, _))), _) if digits.mantissa > 0 => {
+                let unit = unit_of(self.units(called.span, out));
+                let num = Num { mantissa: digits.mantissa, scale: digits.scale, point: digits.point, unit };
+                Some(ncc_ir::expr::Expr::Num(num))
+            }
+            _ => {
+                return self.not_supported(name, "tolerance of the path without its value", called.span, out);
+            }
+        };
+        // A third argument of 1 says that the orientation of the tool is not meant.
+        if arguments.len() > 3 || arguments.get(2).is_some_and(|a| a.is_some() && number(Some(a)) != Some(1))
+        {
+            return self.not_supported(name, "tolerance of the orientation", called.span, out);
+        }
+        let advice = Advice { kind: AdviceKind::PathTolerance, value: stage as u8, amount };
+        self.push(called.span, Op::Advise(Box::new(advice)), out);
+    }
+}
+
+/// A whole number that is an argument.
+fn number(argument: Option<&Option<Expr>>) -> Option<i64> {
+    match argument {
+        Some(Some(Expr::Number(digits, _))) if digits.scale == 0 => Some(digits.mantissa),
+        _ => None,
+    }
+}

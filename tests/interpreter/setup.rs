@@ -1,0 +1,94 @@
+//! What the control knows that no program says: its tables, its switches, its modes at power-on.
+
+use super::Place;
+
+/// What the control knows that the program does not say.
+pub struct Setup {
+    /// Where the axes stand, in machine coordinates.
+    pub start: Place,
+    /// Zero of each work offset, in machine coordinates; 1 is the first.
+    pub work_offset: Box<dyn Fn(u32) -> Place>,
+    /// Length of each entry of the tool table; 0 is none.
+    pub length: Box<dyn Fn(u32) -> f64>,
+    /// How much of that is wear.
+    pub wear: Box<dyn Fn(u32) -> f64>,
+    /// Length of an edge of a tool, on a control whose tools have edges; `None` is a tool that was
+    /// in the spindle at power-on and that nothing is known of. Edge 0 is none.
+    pub edge_length: Box<dyn Fn(Option<u32>, u32) -> f64>,
+    /// A number for a tool with a name, which no tool has that is called by number.
+    pub named_tool: Box<dyn Fn(&str) -> u32>,
+    /// Block-skip switches, by level; place 0 is not used, place 10 is a Sinumerik's `/1`.
+    pub skip: [bool; 11],
+    /// A Fanuc's parameter 5115, millimetres.
+    pub peck_clearance: f64,
+    /// A Fanuc's parameter 5114, millimetres.
+    pub break_lift: f64,
+    /// The second, third and fourth reference point, in machine coordinates.
+    pub reference: Box<dyn Fn(u32) -> Place>,
+    /// Where a Fanuc shifts a tool off the wall of a bore: which axis of the plane, and its sign.
+    pub bore_shift: (usize, f64),
+    /// Where M19 stops the spindle, degrees.
+    pub orientation: f64,
+    /// Modes at power-on.
+    pub power_on: PowerOn,
+}
+
+/// Modes at power-on.
+#[derive(Clone, Copy, Debug)]
+pub struct PowerOn {
+    /// Inches.
+    pub inch: bool,
+    /// Absolute words.
+    pub absolute: bool,
+    /// 17, 18, 19.
+    pub plane: u32,
+    /// Work offset.
+    pub offset: u32,
+    /// Length entry.
+    pub entry: u32,
+    /// G98 on a Fanuc.
+    pub return_initial: bool,
+    /// Motion code on a Fanuc: 0 to 3.
+    pub motion: u32,
+    /// Tool in the spindle, on a control whose tools have edges.
+    pub tool: Option<u32>,
+    /// Edge of that tool.
+    pub edge: u32,
+}
+
+impl Default for PowerOn {
+    fn default() -> PowerOn {
+        PowerOn {
+            inch: false,
+            absolute: true,
+            plane: 17,
+            offset: 1,
+            entry: 0,
+            return_initial: true,
+            motion: 0,
+            tool: None,
+            edge: 0,
+        }
+    }
+}
+
+impl Setup {
+    /// Everything zero and all switches off: machine coordinates are program coordinates.
+    pub fn plain() -> Setup {
+        Setup {
+            start: [0.0; 6],
+            work_offset: Box::new(|_| [0.0; 6]),
+            length: Box::new(|_| 0.0),
+            wear: Box::new(|_| 0.0),
+            named_tool: Box::new(|_| 1 << 31),
+            edge_length: Box::new(|_, _| 0.0),
+            skip: [false; 11],
+            peck_clearance: 1.0,
+            break_lift: 1.0,
+            reference: Box::new(|_| [0.0; 6]),
+            bore_shift: (0, 1.0),
+            orientation: 0.0,
+            power_on: PowerOn::default(),
+        }
+    }
+}
