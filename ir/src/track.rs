@@ -464,7 +464,11 @@ impl Tracker {
 
     fn go_polar(&mut self, polar: &Polar) {
         let found = self.polar(polar);
-        self.pole_lost = found.is_none();
+        if found.is_none() {
+            // The pole stays where it is; which words are in force behind it is not known.
+            (self.pole.radius, self.pole.angle) = (None, None);
+            self.pole_lost |= self.plane(polar.plane).is_none();
+        }
         if let Some((at, plane, pole)) = found {
             self.pole = pole;
             if let Some(op) = polar::with_words(polar, plane, at, polar::exact) {

@@ -6,13 +6,14 @@
 
 use ncc_dialects::{NameRole, Quantity};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Plane};
+use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Centre, CentreFrom, Coord, Op, Point, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
 use super::lower::Lower;
-use super::sort::{Code, Words};
+use super::sort::{Code, Given, Words};
 use crate::Batch;
 use crate::word::Source;
 
@@ -134,32 +135,29 @@ impl Lower {
         let Some(span) = radius.or(angle).map(|given| given.span) else {
             return Ok(None);
         };
-        let mut refuse = |lower: &mut Lower, name: &str, at: Span| {
+        let refuse = |lower: &mut Lower, name: &str, at: Span, out: &mut Batch| {
             lower.not_supported(&src.text(at), name, at, out);
             Err(())
         };
         if self.state.pole == Pole::Lost {
-            return refuse(self, "polar words about a pole that is not known", span);
+            return refuse(self, "polar words about a pole that is not known", span, out);
         }
         if radius.is_some_and(|given| given.distance == Some(Distance::Incremental)) {
-            return refuse(self, "increment of a polar radius", span);
+            return refuse(self, "increment of a polar radius", span, out);
         }
         if radius.is_some_and(|given| given.digits.mantissa < 0) {
-            return refuse(self, "negative polar radius", span);
+            return refuse(self, "negative polar radius", span, out);
         }
         let distance = match angle {
-            Some(given) => match given.distance {
-                Some(distance) => distance,
-                None if self.distance(given.span, out) == Fact::Known(Distance::Absolute) => {
-                    Distance::Absolute
+            Some(Given { distance: Some(distance), .. }) => distance,
+            Some(given) => match self.distance(given.span, out) {
+                Fact::Known(Distance::Absolute) => Distance::Absolute,
+                Fact::Known(Distance::Incremental) => {
+                    return refuse(self, "polar angle under G91 without AC or IC", given.span, out);
                 }
-                None => {
-                    self.not_supported(
-                        &src.text(given.span),
-                        "polar angle under G91 without AC or IC",
-                        given.span,
-                        out,
-                    );
+                // G91, which leaves it open, may be in force.
+                Fact::Entry => {
+                    self.fault(Fault::EntryFactNeeded { fact: ModeName::Distance }, given.span, out);
                     return Err(());
                 }
             },

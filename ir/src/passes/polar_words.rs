@@ -22,8 +22,10 @@ use crate::track::Tracker;
 pub(super) struct State {
     /// Whether the last thing that moved in the plane was a polar point that was kept.
     chained: bool,
-    /// The pole that the target's text has set, with the words in force there.
-    pole: Option<Pole>,
+    /// Whether the text has another pole than the program.
+    pole_lost: bool,
+    /// Whether it has another last radius or angle.
+    words_lost: bool,
 }
 
 /// Says them so.
@@ -61,7 +63,7 @@ pub(super) fn over(
                         Ok(op)
                     }
                     None => {
-                        state.chained = false;
+                        (state.chained, state.words_lost) = (false, true);
                         let op = by_coordinates(polar, walk, target);
                         if op.is_ok() {
                             diags.push(Diagnostic::new(Fault::PolarExpanded, stmt.span));
@@ -113,8 +115,7 @@ pub(super) fn by_coordinates(polar: &Polar, walk: &Walk, target: &Target) -> Res
 
 /// The statement of a pole in the target's form; nothing where that has none.
 fn pole(set: &SetPole, walk: &Walk, state: &mut State, target: &Target, form: PolarForm) -> Option<Op> {
-    state.chained = false;
-    state.pole = None;
+    (state.chained, state.pole_lost, state.words_lost) = (false, false, false);
     let fine = |value: &Expr| is_fine(value, walk, target);
     let sayable = match form {
         PolarForm::Any => true,
@@ -124,13 +125,8 @@ fn pole(set: &SetPole, walk: &Walk, state: &mut State, target: &Target, form: Po
         },
         PolarForm::Modal | PolarForm::None => false,
     };
-    if !sayable {
-        return None;
-    }
-    let mut after = walk.at.clone();
-    after.apply(&Op::SetPole(Box::new(set.clone())));
-    state.pole = (!after.pole_lost).then_some(after.pole);
-    Some(Op::SetPole(Box::new(set.clone())))
+    state.pole_lost = !sayable;
+    sayable.then(|| Op::SetPole(Box::new(set.clone())))
 }
 
 /// A polar point in the target's form, if it has one.
@@ -141,14 +137,17 @@ fn kept(polar: &Polar, walk: &Walk, state: &mut State, target: &Target, form: Po
     if form == PolarForm::None {
         return None;
     }
-    let (_, plane, after) = walk.at.polar(polar)?;
+    let plane = walk.at.plane(polar.plane)?;
+    let after = walk.at.polar(polar).map(|(_, _, after)| after);
+    let pole = (!walk.at.pole_lost).then_some(walk.at.pole);
     let mut polar = polar.clone();
     let line = match &polar.op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::Hole(_) => true,
         Op::ArcFeed(arc) => match &arc.centre {
             Centre::Radius(_) => form == PolarForm::Modal,
             Centre::Point { words, from } => {
-                form == PolarForm::Pole && *from == CentreFrom::Zero && is_pole(words, walk, plane, &after)
+                let about = pole.is_some_and(|pole| is_pole(words, walk, plane, &pole));
+                form == PolarForm::Pole && *from == CentreFrom::Zero && about
             }
         },
         _ => false,
@@ -156,6 +155,14 @@ fn kept(polar: &Polar, walk: &Walk, state: &mut State, target: &Target, form: Po
     if !line || polar::end_of(&polar.op).is_none_or(|to| names(to, plane)) {
         return None;
     }
+    // Whether what is missing or added counts in the target's text from what it does in the program.
+    let follows = match form {
+        PolarForm::Modal if pole?.at != [0; 2] => return None,
+        PolarForm::Pole if state.pole_lost => return None,
+        PolarForm::Modal => state.chained,
+        PolarForm::Pole => !state.words_lost,
+        PolarForm::Any | PolarForm::None => false,
+    };
     let increment = |word: &Option<Coord>| match word {
         None => Some(false),
         Some(word) => {
@@ -163,40 +170,23 @@ fn kept(polar: &Polar, walk: &Walk, state: &mut State, target: &Target, form: Po
             Some(distance == Distance::Incremental)
         }
     };
-    let inch = walk.unit();
-    // The last word of the target's own text, if what is missing or added counts from it.
-    let follows = match form {
-        PolarForm::Modal => state.chained,
-        PolarForm::Pole => state.pole.is_some_and(|own| {
-            let now = walk.at.pole;
-            own.at == now.at && own.radius == now.radius && own.angle == now.angle
-        }),
-        PolarForm::Any | PolarForm::None => false,
-    };
-    if form == PolarForm::Modal && after.at != [0; 2] {
-        return None;
-    }
-    if form == PolarForm::Pole && state.pole.is_none_or(|own| own.at != after.at) && after.at != [0; 2] {
-        return None;
-    }
     let stated = |nanos, unit| absolute(exact(nanos, unit));
     if increment(&polar.radius)? || polar.radius.is_none() && !follows {
-        polar.radius = Some(stated(after.radius?, inch));
+        polar.radius = Some(stated(after?.radius?, walk.unit()));
     }
     let adds = increment(&polar.angle)?;
     let mixes =
         form == PolarForm::Modal && adds && (polar.radius.is_some() || !all_increments(&polar, walk)?);
     if adds && (!follows || mixes) || polar.angle.is_none() && !follows {
-        polar.angle = Some(stated(after.angle?, Unit::Degree));
+        polar.angle = Some(stated(after?.angle?, Unit::Degree));
     }
     if form == PolarForm::Modal && !increment(&polar.angle)? && !no_increments(&polar, walk)? {
         return None;
     }
-    let words = polar.radius.iter().chain(&polar.angle);
-    if !words.clone().all(|word| is_fine(&word.value, walk, target)) {
+    if !polar.radius.iter().chain(&polar.angle).all(|word| is_fine(&word.value, walk, target)) {
         return None;
     }
-    state.pole = Some(after);
+    state.words_lost = false;
     Some(Op::Polar(Box::new(polar)))
 }
 
