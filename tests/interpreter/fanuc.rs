@@ -250,6 +250,8 @@ impl Control {
                 40 => {}
                 // Its P is of this block: look-ahead asks for no other path.
                 5 | 8 => {}
+                // The stroke check moves nothing; with words it would set its limits.
+                22 | 23 if !self.haas && self.axis_words(&words) == [None; 6] => {}
                 9 => self.m.stop_once = true,
                 61 => self.m.corners = Corner::Stop,
                 64 => self.m.corners = Corner::Rounded,

@@ -110,6 +110,14 @@ impl Lower {
         let has_hole_word = self.has_axis_word(words) || words.get(row.retract as u8).is_some();
         self.check_rotary(row, block, words, out);
         self.check_feed_to_level(row, block, out);
+        // Pecks of other cycles' letter, in one that is made in one go.
+        let peck = dialect.cycle.iter().find_map(|other| other.peck);
+        let peck = peck.filter(|_| row.peck.is_none() && row.shift.is_none());
+        if let Some(word) = peck.and_then(|letter| words.take(letter as u8)) {
+            let name = if row.kind.starts_with("tap") { "peck tapping" } else { "pecks in this cycle" };
+            let code_text = format!("{} {}", row.code, src.text(word.span)).into();
+            self.fault(Fault::NotSupported { code: code_text, name: name.into() }, word.span, out);
+        }
         let depth_letter = depth_letter.unwrap_or(row.depth);
         let given = self.cycle_words(row, depth_letter, distance, words, src, out);
         let depth = given.depth.or_else(|| kept.as_ref().map(|k| k.depth.clone()));

@@ -53,6 +53,12 @@ impl Lower {
                 Meaning::SetFeedMode(_) if before_feed => {}
                 Meaning::PolarWords(on) => self.polar_words(code, on, out),
                 Meaning::Advise(kind, None) => self.advise(code, kind, words, src, out),
+                Meaning::Advise(AdviceKind::StrokeCheck, Some(_)) if self.has_axis_word(words) => {
+                    let name = "limits of the stroke check".into();
+                    let code_text = code.row.code.as_str().into();
+                    self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+                    b"XYZABC".iter().for_each(|letter| _ = words.take(*letter));
+                }
                 Meaning::SetOriginOffsets(first) if code.row.count.is_some() => {
                     self.counted_offset(code, first, words, src, out);
                 }
