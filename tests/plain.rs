@@ -10,7 +10,7 @@ use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
 };
 use ncc_ir::exec::{Event, Kind, Stored};
-use ncc_ir::num::Nanos;
+use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::world::World;
 
@@ -162,6 +162,13 @@ pub fn world(seed: u32) -> World {
 /// A number for a tool with a name.
 fn by_name(tool: i64) -> u32 {
     tool as u32 | 1 << 31
+}
+
+/// A world in which the peck clearance and the lift of chip breaking are those that are taken for granted
+/// of a dialect's control where a cycle is written out.
+pub fn with_clearances(world: World, dialect: &str) -> World {
+    let by = if dialect == "linuxcnc" { ONE / 1000 * 254 } else { ONE };
+    World { peck_clearance: by, break_lift: by, ..world }
 }
 
 fn mm(nanos: Nanos) -> f64 {
@@ -432,6 +439,7 @@ pub fn second(dialect: &str, text: &[u8], setup: Setup) -> Result<Machine, Strin
         "canon" => interpreter::canon::run(text, setup),
         "ir" => interpreter::ir::run(text, setup),
         "siemens" => interpreter::siemens::run(text, setup),
+        "linuxcnc" => interpreter::linuxcnc::run(text, setup),
         other => return Err(format!("no second interpreter for {other}")),
     };
     run.map_err(|halt| format!("line {}: {}", halt.line, halt.why))

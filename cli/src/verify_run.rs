@@ -502,7 +502,10 @@ impl Verifier {
             run.target.assume(&own);
             run.target.assume(inherited);
         }
-        let error = self.batch.diagnostics.iter().find(|d| d.fault.gravity() == Gravity::Error);
+        // A text that says nothing is read: whether nothing is what the source does, the events tell.
+        let fault =
+            |d: &&Diagnostic| d.fault.gravity() == Gravity::Error && !matches!(d.fault, Fault::EmptyProgram);
+        let error = self.batch.diagnostics.iter().find(fault);
         if let Some(d) = error {
             return Err(unreadable(d, self.last));
         }

@@ -100,6 +100,10 @@ pub struct Caps {
     pub repeat_blocks: bool,
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
+    /// A tool change leaves the spindle stopped.
+    pub change_stops_spindle: bool,
+    /// The planes of a cycle are measured as the distance mode of each hole's block has it.
+    pub cycles_measured_anew: bool,
     /// Arcs by radius.
     pub arc_radius: bool,
     /// Arcs with a third axis.

@@ -172,18 +172,46 @@ pub enum Approach {
     RaiseFirst,
     /// To the retract plane first, from below and from above, then in the plane.
     RetractFirst,
+    /// As [`Approach::RaiseFirst`] to the first of a series of holes; from a hole that was left no higher
+    /// than the next one's retract plane, straight to the level of return above that one (LinuxCNC).
+    ClearFirst,
+}
+
+/// How the way to a hole begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leg {
+    /// To the retract plane where the tool stands, then in the plane.
+    Level,
+    /// In the plane, at the level where the tool stands.
+    Aside,
+    /// Straight to the level of return above the hole.
+    Slant,
 }
 
 impl Approach {
     /// All of them.
-    pub const ALL: [Approach; 3] = [Approach::PlaneFirst, Approach::RaiseFirst, Approach::RetractFirst];
+    pub const ALL: [Approach; 4] =
+        [Approach::PlaneFirst, Approach::RaiseFirst, Approach::RetractFirst, Approach::ClearFirst];
 
-    /// Whether a tool that stands at a level goes to the retract plane before it goes aside.
+    /// Whether a tool that stands at a level goes to the retract plane before it goes aside to the first
+    /// hole of a series.
     pub const fn retracts(self, level: Nanos, retract: Nanos) -> bool {
         match self {
             Approach::PlaneFirst => false,
-            Approach::RaiseFirst => level < retract,
+            Approach::RaiseFirst | Approach::ClearFirst => level < retract,
             Approach::RetractFirst => level != retract,
+        }
+    }
+
+    /// How the way to a hole begins for a tool that stands at a level. `initial` is where it stood before
+    /// the series, `out` where it goes after the hole.
+    pub const fn leg(self, level: Nanos, initial: Nanos, retract: Nanos, out: Nanos) -> Leg {
+        match self {
+            Approach::ClearFirst if initial < retract && level != retract => Leg::Level,
+            Approach::ClearFirst if level <= retract && level < out => Leg::Slant,
+            Approach::ClearFirst => Leg::Aside,
+            _ if self.retracts(level, retract) => Leg::Level,
+            Approach::PlaneFirst | Approach::RaiseFirst | Approach::RetractFirst => Leg::Aside,
         }
     }
 
@@ -191,7 +219,7 @@ impl Approach {
     /// the retract plane first does not go below it again (NIST RS274/NGC, 3.5.20).
     pub fn initial(self, initial: Nanos, retract: Nanos) -> Nanos {
         match self {
-            Approach::RaiseFirst => initial.max(retract),
+            Approach::RaiseFirst | Approach::ClearFirst => initial.max(retract),
             Approach::PlaneFirst | Approach::RetractFirst => initial,
         }
     }

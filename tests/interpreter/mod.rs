@@ -10,6 +10,7 @@
 pub mod canon;
 pub mod fanuc;
 pub mod ir;
+pub mod linuxcnc;
 pub mod mach9;
 mod setup;
 pub mod siemens;

@@ -3,7 +3,7 @@
 //! What it takes for granted of the machine: M6 changes and takes edge 1 with it; a tool's length
 //! lies along Z in every plane; the plain slash is the first skip level; F stays in millimetres under
 //! G70. Not here: variables and expressions, cutter compensation, rounded corners, frames about other
-//! axes than the plane's, cycles out of G17.
+//! axes than the plane's, patterns out of G17.
 
 pub(super) mod arcs;
 mod cycles;

@@ -7,7 +7,6 @@
 
 use std::cell::OnceCell;
 
-use ncc_ir::num::ONE;
 use ncc_tests::corpus::Program;
 use ncc_tests::interpreter::{PowerOn, Setup};
 use ncc_tests::plain::{self, Corners, Plain, Tolerance};
@@ -101,8 +100,7 @@ pub(crate) fn rounded(
     let corners = Corners::between(source.dialect, emitted.dialect);
     let within = Tolerance { place: half, feed: half, corners };
     for seed in [0, 1, 2] {
-        let mut world = plain::world(seed);
-        (world.peck_clearance, world.break_lift) = (ONE, ONE);
+        let world = plain::with_clearances(plain::world(seed), source.dialect);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0b10, 0x7fe] {
             let list = |dialect: &str, text: &[u8], only: Option<u16>| {

@@ -175,7 +175,7 @@ fn form(of: &str) -> String {
         "PlaneName" => "`xy` `zx` `yz`".into(),
         "FeedModeName" => "`per-minute` `per-revolution` `inverse-time`".into(),
         "ReturnLevelName" => "`initial` `retract`".into(),
-        "ApproachName" => "`plane-first` `raise-first`".into(),
+        "ApproachName" => "`plane-first` `raise-first` `clear-first`".into(),
         "MotionName" => "`traverse` `feed`".into(),
         "T" => "the value".into(),
         of if of.starts_with("BTreeMap<Quantity") => "a table for each kind of quantity".into(),

@@ -12,7 +12,14 @@ use crate::schema::faults_of;
 
 /// The document of a comparison; `None` if a program cannot be executed.
 fn diff(a: (&str, &[u8]), b: (&str, &[u8])) -> Option<Value> {
-    let sides = [(settings(a.0), a.1), (settings(b.0), b.1)];
+    let (own, mut other) = (settings(a.0), settings(b.0));
+    // Both machines have the first one's parameters: a control's own are no difference of programs.
+    for option in ["peck_clearance", "break_lift"] {
+        if !own.get(option).is_empty() && !other.get(option).is_empty() {
+            other.choose(option, own.get(option)).expect("a distance");
+        }
+    }
+    let sides = [(own, a.1), (other, b.1)];
     let text = diff::document(sides, None).expect("anonymous files")?;
     Some(serde_json::from_str(&text).expect("JSON"))
 }

@@ -67,10 +67,9 @@ fn emitted_programs_make_the_same_moves() {
                 _ => None,
             });
             let within = Tolerance { corners: Corners::between(program.dialect, to), ..rounded(&program) };
-            for mut world in [0, 1, 2].map(plain::world) {
+            for world in [0, 1, 2].map(plain::world) {
                 // Where a peck cycle was written out, this is what the head says was assumed.
-                world.peck_clearance = ncc_ir::num::ONE;
-                world.break_lift = ncc_ir::num::ONE;
+                let world = plain::with_clearances(world, program.dialect);
                 let start = world.start.map(|n| n as f64 / 1e9);
                 let list = |dialect: &str, text: &[u8], skip, offset: Option<u16>| {
                     let mut setup = plain::setup(&world, skip);

@@ -203,7 +203,10 @@ impl Printer<'_> {
                 }
             }
         }
-        let mut ordered: Vec<&Stmt> = stmts.iter().collect();
+        // The stop of the spindle that belongs to a tool change is printed with it.
+        let changes = |span| stmts.iter().any(|s| s.span == span && matches!(s.op, Op::ChangeTool));
+        let implied = |s: &&Stmt| matches!(s.op, Op::StopSpindleTurning) && changes(s.span);
+        let mut ordered: Vec<&Stmt> = stmts.iter().filter(|s| !implied(s)).collect();
         ordered.sort_by_key(|s| rank(&s.op));
         let holes: Vec<&Stmt> = ordered.iter().copied().filter(|s| matches!(s.op, Op::Hole(_))).collect();
         let mut drilled = false;
@@ -503,12 +506,13 @@ impl Printer<'_> {
             Some(ReturnLevel::Retract) | None => retract,
         };
         let mut here = self.here().map_err(refuse)?;
-        if here[normal] < retract {
+        if initial < retract {
             here[normal] = retract;
             self.straight("STRAIGHT_TRAVERSE", here);
         }
         self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)");
-        let mut level = here[normal];
+        // No higher than the retract plane, it goes straight to where it would return to.
+        let mut level = if here[normal] > retract { here[normal] } else { clear };
         for stmt in holes {
             let Op::Hole(hole) = &stmt.op else { continue };
             let mut to = self.target(&hole.to).map_err(refuse)?;

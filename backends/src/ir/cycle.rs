@@ -152,6 +152,7 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
     put(
         match c.approach {
             Approach::RaiseFirst => ", raise-first",
+            Approach::ClearFirst => ", clear-first",
             Approach::PlaneFirst => ", plane-first",
             Approach::RetractFirst => ", retract-first",
         },

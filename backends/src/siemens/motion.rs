@@ -199,7 +199,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let letter = self.words.centre_letter(axis)?;
-        let value = self.words.value(&letter, value, span, sink)?;
+        let value = self.words.centre_value(&letter, axis, value, from, span, sink)?;
         let name = letter.letter as char;
         Ok(match from {
             CentreFrom::Start => format!("{name}{}", digits(value)),

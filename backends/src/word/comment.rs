@@ -79,6 +79,12 @@ impl Comments {
         }
     }
 
+    /// Whether a line has a message to the operator.
+    pub(crate) fn shows_message(&self, line: &[u8]) -> bool {
+        let sign = format!("{}{}", self.open, self.message);
+        !self.message.is_empty() && line.windows(sign.len()).any(|part| part == sign.as_bytes())
+    }
+
     fn show(&mut self, c: char) {
         if !self.upper_ascii {
             let closes = !self.close.is_empty() && (self.open.contains(c) || self.close.contains(c));

@@ -245,6 +245,11 @@ impl Writer {
         if self.dialect.comment.open.is_empty() {
             return false;
         }
+        let start = out.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+        if self.comments.shows_message(&out[start..]) {
+            // Of several comments in a block the last one counts: the message would not be shown.
+            return false;
+        }
         out.push(b' ');
         self.comments.write(text, out, &mut Vec::new(), self.eol);
         true
@@ -276,9 +281,16 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
-        for stmt in stmts {
+        for (at, stmt) in stmts.iter().enumerate() {
             let before = self.open(stmt, sink);
+            // What the tool change does itself.
+            let implied = self.dialect.can.change_stops_spindle
+                && matches!(stmt.op, Op::StopSpindleTurning)
+                && at > 0
+                && matches!(stmts[at - 1].op, Op::ChangeTool)
+                && stmts[at - 1].skip == stmt.skip;
             let written = match before {
+                Ok(_) if implied => Ok(()),
                 Ok(_) => self.statement(stmt, sink),
                 Err(ref fault) => Err(fault.clone()),
             };

@@ -264,14 +264,38 @@ impl Writer {
                     let outside = plane.is_some_and(|p| p.axes().2 == axis);
                     if let Some(word) = words[axis as usize].as_ref().filter(|_| !outside) {
                         let letter = self.centre_letter(axis)?;
-                        written[axis as usize] =
-                            Some((letter.letter, self.value(&letter, word, span, sink)?));
+                        let value = self.centre_value(&letter, axis, word, *from, span, sink)?;
+                        written[axis as usize] = Some((letter.letter, value));
                     }
                 }
                 Ok(written)
             }
             (Centre::Point { .. } | Centre::Radius(_), _) => self.computed_centre(arc, span, sink),
         }
+    }
+
+    /// A word of a centre. If it is measured from a start that was rounded, it is changed by as much: the
+    /// centre stays where it is.
+    pub(crate) fn centre_value(
+        &mut self,
+        letter: &Letter,
+        axis: Axis,
+        word: &Expr,
+        from: CentreFrom,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Shaped, Fault> {
+        let lag = if from == CentreFrom::Start { self.residue[axis as usize] } else { 0 };
+        let inch = self.force.units == Some(Units::Inch);
+        let literal = word.literal().filter(|n| lag != 0 && n.unit != Unit::Entry);
+        let along = literal.and_then(|n| Some((n, n.nanos(inch)?.checked_add(lag)?)));
+        let Some((n, along)) = along else { return self.value(letter, word, span, sink) };
+        self.check_unit(n, span)?;
+        let exact = number::from_nanos(along, &letter.format, n.unit);
+        let shaped =
+            number::shape(exact, &letter.format).map_err(|why| unwritable(why, letter.letter, exact))?;
+        rounded(letter.letter, n, shaped, span, sink);
+        Ok(shaped)
     }
 
     /// A centre in the other form than the source's.
@@ -300,7 +324,12 @@ impl Writer {
                         None => None,
                     };
                     *to = match (from, word) {
-                        (CentreFrom::Start, word) => self.stands(axis)?.checked_add(word.unwrap_or(0)),
+                        (CentreFrom::Start, word) => {
+                            // From where the program's arc starts: rounding that has not moved the centre.
+                            self.stands(axis)?
+                                .checked_add(self.residue[axis as usize])
+                                .and_then(|start| start.checked_add(word.unwrap_or(0)))
+                        }
                         (CentreFrom::Zero, Some(word)) => word.checked_sub(self.stands(axis)?),
                         (CentreFrom::Zero, None) => Some(0),
                     }

@@ -7,10 +7,14 @@
 use ncc_dialects::{NumberRules, PointRule};
 use ncc_ir::num::{Num, ONE, POW10, Unit};
 
-/// Most significant digits of a word (FANUC 16-C, ranges of IS-B: X ±99999.999 mm, P and T 8 digits).
-const DIGITS: usize = 8;
+/// Most significant digits of a word, unless a dictionary says otherwise (FANUC 16-C, ranges of IS-B:
+/// X ±99999.999 mm, P and T 8 digits).
+const DIGITS: u8 = 8;
 
-/// Most bytes of a written number: sign, eight digits or a zero and nine places, the point.
+/// More than these are not written in any dialect.
+const MOST_DIGITS: u8 = 9;
+
+/// Most bytes of a written number: sign, nine digits or a zero and nine places, the point.
 pub(crate) const LONGEST: usize = 12;
 
 /// Bytes that [`write`] may touch from where it starts; it writes in fours.
@@ -21,6 +25,8 @@ pub(crate) const ROOM: usize = 20;
 pub(crate) struct Format {
     /// Digits after the point, in mm (or degrees, seconds, …) and in inches.
     pub decimals: [u8; 2],
+    /// Most significant digits.
+    pub digits: u8,
     pub point: PointRule,
     /// Whether a negative value cannot be written.
     pub unsigned: bool,
@@ -32,6 +38,7 @@ impl Format {
     pub(crate) fn new(rules: NumberRules, counts: bool) -> Format {
         Format {
             decimals: [rules.decimals.min(9), rules.decimals_inch.unwrap_or(rules.decimals).min(9)],
+            digits: rules.digits.unwrap_or(DIGITS).min(MOST_DIGITS),
             point: rules.point,
             unsigned: rules.unsigned,
             counts,
@@ -49,7 +56,7 @@ impl Format {
     }
 }
 
-/// A number ready to be written: `mantissa × 10^-scale`, less than 10^8 without its point.
+/// A number ready to be written: `mantissa × 10^-scale`, less than 10^9 without its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Shaped {
     pub mantissa: i32,
@@ -94,7 +101,7 @@ pub(crate) fn plain(n: Num, f: &Format) -> Option<Shaped> {
     if n.scale > decimals {
         return None;
     }
-    let limit = POW10[DIGITS - usize::from(decimals - n.scale).min(DIGITS)];
+    let limit = POW10[usize::from(f.digits.saturating_sub(decimals - n.scale))];
     if n.mantissa >= limit || n.mantissa <= -limit || (n.mantissa < 0 && f.unsigned) {
         return None;
     }
@@ -272,7 +279,7 @@ mod tests {
     use super::*;
 
     fn format(decimals: u8, inch: u8, point: PointRule) -> Format {
-        Format { decimals: [decimals, inch], point, unsigned: false, counts: false }
+        Format { decimals: [decimals, inch], digits: DIGITS, point, unsigned: false, counts: false }
     }
 
     fn num(mantissa: i64, scale: u8) -> Num {

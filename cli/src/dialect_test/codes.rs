@@ -260,6 +260,9 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
         Meaning::ChangeTool => one(match d.caps.tool_edges {
             Some(true) => "SELECT_TOOL(5) & CHANGE_TOOL() & USE_TOOL_EDGE(1)",
+            Some(false) | None if d.caps.change_stops_spindle => {
+                "SELECT_TOOL(5) & CHANGE_TOOL() & STOP_SPINDLE_TURNING()"
+            }
             Some(false) | None => "SELECT_TOOL(5) & CHANGE_TOOL()",
         }),
         Meaning::Call => {
@@ -394,6 +397,7 @@ fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
     let approach = match Approach::from(d.cycles.approach) {
         Approach::PlaneFirst => "plane-first",
         Approach::RaiseFirst => "raise-first",
+        Approach::ClearFirst => "clear-first",
         Approach::RetractFirst => "retract-first",
     };
     format!(

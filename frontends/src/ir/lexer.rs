@@ -446,6 +446,8 @@ pub(crate) enum Token {
     ReturnWord,
     #[token("raise-first")]
     RaiseFirst,
+    #[token("clear-first")]
+    ClearFirst,
     #[token("plane-first")]
     PlaneFirst,
     #[token("retract-first")]

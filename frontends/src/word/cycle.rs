@@ -103,7 +103,11 @@ impl Lower {
             InForce::Active(active)
                 if dialect.cycles.retained && (active.row == index || !dialect.cycles.retained_by_code) =>
             {
-                Some((**active).clone())
+                let mut kept = (**active).clone();
+                if dialect.cycles.measured_anew {
+                    (kept.retract.distance, kept.depth.distance) = (distance, distance);
+                }
+                Some(kept)
             }
             InForce::Active(_) | InForce::None | InForce::Lost => None,
         };
@@ -175,6 +179,12 @@ impl Lower {
                 self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
             }
             self.check_rotary(row, block, words, out);
+            if let (InForce::Active(active), true) = (&mut self.state.cycle, dialect.cycles.measured_anew)
+                && (active.retract.distance, active.depth.distance) != (distance, distance)
+            {
+                (active.retract.distance, active.depth.distance) = (distance, distance);
+                self.now.recall = true;
+            }
             if dialect.cycles.retained {
                 self.change_cycle(row, depth_letter, distance, words, src, out);
             }

@@ -108,6 +108,8 @@ pub(super) struct State {
     /// Whether a tool was selected.
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
+    /// Whether the spindle may turn.
+    pub(super) turning: bool,
     /// Whether the next tapping cycle is a rigid one.
     pub(super) rigid: bool,
     /// Rotation, factors or a mirror that the program has in force, a bit each.
@@ -141,6 +143,7 @@ impl State {
             feed: Know::Lost,
             tool: Know::Lost,
             cycle: InForce::Lost,
+            turning: true,
             rigid: false,
             turned: 0,
             words: Words::Cartesian,
@@ -169,6 +172,7 @@ impl State {
             self.no_motion = false;
             self.motion = Know::Lost;
         }
+        self.turning |= before.turning;
         self.turned |= before.turned;
         self.unplaced |= before.unplaced;
         self.words.join(before.words);

@@ -187,6 +187,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.power_on.no_origin_shift.as_ref().is_some_and(|f| f.always && f.value)
             || says(Meaning::ClearFrame(ncc_ir::program::FrameSlot::Shift)),
         offset_with_z: dialect.can.offset_with_z,
+        cycles_measured_anew: dialect.cycles.measured_anew,
+        change_stops_spindle: dialect.can.change_stops_spindle,
         arc_radius: everything
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),

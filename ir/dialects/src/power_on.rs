@@ -83,7 +83,7 @@ names! {
     /// A [`ReturnLevel`] in a data file.
     ReturnLevelName => ReturnLevel { Initial, Retract }
     /// An [`Approach`] in a data file.
-    ApproachName => Approach { PlaneFirst, RaiseFirst, RetractFirst }
+    ApproachName => Approach { PlaneFirst, RaiseFirst, RetractFirst, ClearFirst }
     /// A [`PathMode`] in a data file.
     PathName => PathMode { ExactStop, ExactPath, Continuous }
     /// A [`CentreFrom`] in a data file.

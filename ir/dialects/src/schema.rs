@@ -240,6 +240,8 @@ pub struct NumberRules {
     pub decimals: u8,
     /// The same, in inches; `None` if the unit makes no difference.
     pub decimals_inch: Option<u8>,
+    /// Most digits that are written, at most 9; 8 if nothing is said.
+    pub digits: Option<u8>,
     /// What a number without a point counts.
     pub bare: Bare,
     /// Digits that a bare number is shifted by when it counts increments, in mm.
@@ -373,6 +375,9 @@ pub struct CycleRules {
     pub retained: bool,
     /// Whether they stay so only as long as it is the same code.
     pub retained_by_code: bool,
+    /// Whether words that stay in force are measured as the distance mode of each further block has it, not
+    /// as they were when they were said.
+    pub measured_anew: bool,
     /// Whether a cycle works along the normal of any plane, with that axis's letter for the depth.
     pub any_plane: bool,
     /// Whether words of rotary axes can stand in a cycle's block.
@@ -564,6 +569,8 @@ pub struct Can {
     /// Z, a cycle, or a new zero of Z before the next absolute one is then not what it is on a control that
     /// takes the length up with the next Z, and is refused.
     pub length_at_once: bool,
+    /// A tool change leaves the spindle stopped.
+    pub change_stops_spindle: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,
     /// Grids are written only up to this many columns and rows.

@@ -5,7 +5,7 @@
 
 use super::{Attribute, Event, Exec, Kind};
 use crate::canon::{AXES, Motion, Plane, ReturnLevel, Spindle, Turn};
-use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Pattern, Shift};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::Nanos;
@@ -289,13 +289,19 @@ impl Exec {
         if matches!(cycle.way, Way::Tap { chuck: false, .. }) {
             self.turn_spindle(Spindle::Stopped, span, out)?;
         }
-        if cycle.approach.retracts(self.position[normal], cycle.retract) {
+        let level = match cycle.return_level.unwrap_or(self.modes.return_level) {
+            ReturnLevel::Retract => cycle.retract,
+            ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
+        };
+        let out_to = cycle.return_plane.unwrap_or(level);
+        let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
+        if leg == Leg::Level {
             self.go_to_level(normal, cycle.retract, false, span, out)?;
         }
-        let level = self.position[normal];
+        let level = if leg == Leg::Slant { out_to } else { self.position[normal] };
         self.position = next;
         self.position[normal] = level;
-        if z && normal != super::Z {
+        if z && normal != super::Z || leg == Leg::Slant && normal == super::Z {
             self.take_up_length();
         }
         self.emit_move(false, span, out)?;
@@ -388,11 +394,6 @@ impl Exec {
                 }
             }
         }
-        let level = || match cycle.return_level.unwrap_or(self.modes.return_level) {
-            ReturnLevel::Retract => cycle.retract,
-            ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
-        };
-        let out_to = cycle.return_plane.unwrap_or_else(level);
         self.go_to_level(normal, out_to, false, span, out)?;
         match cycle.way {
             Way::Tap { chuck: false, after, .. } => self.turn_spindle(after, span, out),

@@ -1,15 +1,16 @@
 //! `absolute-holes`: planes and positions of cycles are written from program zero.
 //!
-//! For targets whose cycles are only known in absolute mode.
+//! For targets whose cycles are only known in absolute mode; and where the distance mode of a hole's
+//! block would measure the planes of its cycle in another way than they are.
 
 use super::expand_cycles::level;
 use super::walk::Walk;
 use super::write::{at, is_absolute};
 use super::{Target, each_body};
-use crate::canon::{Axis, Plane};
+use crate::canon::{Axis, Distance, Plane};
 use crate::cycle::{First, Pattern};
 use crate::diag::{Diagnostic, Fault, ModeName};
-use crate::program::{Coord, Op, Program, Stmt};
+use crate::program::{Coord, Move, Op, Program, Stmt};
 use crate::track::Tracker;
 
 /// Makes them absolute.
@@ -24,28 +25,8 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
         let before = walk.clone();
         walk.step(stmt);
         let made = match &mut stmt.op {
-            Op::StartCycle(cycle) => match (&walk.at.cycle, walk.at.plane(cycle.plane)) {
-                (Some(in_force), Some(plane)) => {
-                    let normal = plane.axes().2;
-                    let retract = level(walk, &cycle.retract, in_force.retract, normal);
-                    let depth = level(walk, &cycle.depth, in_force.depth, normal);
-                    let plane = cycle.return_plane.as_ref();
-                    let plane = plane.map(|p| level(walk, p, in_force.return_plane, normal)).transpose();
-                    retract.and_then(|retract| {
-                        cycle.depth = depth?;
-                        cycle.retract = retract;
-                        cycle.return_plane = plane?;
-                        Ok(())
-                    })
-                }
-                _ => Err(Fault::EntryFactNeeded { fact: ModeName::Plane }),
-            },
-            Op::Hole(m) => {
-                Axis::ALL.into_iter().zip(&mut m.to.axes).try_for_each(|(axis, word)| match word {
-                    Some(coord) => make_absolute(coord, axis, &before),
-                    None => Ok(()),
-                })
-            }
+            Op::StartCycle(_) => start_absolute(&mut stmt.op, walk),
+            Op::Hole(m) => absolute_point(m, &before),
             Op::Pattern(pattern) => {
                 match before.at.cycle.as_ref().and_then(|c| before.at.plane(c.cycle.plane)) {
                     Some(plane) => pattern_absolute(pattern, plane, &before),
@@ -59,6 +40,61 @@ pub(super) fn over(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnosti
             diags.push(Diagnostic::new(fault, stmt.span));
         }
     }
+}
+
+/// Makes the words of a cycle alike that a target measures alike: the planes, and those of each hole.
+pub(super) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
+    for stmt in body {
+        walk.enter(stmt.skip);
+        let before = walk.clone();
+        walk.step(stmt);
+        let zero = |word: &Coord| is_absolute(word, before.at.modes.distance);
+        let made = match (&mut stmt.op, &walk.at.cycle) {
+            (Op::StartCycle(cycle), _) if zero(&cycle.retract) == zero(&cycle.depth) => Ok(()),
+            (Op::StartCycle(_), _) => start_absolute(&mut stmt.op, walk),
+            (Op::Hole(m), Some(in_force)) => {
+                let of_cycle = in_force.cycle.retract.distance;
+                let of_cycle = of_cycle.known().or(before.at.modes.distance);
+                let others = |word: &Coord| word.distance.known().or(before.at.modes.distance) != of_cycle;
+                let holes_own = m.to.axes.iter().flatten().any(others);
+                match of_cycle {
+                    _ if !holes_own => Ok(()),
+                    Some(Distance::Absolute) => absolute_point(m, &before),
+                    Some(Distance::Incremental) | None => {
+                        let what = "a hole placed from zero in a cycle with incremental planes";
+                        Err(Fault::CannotSay { what: what.into() })
+                    }
+                }
+            }
+            (_, _) => Ok(()),
+        };
+        if let Err(fault) = made {
+            diags.push(Diagnostic::new(fault, stmt.span));
+        }
+    }
+}
+
+/// The planes of a cycle that is called up, from program zero.
+fn start_absolute(op: &mut Op, walk: &Walk) -> Result<(), Fault> {
+    let Op::StartCycle(cycle) = op else { return Ok(()) };
+    let (Some(in_force), Some(plane)) = (&walk.at.cycle, walk.at.plane(cycle.plane)) else {
+        return Err(Fault::EntryFactNeeded { fact: ModeName::Plane });
+    };
+    let normal = plane.axes().2;
+    let retract = level(walk, &cycle.retract, in_force.retract, normal)?;
+    let depth = level(walk, &cycle.depth, in_force.depth, normal)?;
+    let back = cycle.return_plane.as_ref();
+    let back = back.map(|p| level(walk, p, in_force.return_plane, normal)).transpose()?;
+    (cycle.retract, cycle.depth, cycle.return_plane) = (retract, depth, back);
+    Ok(())
+}
+
+/// The words of a hole, from program zero.
+fn absolute_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
+    Axis::ALL.into_iter().zip(&mut m.to.axes).try_for_each(|(axis, word)| match word {
+        Some(coord) => make_absolute(coord, axis, before),
+        None => Ok(()),
+    })
 }
 
 /// Words that say where a pattern is, in pairs.

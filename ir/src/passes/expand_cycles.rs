@@ -4,7 +4,8 @@
 //! 1. to the position in the plane, at the level where the tool stands, then by rapid to the
 //!    retract plane R (Fanuc 15i-M); if the tool stands below R and the cycle is
 //!    [`Approach::RaiseFirst`], up to R first (NIST RS274/NGC 3.8.1); if it is
-//!    [`Approach::RetractFirst`], to R first from above too;
+//!    [`Approach::RetractFirst`], to R first from above too; under [`Approach::ClearFirst`] from a hole
+//!    that was left no higher than R straight to the level of return above the next;
 //! 2. feed to the bottom; [`CycleKind::DrillPeck`] by pecks, after each by rapid to R and back to
 //!    the clearance above the last depth, the last peck clipped at the bottom; dwell, if there is one;
 //! 3. out by rapid to R or to the level where the tool stood when the cycle was called up, which
@@ -21,7 +22,7 @@ use super::write::{Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebu
 use super::{Target, each_body, expand_patterns, polar_words};
 use crate::canon::{Axis, Motion, ReturnLevel};
 use crate::caps::{Caps, CycleCap, CycleForm};
-use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Shift, absolute};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Shift, absolute};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, moves};
@@ -379,10 +380,26 @@ pub(super) fn is_one_way(walk: &Walk, in_force: &InForce, way: Approach) -> bool
     }
     let Some(plane) = walk.at.plane(cycle.plane) else { return false };
     let Some(retract) = in_force.retract else { return false };
-    let one = |level: Option<Nanos>| {
-        level.is_some_and(|level| cycle.approach.retracts(level, retract) == way.retracts(level, retract))
-    };
     let returns = cycle.return_level.known().or(walk.at.modes.return_level);
+    let leg = |way: Approach, level: Nanos| {
+        if cycle.approach != Approach::ClearFirst && way != Approach::ClearFirst {
+            // The others look at the level alone.
+            return Some(way.leg(level, level, retract, level));
+        }
+        let out = match returns {
+            _ if cycle.return_plane.is_some() => in_force.return_plane,
+            Some(ReturnLevel::Retract) => Some(retract),
+            Some(ReturnLevel::Initial) => in_force.initial.map(|initial| way.initial(initial, retract)),
+            None => None,
+        };
+        Some(way.leg(level, in_force.initial?, retract, out?))
+    };
+    let one = |level: Option<Nanos>| {
+        level.is_some_and(|level| {
+            let legs = [leg(cycle.approach, level), leg(way, level)];
+            legs[0].is_some() && legs[0] == legs[1]
+        })
+    };
     if cycle.return_plane.is_some() {
         return one(walk.at.position[plane.axes().2 as usize]) && one(in_force.return_plane);
     }
@@ -444,7 +461,7 @@ pub(super) fn hole(
         Some(ReturnLevel::Initial) => {
             let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
             let initial = match (cycle.approach, in_force.retract) {
-                (Approach::RaiseFirst, None) => return Err(unknown.clone()),
+                (Approach::RaiseFirst | Approach::ClearFirst, None) => return Err(unknown.clone()),
                 (way, retract) => way.initial(initial, retract.unwrap_or(initial)),
             };
             (in_force.retract != Some(initial)).then(|| only(normal, at(initial, normal, walk.unit())))
@@ -469,20 +486,38 @@ pub(super) fn hole(
             *coord = at(nanos, axis, walk.unit());
         }
     }
+    let mut slant = None;
     let raise = match (cycle.approach, now.zip(in_force.retract)) {
         (Approach::PlaneFirst, _) => false,
+        (Approach::ClearFirst, Some((now, retract))) => {
+            let initial = in_force.initial.ok_or_else(|| unknown.clone())?;
+            let clear = match &out {
+                Some(_) if cycle.return_plane.is_some() => {
+                    in_force.return_plane.ok_or_else(|| unknown.clone())?
+                }
+                Some(_) => cycle.approach.initial(initial, retract),
+                None => retract,
+            };
+            let leg = cycle.approach.leg(now, initial, retract, clear);
+            slant = (leg == Leg::Slant).then_some(clear);
+            leg == Leg::Level
+        }
         (way, Some((now, retract))) => way.retracts(now, retract),
-        (Approach::RaiseFirst, None) if goes_aside => return Err(unknown),
-        (Approach::RaiseFirst | Approach::RetractFirst, None) => true,
+        (Approach::RaiseFirst | Approach::ClearFirst, None) if goes_aside => return Err(unknown),
+        (Approach::RaiseFirst | Approach::RetractFirst | Approach::ClearFirst, None) => true,
     };
-    let to_retract = now.is_none() || now != in_force.retract || walk.waiting;
+    let above = slant.or(now);
+    if let Some(clear) = slant {
+        aside.axes[normal as usize] = Some(at(clear, normal, walk.unit()));
+    }
+    let to_retract = above.is_none() || above != in_force.retract || walk.waiting;
     if matches!(&cycle.kind, CycleKind::Tap(tap) if !tap.chuck) {
         moves.push((false, Op::StopSpindleTurning));
     }
     if raise {
         moves.push((false, traverse(retract.clone())));
     }
-    if goes_aside {
+    if goes_aside || slant.is_some() {
         moves.push((false, traverse(aside)));
     }
     if to_retract && !raise {

@@ -11,7 +11,7 @@ use super::{
     Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
     expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
     one_distance, one_move, origin_shift, path_control, polar_words, return_plane, skip_levels,
-    specialise_procedures, state_clearance, taps, tool_edge, work_offset,
+    specialise_procedures, state_clearance, taps, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
 use crate::caps::{Caps, CycleForm, PolarForm, References};
@@ -68,6 +68,7 @@ pub struct Legaliser {
     frames: expand_frames::State,
     taps: taps::State,
     machine: machine_moves::State,
+    change: tool_change::State,
 }
 
 impl Legaliser {
@@ -103,6 +104,7 @@ impl Legaliser {
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
             machine: machine_moves::State::default(),
+            change: tool_change::State::default(),
         }
     }
 
@@ -151,6 +153,9 @@ impl Legaliser {
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
+        if self.target.caps.change_stops_spindle {
+            self.change.over(stmts, diags);
+        }
         let needs = self.needs(stmts);
         if needs & CYCLE == 0 {
             // Feeds and speeds that a tap may rely on.
@@ -357,6 +362,8 @@ impl Legaliser {
             expand_cycles::over(stmts, &mut start.clone(), &mut self.cycles, &self.target, diags);
             if !self.target.caps.incremental_cycles {
                 absolute_holes::over(stmts, &mut start.clone(), diags);
+            } else if self.target.caps.cycles_measured_anew {
+                absolute_holes::alike(stmts, &mut start.clone(), diags);
             }
         }
         if needs & PATTERN != 0 {
@@ -459,6 +466,7 @@ impl Legaliser {
             self.arcs = arc_form::State::default();
             self.frames.start_over();
             self.machine = machine_moves::State::default();
+            self.change.start_over();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
         }

@@ -42,6 +42,7 @@ pub mod specialise_procedures;
 mod spindle_holes;
 pub mod state_clearance;
 pub mod taps;
+mod tool_change;
 pub mod tool_edge;
 mod walk;
 pub mod work_offset;

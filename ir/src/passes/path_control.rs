@@ -10,7 +10,7 @@ use super::{Target, each_body};
 use crate::canon::{AdviceKind, PathMode};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
-use crate::kinds::flow;
+use crate::kinds::{flow, moves};
 use crate::program::{Op, PathControl, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
@@ -20,8 +20,9 @@ use crate::track::Tracker;
 pub(super) struct State {
     /// The mode that the program has said last.
     said: Option<PathControl>,
-    /// The mode that is to be said again before the next block.
-    again: Option<PathControl>,
+    /// The mode that is to be said again before the block behind the next move, and whether that move
+    /// has been made.
+    again: Option<(PathControl, bool)>,
     /// What was told, a bit each: kinds of advice, then modes.
     told: u64,
 }
@@ -58,7 +59,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
     let caps = &target.caps;
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
         if !stmt.joined
-            && let Some(control) = state.again.take()
+            && let Some((control, _)) = state.again.take_if(|(_, moved)| *moved)
         {
             let op = Op::SetMotionControlMode(Box::new(control));
             made.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, op) });
@@ -66,6 +67,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
         match &stmt.op {
             Op::SetMotionControlMode(control) => {
                 let control = sayable(control, caps, stmt.span, state, diags);
+                state.again = None;
                 state.said = stmt.skip.is_none().then(|| control.clone());
                 if caps.only_path == Some(control.mode) && !caps.says_path(control.mode) {
                     if state.first_time(32) {
@@ -79,7 +81,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
             Op::ExactStop if !caps.exact_stop && caps.says_path(PathMode::ExactStop) => match &state.said {
                 Some(control) => {
                     if control.mode != PathMode::ExactStop {
-                        state.again = Some(control.clone());
+                        state.again = Some((control.clone(), false));
                     }
                     let stop = PathControl::plain(PathMode::ExactStop);
                     made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
@@ -99,6 +101,12 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
             }
             flow!() => {
                 state.said = None;
+                made.push(stmt);
+            }
+            moves!() | Op::Position(_) => {
+                if let Some((_, moved)) = &mut state.again {
+                    *moved = true;
+                }
                 made.push(stmt);
             }
             _ => made.push(stmt),

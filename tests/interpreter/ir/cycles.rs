@@ -16,6 +16,7 @@ pub(super) struct Cycle {
     back_plane: Option<f64>,
     raise_first: bool,
     retract_first: bool,
+    clear_first: bool,
     feed: Option<f64>,
     /// 17, 18, 19.
     plane: u32,
@@ -87,6 +88,11 @@ fn sense(kind: &[Token], after: &str) -> Option<Spindle> {
     })
 }
 
+/// The axis along which a cycle in a plane drills.
+fn normal(plane: u32) -> usize {
+    [2, 1, 0][(plane - 17) as usize]
+}
+
 impl Control {
     /// The sense in which the spindle turns into a bore, if it is said.
     fn turn_in(kind: &[Token]) -> Option<Spindle> {
@@ -102,6 +108,7 @@ impl Control {
         let parts = split(a);
         let [kind, [Token::Name(plane)], ..] = &parts[..] else { return self.m.halt("no cycle") };
         let plane = self.plane(plane)?;
+        let normal = normal(plane);
         let Some(Token::Name(name)) = kind.first() else { return self.m.halt("no cycle") };
         let number = |word: &str| self.after(kind, word);
         let hole = match (name.as_str(), number("dwell"), number("peck")) {
@@ -154,15 +161,15 @@ impl Control {
         };
         let initial = match &self.cycle {
             Some(cycle) => cycle.initial,
-            None => self.m.settled[2].then_some(self.m.at[2]),
+            None => self.m.settled[normal].then_some(self.m.at[normal]),
         };
         let from = initial.map(|z| {
             let mut at = self.m.at;
-            at[2] = z;
-            self.program(at)[2]
+            at[normal] = z;
+            self.program(at)[normal]
         });
         let (mut retract, mut depth, mut back_initial, mut back_plane) = (None, None, None, None);
-        let (mut raise_first, mut retract_first, mut feed) = (false, false, None);
+        let (mut raise_first, mut retract_first, mut clear_first, mut feed) = (false, false, false, None);
         for part in &parts[2..] {
             let level = |from: Option<f64>, rest: &[Token]| match rest {
                 [Token::Number(v, u)] => Some(self.base(*v, u)),
@@ -179,7 +186,10 @@ impl Control {
                 [Token::Name(n), Token::Name(v)] if n == "return" => {
                     back_initial = (v != "entry").then(|| v == "initial");
                 }
-                [Token::Name(n)] => (raise_first, retract_first) = (n == "raise-first", n == "retract-first"),
+                [Token::Name(n)] => {
+                    (raise_first, retract_first) = (n == "raise-first", n == "retract-first");
+                    clear_first = n == "clear-first";
+                }
                 [Token::Name(n), Token::Number(v, u)] if n == "feed" => feed = Some(self.base(*v, u)),
                 _ => return self.m.halt("another word in a cycle"),
             }
@@ -202,6 +212,7 @@ impl Control {
             back_plane,
             raise_first,
             retract_first,
+            clear_first,
             feed,
             plane,
         });
@@ -210,12 +221,12 @@ impl Control {
 
     pub(super) fn hole_word(&mut self, a: &[Token]) -> Result<(), Halt> {
         let (to, _) = self.target(a)?;
-        self.hole_at((to[0], to[1]))
+        self.hole_at(to)
     }
 
     fn at_level(&self, z: f64) -> Place {
         let mut at = self.here();
-        at[2] = z;
+        at[self.cycle.map_or(2, |cycle| normal(cycle.plane))] = z;
         self.machine(at)
     }
 
@@ -245,21 +256,43 @@ impl Control {
         }
     }
 
-    fn hole_at(&mut self, (x, y): (f64, f64)) -> Result<(), Halt> {
+    /// A hole over a place, in program coordinates; what it says along the normal is not used.
+    fn hole_at(&mut self, mut over: Place) -> Result<(), Halt> {
         let Some(cycle) = self.cycle else { return self.m.halt("a hole without a cycle") };
-        if cycle.plane != 17 {
-            return self.m.halt("a hole out of XY");
-        }
+        let normal = normal(cycle.plane);
         let (r, z) = (cycle.retract, cycle.depth);
         if let Hole::Tap { rigid: true, .. } = cycle.hole {
             self.m.turn(Spindle::Stopped);
         }
-        if cycle.retract_first || cycle.raise_first && self.here()[2] < r {
+        let back = match (cycle.back_plane, cycle.back_initial.unwrap_or(self.return_initial)) {
+            (Some(plane), _) => Some(plane),
+            (None, false) => Some(r),
+            (None, true) => cycle.initial.map(|initial| {
+                let mut at = self.m.at;
+                at[normal] = initial;
+                let initial = self.program(at)[normal];
+                if cycle.raise_first || cycle.clear_first { initial.max(r) } else { initial }
+            }),
+        };
+        if cycle.retract_first || cycle.raise_first && self.here()[normal] < r {
             self.rapid(r);
         }
-        let mut to = self.here();
-        (to[0], to[1]) = (x, y);
-        let to = self.machine(to);
+        let mut level = self.here()[normal];
+        if cycle.clear_first {
+            let (Some(initial), Some(back)) = (cycle.initial, back) else {
+                return self.m.halt("the initial level is not known");
+            };
+            let mut at = self.m.at;
+            at[normal] = initial;
+            if self.program(at)[normal] < r {
+                self.rapid(r);
+                level = r;
+            } else if level <= r {
+                level = back;
+            }
+        }
+        over[normal] = level;
+        let to = self.machine(over);
         self.m.traverse(to);
         self.rapid(r);
         if cycle.feed.is_some() {
@@ -346,19 +379,9 @@ impl Control {
                 self.m.feed = feed_in;
             }
         }
-        match (cycle.back_plane, cycle.back_initial.unwrap_or(self.return_initial)) {
-            (Some(plane), _) => self.rapid(plane),
-            (None, false) => self.rapid(r),
-            (None, true) => {
-                let Some(initial) = cycle.initial else {
-                    return self.m.halt("the initial level is not known");
-                };
-                let mut to = self.m.at;
-                // NIST, 3.5.20: a tool that went up to the retract plane first does not go below it again.
-                let first = if cycle.raise_first { self.at_level(r)[2] } else { initial };
-                to[2] = initial.max(first);
-                self.m.traverse(to);
-            }
+        match back {
+            Some(back) => self.rapid(back),
+            None => return self.m.halt("the initial level is not known"),
         }
         match cycle.hole {
             Hole::Tap { rigid: true, after, .. } | Hole::Stop { after, .. } => self.m.turn(after),
@@ -368,14 +391,19 @@ impl Control {
             }
             _ => {}
         }
-        self.m.settled[2] = true;
+        self.m.settled[normal] = true;
         self.tangent = None;
         Ok(())
     }
 
     /// A hole of a pattern, whose places are absolute.
     fn hole_of_pattern(&mut self, place: (f64, f64)) -> Result<(), Halt> {
-        self.hole_at(place)?;
+        if self.cycle.is_some_and(|cycle| cycle.plane != 17) {
+            return self.m.halt("a pattern out of XY");
+        }
+        let mut over = self.here();
+        (over[0], over[1]) = place;
+        self.hole_at(over)?;
         self.m.settled[..2].fill(true);
         Ok(())
     }

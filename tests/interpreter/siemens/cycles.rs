@@ -1,6 +1,6 @@
 //! Drilling cycles and patterns of positions, from `reference/siemens.md` section 9.
 //!
-//! Lengths are in millimetres as soon as a call is read. Not here: cycles out of G17, degression,
+//! Lengths are in millimetres as soon as a call is read. Not here: patterns out of G17, degression,
 //! a first feed of its own, dwells in revolutions, the newer lists' ways of meaning something else.
 
 use super::super::{Halt, Spindle, What};
@@ -21,6 +21,8 @@ pub(super) struct Cycle {
     dwell: f64,
     /// The unit in force at the call.
     inch: bool,
+    /// The plane that was in force when it was called.
+    plane: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -197,7 +199,7 @@ impl Control<'_> {
             return self.m.halt("a dwell in revolutions");
         }
         let safe = reference + clearance;
-        Ok(Cycle { kind, retract, reference, safe, depth, dwell, inch: self.m.inch })
+        Ok(Cycle { kind, retract, reference, safe, depth, dwell, inch: self.m.inch, plane: self.m.plane })
     }
 
     /// 3, 4 and 5 are M3, M4 and M5.
@@ -273,8 +275,10 @@ impl Control<'_> {
 
     /// Runs a cycle where the tool stands.
     pub(super) fn run_cycle(&mut self, cycle: Cycle) -> Result<(), Halt> {
-        if self.m.plane != 17 {
-            return self.m.halt("a cycle out of G17");
+        // The bottom lies along the axis that is not in the plane.
+        let normal = self.m.axes().2;
+        if cycle.plane != self.m.plane {
+            return self.m.halt("a cycle called in another plane than defined");
         }
         if cycle.inch != self.m.inch {
             return self.m.halt("a cycle called in another unit than defined");
@@ -370,14 +374,14 @@ impl Control<'_> {
             // Which of the feeds stays in force is not said.
             self.m.feed = None;
         }
-        self.m.settled[2] = true;
+        self.m.settled[normal] = true;
         self.tangent = None;
         Ok(())
     }
 
     fn at_level(&self, z: f64) -> [f64; 6] {
         let mut at = self.here();
-        at[2] = z;
+        at[self.m.axes().2] = z;
         at
     }
 
@@ -392,14 +396,14 @@ impl Control<'_> {
     }
 
     fn rapid_to(&mut self, z: f64) {
-        if (self.here()[2] - z).abs() > 1e-9 {
+        if (self.here()[self.m.axes().2] - z).abs() > 1e-9 {
             let to = self.machine(self.at_level(z));
             self.m.traverse(to);
         }
     }
 
     fn feed_to(&mut self, z: f64) -> Result<(), Halt> {
-        if (self.here()[2] - z).abs() > 1e-9 {
+        if (self.here()[self.m.axes().2] - z).abs() > 1e-9 {
             let to = self.machine(self.at_level(z));
             self.m.straight(to)?;
         }
@@ -420,6 +424,9 @@ impl Control<'_> {
     /// A pattern: the cycle in force at each of its positions.
     pub(super) fn pattern(&mut self, name: &str, given: &[Argument]) -> Result<(), Halt> {
         let Some(cycle) = self.modal else { return self.m.halt("a pattern and no cycle in force") };
+        if self.m.plane != 17 {
+            return self.m.halt("a pattern out of G17");
+        }
         for (x, y) in self.positions(name, given)? {
             let mut to = self.here();
             (to[0], to[1]) = (x, y);

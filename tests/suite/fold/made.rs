@@ -175,7 +175,7 @@ impl Maker {
         let relative = self.chance.percent(15);
         let depth = if relative { -deep } else { retract - deep };
         let distance = Fact::Known(if relative { Distance::Incremental } else { Distance::Absolute });
-        let approach = self.chance.pick(&[Approach::PlaneFirst, Approach::RaiseFirst]);
+        let approach = self.chance.pick(&[Approach::PlaneFirst, Approach::RaiseFirst, Approach::ClearFirst]);
         self.say(Op::StartCycle(Box::new(Cycle {
             kind,
             plane: Fact::Known(self.plane),

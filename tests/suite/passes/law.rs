@@ -72,8 +72,7 @@ fn kind() -> impl Strategy<Value = CycleKind> {
 
 fn cycle() -> impl Strategy<Value = Op> {
     let level = prop_oneof![Just(ReturnLevel::Initial), Just(ReturnLevel::Retract)];
-    let approach =
-        prop_oneof![Just(Approach::PlaneFirst), Just(Approach::RaiseFirst), Just(Approach::RetractFirst)];
+    let approach = proptest::sample::select(Approach::ALL.to_vec());
     let plane = prop_oneof![8 => Just(Plane::Xy), 1 => Just(Plane::Zx), 1 => Just(Plane::Yz)];
     let feed = prop::option::of((100i64..3000).prop_map(|f| Expr::from(mm(f))));
     let planes = prop::option::weighted(0.3, coord(0, 300));

@@ -1,0 +1,79 @@
+//! A target whose tool change leaves the spindle stopped, for programs in which it goes on turning: what
+//! they do before they say anything of the spindle would be done with another one, and is refused.
+//!
+//! Nothing is put in: with which tool a spindle may turn how fast is not for a translation to say.
+
+use crate::diag::{Diagnostic, Fault};
+use crate::kinds::{flow, machine, moves};
+use crate::program::{Op, Stmt};
+use crate::source::Span;
+
+/// What the statements so far leave.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    /// The spindle may turn.
+    turning: bool,
+    /// The tool change over which it may have gone on, if nothing has been said of it since.
+    open: Option<(Span, Option<u8>)>,
+}
+
+impl State {
+    /// A subprogram: its caller may have left the spindle turning.
+    pub(super) fn start_over(&mut self) {
+        *self = State { turning: true, open: None };
+    }
+
+    /// Looks at further statements.
+    pub(super) fn over(&mut self, stmts: &[Stmt], diags: &mut Vec<Diagnostic>) {
+        for stmt in stmts {
+            if self.open.is_some() && needs_spindle(&stmt.op) {
+                let at = self.open.take().map_or(stmt.span, |(at, _)| at);
+                let what = "a spindle that goes on turning when the tool is changed";
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+            }
+            let sure = stmt.skip.is_none();
+            let said = matches!(
+                stmt.op,
+                Op::StartSpindleClockwise
+                    | Op::StartSpindleCounterclockwise
+                    | Op::StopSpindleTurning
+                    | Op::OrientSpindle(_)
+            );
+            if said && self.open.is_some_and(|(_, skip)| sure || skip == stmt.skip) {
+                self.open = None;
+            }
+            if matches!(stmt.op, Op::ChangeTool) && self.turning {
+                self.open = Some((stmt.span, stmt.skip));
+            } else if matches!(stmt.op, Op::StopSpindleTurning | Op::OrientSpindle(_)) {
+                self.turning &= !sure;
+            } else if let Op::StartCycle(cycle) = &stmt.op {
+                self.turning |= cycle.kind.drives_spindle();
+            } else {
+                self.turning |= said || matches!(stmt.op, flow!());
+            }
+        }
+    }
+}
+
+/// Whether a statement makes something happen, for which it matters what the spindle does.
+fn needs_spindle(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::Position(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::Dwell(_)
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::MachineFunction(_)
+            | Op::Message(_)
+            | Op::ChangeTool
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::ProgramEnd
+            | moves!()
+            | machine!()
+            | flow!()
+    )
+}

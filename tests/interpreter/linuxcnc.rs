@@ -1,0 +1,644 @@
+//! RS274/NGC programs of the corpus' scope, as the NIST report on its interpreter, version 3, and the
+//! documentation of LinuxCNC 2.9 have them (chapters G-Codes, M-Codes, O Codes, Overview), and where
+//! these are silent as `reference/canon.md` notes from runs: the order of a block (its section 5) and
+//! how a series of holes goes on (its section 6).
+
+use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
+
+/// Most programs called one within another.
+const DEEPEST: u32 = 10;
+
+/// Runs the main program of a text.
+///
+/// # Errors
+/// The program is wrong, out of scope, or says something that the sources leave open.
+pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
+    let programs = programs(&characters(text));
+    let modes = setup.power_on;
+    let mut control = Control {
+        m: Machine::new(setup),
+        motion: None,
+        absolute_centre: false,
+        return_initial: modes.return_initial,
+        initial: None,
+        kept: Kept::default(),
+        depth: 0,
+    };
+    let main = programs.first().map_or(&[][..], |p| &p.lines[..]);
+    if !control.program(main, &programs)? {
+        control.m.record(What::TextEnd);
+    }
+    Ok(control.m)
+}
+
+/// The main program, or one that stands behind it under a number.
+struct Program {
+    number: Option<u32>,
+    lines: Vec<(usize, String)>,
+}
+
+/// Parts a text at the lines of `%` and at those that only number a program.
+fn programs(text: &str) -> Vec<Program> {
+    let framed =
+        text.lines().map(str::trim).find(|line| !line.is_empty()).is_some_and(|l| l.starts_with('%'));
+    let mut frames = 0;
+    let mut programs = vec![Program { number: None, lines: Vec::new() }];
+    for (index, line) in text.lines().enumerate() {
+        if framed && line.trim().starts_with('%') {
+            frames += 1;
+            continue;
+        }
+        if framed && frames != 1 {
+            continue;
+        }
+        let bare: String = line.split(['(', ';']).next().unwrap_or("").split_whitespace().collect();
+        let number = bare.strip_prefix(['O', 'o']).and_then(|digits| digits.parse().ok());
+        match (number, programs.last_mut()) {
+            (Some(number), Some(main))
+                if main.number.is_none() && main.lines.iter().all(|l| remark(&l.1)) =>
+            {
+                main.number = Some(number);
+            }
+            (Some(_), _) => programs.push(Program { number, lines: Vec::new() }),
+            (None, Some(program)) => program.lines.push((index + 1, line.to_owned())),
+            (None, None) => {}
+        }
+    }
+    programs
+}
+
+/// Whether a line says nothing but remarks.
+fn remark(line: &str) -> bool {
+    line.split(['(', ';']).next().unwrap_or("").trim().is_empty()
+}
+
+/// What a cycle keeps for its next block, millimetres as they were written, and seconds.
+#[derive(Clone, Copy, Default)]
+struct Kept {
+    r: Option<f64>,
+    bottom: Option<f64>,
+    q: Option<f64>,
+    /// Whatever cycle said it.
+    p: Option<f64>,
+}
+
+struct Control {
+    m: Machine,
+    /// Motion code in force, tenths; none after G80.
+    motion: Option<u32>,
+    absolute_centre: bool,
+    return_initial: bool,
+    /// Level along the normal axis where the tool stood before the series of cycles in force, in
+    /// program coordinates.
+    initial: Option<f64>,
+    kept: Kept,
+    depth: u32,
+}
+
+enum Next {
+    Block,
+    Back,
+    End,
+}
+
+/// Letters and numbers of a block, and whether its last remark is for the operator.
+struct Words {
+    words: Vec<(char, f64)>,
+    message: bool,
+}
+
+impl Words {
+    fn get(&self, letter: char) -> Option<f64> {
+        self.words.iter().find(|w| w.0 == letter).map(|w| w.1)
+    }
+
+    fn codes(&self, letter: char) -> Vec<u32> {
+        self.words.iter().filter(|w| w.0 == letter).map(|w| (w.1 * 10.0).round() as u32).collect()
+    }
+}
+
+/// Modal groups of G codes; codes of none stand alone.
+const GROUPS: [&[u32]; 13] = [
+    &[0, 10, 20, 30, 730, 740, 800, 810, 820, 830, 840, 850, 890],
+    &[40, 100, 520, 530, 920, 921, 922],
+    &[170, 180, 190],
+    &[200, 210],
+    &[400],
+    &[430, 490],
+    &[540, 550, 560, 570, 580, 590, 591, 592, 593],
+    &[610, 611, 640],
+    &[900, 910],
+    &[901, 911],
+    &[930, 940, 950],
+    &[980, 990],
+    &[],
+];
+
+/// Modal groups of M codes.
+const M_GROUPS: [&[u32]; 4] = [&[0, 10, 20, 300, 980, 990], &[60], &[30, 40, 50], &[70, 80, 90]];
+
+fn cycle(code: u32) -> bool {
+    matches!(code, 730 | 740 | 810 | 820 | 830 | 840 | 850 | 890)
+}
+
+impl Control {
+    /// Runs lines; true when the program has ended for good.
+    fn program(&mut self, lines: &[(usize, String)], all: &[Program]) -> Result<bool, Halt> {
+        for (line, text) in lines {
+            self.m.line = *line;
+            match self.block(text, all)? {
+                Next::Block => {}
+                Next::Back => return Ok(false),
+                Next::End => return Ok(true),
+            }
+        }
+        Ok(false)
+    }
+
+    /// Words of a line; `None` if it is left out.
+    fn words(&self, line: &str) -> Result<Option<Words>, Halt> {
+        let mut bare = String::new();
+        let mut message = false;
+        let mut rest = line;
+        while let Some(c) = rest.chars().next() {
+            rest = &rest[c.len_utf8()..];
+            match c {
+                ';' => break,
+                '(' => {
+                    let Some(end) = rest.find(')') else { return self.m.halt("a remark without an end") };
+                    let said: String = rest[..end].split_whitespace().collect::<String>().to_uppercase();
+                    message = said.starts_with("MSG,");
+                    rest = &rest[end + 1..];
+                }
+                _ if c.is_whitespace() => {}
+                _ => bare.push(c.to_ascii_uppercase()),
+            }
+        }
+        let mut rest = &bare[..];
+        if let Some(after) = rest.strip_prefix('/') {
+            if self.m.setup.skip[1] {
+                return Ok(None);
+            }
+            rest = after;
+        }
+        let mut words = Vec::new();
+        let mut first = true;
+        while let Some(letter) = rest.chars().next() {
+            if !"ABCDFGHIJKLMNPQRSTXYZ".contains(letter) || letter == 'N' && !first {
+                return self.m.halt(format!("unexpected {letter}"));
+            }
+            rest = &rest[1..];
+            let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(rest.len());
+            let Ok(value) = rest[..end].parse::<f64>() else {
+                return self.m.halt(format!("no number: {letter}{}", &rest[..end]));
+            };
+            rest = &rest[end..];
+            first = false;
+            let once = words.iter().any(|(l, _)| *l == letter) && !matches!(letter, 'G' | 'M');
+            if once {
+                return self.m.halt(format!("{letter} twice"));
+            }
+            if letter != 'N' {
+                words.push((letter, value));
+            }
+        }
+        Ok(Some(Words { words, message }))
+    }
+
+    fn unit(&self) -> f64 {
+        if self.m.inch { 25.4 } else { 1.0 }
+    }
+
+    fn axis_words(&self, words: &Words) -> [Option<f64>; 6] {
+        let mut axes = ['X', 'Y', 'Z', 'A', 'B', 'C'].map(|letter| words.get(letter));
+        for linear in axes.iter_mut().take(3).flatten() {
+            *linear *= self.unit();
+        }
+        axes
+    }
+
+    fn block(&mut self, line: &str, all: &[Program]) -> Result<Next, Halt> {
+        let Some(words) = self.words(line)? else { return Ok(Next::Block) };
+        self.m.begin_block();
+        if words.message {
+            self.m.record(What::Message);
+        }
+        let (g, m) = (words.codes('G'), words.codes('M'));
+        let of = |group: &[u32]| g.iter().copied().find(|code| group.contains(code));
+        for group in GROUPS {
+            if g.iter().filter(|code| group.contains(code)).count() > 1 {
+                return self.m.halt("two G codes of a group");
+            }
+        }
+        for group in M_GROUPS {
+            if m.iter().filter(|code| group.contains(code)).count() > 1 {
+                return self.m.halt("two M codes of a group");
+            }
+        }
+        if let Some(code) = g.iter().find(|code| !GROUPS.iter().any(|group| group.contains(code))) {
+            return self.m.halt(format!("G{}", f64::from(*code) / 10.0));
+        }
+        if let Some(code) = m.iter().find(|code| !M_GROUPS.iter().any(|group| group.contains(code))) {
+            return self.m.halt(format!("M{}", f64::from(*code) / 10.0));
+        }
+        if m.len() > 4 {
+            return self.m.halt("more than four M codes");
+        }
+
+        // Feed, speed and tool; F is in the unit that was in force before the block.
+        match of(GROUPS[10]) {
+            Some(930) => self.m.count_feed(Per::Move),
+            Some(940) => self.m.count_feed(Per::Minute),
+            Some(_) => self.m.count_feed(Per::Turn),
+            None => {}
+        }
+        if let Some(feed) = words.get('F') {
+            self.m.feed = Some(if self.m.per == Per::Move { feed } else { feed * self.unit() });
+        }
+        if let Some(speed) = words.get('S') {
+            self.m.speed = Some(speed);
+        }
+        if let Some(tool) = words.get('T') {
+            self.m.selected = Some(tool as u32);
+        }
+        if m.contains(&60) {
+            // The spindle stands when the change is done.
+            self.m.change_tool()?;
+            self.m.turn(Spindle::Stopped);
+        }
+        for code in &m {
+            match code {
+                30 => self.m.turn(Spindle::Clockwise),
+                40 => self.m.turn(Spindle::Counterclockwise),
+                50 => self.m.turn(Spindle::Stopped),
+                70 => self.m.cool(self.m.coolant.0, true),
+                80 => self.m.cool(true, self.m.coolant.1),
+                90 => self.m.cool(false, false),
+                _ => {}
+            }
+        }
+        let once = of(GROUPS[1]);
+        if once == Some(40) {
+            let Some(seconds) = words.get('P') else { return self.m.halt("G4 without P") };
+            self.m.record(What::Dwell(seconds));
+        }
+
+        // Modes.
+        self.m.plane = of(GROUPS[2]).map_or(self.m.plane, |code| code / 10);
+        self.m.inch = of(GROUPS[3]).map_or(self.m.inch, |code| code == 200);
+        match (of(GROUPS[5]), words.get('H')) {
+            (Some(430), Some(entry)) => self.m.use_length(entry as u32),
+            (Some(430), None) => match self.m.tool {
+                Some(tool) => self.m.use_length(tool),
+                None => return self.m.halt("the length of a tool that is not known"),
+            },
+            (Some(_), None) => self.m.use_length(0),
+            (None, None) => {}
+            (_, Some(_)) => return self.m.halt("H without G43"),
+        }
+        if let Some(code) = of(GROUPS[6]) {
+            self.m.use_offset(if code > 590 { code - 584 } else { code / 10 - 53 });
+        }
+        match of(GROUPS[7]) {
+            Some(610) => self.m.corners = Corner::Through,
+            Some(611) => self.m.corners = Corner::Stop,
+            Some(_) => self.m.corners = Corner::Rounded,
+            None => {}
+        }
+        self.m.absolute = of(GROUPS[8]).map_or(self.m.absolute, |code| code == 900);
+        self.absolute_centre = of(GROUPS[9]).map_or(self.absolute_centre, |code| code == 901);
+        self.return_initial = of(GROUPS[11]).map_or(self.return_initial, |code| code == 980);
+
+        self.act(&words, of(GROUPS[0]), once)?;
+
+        match m.iter().find(|code| M_GROUPS[0].contains(code)) {
+            Some(0) => self.m.record(What::Stop),
+            Some(10) => self.m.record(What::OptionalStop),
+            Some(20 | 300) => {
+                self.m.record(What::End);
+                return Ok(Next::End);
+            }
+            Some(980) => return self.call(&words, all),
+            Some(_) if self.depth == 0 => return self.m.halt("M99 in the main program"),
+            Some(_) => return Ok(Next::Back),
+            None => {}
+        }
+        Ok(Next::Block)
+    }
+
+    /// What the axis words of a block are for.
+    fn act(&mut self, words: &Words, code: Option<u32>, once: Option<u32>) -> Result<(), Halt> {
+        let axes = self.axis_words(words);
+        let any = axes.iter().any(Option::is_some);
+        if code.is_some_and(|code| !cycle(code)) || self.motion.is_some_and(|motion| !cycle(motion)) {
+            self.initial = None;
+        }
+        match once {
+            Some(920) => {
+                // The present point gets these coordinates.
+                for (axis, word) in axes.into_iter().enumerate() {
+                    if let Some(value) = word {
+                        let now = self.m.at[axis] - self.m.shift(axis);
+                        self.m.slots.origin[axis] += now - value;
+                    }
+                }
+            }
+            Some(520) => {
+                for (origin, word) in self.m.slots.origin.iter_mut().zip(axes) {
+                    *origin = word.unwrap_or(*origin);
+                }
+            }
+            Some(921 | 922) => self.m.slots.origin = [0.0; 6],
+            Some(100) => self.table(words, axes)?,
+            _ => {
+                if code == Some(800) {
+                    self.motion = None;
+                    if any {
+                        return self.m.halt("axis words with G80");
+                    }
+                    return Ok(());
+                }
+                let motion = code.or(self.motion);
+                let centre = ['I', 'J', 'K'].iter().any(|letter| words.get(*letter).is_some());
+                let arc = matches!(motion, Some(20 | 30));
+                if code.is_none() && !any && !(arc && centre) {
+                    return self.unused(words, once);
+                }
+                match motion {
+                    Some(code) if cycle(code) && once != Some(530) => self.holes(code, words, axes)?,
+                    Some(0 | 10) => {
+                        if words.get('R').is_some() || centre {
+                            return self.m.halt("a centre or radius without an arc");
+                        }
+                        let to = match once {
+                            Some(530) => std::array::from_fn(|i| axes[i].unwrap_or(self.m.at[i])),
+                            _ => self.target(axes),
+                        };
+                        // A code alone only puts itself in force.
+                        match motion {
+                            _ if !any => {}
+                            Some(0) => self.m.traverse(to),
+                            _ => self.m.straight(to)?,
+                        }
+                    }
+                    Some(code @ (20 | 30)) if once != Some(530) => self.arc(code, words, axes)?,
+                    Some(_) => return self.m.halt("G53 without a straight move"),
+                    None => return self.m.halt("axis words and no motion code"),
+                }
+                self.motion = motion;
+            }
+        }
+        Ok(())
+    }
+
+    /// G10: L says which table, P which entry; in force at once.
+    fn table(&mut self, words: &Words, axes: [Option<f64>; 6]) -> Result<(), Halt> {
+        let whole = |letter| words.get(letter).map(|value| value as u32);
+        let (Some(table), Some(entry)) = (whole('L'), whole('P')) else {
+            return self.m.halt("G10 without L or P");
+        };
+        let radius = words.get('R').map(|r| r * self.unit());
+        match table {
+            // A rotation of the offset is out of scope.
+            2 | 20 if (1..=9).contains(&entry) && radius.is_none() => {
+                let zero = |axis: usize, value: f64| match table {
+                    2 => value,
+                    // The present position gets these coordinates.
+                    _ if entry == self.m.offset => {
+                        self.m.zero_of(entry)[axis] + self.m.at[axis] - self.m.shift(axis) - value
+                    }
+                    _ => {
+                        let own = self.m.zero_of(self.m.offset)[axis];
+                        self.m.at[axis] - (self.m.shift(axis) - own) - value
+                    }
+                };
+                let zeros = std::array::from_fn(|axis| axes[axis].map(|value| zero(axis, value)));
+                self.m.store_zero(entry, zeros, false);
+            }
+            1 if axes.iter().enumerate().all(|(axis, word)| axis == 2 || word.is_none()) => {
+                if let Some(length) = axes[2] {
+                    self.m.store_length(entry, length, false, false)?;
+                }
+                if let Some(radius) = radius {
+                    self.m.store_radius(entry, radius, false, false);
+                }
+            }
+            _ => return self.m.halt("G10 of another kind"),
+        }
+        Ok(())
+    }
+
+    /// Words that nothing in the block uses are an error.
+    fn unused(&self, words: &Words, once: Option<u32>) -> Result<(), Halt> {
+        let control = words.codes('M').contains(&980);
+        let path = words.codes('G').contains(&640);
+        for (letter, _) in &words.words {
+            let used = match letter {
+                'P' => once == Some(40) || control || path,
+                'L' => control,
+                'Q' => path,
+                'R' | 'I' | 'J' | 'K' | 'D' => false,
+                _ => true,
+            };
+            if !used {
+                return self.m.halt(format!("{letter} is used by nothing"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Where axis words lead to.
+    fn target(&self, axes: [Option<f64>; 6]) -> Place {
+        std::array::from_fn(|axis| match axes[axis] {
+            None => self.m.at[axis],
+            Some(value) if self.m.absolute => value + self.m.shift(axis),
+            Some(value) => self.m.at[axis] + value,
+        })
+    }
+
+    fn arc(&mut self, code: u32, words: &Words, axes: [Option<f64>; 6]) -> Result<(), Halt> {
+        let (first, second, normal) = self.m.axes();
+        let way = ['I', 'J', 'K'].map(|letter| words.get(letter).map(|value| value * self.unit()));
+        let to = self.target(axes);
+        let clockwise = code == 20;
+        let turns = match words.get('P') {
+            None => 1.0,
+            Some(turns) if turns >= 1.0 && turns.fract() == 0.0 => turns,
+            Some(_) => return self.m.halt("P of an arc counts its turns"),
+        };
+        let centre = match words.get('R').map(|r| r * self.unit()) {
+            Some(_) if way.iter().any(Option::is_some) => return self.m.halt("centre and radius"),
+            Some(r) => self.m.centre_by_radius(to, r, clockwise)?,
+            None if way[normal].is_some() => return self.m.halt("a centre off the plane"),
+            None => match (way[first], way[second], self.absolute_centre) {
+                (None, None, _) => return self.m.halt("an arc without centre and radius"),
+                (Some(a), Some(b), true) => (a + self.m.shift(first), b + self.m.shift(second)),
+                (_, _, true) => return self.m.halt("half a centre"),
+                (a, b, false) => (self.m.at[first] + a.unwrap_or(0.0), self.m.at[second] + b.unwrap_or(0.0)),
+            },
+        };
+        self.m.arc_of_turns(to, centre, clockwise, turns as u32 - 1)
+    }
+
+    /// A block of a cycle: a hole, or several one step apart.
+    fn holes(&mut self, code: u32, words: &Words, axes: [Option<f64>; 6]) -> Result<(), Halt> {
+        let (first, second, normal) = self.m.axes();
+        if axes.iter().all(Option::is_none) || axes[3..].iter().any(Option::is_some) {
+            return self.m.halt("a cycle without a place, or with a rotary axis");
+        }
+        if self.m.per == Per::Move || self.m.feed.is_none_or(|feed| feed <= 0.0) {
+            return self.m.halt("a cycle without feed, or by inverse time");
+        }
+        let unit = self.unit();
+        if self.motion != Some(code) {
+            // Only P outlasts its cycle.
+            self.kept = Kept { p: self.kept.p, ..Kept::default() };
+        }
+        self.kept.r = words.get('R').map(|r| r * unit).or(self.kept.r);
+        self.kept.q = words.get('Q').map(|q| q * unit).or(self.kept.q);
+        self.kept.p = words.get('P').or(self.kept.p);
+        self.kept.bottom = axes[normal].or(self.kept.bottom);
+        let (Some(r), Some(bottom)) = (self.kept.r, self.kept.bottom) else {
+            return self.m.halt("a cycle without R and the bottom");
+        };
+        let shift = self.m.shift(normal);
+        let initial = *self.initial.get_or_insert(self.m.at[normal] - shift) + shift;
+        let (r, bottom) = match self.m.absolute {
+            true => (r + shift, bottom + shift),
+            false => (initial + r, initial + r + bottom),
+        };
+        if bottom > r {
+            return self.m.halt("the bottom lies above R");
+        }
+        let times = match words.get('L') {
+            None => 1,
+            Some(times) if times >= 1.0 => times as u32,
+            Some(_) => return self.m.halt("no repetition"),
+        };
+        let clear = if self.return_initial { initial.max(r) } else { r };
+        if initial < r {
+            self.rapid(normal, r);
+        }
+        for time in 0..times {
+            let mut over = self.m.at;
+            for axis in [first, second] {
+                over[axis] = match axes[axis] {
+                    None => self.m.at[axis],
+                    Some(value) if self.m.absolute => value + self.m.shift(axis),
+                    Some(value) => self.m.at[axis] + value,
+                };
+            }
+            // The first time from where the tool stands above R, later on from the level of return.
+            if time > 0 || self.m.at[normal] <= r {
+                over[normal] = clear;
+            }
+            self.m.traverse(over);
+            self.rapid(normal, r);
+            self.hole(code, normal, [r, bottom, clear])?;
+        }
+        Ok(())
+    }
+
+    fn level(&self, normal: usize, level: f64) -> Place {
+        let mut to = self.m.at;
+        to[normal] = level;
+        to
+    }
+
+    fn rapid(&mut self, normal: usize, level: f64) {
+        self.m.traverse(self.level(normal, level));
+    }
+
+    fn feed(&mut self, normal: usize, level: f64) -> Result<(), Halt> {
+        self.m.straight(self.level(normal, level))
+    }
+
+    fn stay(&mut self, seconds: f64) {
+        if seconds > 0.0 {
+            self.m.record(What::Dwell(seconds));
+        }
+    }
+
+    /// One hole, the tool standing at R over it.
+    fn hole(&mut self, code: u32, normal: usize, [r, bottom, clear]: [f64; 3]) -> Result<(), Halt> {
+        match code {
+            810 => self.feed(normal, bottom)?,
+            820 | 890 => {
+                let Some(seconds) = self.kept.p else { return self.m.halt("a dwell without P") };
+                self.feed(normal, bottom)?;
+                self.stay(seconds);
+                if code == 890 {
+                    self.feed(normal, clear)?;
+                }
+            }
+            730 | 830 => {
+                let Some(q) = self.kept.q.filter(|q| *q > 0.0) else { return self.m.halt("pecks without Q") };
+                let mut depth = r - q;
+                while depth > bottom + 1e-9 {
+                    self.feed(normal, depth)?;
+                    if code == 730 {
+                        self.rapid(normal, depth + self.m.setup.break_lift);
+                    } else {
+                        self.rapid(normal, r);
+                        self.rapid(normal, depth + self.m.setup.peck_clearance);
+                    }
+                    depth -= q;
+                }
+                self.feed(normal, bottom)?;
+            }
+            850 => {
+                self.feed(normal, bottom)?;
+                self.feed(normal, r)?;
+            }
+            _ => return self.tap(code, normal, bottom, clear),
+        }
+        self.rapid(normal, clear);
+        Ok(())
+    }
+
+    /// In and, the spindle turned round, out to the level of return; a holder makes good the rest.
+    fn tap(&mut self, code: u32, normal: usize, bottom: f64, clear: f64) -> Result<(), Halt> {
+        let (into, back) = match code {
+            840 => (Spindle::Clockwise, Spindle::Counterclockwise),
+            _ => (Spindle::Counterclockwise, Spindle::Clockwise),
+        };
+        if self.m.spindle != into {
+            return self.m.halt("a thread and the spindle does not turn so");
+        }
+        if normal != 2 {
+            return self.m.halt("a thread in another plane, which the interpreter feeds elsewhere");
+        }
+        let (Some(feed), Some(speed)) = (self.m.feed, self.m.speed.filter(|speed| *speed > 0.0)) else {
+            return self.m.halt("a thread without feed or speed");
+        };
+        let pitch = if self.m.per == Per::Turn { feed } else { feed / speed };
+        self.m.thread(self.level(normal, bottom), pitch, true);
+        self.m.turn(Spindle::Stopped);
+        self.m.turn(back);
+        self.stay(self.kept.p.unwrap_or(0.0));
+        self.m.thread(self.level(normal, clear), pitch, true);
+        self.m.turn(Spindle::Stopped);
+        self.m.turn(into);
+        Ok(())
+    }
+
+    /// M98: the program of the number P, L times.
+    fn call(&mut self, words: &Words, all: &[Program]) -> Result<Next, Halt> {
+        let Some(number) = words.get('P').map(|p| p as u32) else { return self.m.halt("M98 without P") };
+        let Some(program) = all.iter().skip(1).find(|program| program.number == Some(number)) else {
+            return self.m.halt(format!("no program {number}"));
+        };
+        if self.depth == DEEPEST {
+            return self.m.halt("calls too deep");
+        }
+        for _ in 0..words.get('L').map_or(1, |times| times as u32) {
+            self.depth += 1;
+            let ended = self.program(&program.lines, all)?;
+            self.depth -= 1;
+            if ended {
+                return Ok(Next::End);
+            }
+        }
+        Ok(Next::Block)
+    }
+}
