@@ -39,8 +39,7 @@ struct Program {
 
 /// Parts a text at the lines of `%` and at those that only number a program.
 fn programs(text: &str) -> Vec<Program> {
-    let framed =
-        text.lines().map(str::trim).find(|line| !line.is_empty()).is_some_and(|l| l.starts_with('%'));
+    let framed = text.lines().map(str::trim).find(|line| !remark(line)).is_some_and(|l| l.starts_with('%'));
     let mut frames = 0;
     let mut programs = vec![Program { number: None, lines: Vec::new() }];
     for (index, line) in text.lines().enumerate() {
@@ -290,7 +289,8 @@ impl Control {
             (Some(430), Some(entry)) => self.m.use_length(entry as u32),
             (Some(430), None) => match self.m.tool {
                 Some(tool) => self.m.use_length(tool),
-                None => return self.m.halt("the length of a tool that is not known"),
+                // A length that nothing is known of: it shows in the first move with it.
+                None => self.m.use_length(u32::MAX),
             },
             (Some(_), None) => self.m.use_length(0),
             (None, None) => {}

@@ -124,6 +124,7 @@ impl Lower {
         }
         let depth_letter = depth_letter.unwrap_or(row.depth);
         let given = self.cycle_words(row, depth_letter, distance, words, src, out);
+        let bare = given.depth.is_none() && !self.has_axis_word(words);
         let depth = given.depth.or_else(|| kept.as_ref().map(|k| k.depth.clone()));
         let retract = given.retract.or_else(|| kept.as_ref().map(|k| k.retract.clone()));
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
@@ -133,6 +134,10 @@ impl Lower {
             if missing && blame {
                 self.missing(code, letter, out);
             }
+        }
+        if dialect.cycles.measured_anew && blame && bare && depth.is_some() {
+            // A code of motion without an axis word is an error there.
+            self.missing(code, depth_letter, out);
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
         let kind = self.kind(row, rigid, dwell, peck, code, out);
@@ -354,7 +359,10 @@ impl Lower {
             if num.is_zero() {
                 return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
             }
-            // A peck's sign is ignored by the controls that take one.
+            if num.mantissa < 0 && self.settings.dialect.cycles.measured_anew {
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            }
+            // A peck's sign is ignored by the other controls that take one.
             Some(Num { mantissa: num.mantissa.abs(), ..num })
         });
         Given { depth, retract, dwell, peck }
