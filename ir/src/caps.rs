@@ -66,6 +66,8 @@ pub struct Caps {
     pub machine_coordinates: bool,
     /// Whether the tool's length stays in such a move (`true`) or is off too; `None` if either can be said.
     pub machine_length: Option<bool>,
+    /// Whether a move in machine coordinates is always rapid.
+    pub machine_rapid: bool,
     /// Points of the machine that have a word.
     pub references: References,
     /// Whether a rapid move to such a point can go by another point first.
@@ -132,6 +134,8 @@ pub struct Caps {
     pub path_modes: u16,
     /// Whether the length of rounding can be another one in rapids.
     pub path_in_rapids: bool,
+    /// Whether no other zero may be set while a rotation, factors or a mirror are in force.
+    pub frames_shut: bool,
     /// How it always takes corners, where it has no word for that.
     pub only_path: Option<PathMode>,
     /// An exact stop of one move.

@@ -623,7 +623,7 @@ impl Control {
             (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),
             _ => return self.m.halt("a cycle without its Q or P"),
         };
-        let back = if self.return_initial { self.initial.max(r) } else { r };
+        let back = if self.return_initial { self.initial } else { r };
         for _ in 0..times {
             let to = self.place(axes, words)?;
             if let Hole::Tap(_, true, _) = hole {

@@ -232,12 +232,13 @@ impl Control {
             },
             _ => Hole::Bore(0.0),
         };
-        self.cycle = Some((hole, r * unit + self.m.shift(2), z * unit + self.m.shift(2)));
+        self.cycle = Some((hole, r * unit, z * unit));
         Ok(())
     }
 
-    /// The cycle in force at a place (machine coordinates), and back to R.
+    /// The cycle in force at a place (machine coordinates; its levels are the program's), and back to R.
     fn drill(&mut self, hole: Hole, r: f64, z: f64, (x, y): (f64, f64)) -> Result<(), Halt> {
+        let (r, z) = (r + self.m.shift(2), z + self.m.shift(2));
         if self.m.at[2] < r {
             let at = self.m.at;
             self.m.traverse([at[0], at[1], r, at[3], at[4], at[5]]);

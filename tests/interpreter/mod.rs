@@ -9,6 +9,7 @@
 
 pub mod canon;
 pub mod fanuc;
+mod hole;
 pub mod ir;
 pub mod linuxcnc;
 pub mod mach9;
@@ -17,6 +18,7 @@ pub mod siemens;
 mod slots;
 mod stored;
 
+pub use hole::Hole;
 pub use setup::{PowerOn, Setup};
 use siemens::frame::Frame;
 use slots::Slots;
@@ -141,29 +143,6 @@ pub struct Halt {
     pub line: usize,
     /// What is wrong, or undecided.
     pub why: String,
-}
-
-/// How a hole is made.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Hole {
-    /// Feed in, rapid out.
-    Drill,
-    /// Feed in, dwell, rapid out.
-    DrillDwell(f64),
-    /// Pecks of so much.
-    Peck(f64),
-    /// Pecks of so much, the tool staying in the hole.
-    Break(f64),
-    /// Feed in, dwell if not zero, feed out to R.
-    Bore(f64),
-    /// In and out in step with the spindle, which turns this way first; rigid, or in a chuck; a dwell at
-    /// both ends if not zero.
-    Tap(Spindle, bool, f64),
-    /// Feed in, spindle stopped, rapid out, spindle clockwise.
-    Stop,
-    /// Feed in, dwell if not zero, spindle stopped at its angle, off the wall by so much, rapid out, back
-    /// over the hole, spindle clockwise.
-    Fine(f64, f64),
 }
 
 /// The machine, as far as programs see it.
@@ -294,6 +273,10 @@ impl Machine {
     pub fn use_length(&mut self, entry: u32) {
         if entry != self.entry {
             self.settled[2] = false;
+            // In a frame that turns Z, the length is one along others as well.
+            for axis in 0..2 {
+                self.settled[axis] &= self.turn.m[axis][2] == 0.0 && self.turn.m[2][axis] == 0.0;
+            }
         }
         self.entry = entry;
     }
@@ -314,7 +297,12 @@ impl Machine {
             let xyz = self.turn.undo(std::array::from_fn(|axis| self.at[axis] - self.shift(axis)));
             let mut xyz = xyz;
             for axis in 0..3 {
+                let mixed = (0..3)
+                    .any(|other| other != axis && words[other].is_some() && self.turn.m[other][axis] != 0.0);
                 match (words[axis], self.absolute) {
+                    (None, _) if mixed && !self.settled[axis] => {
+                        return self.halt("an axis left out after a change of frames or lengths");
+                    }
                     (None, _) => {}
                     (Some(value), true) => {
                         xyz[axis] = value;
@@ -460,101 +448,6 @@ impl Machine {
         let left = if clockwise == (r > 0.0) { -1.0 } else { 1.0 };
         let (nx, ny) = (-dy / (2.0 * half), dx / (2.0 * half));
         Ok(((x0 + x1) / 2.0 + left * height * nx, (y0 + y1) / 2.0 + left * height * ny))
-    }
-
-    /// The moves at one hole position, the tool standing over it: to R, in, out. Levels are in
-    /// machine coordinates.
-    pub fn hole(&mut self, hole: Hole, r: f64, z: f64, back: f64) -> Result<(), Halt> {
-        if z > r {
-            return self.halt("the bottom lies above R");
-        }
-        let level = |at: Place, height: f64| [at[0], at[1], height, at[3], at[4], at[5]];
-        self.traverse(level(self.at, r));
-        match hole {
-            Hole::Drill => self.straight(level(self.at, z))?,
-            Hole::DrillDwell(seconds) => {
-                self.straight(level(self.at, z))?;
-                self.record(What::Dwell(seconds));
-            }
-            Hole::Peck(q) | Hole::Break(q) => {
-                if q <= 0.0 || (r - z) / q > 10_000.0 {
-                    return self.halt("a peck that leads nowhere");
-                }
-                let mut depth = r;
-                loop {
-                    depth -= q;
-                    if depth <= z + 1e-9 {
-                        break;
-                    }
-                    self.straight(level(self.at, depth))?;
-                    if let Hole::Break(_) = hole {
-                        self.traverse(level(self.at, depth + self.setup.break_lift));
-                    } else {
-                        self.traverse(level(self.at, r));
-                        self.traverse(level(self.at, depth + self.setup.peck_clearance));
-                    }
-                }
-                self.straight(level(self.at, z))?;
-            }
-            Hole::Tap(into, rigid, seconds) => {
-                let (Some(feed), Some(speed)) = (self.feed, self.speed.filter(|s| *s > 0.0)) else {
-                    return self.halt("a thread without feed or speed");
-                };
-                let back = match into {
-                    Spindle::Clockwise => Spindle::Counterclockwise,
-                    _ => Spindle::Clockwise,
-                };
-                if rigid {
-                    self.turn(into);
-                }
-                self.thread(level(self.at, z), feed / speed, !rigid);
-                if rigid {
-                    self.turn(Spindle::Stopped);
-                }
-                self.stay(seconds);
-                self.turn(back);
-                self.thread(level(self.at, r), feed / speed, !rigid);
-                if rigid {
-                    self.turn(Spindle::Stopped);
-                }
-                self.stay(seconds);
-                if !rigid {
-                    self.turn(into);
-                }
-            }
-            Hole::Stop => {
-                self.straight(level(self.at, z))?;
-                self.turn(Spindle::Stopped);
-            }
-            Hole::Fine(by, seconds) => {
-                self.straight(level(self.at, z))?;
-                self.stay(seconds);
-                self.orient(None);
-                self.shift_tool(self.off_the_wall(by));
-            }
-            Hole::Bore(seconds) => {
-                self.straight(level(self.at, z))?;
-                if seconds > 0.0 {
-                    self.record(What::Dwell(seconds));
-                }
-                self.straight(level(self.at, r))?;
-            }
-        }
-        self.traverse(level(self.at, back));
-        if let Hole::Fine(by, _) = hole {
-            self.shift_tool(self.off_the_wall(-by));
-        }
-        if matches!(hole, Hole::Stop | Hole::Fine(..)) {
-            self.turn(Spindle::Clockwise);
-        }
-        self.settled[2] = true;
-        Ok(())
-    }
-
-    /// The way off the wall of a bore in XY.
-    fn off_the_wall(&self, by: f64) -> [f64; 3] {
-        let (axis, sign) = self.setup.bore_shift;
-        std::array::from_fn(|a| if a == axis { by * sign } else { 0.0 })
     }
 
     /// In step with the spindle.

@@ -546,6 +546,9 @@ impl<'a> Control<'a> {
             }
             self.m.orient(Some(angle.number));
         }
+        // In whichever order they stand, the spindle is told from the coolant by what it does first.
+        let mut m_codes = m_codes;
+        m_codes.sort_by_key(|code| !matches!(code, 3 | 4));
         for code in &m_codes {
             match code {
                 3 => self.m.turn(Spindle::Clockwise),

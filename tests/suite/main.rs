@@ -25,6 +25,7 @@ mod schema;
 mod second;
 mod shared;
 mod siemens_second;
+mod spliced;
 mod stable;
 mod structure;
 mod tables;

@@ -68,7 +68,7 @@ impl Writer {
             p.number = stmt.number;
         }
         if let Some(code) = code.filter(|_| row.is_none_or(|row| !rows.contains(&row))) {
-            p.further.retain(|c| c.group == 0 || c.group != code.group);
+            p.further.retain(|c| *c != code && (c.group == 0 || c.group != code.group));
             p.further.push(code);
         }
         Ok(true)

@@ -55,7 +55,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             (format!("`{letter}` without a number"), format!("{from} does not read this as zero"))
         }
         Fault::LetterOForZero => ("letter O where a zero is meant".into(), "this is the letter".into()),
-        Fault::EmptyProgram => ("nothing to translate".into(), "the text has no blocks".into()),
+        Fault::EmptyProgram => ("nothing to translate".into(), "the main program has no blocks".into()),
         Fault::Syntax { found, expected } => {
             (format!("{} is not expected here", found_words(found)), format!("expected {}", plain(expected)))
         }

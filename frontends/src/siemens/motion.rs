@@ -99,6 +99,10 @@ impl Lower {
                     let Ok(polar) = self.polar_words(words, src, out) else { return };
                     let to = self.point(true, None, words, src, out);
                     self.push_to(polar, block, Op::Hole(Move { to, said: false }), out);
+                } else if cycle.feed.is_some() && self.state.motion.value() != Some(Motion::Traverse) {
+                    // The way there has the program's feed; the cycle's is taken up in the hole.
+                    let name = "position reached at feed under a cycle with a feed of its own";
+                    self.not_supported(&src.text(block), name, block, out);
                 } else {
                     self.push(block, Op::EndCycle, out);
                     self.path(motion.is_some(), machine, block, words, src, out);

@@ -11,6 +11,7 @@ use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Op, Pitch};
 
 use super::cycles::Arguments;
+use super::facts::InForce;
 use super::lower::Lower;
 use crate::Batch;
 use crate::word::Source;
@@ -119,6 +120,10 @@ impl Lower {
             return None;
         }
         if let Some(speed) = speed {
+            // The cycle that was modal is over before that: its own speed is what it was called up with.
+            if matches!(self.state.cycle, InForce::Active(_)) {
+                self.push(a.span, Op::EndCycle, out);
+            }
             self.push(a.span, Op::SetSpindleSpeed(Expr::Num(speed)), out);
         }
         let pitch = Pitch::Stated(pitch.into());

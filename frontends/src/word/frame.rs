@@ -154,6 +154,10 @@ impl Reader {
             out.name.title = title;
             return;
         }
+        if !self.frame.blocks && !self.frame.faulty {
+            out.report(Fault::EmptyProgram, word.span);
+            self.frame.faulty = true;
+        }
         self.end_of_program(out);
         self.lower.sub = Some(Procedure { name: number.to_string().into(), title, ..Procedure::default() });
         self.lower.ended = false;

@@ -44,6 +44,14 @@ impl Lower {
             }
             self.feed_word(motion, words, src, out);
         }
+        // A plane belongs to the cycle in force: that ends first, so that either can stand in a block of its own.
+        let plane = |c: &Code| matches!(c.meaning, Meaning::SelectPlane(_));
+        if matches!(self.state.cycle, InForce::Active(_))
+            && settings.iter().any(plane)
+            && let Some(end) = motion.iter().find(|c| c.meaning == Meaning::EndCycle)
+        {
+            self.end_cycle(end, out);
+        }
         let before_feed = self.settings.dialect.block.feed_before_units;
         if !codes.iter().any(|code| code.meaning == Meaning::PolarWords(false)) {
             codes.iter().for_each(|code| self.check_polar(code, out));
@@ -145,6 +153,8 @@ impl Lower {
         }
         if let (Meaning::SelectPlane(plane), InForce::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
+            // Of a text that was emitted, the plane at the start is what was taken for granted.
+            && (self.assume || active.plane.known().is_some())
         {
             let name = "change of the plane while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);

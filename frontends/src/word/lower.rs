@@ -84,6 +84,8 @@ pub(super) struct Now {
     pub(super) refused: bool,
     /// Whether a code of a cycle was refused, so that it is not known what the next blocks mean.
     pub(super) cycle_refused: bool,
+    /// Whether the code that ends a cycle has had its effect.
+    pub(super) cycle_ended: bool,
     /// Length of the target before the block.
     mark: usize,
     /// Feed of a cycle's own block.

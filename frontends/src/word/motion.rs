@@ -19,6 +19,16 @@ use crate::Batch;
 const MOST_TURNS: u32 = 9999;
 
 impl Lower {
+    /// The code that ends a cycle.
+    pub(super) fn end_cycle(&mut self, end: &Code, out: &mut Batch) {
+        self.push(end.span, Op::EndCycle, out);
+        self.state.after_cycle |= self.state.cycle != InForce::None;
+        self.state.cycle = InForce::None;
+        self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
+        self.state.rigid = false;
+        self.now.cycle_ended = true;
+    }
+
     /// Codes of motion, cycles and patterns, with the block's axis words.
     pub(super) fn motion_codes(
         &mut self,
@@ -32,12 +42,8 @@ impl Lower {
         let find = |wanted: fn(Meaning) -> bool| codes.iter().find(|c| wanted(c.meaning));
         let cycle = find(|m| m == Meaning::StartCycle);
         let pattern = find(|m| m == Meaning::Pattern);
-        if let Some(end) = find(|m| m == Meaning::EndCycle) {
-            self.push(end.span, Op::EndCycle, out);
-            self.state.after_cycle |= self.state.cycle != InForce::None;
-            self.state.cycle = InForce::None;
-            self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
-            self.state.rigid = false;
+        if let Some(end) = find(|m| m == Meaning::EndCycle).filter(|_| !self.now.cycle_ended) {
+            self.end_cycle(end, out);
         }
         let motion = codes.iter().find_map(|c| Some((c, motion_of(c.meaning)?)));
         if let Some((code, motion)) = motion {

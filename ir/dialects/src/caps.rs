@@ -132,6 +132,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         scale: everything || says(Meaning::SetScale) && says(Meaning::ClearFrame(FrameSlot::Scale)),
         mirror: everything || says(Meaning::SetMirror) && says(Meaning::ClearMirror),
         machine_coordinates: everything || in_machine(true) || in_machine(false),
+        machine_rapid: !everything
+            && ![true, false]
+                .into_iter()
+                .any(|length| says(Meaning::UseMachineCoordinates { length, rapid: false })),
         machine_length: match (everything, in_machine(true), in_machine(false)) {
             (true, _, _) | (false, true, true) => None,
             (false, length, _) => Some(length),
@@ -217,6 +221,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 .fold(0, |bits, (mode, _)| bits | 1 << *mode as u16),
         },
         path_in_rapids: everything || dialect.name_with(NameRole::RoundingInRapids).is_some(),
+        frames_shut: dialect.can.frames_shut,
         only_path: dialect.can.only_path.map(Into::into),
         exact_stop: everything || dialect.can.flat || says(Meaning::ExactStop),
         advice: AdviceKind::ALL

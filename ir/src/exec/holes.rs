@@ -231,6 +231,18 @@ impl Exec {
         let Some(cycle) = self.cycle.clone() else {
             return self.fault(Fault::NoCycle, span);
         };
+        // What it says of the hole is the reader's to find out; where that could not know of the cycle,
+        // nobody does.
+        if to.axes[cycle.plane.axes().2 as usize].is_some() {
+            let name = "word along the drilling axis at a position under a cycle".into();
+            return self.fault(
+                Fault::NotSupported {
+                    code: (cycle.plane.axes().2.letter() as char).to_string().into(),
+                    name,
+                },
+                span,
+            );
+        }
         let mut next = self.position;
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {

@@ -84,6 +84,8 @@ fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
                     word.distance = Fact::Known(crate::canon::Distance::Absolute);
                 }
             }
+            // Its length would be taken up by the word.
+            Some(_) if axis == Axis::Z && word.is_none() && walk.waiting => {}
             Some(nanos) => *word = Some(at(nanos, axis, walk.unit())),
             None if word.is_some() => {
                 return Err(Fault::PositionUnknown { axis: axis.letter() as char });

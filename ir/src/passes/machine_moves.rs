@@ -70,6 +70,10 @@ fn take(
     diags: &mut Vec<Diagnostic>,
 ) {
     let caps = &target.caps;
+    if caps.machine_rapid && walk.at.raw && matches!(stmt.op, Op::StraightFeed(_)) {
+        let what = "a cut in machine coordinates".into();
+        diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+    }
     match &stmt.op {
         Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|own| own != *length) => {
             walk.step(&stmt);

@@ -10,6 +10,7 @@
 //! mirrors or scales, frames that may be skipped, and frames under calls, jumps and repetitions.
 
 mod holes;
+mod shut;
 mod words;
 
 use super::frame_forms::{self, shifted};
@@ -227,6 +228,13 @@ impl Frames<'_> {
                 Err(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
             }
             return made.leave_out(stmt);
+        }
+        if self.is_shut(&stmt.op) {
+            let span = stmt.span;
+            if let Err(fault) = self.outside(stmt, made) {
+                diags.push(Diagnostic::new(fault, span));
+            }
+            return;
         }
         if let (Op::ArcForm(arc), true) = (&stmt.op, self.goes_on()) {
             match self.arcs.by_centre(arc, &self.inner, EXACT) {

@@ -1,0 +1,137 @@
+//! Programs that nobody wrote: blocks of the corpus put into other programs of the corpus, where every row
+//! of the dictionaries is met. Most say something that their author would not have, which is what they are
+//! for: each is translated and verified, or refused for a reason of its own; never is an output found to be
+//! wrong, or not to be read. Where the second interpreter runs both sides, it has the last word.
+//!
+//! `NCC_SPLICED=10000` makes so many of each dialect.
+
+use ncc::job::Failure;
+use ncc_ir::diag::Fault;
+use ncc_tests::corpus::{self, DIALECTS, Program};
+use ncc_tests::expect::Failures;
+use ncc_tests::plain::{self, Corners, Happening, Tolerance};
+use ncc_tests::translate::{job, rendered, translate};
+
+/// Programs of a dialect in a usual run.
+const USUAL: usize = 60;
+
+#[test]
+fn blocks_in_other_programs() {
+    let many = std::env::var("NCC_SPLICED").ok().and_then(|n| n.parse().ok()).unwrap_or(USUAL);
+    let mut failures = Failures::default();
+    let (mut done, mut refused, mut judged) = (0, 0, 0);
+    // The compiler's own forms are written by it, and seldom by hand.
+    for dialect in DIALECTS.into_iter().filter(|dialect| !matches!(*dialect, "canon" | "ir")) {
+        let programs = corpus::of(dialect);
+        for seed in 0..many {
+            let mut dice = fastrand::Rng::with_seed(seed as u64 * 31 + 7);
+            let (name, text) = spliced(&programs, &mut dice);
+            let to = DIALECTS[dice.usize(..DIALECTS.len())];
+            let what = format!("{dialect} {seed} ({name}) to {to}");
+            let job = job(dialect, to, &name);
+            let (outcome, written) = translate(&job, &text);
+            match outcome.release {
+                Ok(()) => {
+                    done += 1;
+                    // The one work offset of a control without words for it is the one that is named.
+                    let only = outcome.diagnostics.iter().find_map(|d| match d.fault {
+                        Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => {
+                            Some(offset)
+                        }
+                        _ => None,
+                    });
+                    match second_opinion((dialect, &text), (to, &written), only) {
+                        None => {}
+                        Some(Ok(())) => judged += 1,
+                        Some(Err(fault)) => failures.add(
+                            &what,
+                            format!(
+                                "{fault}\n{}\n{}",
+                                String::from_utf8_lossy(&text),
+                                String::from_utf8_lossy(&written)
+                            ),
+                        ),
+                    }
+                }
+                Err(Failure::Refused) => refused += 1,
+                Err(Failure::VerificationFailed) => failures.add(
+                    &what,
+                    format!(
+                        "{}\n{}",
+                        rendered(&job, &name, &text, &outcome.diagnostics),
+                        String::from_utf8_lossy(&text)
+                    ),
+                ),
+            }
+        }
+    }
+    println!(
+        "{done} translated and verified, {judged} of them judged by the second interpreter too, {refused} refused"
+    );
+    failures.finish();
+}
+
+/// A program of the corpus with up to four pieces of others put in, left out, or said twice.
+fn spliced(programs: &[Program], dice: &mut fastrand::Rng) -> (String, Vec<u8>) {
+    let of = |program: &Program| -> Vec<Vec<u8>> {
+        program.text.split(|b| *b == b'\n').map(<[u8]>::to_vec).collect()
+    };
+    let base = &programs[dice.usize(..programs.len())];
+    let mut lines = of(base);
+    for _ in 0..dice.usize(1..5) {
+        let at = dice.usize(..lines.len());
+        match dice.u8(..6) {
+            0 => drop(lines.remove(at)),
+            1 => lines.insert(at, lines[at].clone()),
+            _ => {
+                let other = of(&programs[dice.usize(..programs.len())]);
+                let from = dice.usize(..other.len());
+                let to = (from + dice.usize(1..6)).min(other.len());
+                lines.splice(at..at, other[from..to].iter().cloned());
+            }
+        }
+        if lines.is_empty() {
+            break;
+        }
+    }
+    (base.file.clone(), lines.join(&b'\n'))
+}
+
+/// What the second interpreter says, if it runs both: the same moves or not, in two worlds.
+fn second_opinion(
+    (from, source): (&str, &[u8]),
+    (to, written): (&str, &[u8]),
+    only: Option<u16>,
+) -> Option<Result<(), String>> {
+    let corners = Corners::between(from, to);
+    // A feed in inches has three digits.
+    let within = Tolerance { corners, feed: 0.015, ..Tolerance::ROUNDED };
+    for seed in [0, 1] {
+        let mut world = plain::world(seed);
+        world.peck_clearance = ncc_ir::num::ONE;
+        world.break_lift = ncc_ir::num::ONE;
+        let start = world.start.map(|n| n as f64 / 1e9);
+        let list = |dialect: &str, text: &[u8], only: Option<u16>| {
+            let mut setup = plain::setup(&world, 0);
+            // As its dictionary has it at power-on.
+            setup.power_on.inch = dialect == "haas";
+            setup.power_on.offset = only.map_or(setup.power_on.offset, u32::from);
+            let mut list = plain::of_machine(&plain::second(dialect, text, setup).ok()?, start);
+            // A way as short as a rounding is one on the other side alone.
+            let mut from = start;
+            list.retain(|event| {
+                let near = event.at.iter().zip(from).all(|(a, b)| (a - b).abs() < within.place);
+                let straight = matches!(event.what, Happening::Traverse | Happening::Feed);
+                if !(near && straight) {
+                    from = event.at;
+                }
+                !(near && straight)
+            });
+            Some(list)
+        };
+        if let Err(fault) = plain::compare(&list(from, source, None)?, &list(to, written, only)?, within) {
+            return Some(Err(fault));
+        }
+    }
+    Some(Ok(()))
+}
