@@ -294,15 +294,7 @@ impl Caps {
 
     /// What of a machine's state its words tell apart.
     pub fn seen(&self) -> Seen {
-        let rounds = |(mode, _): &(PathMode, &str)| mode.is_rounding();
-        let rounding =
-            PathMode::ALL.iter().filter(|mode| rounds(mode)).all(|(mode, _)| self.says_path(*mode));
-        Seen {
-            exact_path: self.says_path(PathMode::ExactPath),
-            rounding: rounding && self.path_in_rapids,
-            path: true,
-            advice: seen_advice(self),
-        }
+        Seen { modes: self.path_modes, in_rapids: self.path_in_rapids, path: true, advice: seen_advice(self) }
     }
 
     /// Whether a statement that changes a frame can be written as it is. Anything else can.

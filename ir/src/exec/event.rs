@@ -243,10 +243,10 @@ impl State {
 /// What of a [`State`] a control has words for: the rest does not count in a comparison with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Seen {
-    /// Whether going through an end point is told from stopping at it.
-    pub exact_path: bool,
-    /// Whether ways of rounding corners are told from each other.
-    pub rounding: bool,
+    /// Modes of taking corners that are told from others, a bit each, with the lengths that belong to them.
+    pub modes: u16,
+    /// Whether the length of rounding in rapids is told from that of cuts.
+    pub in_rapids: bool,
     /// Whether an exact stop is told from rounding at all.
     pub path: bool,
     /// Kinds of advice, four bits each.
@@ -255,7 +255,7 @@ pub struct Seen {
 
 impl Default for Seen {
     fn default() -> Seen {
-        Seen { exact_path: true, rounding: true, path: true, advice: u64::MAX }
+        Seen { modes: u16::MAX, in_rapids: true, path: true, advice: u64::MAX }
     }
 }
 
@@ -263,8 +263,8 @@ impl Seen {
     /// What both of two controls have words for.
     pub fn both(self, other: Seen) -> Seen {
         Seen {
-            exact_path: self.exact_path && other.exact_path,
-            rounding: self.rounding && other.rounding,
+            modes: self.modes & other.modes,
+            in_rapids: self.in_rapids && other.in_rapids,
             path: self.path && other.path,
             advice: self.advice & other.advice,
         }
@@ -272,19 +272,20 @@ impl Seen {
 
     /// What is seen of a state.
     pub fn of(&self, state: &State) -> State {
-        let path = state.path.map(|mode| match mode {
-            PathMode::ExactPath if !self.exact_path => PathMode::ExactStop,
-            mode if !self.rounding => mode.plain(),
-            mode => mode,
+        let seen = |mode: PathMode| self.modes >> mode as u16 & 1 == 1;
+        let path = state.path.map(|mode| match mode.plain() {
+            _ if seen(mode) => mode,
+            PathMode::ExactPath if !seen(PathMode::ExactPath) => PathMode::ExactStop,
+            plain => plain,
         });
         let tolerance = AdviceKind::PathTolerance.bits();
-        let lengths = self.rounding && self.path;
+        let lengths = self.path && state.path.is_some_and(seen);
         State {
             path: path.filter(|_| self.path),
             advice: state.advice & self.advice,
             within: [
                 if lengths { state.within[0] } else { 0 },
-                if lengths { state.within[1] } else { 0 },
+                if lengths && self.in_rapids { state.within[1] } else { 0 },
                 if self.advice >> tolerance & 15 == 15 { state.within[2] } else { 0 },
             ],
             ..*state
