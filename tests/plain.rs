@@ -7,14 +7,14 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::rc::Rc;
 
 use ncc_ir::canon::{
-    Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle as Turning, Turn, Units,
+    Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, Turn, Units,
 };
-use ncc_ir::exec::{Event, Kind, Stored};
+use ncc_ir::exec::{Compensation, Event, Kind, Stored};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::world::World;
 
-use crate::interpreter::{self, Corner, Machine, Per, PowerOn, Setup, Spindle, What};
+use crate::interpreter::{self, Beside, Corner, Machine, Per, PowerOn, Setup, Spindle, What};
 
 /// An event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +35,8 @@ pub struct Plain {
     pub speed: f64,
     /// Flood, mist.
     pub coolant: (bool, bool),
+    /// Cutter radius compensation.
+    pub beside: Option<Beside>,
 }
 
 /// What happened.
@@ -229,6 +231,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                     Spindle::Counterclockwise => -speed,
                 },
                 coolant: event.coolant,
+                beside: event.beside,
             },
         );
     }
@@ -332,10 +335,24 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                     Turning::Counterclockwise => -speed,
                 },
                 coolant: (event.state.flood, event.state.mist),
+                beside: beside(&event.state.compensation),
             },
         );
     }
     list
+}
+
+fn beside(compensation: &Compensation) -> Option<Beside> {
+    Some(Beside {
+        left: compensation.side? == Side::Left,
+        plane: match compensation.plane {
+            Plane::Xy => 17,
+            Plane::Zx => 18,
+            Plane::Yz => 19,
+        },
+        // Above that it is an edge that is no entry.
+        entry: Some(compensation.radius).filter(|radius| radius >> 31 == 0),
+    })
 }
 
 /// Adds an event, unless it is a straight move that goes nowhere.
@@ -415,6 +432,9 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
     if a.tool != b.tool || a.coolant != b.coolant || !near(a.speed, b.speed, 1e-6) {
         return Some("another tool, spindle or coolant");
     }
+    if a.beside != b.beside {
+        return Some("another cutter radius compensation");
+    }
     None
 }
 
@@ -422,8 +442,8 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
 pub fn show(event: &Plain) -> String {
     let at = event.at.map(|v| format!("{v:.4}")).join(" ");
     format!(
-        "{:?} at {at} F{} {:?} corner {:?} T{:?} S{} coolant {:?}",
-        event.what, event.feed, event.per, event.corner, event.tool, event.speed, event.coolant
+        "{:?} at {at} F{} {:?} corner {:?} T{:?} S{} coolant {:?} {:?}",
+        event.what, event.feed, event.per, event.corner, event.tool, event.speed, event.coolant, event.beside
     )
 }
 

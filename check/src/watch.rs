@@ -209,6 +209,7 @@ impl Checker {
             Op::Position(m) | Op::Hole(m) => self.words(&m.to, step.raw, exec),
             Op::ArcFeed(arc) => self.words(&arc.to, step.raw, exec),
             Op::ArcForm(arc) => self.words(&arc.to, step.raw, exec),
+            Op::StartCutterRadiusCompensation { .. } => self.seen.switch_on(LeftOn::Compensation, at),
             Op::SetDistanceMode(Distance::Incremental) => self.seen.switch_on(LeftOn::Incremental, at),
             Op::SetDistanceMode(Distance::Absolute) => self.seen.switch_off(LeftOn::Incremental),
             Op::ClearFrame(FrameSlot::Shift) => {}

@@ -64,6 +64,9 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
                 (true, true) => "flood and mist",
             };
             text += &format!(" with tool {}, {spindle}, {coolant}", s.tool);
+            if s.compensation.side.is_some() {
+                text += &format!(", compensation {}", s.compensation.words());
+            }
         }
         Aspect::Feed => text += &format!(" at F{}", number(event.rate)),
         Aspect::Kind | Aspect::End(_) | Aspect::Arc | Aspect::Length => {

@@ -83,6 +83,13 @@ impl Job {
         !to.flat && self.fold.unwrap_or(from.flat)
     }
 
+    /// Whether the output is for a control of another kind than the source's. The text forms are no
+    /// control: what they hold is still the source's.
+    pub fn between_controls(&self) -> bool {
+        let to = self.to.dialect;
+        self.from.dialect.id != to.id && !to.can.everything && !to.can.flat
+    }
+
     /// Whether a verdict stops this translation. What is denied stops even if it is allowed.
     pub fn stops(&self, verdict: Verdict) -> bool {
         self.deny.contains(&verdict) || (verdict.stops() && !self.allow.contains(&verdict))

@@ -143,6 +143,9 @@ impl<'j> Line<'j> {
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
+        if job.between_controls() {
+            legaliser.between_controls();
+        }
         legaliser.stand_at(&job.start);
         let maps = job.machines.maps(job.to.dialect);
         legaliser.set_edge_entries(maps.edge_entries.clone());

@@ -163,6 +163,14 @@ impl Verifier {
             })
             .collect();
         let mut runs: Vec<Run> = runs;
+        if job.from.dialect.can.flat || job.to.dialect.can.flat {
+            runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::without_blocks);
+        }
+        if job.between_controls() {
+            runs.iter_mut()
+                .flat_map(|run| [&mut run.source, &mut run.target])
+                .for_each(Exec::between_controls);
+        }
         if !job.to.dialect.caps.messages {
             // Their loss is a verdict of its own, that stops unless it is allowed.
             runs.iter_mut().for_each(|run| run.source.mute());

@@ -285,6 +285,32 @@ pub enum Turn {
     Counterclockwise,
 }
 
+/// On which side of the programmed contour, seen along the way, the tool goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // The names are the meaning.
+pub enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Side::Left => "left",
+            Side::Right => "right",
+        }
+    }
+
+    /// The other side.
+    pub const fn other(self) -> Side {
+        match self {
+            Side::Left => Side::Right,
+            Side::Right => Side::Left,
+        }
+    }
+}
+
 /// State of the spindle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The names are the meaning.

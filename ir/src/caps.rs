@@ -83,6 +83,8 @@ pub struct Caps {
     pub tool_data_added: bool,
     /// Tools by name.
     pub tool_names: bool,
+    /// How it names the radius of cutter radius compensation; none of them is without compensation.
+    pub radii: Radii,
     /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
     /// if either.
     pub tool_edges: Option<bool>,
@@ -185,6 +187,20 @@ impl References {
             ReferencePoint::Stored(n) => n <= self.stored,
         }
     }
+}
+
+/// Ways of naming the radius of cutter radius compensation, as of [`crate::program::CutterRadius`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[allow(missing_docs)] // As there.
+pub struct Radii {
+    pub entry: bool,
+    pub tool: bool,
+    pub in_force: bool,
+}
+
+impl Radii {
+    /// All there are.
+    pub const ALL: Radii = Radii { entry: true, tool: true, in_force: true };
 }
 
 /// How a cycle that drives the spindle is said.

@@ -254,6 +254,9 @@ faults! {
     /// The target has no word for how corners are taken: it is taken to do it always in this way.
     AssumedPath { path: Box<str> } = 311, verdict(Verdict::Assumed);
 
+    /// The tool goes onto a compensated contour, and leaves it, in the same way on both controls.
+    AssumedContourEnds = 312, verdict(Verdict::Assumed);
+
     // NC04xx: what became of it.
     /// A comment in the target's characters.
     CommentReformatted = 401, verdict(Verdict::Reformatted);

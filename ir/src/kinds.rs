@@ -6,14 +6,15 @@
 //!
 //! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
 
-/// Beside the way: remarks, spindle, coolant, functions of the machine, pauses.
-/// Without axis words, lengths or a feed; what the words of the moves that
+/// Beside the way: remarks, spindle, coolant, functions of the machine, pauses, on which side of the
+/// contour the tool goes. Without axis words, lengths or a feed; what the words of the moves that
 /// follow mean, where the axes stand and which tool is meant stay as they are.
 macro_rules! miscellaneous {
     () => {
         $crate::program::Op::Comment(_)
             | $crate::program::Op::NoEffect(_)
             | $crate::program::Op::Blank
+            | $crate::program::Op::StartCutterRadiusCompensation { .. }
             | $crate::program::Op::StopCutterRadiusCompensation
             | $crate::program::Op::SetSpindleSpeed(_)
             | $crate::program::Op::SetSpindleMode(_)

@@ -17,12 +17,12 @@ mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot};
-pub use machine::{Data, DataMode, Reference, ReferencePoint, ToolValue};
+pub use machine::{CutterRadius, Data, DataMode, Reference, ReferencePoint, ToolValue};
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use crate::canon::{
-    AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn,
-    Units,
+    AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, Side, SpindleMode,
+    Turn, Units,
 };
 use crate::cycle::{Cycle, Pattern};
 use crate::expr::{Expr, Var};
@@ -247,6 +247,14 @@ pub enum Op {
     },
     /// `SET_OFFSET_DATA` or `SET_TOOL_DATA`: puts values into the control's tables.
     SetData(Box<Data>),
+    /// `START_CUTTER_RADIUS_COMPENSATION`: from the next move in the plane on, the programmed contour is
+    /// that of the work, and the tool goes beside it by its radius.
+    StartCutterRadiusCompensation {
+        /// On which side of it.
+        side: Side,
+        /// By which radius.
+        radius: CutterRadius,
+    },
     /// `STOP_CUTTER_RADIUS_COMPENSATION`
     StopCutterRadiusCompensation,
     /// `SET_MOTION_CONTROL_MODE`: how corners are taken from here on.
@@ -399,6 +407,7 @@ impl Op {
             },
             Op::GoToReference(_) => "GO_TO_REFERENCE",
             Op::UseToolEdge { .. } => "USE_TOOL_EDGE",
+            Op::StartCutterRadiusCompensation { .. } => "START_CUTTER_RADIUS_COMPENSATION",
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",
             Op::ExactStop => "EXACT_STOP",

@@ -51,6 +51,8 @@ pub struct Tracker {
     pub pole: Pole,
     /// Whether it is not known.
     pub pole_lost: bool,
+    /// Whether cutter radius compensation may be on.
+    pub compensated: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -242,7 +244,8 @@ impl Tracker {
 
     /// Forgets everything: after a call, at a label.
     pub fn forget(&mut self) {
-        *self = Tracker::unknown();
+        // What is called leaves compensation as it was, or executes with another.
+        *self = Tracker { compensated: self.compensated, ..Tracker::unknown() };
     }
 
     /// Executes a statement.
@@ -299,6 +302,7 @@ impl Tracker {
         self.local_lost |= other.local_lost || self.local != other.local;
         self.raw |= other.raw;
         self.pole_lost |= other.pole_lost || self.pole != other.pole;
+        self.compensated |= other.compensated;
     }
 
     /// Executes an operation, whatever the block-skip switches say.
@@ -443,6 +447,8 @@ impl Tracker {
                 Op::StartSpindleClockwise => self.spindle = Some(Spindle::Clockwise),
                 Op::StartSpindleCounterclockwise => self.spindle = Some(Spindle::Counterclockwise),
                 Op::StopSpindleTurning | Op::OrientSpindle(_) => self.spindle = Some(Spindle::Stopped),
+                Op::StartCutterRadiusCompensation { .. } => self.compensated = true,
+                Op::StopCutterRadiusCompensation => self.compensated = false,
                 _ => {}
             },
             Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | conduct!() => {}

@@ -165,6 +165,11 @@ impl World {
         renamed(&self.renaming.entries, entry)
     }
 
+    /// A tool by the number that both worlds of a comparison know it by.
+    pub fn tool_number(&self, tool: u32) -> u32 {
+        renamed(&self.renaming.tools, tool)
+    }
+
     /// A point of the machine, in machine coordinates.
     pub fn reference(&self, point: ReferencePoint) -> [Nanos; AXES] {
         let stated = self.tables.references.get(&point);

@@ -106,6 +106,9 @@ pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
 /// Key of the reading that a control without a word for it always takes corners in one way.
 pub const CORNERS: &str = "corners";
 
+/// Key of the reading that the tool goes onto a compensated contour, and leaves it, as on the other control.
+pub const CONTOUR_ENDS: &str = "contour-ends";
+
 /// What follows the name of a pattern whose order of holes is the one that is written.
 const ORDER: &str = "-order";
 
@@ -161,6 +164,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
         Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
         Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
+        Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
         Fault::AssumedEdge { .. } => {
             let side = if edges(to) { Side::To } else { Side::From };
             (side, Place::Confirmed(EDGE_IS_ENTRY.to_owned()))
@@ -225,7 +229,7 @@ fn slug(words: &str) -> String {
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
-    let readings = [OFFSET_WITH_Z, BARE_NUMBERS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES];
+    let readings = [OFFSET_WITH_Z, BARE_NUMBERS, CONTOUR_ENDS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES];
     if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE].contains(&key) {
         return true;
     }

@@ -7,6 +7,7 @@
 use std::collections::HashMap;
 
 use ncc_ir::canon::{AXES, Spindle};
+use ncc_ir::exec::Compensation;
 use ncc_ir::num::Nanos;
 
 use crate::measure::{Measure, Shift, bits};
@@ -36,6 +37,8 @@ pub enum Change {
     Tool(i64, i64),
     /// Coolant: flood and mist.
     Coolant([bool; 2], [bool; 2]),
+    /// Cutter radius compensation.
+    Compensation(Compensation, Compensation),
     /// Work offset in force.
     WorkOffset(u16, u16),
     /// Tool length in force.
@@ -165,7 +168,15 @@ impl Collector {
         else {
             return;
         };
-        for bit in [bits::TOOL, bits::FRAME, bits::FEED, bits::SPEED, bits::SPINDLE, bits::COOLANT] {
+        for bit in [
+            bits::TOOL,
+            bits::FRAME,
+            bits::FEED,
+            bits::SPEED,
+            bits::SPINDLE,
+            bits::COOLANT,
+            bits::COMPENSATION,
+        ] {
             if differs & bit != 0 {
                 let change = attribute(bit, s, t);
                 // A tool that is another one says so itself.
@@ -377,6 +388,7 @@ fn attribute(bit: u8, a: &Style, b: &Style) -> Change {
         bits::SPEED => Change::Speed(s.speed, t.speed),
         bits::SPINDLE => Change::Spindle(s.spindle, t.spindle),
         bits::COOLANT => Change::Coolant([s.flood, s.mist], [t.flood, t.mist]),
+        bits::COMPENSATION => Change::Compensation(s.compensation, t.compensation),
         _ if a.offset != b.offset => Change::WorkOffset(a.offset, b.offset),
         _ if a.length != b.length => Change::Length(a.length, b.length),
         _ => Change::Frame,

@@ -31,6 +31,8 @@ pub mod bits {
     pub const TOOL: u8 = 8;
     /// Coolant.
     pub const COOLANT: u8 = 16;
+    /// Cutter radius compensation.
+    pub const COMPENSATION: u8 = 64;
     /// Where offsets and lengths put it.
     pub const FRAME: u8 = 32;
 }
@@ -121,6 +123,7 @@ impl Measure {
             | bit(s.spindle != t.spindle, bits::SPINDLE)
             | bit(s.tool != t.tool, bits::TOOL)
             | bit((s.flood, s.mist) != (t.flood, t.mist), bits::COOLANT)
+            | bit(s.compensation != t.compensation, bits::COMPENSATION)
             | bit(frame || turned, bits::FRAME)
     }
 }

@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use ncc_ir::canon::{AXES, Axis, Plane, Turn, same_point};
-use ncc_ir::exec::{Attribute, Event, Exec, Kind, State};
+use ncc_ir::exec::{Attribute, Compensation, Event, Exec, Kind, State};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::Text;
 use ncc_ir::verify::{Part, part};
@@ -143,11 +143,14 @@ pub struct Still {
     pub spindle: ncc_ir::canon::Spindle,
     pub flood: bool,
     pub mist: bool,
+    pub compensation: Compensation,
 }
 
 impl From<State> for Still {
     fn from(s: State) -> Still {
-        Still { tool: s.tool, speed: s.speed, spindle: s.spindle, flood: s.flood, mist: s.mist }
+        // How blocks stand between moves is a matter of the text.
+        let compensation = Compensation { gap: false, ..s.compensation };
+        Still { tool: s.tool, speed: s.speed, spindle: s.spindle, flood: s.flood, mist: s.mist, compensation }
     }
 }
 

@@ -57,7 +57,12 @@ fn only(m: &Machine, arguments: &[&str]) -> Result<f64, Halt> {
 fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
     let unit = if m.inch { 25.4 } else { 1.0 };
     match (name, a) {
-        ("STOP_CUTTER_RADIUS_COMPENSATION" | "CLEAR_ORIGIN_SHIFT", []) => {}
+        ("CLEAR_ORIGIN_SHIFT", []) => {}
+        ("STOP_CUTTER_RADIUS_COMPENSATION", []) => m.go_on(),
+        ("START_CUTTER_RADIUS_COMPENSATION", [side @ ("CANON_SIDE_LEFT" | "CANON_SIDE_RIGHT"), entry]) => {
+            let entry = number(m, entry)? as u32;
+            m.go_beside(*side == "CANON_SIDE_LEFT", false, Some(entry))?;
+        }
         ("SET_FEED_MODE", ["CANON_PER_MINUTE"]) => m.count_feed(Per::Minute),
         ("SET_FEED_MODE", ["CANON_PER_REVOLUTION"]) => m.count_feed(Per::Turn),
         ("SET_FEED_MODE", ["CANON_INVERSE_TIME"]) => m.count_feed(Per::Move),

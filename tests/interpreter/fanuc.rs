@@ -36,6 +36,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         depth: 0,
         rigid: false,
         polar: None,
+        radius: None,
         haas,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
@@ -117,6 +118,8 @@ struct Control {
     rigid: bool,
     /// G16 is on: the last point in polar words, if nothing else has moved the plane since.
     polar: Option<Option<(f64, f64)>>,
+    /// The D that was said last.
+    radius: Option<u32>,
     haas: bool,
 }
 
@@ -214,6 +217,7 @@ impl Control {
         let mut slot = None;
         let mut machine = None;
         self.m.begin_block();
+        let mut side = None;
         for g in codes('G') {
             // High precision and contour control, with P or Q: the programmed path stays.
             if g == 51 {
@@ -246,8 +250,9 @@ impl Control {
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
                 21 => self.m.inch = false,
-                // Nothing that it ends can have begun: G41 and G42 are out of scope.
-                40 => {}
+                40 => self.m.go_on(),
+                41 => side = Some(true),
+                42 => side = Some(false),
                 // Its P is of this block: look-ahead asks for no other path.
                 5 | 8 => {}
                 // The stroke check moves nothing; with words it would set its limits.
@@ -328,6 +333,20 @@ impl Control {
             (Some(49), None) => self.m.use_length(0),
             (None, None) => {}
             _ => return self.m.halt("G43 and H"),
+        }
+        if let Some((entry, _)) = number(&words, 'D') {
+            if self.m.beside.is_some() {
+                return self.m.halt("another D under compensation");
+            }
+            self.radius = Some(entry as u32);
+        }
+        if let Some(left) = side {
+            let (first, second, normal) = self.m.axes();
+            let Some(entry) = self.radius else { return self.m.halt("compensation without D") };
+            let Some(reversed) = self.m.turn.reverses(first, second, normal) else {
+                return self.m.halt("compensation in a frame that makes circles ellipses");
+            };
+            self.m.go_beside(left, reversed, Some(entry))?;
         }
 
         match motion_last {

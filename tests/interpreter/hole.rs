@@ -29,6 +29,9 @@ impl Machine {
     /// The moves at one hole position, the tool standing over it: to R, in, out. Levels are in
     /// machine coordinates.
     pub fn hole(&mut self, hole: Hole, r: f64, z: f64, back: f64) -> Result<(), Halt> {
+        if self.beside.is_some() {
+            return self.halt("a cycle under cutter radius compensation");
+        }
         if z > r {
             return self.halt("the bottom lies above R");
         }

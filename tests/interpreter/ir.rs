@@ -336,7 +336,9 @@ impl Control {
 
     fn call(&mut self, name: &str, a: &[Token]) -> Result<Next, Halt> {
         match name {
-            "COMMENT" | "NO_EFFECT" | "BLANK" | "LABEL" | "STOP_CUTTER_RADIUS_COMPENSATION" => {}
+            "COMMENT" | "NO_EFFECT" | "BLANK" | "LABEL" => {}
+            "STOP_CUTTER_RADIUS_COMPENSATION" => self.m.go_on(),
+            "START_CUTTER_RADIUS_COMPENSATION" => self.compensate(a)?,
             "CLEAR_FRAME" if self.word(a)? != "chain" => {
                 match self.word(a)? {
                     "shift" => self.m.slots.origin = [0.0; 6],
@@ -462,6 +464,31 @@ impl Control {
             _ => return self.m.halt(format!("the function {name}")),
         }
         Ok(Next::On)
+    }
+
+    /// Side and radius: an entry, that of the tool's number, or that whose length is in force.
+    fn compensate(&mut self, a: &[Token]) -> Result<(), Halt> {
+        let (first, second, normal) = self.m.axes();
+        let Some(reversed) = self.chain().reverses(first, second, normal) else {
+            return self.m.halt("compensation in a frame that makes circles ellipses");
+        };
+        let (left, rest) = match a {
+            [Token::Name(side), Token::Sign(','), rest @ ..] if side == "left" || side == "right" => {
+                (side == "left", rest)
+            }
+            _ => return self.m.halt("compensation without its side"),
+        };
+        let entry = match rest {
+            [Token::Name(n)] if n == "tool" => Some(self.m.tool.unwrap_or(0)),
+            [Token::Name(n)] if n == "in-force" => match self.edge {
+                None => Some(self.m.entry),
+                Some((_, 0)) => Some(0),
+                Some((tool, 1)) => Some(tool.unwrap_or(0)),
+                Some(_) => None,
+            },
+            _ => Some(self.first(rest)? as u32),
+        };
+        self.m.go_beside(left, reversed, entry)
     }
 
     fn procedure(&mut self, a: &[Token]) -> Result<Next, Halt> {

@@ -122,7 +122,7 @@ const GROUPS: [&[u32]; 13] = [
     &[40, 100, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
-    &[400],
+    &[400, 410, 420],
     &[430, 490],
     &[540, 550, 560, 570, 580, 590, 591, 592, 593],
     &[610, 611, 640],
@@ -285,6 +285,16 @@ impl Control {
         // Modes.
         self.m.plane = of(GROUPS[2]).map_or(self.m.plane, |code| code / 10);
         self.m.inch = of(GROUPS[3]).map_or(self.m.inch, |code| code == 200);
+        match (of(GROUPS[4]), words.get('D')) {
+            (Some(400), None) => self.m.go_on(),
+            (Some(code), entry) if code != 400 => {
+                // Without D the tool in the spindle.
+                let entry = entry.map_or(self.m.tool, |entry| Some(entry as u32));
+                self.m.go_beside(code == 410, false, Some(entry.unwrap_or(0)))?;
+            }
+            (None, None) => {}
+            _ => return self.m.halt("D without G41"),
+        }
         match (of(GROUPS[5]), words.get('H')) {
             (Some(430), Some(entry)) => self.m.use_length(entry as u32),
             (Some(430), None) => match self.m.tool {
@@ -437,7 +447,8 @@ impl Control {
                 'P' => once == Some(40) || control || path,
                 'L' => control,
                 'Q' => path,
-                'R' | 'I' | 'J' | 'K' | 'D' => false,
+                'D' => words.codes('G').iter().any(|code| matches!(code, 410 | 420)),
+                'R' | 'I' | 'J' | 'K' => false,
                 _ => true,
             };
             if !used {

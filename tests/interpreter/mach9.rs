@@ -56,13 +56,14 @@ impl Control {
             Some(90) => self.m.absolute = true,
             Some(91) => self.m.absolute = false,
             // G99 drops an origin that only G92 can set; G66 stands without effect in the case
-            // study; G40 ends a compensation that only G41 and G42 can begin.
+            // study.
             Some(99) => {
                 let shifted = self.m.slots.origin.map(|v| v != 0.0);
                 self.m.slots.origin = [0.0; 6];
                 self.m.use_slots(shifted);
             }
-            Some(66 | 40) => {}
+            Some(40) => self.m.go_on(),
+            Some(66) => {}
             _ => {}
         }
         let unit = if self.m.inch { 25.4 } else { 1.0 };
@@ -86,6 +87,11 @@ impl Control {
         }
         if let Some(entry) = value(&words, 'O') {
             self.m.use_length(entry as u32);
+        }
+        if let Some(code @ (41 | 42)) = g {
+            // The radius goes with the corrector, an open question of the notes.
+            let entry = Some(self.m.entry);
+            self.m.go_beside(code == 41, false, entry)?;
         }
         match g {
             Some(4) => {
@@ -115,7 +121,9 @@ impl Control {
                 self.motion = g;
                 self.go(&words, unit)?;
             }
-            Some(17 | 18 | 19 | 40 | 66 | 70 | 71 | 90 | 91 | 99) | None => self.go(&words, unit)?,
+            Some(17 | 18 | 19 | 40 | 41 | 42 | 66 | 70 | 71 | 90 | 91 | 99) | None => {
+                self.go(&words, unit)?
+            }
             Some(other) => return self.m.halt(format!("G{other}")),
         }
         match m {

@@ -7,6 +7,7 @@
 //!
 //! Not here: speed, good messages, anything beyond the scope of the corpus.
 
+mod beside;
 pub mod canon;
 pub mod fanuc;
 mod hole;
@@ -18,6 +19,7 @@ pub mod siemens;
 mod slots;
 mod stored;
 
+pub use beside::Beside;
 pub use hole::Hole;
 pub use setup::{PowerOn, Setup};
 use siemens::frame::Frame;
@@ -134,6 +136,8 @@ pub struct Event {
     pub tool: Option<u32>,
     /// Flood and mist.
     pub coolant: (bool, bool),
+    /// Beside which side of the contour the tool goes.
+    pub beside: Option<Beside>,
 }
 
 /// Why a program was not run to its end.
@@ -190,6 +194,10 @@ pub struct Machine {
     pub selected: Option<u32>,
     /// Flood and mist.
     pub coolant: (bool, bool),
+    /// Cutter radius compensation.
+    pub beside: Option<Beside>,
+    /// Whether its first move, or the one that leaves it, is still to come.
+    pub lead: bool,
     /// Line of the text.
     pub line: usize,
     /// What happened so far.
@@ -222,6 +230,8 @@ impl Machine {
             tool: None,
             selected: None,
             coolant: (false, false),
+            beside: None,
+            lead: false,
             line: 0,
             events: Vec::new(),
         }
@@ -354,11 +364,13 @@ impl Machine {
             spindle: self.spindle,
             tool: self.tool,
             coolant: self.coolant,
+            beside: self.beside,
         });
     }
 
     /// Rapid.
     pub fn traverse(&mut self, to: Place) {
+        self.lead_straight(to);
         self.at = to;
         self.record(What::Traverse);
     }
@@ -368,6 +380,7 @@ impl Machine {
         if self.feed.is_none() {
             return self.halt("a move at feed and no F");
         }
+        self.lead_straight(to);
         self.at = to;
         self.record(What::Feed);
         Ok(())
@@ -390,6 +403,7 @@ impl Machine {
         if self.feed.is_none() {
             return self.halt("a move at feed and no F");
         }
+        self.lead_arc()?;
         let (first, second, normal) = self.axes();
         let (a0, b0) = (self.at[first] - centre.0, self.at[second] - centre.1);
         let (a1, b1) = (to[first] - centre.0, to[second] - centre.1);
@@ -511,6 +525,9 @@ impl Machine {
 
     /// The tool change.
     pub fn change_tool(&mut self) -> Result<(), Halt> {
+        if self.beside.is_some() {
+            return self.halt("a tool change under cutter radius compensation");
+        }
         let Some(tool) = self.selected else { return self.halt("a tool change and no tool selected") };
         self.tool = Some(tool);
         self.record(What::Tool(tool));

@@ -2,7 +2,7 @@
 //!
 //! What it takes for granted of the machine: M6 changes and takes edge 1 with it; a tool's length
 //! lies along Z in every plane; the plain slash is the first skip level; F stays in millimetres under
-//! G70. Not here: variables and expressions, cutter compensation, rounded corners, frames about other
+//! G70. Not here: variables and expressions, rounded corners, frames about other
 //! axes than the plane's, patterns out of G17.
 
 pub(super) mod arcs;
@@ -549,6 +549,7 @@ impl<'a> Control<'a> {
         // In whichever order they stand, the spindle is told from the coolant by what it does first.
         let mut m_codes = m_codes;
         m_codes.sort_by_key(|code| !matches!(code, 3 | 4));
+        self.compensate(w)?;
         for code in &m_codes {
             match code {
                 3 => self.m.turn(Spindle::Clockwise),
@@ -626,8 +627,12 @@ impl<'a> Control<'a> {
                     self.m.plane = code;
                     group(6)
                 }
-                // Nothing that it ends can have begun.
-                40 => group(7),
+                40 => {
+                    self.m.go_on();
+                    group(7)
+                }
+                // By the radius of the edge, when the block's D and T are known.
+                41 | 42 => group(7),
                 93..=95 => {
                     self.m.count_feed([Per::Move, Per::Minute, Per::Turn][code as usize - 93]);
                     group(15)

@@ -72,7 +72,17 @@ fn read(path: &PathBuf) -> Cited {
             other => panic!("{name}: {other}"),
         };
         let (per, corner) = (Per::Minute, Corner::Unsaid);
-        moves.push(Plain { what, at, feed, per, corner, tool: None, speed: 0.0, coolant: (false, false) });
+        moves.push(Plain {
+            what,
+            at,
+            feed,
+            per,
+            corner,
+            tool: None,
+            speed: 0.0,
+            coolant: (false, false),
+            beside: None,
+        });
     }
     let place = if page.fact("digits") == Some("3") { 0.0005001 } else { 1e-6 };
     Cited {

@@ -128,7 +128,7 @@ const STOPS: &[(&str, &str)] = &[
     ("ROT RPL=10\nG18 G2 X10 I5 F100", "out of its plane"),
     ("G0 G1 X5", "two codes"),
     ("X5 X6", "twice"),
-    ("G41 X5", "G41"),
+    ("G41 X5", "no radius"),
     ("G96", "G96"),
     ("G0 X=R1", "no number"),
     ("R1=5", "R1"),

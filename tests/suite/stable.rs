@@ -231,7 +231,8 @@ fn structure(program: &Program) -> [i64; 2] {
 }
 
 /// Whether an output's structure changed as the source's did not; or a cycle came or went whose holes are
-/// written out, or a mode whose words say themselves what they are; or frames took another form.
+/// written out, or every position under one a call of its own, or a mode whose words say themselves what they
+/// are; or frames took another form.
 fn another_form(sources: [&Program; 2], outputs: [&Program; 2], qualified: bool) -> bool {
     let ([old, new], [was, is]) = (sources.map(structure), outputs.map(structure));
     let count = |program: &Program, of: fn(&Op) -> bool| {
@@ -242,7 +243,9 @@ fn another_form(sources: [&Program; 2], outputs: [&Program; 2], qualified: bool)
     let written_out = (was[1], is[1]) == (0, 0) && starts_old != starts_new;
     let by_words = qualified && modes_old != modes_new;
     let changed = (0..2).any(|at| (was[at], is[at]) != (0, 0) && is[at] - was[at] != new[at] - old[at]);
-    changed || written_out || by_words || frames_in_another_form(sources, outputs)
+    // Under a modal cycle, positions reached at feed are moves, each with a call of its own.
+    let calls_apart = starts_old.abs_diff(starts_new) > 1;
+    changed || written_out || calls_apart || by_words || frames_in_another_form(sources, outputs)
 }
 
 /// How a line names places.
@@ -282,7 +285,15 @@ fn required(old: &Meaning, new: &Meaning, flat: bool, text: &Program) -> usize {
 /// How many lines changed events and changed statements are: a statement is told by its own events.
 fn lines_of(events: &[usize], all: &[Event], said: &[usize], places: &[Span]) -> usize {
     let told = |at: &usize| events.iter().any(|e| all[*e].span == places[*at]);
-    events.len() + said.iter().filter(|at| !told(at)).count()
+    // A cycle that stops the spindle between its own moves, written out, says so in a line.
+    let switches = |at: &&usize| match all[..=**at] {
+        [.., ref before, ref event] => {
+            before.span == event.span && before.state.spindle != event.state.spindle
+        }
+        _ => false,
+    };
+    let switched = events.iter().filter(switches).count();
+    events.len() + switched + said.iter().filter(|at| !told(at)).count()
 }
 
 /// A line for each event, by what it changes.

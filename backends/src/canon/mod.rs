@@ -13,12 +13,12 @@ pub(crate) mod text;
 
 use ncc_dialects::{Quantity, Settings};
 use ncc_ir::canon::{
-    AXES, Axis, Distance, FeedMode, Modes, Motion, PathMode, Plane, SpindleMode, Turn, Units,
+    AXES, Axis, Distance, FeedMode, Modes, Motion, PathMode, Plane, Side, SpindleMode, Turn, Units,
 };
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Nanos, Unit};
-use ncc_ir::program::{Arc, Centre, CentreFrom, FrameSlot, Op, Point, Procedure, Stmt};
+use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Op, Point, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -261,6 +261,18 @@ impl Writer {
                     self.value(within, "tolerance", s.span, out, diags).map_err(here)?;
                 }
             }
+            Op::StartCutterRadiusCompensation { side, radius: CutterRadius::Entry(entry) } => {
+                let fault = Fault::EntryFactNeeded { fact: ModeName::Plane };
+                let plane = self.at.modes.plane.ok_or_else(|| here(fault))?;
+                let entry = arguments::count(entry, s.op.name()).map_err(here)?;
+                self.use_plane(plane, out);
+                self.open(s, out);
+                out.extend_from_slice(match side {
+                    Side::Left => b"CANON_SIDE_LEFT, ",
+                    Side::Right => b"CANON_SIDE_RIGHT, ",
+                });
+                whole(entry, out);
+            }
             Op::SetSpindleMode(mode) => {
                 self.open(s, out);
                 out.extend_from_slice(match mode {
@@ -319,7 +331,8 @@ impl Writer {
             | Op::OptionalProgramStop
             | Op::ProgramEnd => self.open(s, out),
 
-            Op::ClearFrame(_)
+            Op::StartCutterRadiusCompensation { .. }
+            | Op::ClearFrame(_)
             | Op::SetFrame(_)
             | Op::Advise(_)
             | Op::SetSlot(_)
@@ -430,6 +443,16 @@ impl Writer {
         self.offset_waits &= to.get(Axis::Z).is_none() || s.skip.is_some();
     }
 
+    /// Says the plane, if another one is in force.
+    fn use_plane(&mut self, plane: Plane, out: &mut Vec<u8>) {
+        if self.plane != Some(plane) {
+            out.extend_from_slice(b"SELECT_PLANE(");
+            out.extend_from_slice(arguments::plane(plane));
+            self.close(out);
+            self.plane = Some(plane);
+        }
+    }
+
     /// An arc: end, centre, rotation, end along the normal, rotary axes.
     fn arc(
         &mut self,
@@ -446,12 +469,7 @@ impl Writer {
         {
             self.use_units(n.unit, out);
         }
-        if self.plane != Some(plane) {
-            out.extend_from_slice(b"SELECT_PLANE(");
-            out.extend_from_slice(arguments::plane(plane));
-            self.close(out);
-            self.plane = Some(plane);
-        }
+        self.use_plane(plane, out);
         self.open(s, out);
         self.axis(first, &arc.to, s, out, diags)?;
         out.extend_from_slice(b", ");

@@ -118,7 +118,7 @@ fn rank(op: &Op) -> u8 {
         Op::Dwell(_) => 10,
         Op::SelectPlane(_) => 11,
         Op::UseLengthUnits(_) => 12,
-        Op::StopCutterRadiusCompensation => 13,
+        Op::StartCutterRadiusCompensation { .. } | Op::StopCutterRadiusCompensation => 13,
         Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => 14,
         Op::SetOriginOffsets(_) => 15,
         Op::SetMotionControlMode(_) => 16,
@@ -342,6 +342,7 @@ impl Printer<'_> {
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::SetData(_)
+            | Op::StartCutterRadiusCompensation { .. }
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
             | Op::Advise(_)

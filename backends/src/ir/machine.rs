@@ -1,7 +1,7 @@
 //! Statements of the `ir` text about points of the machine and values of the control's tables.
 
-use ncc_ir::canon::Axis;
-use ncc_ir::program::{Data, DataMode, Reference, ReferencePoint, ToolValue};
+use ncc_ir::canon::{Axis, Side};
+use ncc_ir::program::{CutterRadius, Data, DataMode, Reference, ReferencePoint, ToolValue};
 
 use super::expr::expr;
 use super::frame::words;
@@ -59,5 +59,16 @@ pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
             put(if *added { "added " } else { "" }, out);
             expr(value, out);
         }
+    }
+}
+
+/// Side and radius of cutter radius compensation.
+pub(super) fn compensation(side: Side, radius: &CutterRadius, out: &mut Vec<u8>) {
+    put(side.name(), out);
+    put(", ", out);
+    match radius {
+        CutterRadius::Entry(entry) => expr(entry, out),
+        CutterRadius::Tool => put("tool", out),
+        CutterRadius::InForce => put("in-force", out),
     }
 }

@@ -45,6 +45,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetData(_)
         | Op::SetPole(_)
         | Op::RepeatBlocks(_)
+        | Op::StartCutterRadiusCompensation { .. }
         | Op::StopCutterRadiusCompensation
         | Op::SetMotionControlMode(_)
         | Op::ExactStop
@@ -117,6 +118,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::ClearFrame(s) => put(slot(*s), out),
         Op::SetFrame(f) => frame(f, out),
         Op::SetSlot(s) => filled(s, out),
+        Op::StartCutterRadiusCompensation { side, radius } => machine::compensation(*side, radius, out),
         Op::SetPosition(words) => axis_words(&words[..], "", out),
         Op::UseToolEdge { edge: e, .. }
         | Op::SetFeedRate(e)

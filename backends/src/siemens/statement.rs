@@ -41,6 +41,7 @@ impl Writer {
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
             | Op::SetOriginOffsets(_)
+            | Op::StartCutterRadiusCompensation { .. }
             | Op::StopCutterRadiusCompensation
             | Op::ExactStop
             | Op::SetSpindleMode(_)

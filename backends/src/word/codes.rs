@@ -4,7 +4,7 @@
 //! its meaning and checked by its number. Not here: when a word is written.
 
 use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
-use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, Turn, Units};
 use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint, ToolValue};
 
 use super::number::Format;
@@ -154,6 +154,12 @@ pub(crate) struct Codes {
     /// What fills the slots of the coordinate chain.
     pub frames: FrameCodes,
     pub no_compensation: Option<Code>,
+    /// To the left, to the right.
+    pub compensation: [Option<Code>; 2],
+    /// Entry of the table that has the radius.
+    pub radius_entry: Option<Letter>,
+    /// Whether compensation is by the tool's own entry where none is named.
+    pub own_radius: bool,
     /// Machine coordinates without the tool's length, and with it.
     pub machine: [Option<Code>; 2],
     /// To points of the machine, with the letter that names a further one.
@@ -425,6 +431,9 @@ impl Codes {
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
             frames: find.frames(),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
+            compensation: [Side::Left, Side::Right].map(|s| code(Meaning::StartCutterRadiusCompensation(s))),
+            radius_entry: find.role(Role::RadiusEntry),
+            own_radius: dialect.caps.radii.tool,
             machine: [false, true].map(|length| {
                 let either = [false, true].into_iter();
                 either.filter_map(|rapid| code(Meaning::UseMachineCoordinates { length, rapid })).next()

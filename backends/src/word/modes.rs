@@ -56,6 +56,7 @@ impl Setting {
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::SetData(_)
+            | Op::StartCutterRadiusCompensation { .. }
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

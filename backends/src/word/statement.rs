@@ -1,9 +1,10 @@
 //! One statement: which words say it, and where they stand in the block.
 
 use ncc_dialects::Meaning;
+use ncc_ir::canon::Side;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Advice, Call, FrameSlot, Op, PathControl, Stmt};
+use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -48,6 +49,9 @@ impl Writer {
                 Some(setting) => self.write_setting(setting, sink),
                 None => Err(cannot("clearing this frame")),
             },
+            Op::StartCutterRadiusCompensation { side, radius } => {
+                self.compensation(*side, radius, span, sink)
+            }
             Op::SetMotionControlMode(control) => self.path_control(control, sink),
             Op::ExactStop => {
                 let code = codes.exact_stop.ok_or_else(|| cannot("an exact stop of one move"))?;
@@ -202,6 +206,36 @@ impl Writer {
         let code = code.ok_or_else(|| cannot(format!("corners by {}", control.mode.name())))?;
         self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
         self.block.code(Part::Mode, &code);
+        Ok(())
+    }
+
+    /// Cutter radius compensation: the code of its side, and the entry that has the radius.
+    fn compensation(
+        &mut self,
+        side: Side,
+        radius: &CutterRadius,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let code = self.codes.compensation[side as usize];
+        let code = code.ok_or_else(|| cannot("cutter radius compensation"))?;
+        let entry = match (radius, self.codes.radius_entry) {
+            (CutterRadius::Entry(entry), Some(letter)) => {
+                Some((letter, self.value(&letter, entry, span, sink)?))
+            }
+            (CutterRadius::Tool, Some(_)) if self.codes.own_radius => None,
+            (CutterRadius::InForce, None) => None,
+            (CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce, _) => {
+                return Err(cannot("compensation by this radius"));
+            }
+        };
+        let need = Need::new(Rank::Offset).code(Some(code));
+        let need = entry.map_or(need, |(letter, _)| need.letter(letter.letter));
+        self.admit(&need, sink)?;
+        self.block.code(Part::Offset, &code);
+        if let Some((letter, value)) = entry {
+            self.block.word(Part::Offset, letter.letter, value);
+        }
         Ok(())
     }
 

@@ -230,6 +230,16 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             points.iter().map(said).collect()
         }
         Meaning::SetData => Vec::new(),
+        Meaning::StartCutterRadiusCompensation(side) => {
+            let radii = &d.caps.radii;
+            let ways = [("7", radii.entry), ("tool", radii.tool), ("in-force", radii.in_force)];
+            let ways = ways.into_iter().filter(|(_, can)| *can);
+            ways.map(|(radius, _)| {
+                let start = format!("START_CUTTER_RADIUS_COMPENSATION({}, {radius})", side.name());
+                Said::new(format!("{start} & said STRAIGHT_TRAVERSE(X 10mm)"))
+            })
+            .collect()
+        }
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
         Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),
         Meaning::CancelToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(0)"),

@@ -117,5 +117,15 @@ fn take(event: &Event, into: &mut DefaultHasher) {
     }
     (end, rate, inch).hash(into);
     (state.tool, state.speed, state.spindle, state.flood, state.mist).hash(into);
-    (state.advice, state.limit, state.within, state.spindle_mode, state.feed_mode, state.path).hash(into);
+    (state.compensation.side, state.compensation.radius, state.compensation.gap).hash(into);
+    (
+        state.compensation.plane,
+        state.advice,
+        state.limit,
+        state.within,
+        state.spindle_mode,
+        state.feed_mode,
+        state.path,
+    )
+        .hash(into);
 }

@@ -80,6 +80,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),
         Fault::AssumedPath { .. } => own("compare corners on the machine with what the program wants"),
         Fault::PathRelaxed { .. } => own("check corners and their tolerance on the machine"),
+        Fault::AssumedContourEnds => {
+            own("look at the way onto the contour and off it on the machine, and at the radius in its table")
+        }
         Fault::AssumedEdge { .. } => {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }

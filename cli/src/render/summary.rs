@@ -191,6 +191,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedOffsetWithZ
         | Fault::AssumedRow { .. }
         | Fault::AssumedHoleOrder { .. }
+        | Fault::AssumedContourEnds
         | Fault::AssumedEdge { .. }
         | Fault::AssumedPath { .. }
         | Fault::AssumedParameter { .. } => {

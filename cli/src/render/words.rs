@@ -165,6 +165,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("corners taken by {} assumed", plain(path)),
             format!("{to} has no word for it, and is taken to do it always"),
         ),
+        Fault::AssumedContourEnds => (
+            "cutter radius compensation: the same way onto the contour and off it assumed".into(),
+            "each control has a way of its own; the contour between is the same".into(),
+        ),
         Fault::AssumedEdge { tool } => (
             format!("edge 1 of tool {tool} = entry {tool} of the length table assumed"),
             "one control has lengths by edge, the other by entry".into(),

@@ -1,11 +1,11 @@
 //! From a call to a statement: names, numbers of arguments, what each argument is.
 
-use ncc_ir::canon::{Axis, Fact, FeedMode, PathMode, Plane, SpindleMode, Turn, Units};
+use ncc_ir::canon::{Axis, Fact, FeedMode, PathMode, Plane, Side, SpindleMode, Turn, Units};
 use ncc_ir::cycle::absolute;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Arc, Centre, CentreFrom, FrameSlot, Move, Op, PathControl, Point, Text};
+use ncc_ir::program::{Arc, Centre, CentreFrom, CutterRadius, FrameSlot, Move, Op, PathControl, Point, Text};
 
 use super::lexer::Argument;
 use super::{Call, Placed, Selected, State};
@@ -198,6 +198,11 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
         "MESSAGE" => Op::Message(args.text()?),
         "MACHINE_FUNCTION" => Op::MachineFunction(args.text()?),
         "CLEAR_ORIGIN_SHIFT" => Op::ClearFrame(FrameSlot::Shift),
+        "START_CUTTER_RADIUS_COMPENSATION" => Op::StartCutterRadiusCompensation {
+            side: args
+                .one_of("side", &[("CANON_SIDE_LEFT", Side::Left), ("CANON_SIDE_RIGHT", Side::Right)])?,
+            radius: CutterRadius::Entry(Expr::int(args.count("entry")?.is)),
+        },
         "STOP_CUTTER_RADIUS_COMPENSATION" => Op::StopCutterRadiusCompensation,
         "START_SPINDLE_CLOCKWISE" => Op::StartSpindleClockwise,
         "START_SPINDLE_COUNTERCLOCKWISE" => Op::StartSpindleCounterclockwise,

@@ -9,6 +9,7 @@
 //! SET_ORIGIN_OFFSETS(n)  CLEAR_ORIGIN_SHIFT()      ours: number of the work offset; no shift
 //! SET_FEED_RATE(f)  SET_SPINDLE_SPEED(s)  SELECT_TOOL(n)  CHANGE_TOOL(n)  DWELL(seconds)
 //! USE_TOOL_LENGTH_OFFSET(n)                        ours: entry of the length table, 0 for none
+//! START_CUTTER_RADIUS_COMPENSATION(CANON_SIDE_LEFT | CANON_SIDE_RIGHT, entry)     entry of the table
 //! STOP_CUTTER_RADIUS_COMPENSATION()
 //! START_SPINDLE_CLOCKWISE()  START_SPINDLE_COUNTERCLOCKWISE()  STOP_SPINDLE_TURNING()
 //! MACHINE_FUNCTION("name")                        ours: what no dialect has a word for
@@ -172,6 +173,7 @@ impl State {
             | Op::Blank
             | Op::SetDistanceMode(_)
             | Op::SetReturnLevel(_)
+            | Op::StartCutterRadiusCompensation { .. }
             | Op::StopCutterRadiusCompensation
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)

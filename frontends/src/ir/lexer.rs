@@ -226,6 +226,16 @@ pub(crate) enum Token {
     PolarMove,
     #[token("pole")]
     Pole,
+    #[token("START_CUTTER_RADIUS_COMPENSATION")]
+    StartCompensation,
+    #[token("left")]
+    Left,
+    #[token("right")]
+    Right,
+    #[token("tool")]
+    Tool,
+    #[token("in-force")]
+    InForce,
     #[token("USE_TOOL_EDGE")]
     UseToolEdge,
     #[token("USE_MACHINE_COORDINATES")]

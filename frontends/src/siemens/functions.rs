@@ -8,7 +8,7 @@ use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
-use ncc_ir::program::{Op, PathControl};
+use ncc_ir::program::{CutterRadius, Op, PathControl};
 use ncc_ir::source::Span;
 
 use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
@@ -103,6 +103,10 @@ impl Lower {
                 Meaning::MachineFunction(name) => Op::MachineFunction(name.into()),
                 Meaning::FloodOn => Op::FloodOn,
                 Meaning::MistOn => Op::MistOn,
+                // By the radius of the edge in force.
+                Meaning::StartCutterRadiusCompensation(side) => {
+                    Op::StartCutterRadiusCompensation { side, radius: CutterRadius::InForce }
+                }
                 _ => continue,
             };
             self.push(code.span, op, out);

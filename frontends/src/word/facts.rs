@@ -122,6 +122,10 @@ pub(super) struct State {
     pub(super) level_open: bool,
     /// A feed that was said in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
+    /// The entry of the table of radii that was named last.
+    pub(super) radius_entry: Know<Num>,
+    /// Whether cutter radius compensation is on.
+    pub(super) compensated: Know<bool>,
 }
 
 impl State {
@@ -150,6 +154,8 @@ impl State {
             unplaced: 0,
             level_open: false,
             cycle_feed: None,
+            radius_entry: Know::Lost,
+            compensated: Know::Lost,
         }
     }
 
@@ -186,6 +192,8 @@ impl State {
             self.cycle = InForce::Lost;
         }
         self.cycle_feed = self.cycle_feed.or(before.cycle_feed);
+        self.radius_entry.join(before.radius_entry);
+        self.compensated.join(before.compensated);
     }
 }
 

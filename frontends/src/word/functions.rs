@@ -91,6 +91,8 @@ impl Lower {
         }
         self.now.skip = if block.tail.is_some() { None } else { level };
         self.corrector(words, src, out);
+        // The length is in force by now whose radius may be meant.
+        self.compensation(codes, words, src, out);
         self.motion_codes(motion, dwell, block.span, words, src, out);
         for code in after {
             self.skip_in_tail(block, code, level);
@@ -131,6 +133,8 @@ impl Lower {
             Meaning::StraightTraverse => self.set_motion(Motion::Traverse),
             Meaning::StraightFeed => self.set_motion(Motion::Feed),
             Meaning::ArcFeed(turn) => self.set_motion(Motion::Arc(turn)),
+            Meaning::StartCutterRadiusCompensation(_) => self.state.compensated = Know::Said(true),
+            Meaning::StopCutterRadiusCompensation => self.state.compensated = Know::Said(false),
             Meaning::EndCycle => {
                 self.state.cycle = InForce::None;
                 self.state.no_motion |= self.settings.dialect.cycles.ends_motion;

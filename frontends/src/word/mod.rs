@@ -13,6 +13,7 @@
 
 pub(crate) mod block;
 mod call;
+mod compensation;
 mod cycle;
 mod data;
 pub(crate) mod facts;

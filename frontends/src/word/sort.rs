@@ -21,6 +21,7 @@ pub(super) struct Roles {
     pub(super) tool: u8,
     pub(super) length_entry: u8,
     pub(super) corrector: u8,
+    pub(super) radius_entry: u8,
     pub(super) radius: u8,
     pub(super) centre: [u8; 3],
     /// Letters of axes, a bit each.
@@ -43,6 +44,7 @@ impl Roles {
             tool: letter(Role::Tool),
             length_entry: letter(Role::LengthEntry),
             corrector: letter(Role::Corrector),
+            radius_entry: letter(Role::RadiusEntry),
             radius: letter(Role::Radius),
             centre: [letter(Role::CentreX), letter(Role::CentreY), letter(Role::CentreZ)],
             axes: axes.clone().fold(0, bits),
@@ -257,6 +259,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
         Meaning::SetData => 15,
         Meaning::OrientSpindle => 16,
+        Meaning::StartCutterRadiusCompensation(_) => 18,
         Meaning::ExactStop => 17,
         Meaning::EndCycle => RANK_MOTION,
         Meaning::UseMachineCoordinates { .. }

@@ -1,7 +1,7 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
-use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Turn};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, References};
+use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Side, Turn};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, Radii, References};
 use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
 
 use crate::meaning::Meaning;
@@ -163,6 +163,17 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         tool_names: everything
             || dialect.family == Family::Canon
             || dialect.address.iter().any(|row| row.role == crate::Role::Tool && row.named),
+        radii: match (everything, says(Meaning::StartCutterRadiusCompensation(Side::Left))) {
+            (true, _) => Radii::ALL,
+            (false, false) => Radii { entry: dialect.can.flat, ..Radii::default() },
+            (false, true) => {
+                let entry = dialect.letter_for(crate::Role::RadiusEntry).is_some();
+                let by_tool = |row: &crate::schema::CodeRow| {
+                    row.own_tool && matches!(row.means, Some(Meaning::StartCutterRadiusCompensation(_)))
+                };
+                Radii { entry, tool: dialect.code.iter().any(by_tool), in_force: !entry }
+            }
+        },
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
         return_planes: either(states),
         arc_forms: everything || names(NameMeaning::ArcThrough),

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
+use ncc_ir::canon::{
+    AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
+};
 use ncc_ir::program::{CentreFrom, FrameSlot, PoleFrom, ReferencePoint};
 use serde::{Deserialize, Deserializer};
 
@@ -56,6 +58,8 @@ pub enum Meaning {
     /// From here on, the words of the plane's axes are radius and angle about program zero (`true`), or
     /// coordinates again. No statement: points carry it.
     PolarWords(bool),
+    /// By the radius of the entry that a word names, or that the dialect has in force.
+    StartCutterRadiusCompensation(Side),
     StopCutterRadiusCompensation,
     SetMotionControlMode(PathMode),
     ExactStop,
@@ -159,6 +163,8 @@ impl fmt::Display for Meaning {
             Meaning::SetPole(PoleFrom::Pole) => "SET_POLE pole",
             Meaning::PolarWords(true) => "POLAR on",
             Meaning::PolarWords(false) => "POLAR off",
+            Meaning::StartCutterRadiusCompensation(Side::Left) => "START_CUTTER_RADIUS_COMPENSATION left",
+            Meaning::StartCutterRadiusCompensation(Side::Right) => "START_CUTTER_RADIUS_COMPENSATION right",
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::SetMotionControlMode(mode) => {
                 return write!(f, "SET_MOTION_CONTROL_MODE {}", mode.name());
@@ -269,6 +275,12 @@ impl FromStr for Meaning {
             ("SET_POLE", "pole") => Meaning::SetPole(PoleFrom::Pole),
             ("POLAR", "on") => Meaning::PolarWords(true),
             ("POLAR", "off") => Meaning::PolarWords(false),
+            ("START_CUTTER_RADIUS_COMPENSATION", "left") => {
+                Meaning::StartCutterRadiusCompensation(Side::Left)
+            }
+            ("START_CUTTER_RADIUS_COMPENSATION", "right") => {
+                Meaning::StartCutterRadiusCompensation(Side::Right)
+            }
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(
                 PathMode::named(mode).ok_or_else(|| format!("no way of taking corners: {text}"))?,

@@ -520,7 +520,7 @@ pub struct CodeRow {
     /// it is hardly written for one of these.
     #[serde(default)]
     pub other_machine: bool,
-    /// Whether a length offset without its word is that of the tool in the spindle.
+    /// Whether a length offset, or a radius, without its word is that of the tool in the spindle.
     #[serde(default)]
     pub own_tool: bool,
     /// Whether a code of units leaves the feed in the machine's basic system.

@@ -1,10 +1,10 @@
-//! How a control conducts its moves: corners, exact stops, advice, what a speed counts and its limit;
-//! and when two controls are in one state.
+//! How a control conducts its moves: corners, exact stops, advice, what a speed counts and its limit,
+//! spindle and coolant; and when two controls are in one state.
 //!
 //! Not here: moves themselves.
 
-use super::{Event, Exec};
-use crate::canon::PathMode;
+use super::{Attribute, Event, Exec, Kind};
+use crate::canon::{PathMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::ONE;
@@ -73,6 +73,32 @@ impl Exec {
         done
     }
 
+    pub(super) fn turn_spindle(
+        &mut self,
+        to: Spindle,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        self.state.spindle = to;
+        let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };
+        self.tell(what, span, out)
+    }
+
+    pub(super) fn coolant(
+        &mut self,
+        flood: bool,
+        mist: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if (flood, mist) != (self.state.flood, self.state.mist) {
+            self.state.flood = flood;
+            self.state.mist = mist;
+            self.emit(Kind::Coolant, span, out)?;
+        }
+        Ok(())
+    }
+
     /// A length of the path mode or of advice; none is 0.
     fn length_within(&self, length: &Option<Expr>, span: Span) -> Result<i32, Diagnostic> {
         let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
@@ -96,6 +122,7 @@ impl Exec {
             && self.pole == other.pole
             && self.after_stop == other.after_stop
             && self.waiting == other.waiting
+            && self.contour == other.contour
             && self.feed == other.feed
             && self.selected == other.selected
             && self.state == other.state
@@ -118,6 +145,7 @@ impl Exec {
         self.pole = other.pole;
         self.after_stop = other.after_stop;
         self.waiting = other.waiting;
+        self.contour = other.contour;
         self.feed = other.feed;
         self.selected = other.selected;
         self.state = other.state;

@@ -1,5 +1,6 @@
 //! Events of the canonical stream.
 
+use super::Compensation;
 use crate::canon::{AXES, AdviceKind, FeedMode, PathMode, Plane, Spindle, SpindleMode, Turn};
 use crate::num::Nanos;
 use crate::program::{Text, ToolValue};
@@ -190,6 +191,8 @@ pub struct State {
     pub limit: u32,
     /// Lengths that belong to the path mode, to it in rapids, and to advice: tenths of a micrometre.
     pub within: [i32; 3],
+    /// Cutter radius compensation.
+    pub compensation: Compensation,
     /// Sense of the spindle.
     pub spindle: Spindle,
     /// What the speed counts.
@@ -212,6 +215,7 @@ impl Default for State {
             advice: 0,
             limit: u32::MAX,
             within: [0; 3],
+            compensation: Compensation::default(),
             spindle: Spindle::Stopped,
             spindle_mode: SpindleMode::Turns,
             feed_mode: FeedMode::PerMinute,
@@ -235,6 +239,7 @@ impl State {
             && self.flood == other.flood
             && self.mist == other.mist
             && self.path == other.path
+            && self.compensation == other.compensation
             && self.advice == other.advice
             && self.within == other.within
     }

@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod compensation;
 mod conduct;
 mod data;
 mod event;
@@ -16,6 +17,7 @@ mod run;
 mod slots;
 mod thread;
 
+pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored};
 pub(crate) use frame::Chain;
@@ -35,6 +37,7 @@ use crate::program::{Coord, Op, Point, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
 use arcs::Heading;
+use compensation::Contour;
 use holes::InForce;
 
 const Z: usize = Axis::Z as usize;
@@ -68,6 +71,8 @@ pub struct Exec {
     pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
+    /// The contour that the tool goes beside.
+    contour: Contour,
     feed: Nanos,
     selected: i64,
     state: State,
@@ -149,6 +154,7 @@ impl Exec {
             raw: None,
             pole: Pole::ZERO,
             waiting: None,
+            contour: Contour::default(),
             feed: 0,
             selected: -1,
             state: State {
@@ -462,6 +468,14 @@ impl Exec {
         if self.ended || stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1) {
             return Ok(());
         }
+        if self.contour.watched {
+            return self.step_on_contour(stmt, out);
+        }
+        self.step_plainly(stmt, out)
+    }
+
+    #[inline]
+    fn step_plainly(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         if self.after_stop.is_some() {
             return self.step_and_stop(stmt, out);
         }
@@ -535,7 +549,11 @@ impl Exec {
             | Op::Position(_)
             | Op::SetFeedRate(_) => {}
             Op::Comment(_) => self.tell(Attribute::Remark, span, out)?,
-            Op::NoEffect(_) | Op::Blank | Op::StopCutterRadiusCompensation => {}
+            Op::NoEffect(_) | Op::Blank | Op::Label(_) => {}
+            Op::StartCutterRadiusCompensation { side, radius } => {
+                self.start_compensation(*side, radius, span)?;
+            }
+            Op::StopCutterRadiusCompensation => self.stop_compensation(),
             Op::UseLengthUnits(units) => {
                 self.modes.inch = *units == Units::Inch;
                 self.said |= UNITS;
@@ -645,28 +663,6 @@ impl Exec {
             Op::Assign(..) => return self.not_executed("a variable", span),
             Op::Control(_) => return self.not_executed("control of the program's flow", span),
             Op::Goto(_) => return self.not_executed("a jump", span),
-            Op::Label(_) => {}
-        }
-        Ok(())
-    }
-
-    fn turn_spindle(&mut self, to: Spindle, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        self.state.spindle = to;
-        let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };
-        self.tell(what, span, out)
-    }
-
-    fn coolant(
-        &mut self,
-        flood: bool,
-        mist: bool,
-        span: Span,
-        out: &mut Vec<Event>,
-    ) -> Result<(), Diagnostic> {
-        if (flood, mist) != (self.state.flood, self.state.mist) {
-            self.state.flood = flood;
-            self.state.mist = mist;
-            self.emit(Kind::Coolant, span, out)?;
         }
         Ok(())
     }

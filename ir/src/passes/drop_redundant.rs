@@ -77,7 +77,11 @@ fn is_in_force(modes: &Modes, op: &Op) -> bool {
 
 /// Whether a rapid surely goes nowhere, and does nothing else either.
 fn goes_nowhere(walk: &Walk, m: &Move) -> bool {
-    let free = walk.at.cycle.is_none() && !walk.at.cycle_in_doubt && !walk.at.raw && !walk.waiting;
+    let free = !walk.at.compensated
+        && walk.at.cycle.is_none()
+        && !walk.at.cycle_in_doubt
+        && !walk.at.raw
+        && !walk.waiting;
     free && Axis::ALL.into_iter().all(|axis| m.to.get(axis).is_none() || stands(walk, m, axis))
 }
 
@@ -90,7 +94,8 @@ fn stands(walk: &Walk, m: &Move, axis: Axis) -> bool {
 /// Leaves words out for axes that stand there already; at least one stays.
 fn shorten(walk: &Walk, stmt: &mut Stmt) {
     let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = &mut stmt.op else { return };
-    if walk.at.raw {
+    // Under compensation a control looks at what the words name.
+    if walk.at.raw || walk.at.compensated {
         return;
     }
     let needed = |axis: &Axis| *axis == Axis::Z && walk.waiting;

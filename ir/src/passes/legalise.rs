@@ -8,13 +8,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::walk::Walk;
 use super::{
-    Target, absolute_holes, approach, arc_form, expand_calls, expand_cycles, expand_frames, expand_patterns,
-    expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
-    one_distance, one_move, origin_shift, path_control, polar_words, return_plane, skip_levels,
-    specialise_procedures, state_clearance, taps, tool_change, tool_edge, work_offset,
+    Target, absolute_holes, approach, arc_form, cutter_radius, expand_calls, expand_cycles, expand_frames,
+    expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names,
+    offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, return_plane,
+    skip_levels, specialise_procedures, state_clearance, taps, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes, ReturnLevel};
-use crate::caps::{Caps, CycleForm, PolarForm, References};
+use crate::caps::{Caps, CycleForm, PolarForm, Radii, References};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::exec::Seen;
 use crate::kinds::{conduct, miscellaneous, moves};
@@ -42,6 +42,7 @@ const MEASURE: u32 = 32768;
 const PATH: u32 = 1 << 16;
 const MOVE: u32 = 1 << 17;
 const POLAR: u32 = 1 << 18;
+const RADIUS: u32 = 1 << 19;
 
 /// Brings a program within a target's capabilities.
 #[derive(Clone, Debug)]
@@ -65,6 +66,7 @@ pub struct Legaliser {
     arcs: arc_form::State,
     feed: feed_unit::State,
     edge: tool_edge::State,
+    radius: cutter_radius::State,
     frames: expand_frames::State,
     taps: taps::State,
     machine: machine_moves::State,
@@ -101,6 +103,7 @@ impl Legaliser {
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
             edge: tool_edge::State::default(),
+            radius: cutter_radius::State::default(),
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
             machine: machine_moves::State::default(),
@@ -122,6 +125,12 @@ impl Legaliser {
     /// Numbers of programs that the target's machine has already, for others than this one's.
     pub fn set_program_numbers(&mut self, numbers: BTreeSet<u32>) {
         self.target.program_numbers = numbers;
+    }
+
+    /// The source is the program of another kind of control.
+    pub fn between_controls(&mut self) {
+        self.target.other_control = true;
+        self.lacks |= RADIUS;
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
@@ -193,12 +202,8 @@ impl Legaliser {
             found |= interest(stmt);
         }
         let mut needs = found & self.lacks;
-        if self.length.is_busy() {
-            needs |= LENGTH;
-        }
-        if self.cycles.is_busy() || self.taps.is_busy() {
-            needs |= CYCLE;
-        }
+        needs |= if self.length.is_busy() { LENGTH } else { 0 };
+        needs |= if self.cycles.is_busy() || self.taps.is_busy() { CYCLE } else { 0 };
         if self.target.caps.feed_again {
             let changes = |stmt: &Stmt| matches!(stmt.op, Op::UseLengthUnits(_));
             needs |= if self.feed.is_busy() || stmts.iter().any(changes) { MEASURE } else { 0 };
@@ -345,6 +350,9 @@ impl Legaliser {
         }
         if needs & (EDGE | TABLE) != 0 {
             tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
+        }
+        if needs & RADIUS != 0 {
+            cutter_radius::over(stmts, &mut start.clone(), &mut self.radius, &self.target, diags);
         }
         if needs & (ARC | MESSAGE | CALL | CONTROL | MACHINE) != 0 {
             self.check(stmts, &mut start.clone(), diags);
@@ -639,6 +647,7 @@ fn lacks(caps: &Caps) -> u32 {
     needs(CALL, caps.calls);
     needs(EDGE, caps.tool_edges != Some(false));
     needs(TABLE, caps.tool_edges != Some(true));
+    needs(RADIUS, caps.radii == Radii::ALL);
     needs(FRAME, caps.says_all_frames());
     let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
     let points =
@@ -677,6 +686,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::Message(_) => MESSAGE,
         conduct!() => PATH | MOVE,
         Op::SetFeedMode(_) => MOVE,
+        miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => RADIUS,
         Op::SelectTool(_)
         | Op::SelectToolByName(_)
         | Op::ProgramEnd

@@ -13,7 +13,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::{conduct, miscellaneous, modes, moves, polar};
 use crate::maps::{Maps, Numbered};
-use crate::program::{Control, Data, Op, Program, ProgramName, Stmt, Text};
+use crate::program::{Control, CutterRadius, Data, Op, Program, ProgramName, Stmt, Text};
 use crate::source::Span;
 
 /// What bears no number of tools, lengths, work offsets or programs.
@@ -79,6 +79,9 @@ impl Renumbering {
             Op::SelectTool(_) => self.maps.tools.is_some(),
             Op::SelectToolByName(name) => self.maps.tool_names.contains_key(name),
             Op::UseToolLengthOffset(_) => self.maps.entries.is_some(),
+            miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => {
+                self.maps.entries.is_some()
+            }
             Op::SetOriginOffsets(_) => self.maps.offsets.is_some(),
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => self.maps.offsets.is_some(),
@@ -126,6 +129,11 @@ impl Renumbering {
                     }
                 }
                 Op::UseToolLengthOffset(entry) if self.maps.entries.is_some() => {
+                    self.put_in(entry, Numbered::LengthEntry, at, diags);
+                }
+                Op::StartCutterRadiusCompensation { radius: CutterRadius::Entry(entry), .. }
+                    if self.maps.entries.is_some() =>
+                {
                     self.put_in(entry, Numbered::LengthEntry, at, diags);
                 }
                 Op::SetOriginOffsets(offset) => {

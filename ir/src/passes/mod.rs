@@ -12,6 +12,7 @@ pub mod convert_arcs;
 pub mod convert_circles;
 pub mod convert_distance;
 pub mod convert_units;
+pub mod cutter_radius;
 pub mod drop_redundant;
 pub mod expand_calls;
 pub mod expand_cycles;
@@ -86,6 +87,8 @@ pub struct Target {
     pub edge_entries: BTreeMap<u32, u32>,
     /// Numbers of programs that the machine has already: no subprogram is given one of them.
     pub program_numbers: BTreeSet<u32>,
+    /// Whether the source is the program of another kind of control.
+    pub other_control: bool,
 }
 
 impl Target {
@@ -159,6 +162,12 @@ pub const PASSES: &[Pass] = &[
         name: "tool-edge",
         about: "names tool lengths by edges of the tool or by entries of a table",
         run: tool_edge::run,
+    },
+    // Behind the lengths, which say what is in force.
+    Pass {
+        name: "cutter-radius",
+        about: "names the radius of cutter radius compensation as the target does",
+        run: cutter_radius::run,
     },
     // Before everything that looks at coordinates.
     Pass {

@@ -88,3 +88,16 @@ pub enum Data {
         value: Expr,
     },
 }
+
+/// By which radius a contour is compensated. None of them is a length: what stands in the control's
+/// tables is the operator's.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CutterRadius {
+    /// That of an entry of the table of tools; where lengths and radii have tables of their own, of the
+    /// table of radii.
+    Entry(Expr),
+    /// That of the entry with the number of the tool in the spindle.
+    Tool,
+    /// That of the edge, or of the entry, whose length is in force.
+    InForce,
+}

@@ -5,6 +5,25 @@ use super::text::{Mark, Value};
 use super::{AXES, Control, Motion, Words, arcs};
 
 impl<'a> Control<'a> {
+    /// G41 and G42: by the radius of the edge that the block, or one before it, has made active.
+    pub(super) fn compensate(&mut self, w: &Words) -> Result<(), Halt> {
+        let side = w.letters.iter().find_map(|(letter, value, _)| match (letter, value.number as u32) {
+            ('G', code @ (41 | 42)) => Some(code == 41),
+            _ => None,
+        });
+        let Some(left) = side else { return Ok(()) };
+        let (first, second, normal) = self.m.axes();
+        let Some(reversed) = self.chain().reverses(first, second, normal) else {
+            return self.m.halt("compensation in a frame that makes circles ellipses");
+        };
+        let entry = match self.edge {
+            0 => Some(0),
+            1 => Some(self.m.tool.unwrap_or(0)),
+            _ => None,
+        };
+        self.m.go_beside(left, reversed, entry)
+    }
+
     pub(super) fn go(&mut self, w: &Words<'a>, axes: &[usize]) -> Result<(), Halt> {
         let from = self.here();
         let mut to = from;

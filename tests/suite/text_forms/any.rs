@@ -343,6 +343,10 @@ fn pole() -> impl Strategy<Value = Op> {
         .prop_map(|(plane, from, at)| Op::SetPole(Box::new(SetPole { plane, from, at })))
 }
 
+fn radius() -> impl Strategy<Value = CutterRadius> {
+    prop_oneof![expr().prop_map(CutterRadius::Entry), select(vec![CutterRadius::Tool, CutterRadius::InForce]),]
+}
+
 /// A statement's operation that has no body.
 fn simple() -> BoxedStrategy<Op> {
     let bare = select(vec![
@@ -380,6 +384,8 @@ fn simple() -> BoxedStrategy<Op> {
         data().prop_map(|data| Op::SetData(Box::new(data))),
         reference().prop_map(|reference| Op::GoToReference(Box::new(reference))),
         (expr(), any::<bool>()).prop_map(|(edge, said)| Op::UseToolEdge { edge, said }),
+        (select(vec![Side::Left, Side::Right]), radius())
+            .prop_map(|(side, radius)| Op::StartCutterRadiusCompensation { side, radius }),
     ];
     let valued = prop_oneof![
         expr().prop_map(Op::SetFeedRate),

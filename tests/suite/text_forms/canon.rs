@@ -321,6 +321,10 @@ fn statement() -> impl Strategy<Value = Stmt> {
         1 => (0i64..99).prop_map(|n| Op::SelectTool(Expr::int(n))),
         1 => (0i64..99).prop_map(|n| Op::UseToolLengthOffset(Expr::int(n))),
         1 => (1u16..9).prop_map(Op::SetOriginOffsets),
+        1 => (any::<bool>(), 0i64..99).prop_map(|(left, entry)| Op::StartCutterRadiusCompensation {
+            side: if left { Side::Left } else { Side::Right },
+            radius: CutterRadius::Entry(Expr::int(entry)),
+        }),
         1 => any::text().prop_map(Op::Comment),
         1 => any::text().prop_map(Op::Message),
         2 => select(vec![

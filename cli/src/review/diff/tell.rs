@@ -237,6 +237,7 @@ fn kind(change: &Change) -> &'static str {
         Change::Spindle(..) => "spindle",
         Change::Tool(..) => "tool",
         Change::Coolant(..) => "coolant",
+        Change::Compensation(..) => "compensation",
         Change::WorkOffset(..) => "work-offset",
         Change::Length(..) => "length",
         Change::Frame => "frame",
@@ -259,6 +260,7 @@ fn values(change: &Change) -> Option<[String; 2]> {
         Change::Spindle(a, b) => [*a, *b].map(|s| spindle(s).to_owned()),
         Change::Tool(a, b) => [*a, *b].map(tool_name),
         Change::Coolant(a, b) => [*a, *b].map(|[flood, mist]| coolant(flood, mist).to_owned()),
+        Change::Compensation(a, b) => [a.words(), b.words()],
         Change::WorkOffset(a, b) => [a.to_string(), b.to_string()],
         Change::Length(a, b) => [length(a), length(b)],
         Change::Kind(a, b) => [*a, *b].map(|what| name(what).to_owned()),
@@ -302,6 +304,7 @@ fn changed(change: &Change) -> String {
         Change::Spindle(..) => arrow("spindle", change),
         Change::Tool(..) => arrow("tool", change),
         Change::Coolant(..) => arrow("coolant", change),
+        Change::Compensation(..) => arrow("cutter radius compensation", change),
         Change::WorkOffset(..) => arrow("work offset", change),
         Change::Length(..) => arrow("tool length", change),
         Change::Orient(..) => arrow("angle of the spindle", change),
@@ -366,6 +369,7 @@ fn title(group: &Group) -> String {
         | Change::Spindle(..)
         | Change::Tool(..)
         | Change::Coolant(..)
+        | Change::Compensation(..)
         | Change::WorkOffset(..)
         | Change::Length(..)
         | Change::Frame => format!("{what} on {}{}", extent(group), of_tool(group.tool)),
@@ -408,6 +412,7 @@ fn summary(groups: &[Group], differences: &[Difference], left_out: u64) -> Strin
         | Change::Spindle(..)
         | Change::Tool(..)
         | Change::Coolant(..)
+        | Change::Compensation(..)
         | Change::Orient(..)
         | Change::Dwell(..)
         | Change::Text => false,
@@ -481,7 +486,7 @@ fn summary(groups: &[Group], differences: &[Difference], left_out: u64) -> Strin
 /// Many differences, by their kind.
 fn classes(groups: &[Group]) -> Vec<String> {
     /// What is said of a kind, in the order in which it is said.
-    const KINDS: [(&str, &str); 15] = [
+    const KINDS: [(&str, &str); 16] = [
         ("shift", "a tail is shifted"),
         ("moved", "off"),
         ("gap", ""),
@@ -495,6 +500,7 @@ fn classes(groups: &[Group]) -> Vec<String> {
         ("speed", "another spindle speed"),
         ("spindle", "another sense of the spindle"),
         ("coolant", "other coolant"),
+        ("compensation", "other cutter radius compensation"),
         ("dwell", "another dwell"),
         ("text", "another text or function"),
     ];

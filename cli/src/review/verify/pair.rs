@@ -136,6 +136,8 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         worlds,
         starts,
         muted,
+        lines: job.from.dialect.can.flat || job.to.dialect.can.flat,
+        between_controls: job.between_controls(),
         unsaid: Unsaid::Only(found.shared),
         // What stands in inches on one side alone is compared as inches are.
         in_inches: in_inches[0],
@@ -280,6 +282,9 @@ struct Plan {
     worlds: Vec<[World; 2]>,
     starts: Vec<[Nanos; AXES]>,
     muted: bool,
+    /// One of the texts has no blocks; both are for controls of different kinds.
+    lines: bool,
+    between_controls: bool,
     unsaid: Unsaid,
     in_inches: bool,
     tolerance: Nanos,
@@ -299,6 +304,12 @@ impl Plan {
             }
             if self.muted {
                 exec.mute();
+            }
+            if self.lines {
+                exec.without_blocks();
+            }
+            if self.between_controls {
+                exec.between_controls();
             }
             exec
         };

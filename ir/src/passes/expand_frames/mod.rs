@@ -17,7 +17,7 @@ use super::frame_forms::{self, shifted};
 use super::walk::Walk;
 use super::write::{EXACT, Rebuild, exact, rebuild, unit_of};
 use super::{Target, arc_form, each_body};
-use crate::canon::{AXES, Axis, Distance, Fact, Plane};
+use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::{Chain, Frames as Slots, Present};
@@ -496,6 +496,19 @@ impl Frames<'_> {
             Op::GoToReference(reference) if !reference.via.is_empty() => {
                 let via = self.point(&reference.via)?;
                 Op::GoToReference(Box::new(Reference { via, ..(**reference).clone() }))
+            }
+            Op::StartCutterRadiusCompensation { side, radius } if self.set.chain != Chain::NONE => {
+                let plane =
+                    self.inner.at.modes.plane.ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
+                match self.set.chain.sense(plane, Turn::Clockwise) {
+                    Some(Turn::Clockwise) => return Ok(Vec::new()),
+                    Some(Turn::Counterclockwise) => {
+                        Op::StartCutterRadiusCompensation { side: side.other(), radius: radius.clone() }
+                    }
+                    None => {
+                        return Err(cannot("cutter radius compensation in a frame that does not leave arcs"));
+                    }
+                }
             }
             Op::SetData(data) if matches!(**data, Data::Offset { mode: DataMode::Here, .. }) => {
                 return Err(cannot("a work offset set by the position under a frame"));

@@ -1,0 +1,76 @@
+//! Lowering of cutter radius compensation: side, and the entry of the table that has the radius.
+//!
+//! Where a dialect has a word for the entry, it stands in the block or stays in force from an earlier
+//! one; where the code's row says so, it is the tool's own without that word, which then never stays.
+//! A dialect without such a word takes the radius that belongs to the length in force. Not here: what
+//! controls refuse under compensation; that is execution's.
+
+use ncc_dialects::Meaning;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{CutterRadius, Op};
+
+use super::Source;
+use super::facts::Know;
+use super::lower::Lower;
+use super::sort::{Code, Words};
+use crate::Batch;
+
+impl Lower {
+    /// Switches compensation on, and notes the entry that a word names.
+    pub(super) fn compensation(&mut self, codes: &[Code], words: &mut Words, src: Source, out: &mut Batch) {
+        let start = codes.iter().find_map(|code| match code.meaning {
+            Meaning::StartCutterRadiusCompensation(side) => Some((code, side)),
+            _ => None,
+        });
+        let letter = self.roles.radius_entry;
+        let Some((code, side)) = start else { return self.radius_alone(codes, words, src, out) };
+        self.set_mode(code.meaning, out);
+        let radius = match words.take(letter) {
+            Some(word) => match self.entry(&word, src, out) {
+                Some(entry) => {
+                    self.state.radius_entry = Know::Said(entry);
+                    CutterRadius::Entry(Expr::Num(entry))
+                }
+                None => return,
+            },
+            None if letter == 0 => CutterRadius::InForce,
+            None if code.row.own_tool => CutterRadius::Tool,
+            None => match self.state.radius_entry.value() {
+                Some(entry) => CutterRadius::Entry(Expr::Num(entry)),
+                None => {
+                    let (code_text, word) =
+                        (code.row.code.as_str().into(), char::from(letter).to_string().into());
+                    return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+                }
+            },
+        };
+        self.push(code.span, Op::StartCutterRadiusCompensation { side, radius }, out);
+    }
+
+    /// The word of an entry in a block that does not switch compensation on: it counts for the next one
+    /// that does. While it is on, or where that is not known, another radius is refused.
+    fn radius_alone(&mut self, codes: &[Code], words: &mut Words, src: Source, out: &mut Batch) {
+        let letter = self.roles.radius_entry;
+        let Some(word) = words.get(letter) else { return };
+        let starts = self.settings.dialect.code.iter();
+        let mut starts =
+            starts.filter(|r| matches!(r.means, Some(Meaning::StartCutterRadiusCompensation(_))));
+        let stays = starts.next().is_some_and(|row| !row.own_tool);
+        // A word of a cycle or a call by the same letter is theirs.
+        let others = codes.iter().any(|code| code.row.words.bytes().any(|own| own == letter));
+        if !stays || others {
+            return;
+        }
+        // At the start of a program it is off.
+        let off = matches!(self.state.compensated, Know::Unsaid | Know::Said(false));
+        if !off {
+            let name = "another radius where cutter radius compensation may be on".into();
+            return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+        }
+        let _ = words.take(letter);
+        if let Some(entry) = self.entry(&word, src, out) {
+            self.state.radius_entry = Know::Said(entry);
+        }
+    }
+}

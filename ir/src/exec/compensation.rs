@@ -1,0 +1,325 @@
+//! Cutter radius compensation, symbolically: the contour is executed as it is programmed, and side,
+//! radius (by its place in the tables) and plane are an attribute of its moves.
+//!
+//! What controls refuse under compensation, or do each in a way of their own, is refused here by name:
+//! an arc as the first move or as the one that leaves, cycles, another plane, another frame, another
+//! tool or length, moves to points of the machine. Not here: the path of the tool's centre.
+
+use super::{Event, Exec, Length};
+use crate::canon::{Axis, Plane, Side};
+use crate::diag::{Diagnostic, Fault};
+use crate::num::{Nanos, ONE};
+use crate::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
+use crate::source::Span;
+
+/// Compensation of a move. Without one, all the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Compensation {
+    /// Side of the contour as the machine sees it; `None` is off.
+    pub side: Option<Side>,
+    /// Its plane.
+    pub plane: Plane,
+    /// Whether two blocks or more without a move in the plane, or one that goes nowhere, stood before
+    /// this move: some controls then do not look as far as this move for the corner before it.
+    pub gap: bool,
+    /// The place of the radius: an entry of the table, or more than [`EDGE`] an edge that is none.
+    pub radius: u32,
+}
+
+impl Compensation {
+    /// In words: `off`, or side, plane and entry.
+    pub fn words(&self) -> String {
+        let Some(side) = self.side else { return "off".to_owned() };
+        let plane = match self.plane {
+            Plane::Xy => "XY",
+            Plane::Zx => "ZX",
+            Plane::Yz => "YZ",
+        };
+        match self.radius & EDGE {
+            0 => format!("{} in {plane} by entry {}", side.name(), self.radius),
+            _ => format!("{} in {plane} by an edge of the tool", side.name()),
+        }
+    }
+}
+
+impl Default for Compensation {
+    fn default() -> Compensation {
+        Compensation { side: None, plane: Plane::Xy, gap: false, radius: 0 }
+    }
+}
+
+/// Marks the place of a radius that is no entry.
+const EDGE: u32 = 1 << 31;
+
+/// What is remembered of the way while compensation is on, or has not been left yet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Contour {
+    /// Whether statements are looked at: it is on, or the move that leaves it has not come yet.
+    pub(super) watched: bool,
+    /// Whether the two controls may differ in what they do where they are not told.
+    pub(super) elsewhere: bool,
+    /// Whether the text has no blocks, only lines: then none is counted.
+    lines: bool,
+    /// Whether a move in the plane has gone onto the contour.
+    entered: bool,
+    /// Blocks without a move in the plane since the last one, two at most.
+    still: u8,
+    /// What the block at hand has done so far.
+    block: Block,
+    /// Its plane.
+    plane: Option<Plane>,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Block {
+    #[default]
+    Empty,
+    Still,
+    Moved,
+}
+
+impl Exec {
+    /// The other control is of another kind: what each does in a way of its own under compensation is
+    /// refused.
+    pub fn between_controls(&mut self) {
+        self.contour.elsewhere = true;
+    }
+
+    /// One of the texts compared has no blocks: what stands between moves is not counted.
+    pub fn without_blocks(&mut self) {
+        self.contour.lines = true;
+    }
+
+    /// Switches compensation on.
+    #[cold]
+    pub(super) fn start_compensation(
+        &mut self,
+        side: Side,
+        radius: &CutterRadius,
+        span: Span,
+    ) -> Result<(), Diagnostic> {
+        if self.state.compensation.side.is_some() {
+            return self.not_executed("cutter radius compensation switched on twice", span);
+        }
+        if self.cycle.is_some() {
+            return self.not_executed("cutter radius compensation while a cycle is in force", span);
+        }
+        let plane = self.modes.plane;
+        let radius = self.place_of_radius(radius, span)?;
+        let side = match self.mirrors(plane) {
+            Some(false) => side,
+            Some(true) => side.other(),
+            None => return self.not_executed("cutter radius compensation in a plane that is tilted", span),
+        };
+        self.state.compensation = super::Compensation { side: Some(side), plane, gap: false, radius };
+        let Contour { elsewhere, lines, .. } = self.contour;
+        self.contour = Contour { watched: true, elsewhere, lines, plane: Some(plane), ..Contour::default() };
+        Ok(())
+    }
+
+    /// Switches it off.
+    pub(super) fn stop_compensation(&mut self) {
+        let was_on = self.state.compensation.side.is_some();
+        self.state.compensation = super::Compensation::default();
+        if was_on {
+            // The next move in the plane leaves the contour.
+            self.contour.watched = self.contour.entered;
+        }
+    }
+
+    /// Where the tables have a radius.
+    fn place_of_radius(&self, radius: &CutterRadius, span: Span) -> Result<u32, Diagnostic> {
+        let none =
+            || self.fault(Fault::NotExecuted { what: "compensation by a radius of no entry".into() }, span);
+        let entry = match radius {
+            CutterRadius::Entry(entry) => match u32::try_from(self.whole(entry, span)?) {
+                Ok(entry) => entry,
+                Err(_) => return self.fault(Fault::OutOfRange { word: "".into() }, span),
+            },
+            CutterRadius::Tool => u32::try_from(self.state.tool).unwrap_or(0),
+            CutterRadius::InForce => match self.waiting.unwrap_or(self.modes.length) {
+                Length::Entry(entry) => entry,
+                Length::Edge(tool, edge) => {
+                    // Any two tools of a program are told apart by this.
+                    let tool = u32::try_from(tool).map_or(tool, |n| i64::from(self.world.tool_number(n)));
+                    let tool = (tool as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
+                    return Ok(EDGE | (tool as u32) << 4 | edge);
+                }
+                Length::Left => 0,
+            },
+        };
+        if entry == 0 {
+            return none();
+        }
+        Ok(self.world.entry_number(entry) & !EDGE)
+    }
+
+    /// Whether the frames turn left and right of a plane's ways round; `None` if they tilt the plane.
+    fn mirrors(&self, plane: Plane) -> Option<bool> {
+        if self.chain.is_none() {
+            return Some(false);
+        }
+        let (first, second, normal) = plane.axes();
+        let (first, second, normal) = (first as usize, second as usize, normal as usize);
+        let zero = self.place(&[0; 6]);
+        let along = |axis: usize| {
+            let mut point = [0; 6];
+            point[axis] = 1000 * ONE;
+            let placed = self.place(&point);
+            [first, second, normal].map(|axis| placed[axis].wrapping_sub(zero[axis]))
+        };
+        let (a, b) = (along(first), along(second));
+        let flat = a[2].abs() < 1000 && b[2].abs() < 1000;
+        let wide = |x: Nanos| i128::from(x);
+        flat.then(|| wide(a[0]) * wide(b[1]) - wide(a[1]) * wide(b[0]) < 0)
+    }
+
+    /// Executes a statement while compensation is on, or has not been left yet.
+    #[cold]
+    pub(super) fn step_on_contour(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        let on = self.state.compensation.side.is_some();
+        if on && let Some(what) = self.refused_on_contour(&stmt.op, span)? {
+            return self.not_executed(what, span);
+        }
+        if !stmt.joined {
+            if self.contour.block == Block::Still {
+                self.contour.still = (self.contour.still + 1).min(2);
+            }
+            self.contour.block = Block::Empty;
+        }
+        let Some(plane) = self.contour.plane else { return self.step_plainly(stmt, out) };
+        let (first, second, _) = plane.axes();
+        let (before, events) = (self.position, out.len());
+        let arc = is_arc(&stmt.op);
+        if arc && !(on && self.contour.entered) {
+            return self.not_executed(
+                match on {
+                    true => "an arc as the first move of cutter radius compensation",
+                    false => "an arc as the move that leaves cutter radius compensation",
+                },
+                span,
+            );
+        }
+        self.step_plainly(stmt, out)?;
+        let goes = |axis: Axis| self.position[axis as usize] != before[axis as usize];
+        let moved = arc || goes(first) || goes(second);
+        if moved {
+            if !on {
+                self.contour.watched = false;
+            } else if self.contour.entered && self.contour.still > 1 {
+                if self.contour.elsewhere {
+                    // The corner before them is each control's own.
+                    let what = "a compensated contour with two still blocks in a row";
+                    return self.fault(Fault::CannotSay { what: what.into() }, span);
+                }
+                if let Some(event) = out.get_mut(events) {
+                    event.state.compensation.gap = true;
+                }
+            }
+            self.contour.entered = true;
+            (self.contour.still, self.contour.block) = (0, Block::Moved);
+        } else if self.contour.block == Block::Empty && counts(&stmt.op) && !self.contour.lines {
+            self.contour.block = Block::Still;
+        }
+        let words = to(&stmt.op).is_some_and(|to| !to.is_empty());
+        if !moved && before == self.position && words && !self.contour.lines {
+            self.contour.still = 2;
+        }
+        Ok(())
+    }
+
+    /// What no move under compensation can be, or each control does in its own way.
+    fn refused_on_contour(&self, op: &Op, span: Span) -> Result<Option<&'static str>, Diagnostic> {
+        let plane = self.contour.plane;
+        let length = self.waiting.unwrap_or(self.modes.length);
+        Ok(match op {
+            Op::Polar(polar) => return self.refused_on_contour(&polar.op, span),
+            Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) => {
+                Some("a cycle under cutter radius compensation")
+            }
+            Op::SelectPlane(other) if Some(*other) != plane => {
+                Some("another plane under cutter radius compensation")
+            }
+            Op::ArcFeed(arc) if Some(self.plane_of(arc.plane)) != plane => {
+                Some("an arc in another plane than that of cutter radius compensation")
+            }
+            Op::ArcForm(arc) if Some(self.plane_of(arc.plane)) != plane => {
+                Some("an arc in another plane than that of cutter radius compensation")
+            }
+            Op::UseLengthUnits(units) if (*units == crate::canon::Units::Inch) != self.modes.inch => {
+                Some("other units under cutter radius compensation")
+            }
+            Op::SetOriginOffsets(offset) if *offset != self.modes.work_offset => {
+                Some("another work offset under cutter radius compensation")
+            }
+            Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => {
+                Some("another frame under cutter radius compensation")
+            }
+            Op::ClearFrame(_) if self.chain.is_some() || self.slots.is_some() || self.modes.shifted => {
+                Some("another frame under cutter radius compensation")
+            }
+            Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
+                Some("a point of the machine under cutter radius compensation")
+            }
+            Op::SynchronisedFeed(_) => Some("a thread under cutter radius compensation"),
+            Op::ChangeTool => Some("a tool change under cutter radius compensation"),
+            Op::UseToolLengthOffset(entry) => {
+                let entry = u32::try_from(self.whole(entry, span)?).unwrap_or(u32::MAX);
+                (length != Length::Entry(entry)).then_some("another length under cutter radius compensation")
+            }
+            Op::UseToolEdge { edge, .. } => {
+                let edge = u32::try_from(self.whole(edge, span)?).unwrap_or(u32::MAX);
+                (length != self.edge(edge)).then_some("another edge under cutter radius compensation")
+            }
+            Op::SetData(data) => match **data {
+                Data::Offset { offset, .. } if offset == self.modes.work_offset => {
+                    Some("another work offset under cutter radius compensation")
+                }
+                Data::Tool { which: ToolValue::Radius | ToolValue::RadiusWear, .. } => {
+                    Some("another radius under cutter radius compensation")
+                }
+                Data::Offset { .. } | Data::Tool { .. } => None,
+            },
+            _ => None,
+        })
+    }
+}
+
+/// Whether it is an arc, by whatever words.
+fn is_arc(op: &Op) -> bool {
+    match op {
+        Op::ArcFeed(_) | Op::ArcForm(_) => true,
+        Op::Polar(polar) => is_arc(&polar.op),
+        _ => false,
+    }
+}
+
+/// Whether a block of such statements alone is one that a control sees between two moves. What only
+/// says how others are meant is not counted: writers put it into the block of what it belongs to.
+fn counts(op: &Op) -> bool {
+    let acts = matches!(
+        op,
+        Op::Dwell(_)
+            | Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::OrientSpindle(_)
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::MachineFunction(_)
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+    );
+    acts || to(op).is_some()
+}
+
+/// The axis words of a move.
+fn to(op: &Op) -> Option<&Point> {
+    match op {
+        Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => Some(&m.to),
+        Op::Polar(polar) => to(&polar.op),
+        _ => None,
+    }
+}

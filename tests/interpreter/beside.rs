@@ -1,0 +1,59 @@
+//! Cutter radius compensation, as far as it can be seen without the tool's radius: on which side of
+//! the contour the tool goes, in which plane, and where the control finds the radius.
+//!
+//! Not here: the path of the tool's centre.
+
+use super::{Halt, Machine, Place};
+
+/// The tool goes beside the contour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Beside {
+    /// To its left, as the machine sees it.
+    pub left: bool,
+    /// 17, 18, 19.
+    pub plane: u32,
+    /// Entry of the table with the radius; edge 1 of a tool is the entry of its number, and other edges
+    /// are no entry.
+    pub entry: Option<u32>,
+}
+
+impl Machine {
+    /// Compensation on; `reversed` says whether frames make left right.
+    ///
+    /// # Errors
+    /// It is on already, or has no radius.
+    pub fn go_beside(&mut self, left: bool, reversed: bool, entry: Option<u32>) -> Result<(), Halt> {
+        if self.beside.is_some() {
+            return self.halt("compensation switched on while it is on");
+        }
+        if entry == Some(0) {
+            return self.halt("compensation by no radius");
+        }
+        self.beside = Some(Beside { left: left != reversed, plane: self.plane, entry });
+        self.lead = true;
+        Ok(())
+    }
+
+    /// Compensation off.
+    pub fn go_on(&mut self) {
+        // Where nothing was compensated yet, nothing is left either.
+        self.lead = self.beside.is_some() && !self.lead || self.beside.is_none() && self.lead;
+        self.beside = None;
+    }
+
+    /// An arc leads neither onto a contour nor off it.
+    ///
+    /// # Errors
+    /// It would have to.
+    pub fn lead_arc(&self) -> Result<(), Halt> {
+        if self.lead { self.halt("an arc onto a compensated contour, or off it") } else { Ok(()) }
+    }
+
+    /// A straight move: one in the plane leads onto the contour, or off it.
+    pub fn lead_straight(&mut self, to: Place) {
+        let (first, second, _) = self.axes();
+        if self.at[first] != to[first] || self.at[second] != to[second] {
+            self.lead = false;
+        }
+    }
+}
