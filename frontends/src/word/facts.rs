@@ -90,6 +90,8 @@ pub(super) struct State {
     pub(super) plane: Know<Plane>,
     pub(super) feed_mode: Know<FeedMode>,
     pub(super) return_level: Know<ReturnLevel>,
+    /// A return level was said while it was not known whether a cycle is in force.
+    pub(super) level_changed: bool,
     pub(super) work_offset: Know<u16>,
     /// Whether any length offset was said.
     pub(super) length_offset: Know<()>,
@@ -149,6 +151,7 @@ impl State {
             cycle: InForce::Lost,
             turning: true,
             rigid: false,
+            level_changed: false,
             turned: 0,
             words: Words::Cartesian,
             unplaced: 0,
@@ -183,6 +186,7 @@ impl State {
         self.unplaced |= before.unplaced;
         self.words.join(before.words);
         self.level_open |= before.level_open;
+        self.level_changed |= before.level_changed;
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost;
         }

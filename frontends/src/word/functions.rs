@@ -126,6 +126,7 @@ impl Lower {
             Meaning::SetReturnLevel(level) => {
                 self.now.recall |= self.state.return_level.value() != Some(level);
                 self.state.return_level = Know::Said(level);
+                self.state.level_changed |= self.state.cycle == InForce::Lost;
             }
             Meaning::SetCentreMode(from) => self.set_centre_mode(from, out),
             Meaning::SetOriginOffsets(offset) => self.state.work_offset = Know::Said(offset),

@@ -126,6 +126,11 @@ impl Lower {
     /// Axis words that do whatever is in force when the program runs.
     fn position(&mut self, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
         if self.has_axis_word(words) {
+            if self.state.level_changed {
+                // A cycle that its caller has called up has the level that was in force there.
+                let name = "position under a cycle of the caller after another return level".into();
+                self.fault(Fault::NotSupported { code: src.text(block), name }, block, out);
+            }
             let to = self.point(None, block, words, src, out);
             self.push_move(block, Op::Position(Move { to, said: false }), out);
         }
