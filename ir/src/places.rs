@@ -164,6 +164,11 @@ impl Places {
             Pattern::List(points) => {
                 let mut places: Vec<[Nanos; 2]> = Vec::with_capacity(points.len());
                 for point in points {
+                    // A pattern lies in its plane.
+                    let other = |axis: &Axis| *axis != first_axis && *axis != second_axis;
+                    if Axis::ALL.into_iter().filter(other).any(|axis| point.get(axis).is_some()) {
+                        return Err(here.out_of_range());
+                    }
                     let side = |side: usize, axis: Axis| match (point.get(axis), places.last()) {
                         (None, None) => here.at(side),
                         (None, Some(last)) => Ok(last[side]),
