@@ -123,7 +123,11 @@ pub fn setup(world: &World, skip: u16) -> Setup {
     Setup {
         start: world.start.map(mm),
         work_offset: Box::new(move |number| offsets.work_offset(number as u16).map(mm)),
-        length: Box::new(move |entry| mm(lengths.tool_length(entry))),
+        length: Box::new(move |entry| match entry {
+            // Of the tool that was there at the start, on a control whose tools have lengths.
+            u32::MAX => mm(lengths.edge_length(-1, 1)),
+            entry => mm(lengths.tool_length(entry)),
+        }),
         wear: Box::new(move |entry| mm(wears.length_wear(entry))),
         edge_length: Box::new(move |tool, edge| {
             let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));

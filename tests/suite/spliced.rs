@@ -69,7 +69,8 @@ fn blocks_in_other_programs() {
         "{done} translated and verified, {judged} of them judged by the second interpreter too, {refused} refused"
     );
     println!("{} held back by the verification", held_back.len());
-    if held_back.len() * MOST_HELD_BACK > done + refused {
+    // A few by chance, where they are few programs.
+    if held_back.len() > (done + refused) / MOST_HELD_BACK + 3 {
         failures.add("held back", held_back.join("\n"));
     }
     failures.finish();

@@ -163,6 +163,8 @@ impl Lower {
                 return self.not_supported(&row.name, name, block, out);
             }
             self.push(block, Op::StartCycle(cycle.clone()), out);
+            // Whether it has made a hole or not: which feed is in force behind it must be said.
+            self.hole_made(&cycle);
             self.state.cycle = InForce::Active(cycle);
             return;
         }

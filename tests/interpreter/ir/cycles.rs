@@ -386,7 +386,13 @@ impl Control {
         match cycle.hole {
             Hole::Tap { rigid: true, after, .. } | Hole::Stop { after, .. } => self.m.turn(after),
             Hole::Fine { shift, after, .. } => {
-                self.move_by([-shift[0], -shift[1], 0.0]);
+                // Back over the hole; how far out of it the tool is is not taken back.
+                let normal = match cycle.plane {
+                    17 => 2,
+                    18 => 1,
+                    _ => 0,
+                };
+                self.move_by(std::array::from_fn(|axis| if axis == normal { 0.0 } else { -shift[axis] }));
                 self.m.turn(after);
             }
             _ => {}

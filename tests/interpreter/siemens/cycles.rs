@@ -319,6 +319,7 @@ impl Control<'_> {
                 self.m.record(What::Stop);
             }
             Kind::Fine { turn, angle, shift } => {
+                let shift = self.along(shift);
                 self.m.turn(turn);
                 self.feed_to(cycle.depth)?;
                 self.stay(cycle.dwell);
@@ -364,8 +365,8 @@ impl Control<'_> {
             }
         }
         self.rapid_to(cycle.retract);
-        if let Kind::Fine { shift, .. } = cycle.kind {
-            self.move_by([-shift[0], -shift[1], 0.0]);
+        if let Kind::Fine { shift: [first, second, _], .. } = cycle.kind {
+            self.move_by(self.along([-first, -second, 0.0]));
         }
         if let Kind::Rigid { after, .. } = cycle.kind {
             self.m.turn(after);
@@ -383,6 +384,14 @@ impl Control<'_> {
         let mut at = self.here();
         at[self.m.axes().2] = z;
         at
+    }
+
+    /// Ways along first and second axis of the plane and its normal, as those along X, Y, Z.
+    fn along(&self, way: [f64; 3]) -> [f64; 3] {
+        let (first, second, normal) = self.m.axes();
+        let mut by = [0.0; 3];
+        (by[first], by[second], by[normal]) = (way[0], way[1], way[2]);
+        by
     }
 
     /// A rapid by so much along the program's axes.
