@@ -65,6 +65,11 @@ pub(crate) fn class(emitted: &Emitted, mutant: &Mutant) -> Result<&'static str, 
         (Change::Digit | Change::Sign, Is::Letter(b'Z')) if in_a_cycle(text, mutant.at.start) => {
             "a cycle's word that is in force, or that makes no hole"
         }
+        (Change::Sign | Change::Digit, Is::Letter(b'X' | b'Y' | b'Z'))
+            if block_before(text, mutant.at.start).windows(3).any(|w| w == b"G52") =>
+        {
+            "a shift that is taken back before anything moves"
+        }
         (_, Is::Letter(b'R' | b'Q' | b'P' | b'L' | b'D')) => {
             "a cycle's word that is in force, or that makes no hole"
         }
@@ -118,8 +123,13 @@ pub(crate) fn rounded(
 
 /// Whether a word stands in the block of a canned cycle.
 fn in_a_cycle(text: &[u8], place: usize) -> bool {
+    block_before(text, place).windows(2).any(|w| w == b"G8")
+}
+
+/// What stands before a word in its block.
+fn block_before(text: &[u8], place: usize) -> &[u8] {
     let from = text[..place].iter().rposition(|b| *b == b'\n').map_or(0, |n| n + 1);
-    text[from..place].windows(2).any(|w| w == b"G8")
+    &text[from..place]
 }
 
 /// Whether a place lies behind the block that ends the program, outside of subprograms.
