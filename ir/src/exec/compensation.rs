@@ -22,7 +22,7 @@ pub struct Compensation {
     /// Whether two blocks or more without a move in the plane, or one that goes nowhere, stood before
     /// this move: some controls then do not look as far as this move for the corner before it.
     pub gap: bool,
-    /// The place of the radius: an entry of the table, or more than [`EDGE`] an edge that is none.
+    /// The place of the radius: an entry of the table, or more than `EDGE` an edge that is none.
     pub radius: u32,
 }
 
