@@ -29,6 +29,7 @@ mod frame_forms;
 mod legalise;
 pub mod machine_moves;
 pub mod machine_numbers;
+mod needs;
 pub mod number_names;
 pub mod offset_with_z;
 pub mod one_distance;

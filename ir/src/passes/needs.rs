@@ -1,0 +1,134 @@
+//! What statements may need and a target may lack, a bit each: what the legaliser asks before it looks closer.
+//!
+//! Not here: what is done about it.
+
+use crate::canon::ReturnLevel;
+use crate::caps::{Caps, CycleForm, PolarForm, Radii, References};
+use crate::exec::Seen;
+use crate::kinds::{conduct, miscellaneous};
+use crate::program::{FrameSlot, Op, Stmt};
+
+// What a statement may need, and a target may lack.
+pub(super) const PATTERN: u32 = 1;
+pub(super) const CYCLE: u32 = 2;
+pub(super) const LENGTH: u32 = 4;
+pub(super) const WORK: u32 = 8;
+pub(super) const ARC: u32 = 16;
+pub(super) const CONTROL: u32 = 32;
+pub(super) const MESSAGE: u32 = 64;
+pub(super) const SKIP: u32 = 128;
+pub(super) const EVERY: u32 = 256;
+pub(super) const CALL: u32 = 512;
+pub(super) const SHIFT: u32 = 1024;
+pub(super) const EDGE: u32 = 2048;
+pub(super) const FRAME: u32 = 4096;
+pub(super) const MACHINE: u32 = 8192;
+pub(super) const TABLE: u32 = 16384;
+pub(super) const MEASURE: u32 = 32768;
+pub(super) const PATH: u32 = 1 << 16;
+pub(super) const MOVE: u32 = 1 << 17;
+pub(super) const POLAR: u32 = 1 << 18;
+pub(super) const RADIUS: u32 = 1 << 19;
+
+/// What a target lacks.
+pub(super) fn lacks(caps: &Caps) -> u32 {
+    let levels = [ReturnLevel::Initial, ReturnLevel::Retract];
+    let kinds = ["drill", "drill-dwell", "drill-peck", "drill-break", "bore"];
+    let says_all = |kind: &str| {
+        let cap = caps.cycles.iter().any(|c| {
+            c.kind == kind
+                && c.form == CycleForm::Any
+                && c.dwell
+                && c.clearance
+                && c.strokes
+                && c.feed_out
+                && c.lift_at_feed.is_none()
+        });
+        cap && levels.iter().all(|level| caps.cycle(kind, Some(*level), true))
+    };
+    let cycles = kinds.into_iter().all(says_all)
+        && caps.approach.is_none()
+        && caps.incremental_cycles
+        && caps.return_planes.is_none()
+        && !caps.flat;
+    let patterns = caps.circle_pattern
+        && caps.grid_pattern == u32::MAX
+        && caps.grid_serpentine.is_none()
+        && caps.line_pattern
+        && caps.list_pattern == u32::MAX
+        && caps.circle_polar.is_none()
+        && caps.pattern_start
+        && caps.pattern_angle
+        && !caps.circle_centre_at_zero_only
+        && !caps.flat;
+    let mut lacks = 0;
+    let mut needs = |what: u32, has: bool| {
+        if !has {
+            lacks |= what;
+        }
+    };
+    needs(PATTERN, patterns);
+    needs(CYCLE, cycles);
+    needs(LENGTH, !caps.offset_with_z);
+    needs(MOVE, caps.one_move_apart);
+    needs(WORK, caps.work_offsets == u16::MAX);
+    needs(SHIFT, caps.clears_shift);
+    needs(ARC, caps.helix && caps.arc_turns && caps.arc_forms);
+    needs(CONTROL, caps.repeats && caps.repeat_blocks);
+    needs(MESSAGE, caps.messages);
+    needs(SKIP, caps.skip_levels >= 10);
+    needs(EVERY, !caps.flat);
+    needs(CALL, caps.calls);
+    needs(EDGE, caps.tool_edges != Some(false));
+    needs(TABLE, caps.tool_edges != Some(true));
+    needs(RADIUS, caps.radii == Radii::ALL);
+    needs(FRAME, caps.says_all_frames());
+    let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
+    let points =
+        caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
+    needs(MACHINE, caps.machine_coordinates && caps.machine_length.is_none() && data && points);
+    needs(POLAR, caps.polar == PolarForm::Any);
+    needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
+    lacks
+}
+
+/// What a statement may need.
+#[inline]
+pub(super) fn interest(stmt: &Stmt) -> u32 {
+    let skip = if stmt.skip.is_some() { SKIP } else { 0 };
+    skip | interest_of(&stmt.op)
+}
+
+fn interest_of(op: &Op) -> u32 {
+    match op {
+        Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
+        Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
+        Op::SynchronisedFeed(_) => ARC,
+        Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
+        Op::SetPole(_) => POLAR,
+        Op::Polar(polar) => POLAR | interest_of(&polar.op),
+        Op::Pattern(_) => PATTERN | CYCLE,
+        Op::UseToolLengthOffset(_) => LENGTH | TABLE,
+        Op::UseToolEdge { .. } => LENGTH | EDGE,
+        Op::ChangeTool => TABLE,
+        Op::UseMachineCoordinates { .. } | Op::GoToReference(_) | Op::SetData(_) => MACHINE,
+        Op::SetOriginOffsets(_) => WORK,
+        Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
+        Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,
+        Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
+        Op::Call(_) | Op::Return => CALL,
+        Op::Message(_) => MESSAGE,
+        conduct!() => PATH | MOVE,
+        Op::SetFeedMode(_) => MOVE,
+        miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => RADIUS,
+        Op::SelectTool(_)
+        | Op::SelectToolByName(_)
+        | Op::ProgramEnd
+        | Op::Assign(..)
+        | Op::UseLengthUnits(_)
+        | Op::SetDistanceMode(_)
+        | Op::SelectPlane(_)
+        | Op::SetReturnLevel(_)
+        | miscellaneous!() => 0,
+    }
+}
