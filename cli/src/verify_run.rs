@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes};
-use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::exec::{Event, Exec, Progress, Runner, named_tool};
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
@@ -29,6 +29,9 @@ const ALL_SETTINGS: u32 = 6;
 
 /// Events that are made on each side before they are compared, in a program kept whole.
 const PIECE: usize = 4096;
+
+/// Pieces of a source that are executed by itself, to see whether it can be.
+const MOST_PIECES: usize = 4096;
 
 /// Why a verification ends early.
 #[derive(Debug)]
@@ -67,6 +70,8 @@ pub(crate) struct Verifier {
     one_level: bool,
     start: [Option<Nanos>; AXES],
     stood: bool,
+    /// What the target's control always begins with, and the source's does not.
+    own_facts: Modes,
     /// Last place of the source that was executed, for differences without an event.
     last: Span,
 }
@@ -115,6 +120,22 @@ fn same_at_power_on(source: &World, target: &mut World, from: &Modes, to: &Modes
     {
         map.insert(u32::MAX, own);
         target.power_on.length_offset = Some(u32::MAX);
+    }
+}
+
+/// What the target's control always begins with, as far as the source's has no such fact.
+fn own_facts(job: &Job) -> Modes {
+    let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
+    Modes {
+        motion: to.motion.filter(|_| from.motion.is_none()),
+        distance: to.distance.filter(|_| from.distance.is_none()),
+        units: to.units.filter(|_| from.units.is_none()),
+        plane: to.plane.filter(|_| from.plane.is_none()),
+        feed_mode: to.feed_mode.filter(|_| from.feed_mode.is_none()),
+        return_level: to.return_level.filter(|_| from.return_level.is_none()),
+        work_offset: to.work_offset.filter(|_| from.work_offset.is_none()),
+        length_offset: to.length_offset.filter(|_| from.length_offset.is_none()),
+        no_origin_shift: to.no_origin_shift.filter(|_| from.no_origin_shift.is_none()),
     }
 }
 
@@ -185,6 +206,7 @@ impl Verifier {
             one_level: job.to.dialect.caps.skip_levels <= 1,
             start: job.start,
             stood: false,
+            own_facts: own_facts(job),
             last: Span::default(),
         }
     }
@@ -325,7 +347,7 @@ impl Verifier {
             }
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, false)
-                .map_err(|d| different(&d, self.last))?;
+                .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
             run.level = nothing_left && !self.renamed && !self.watched && run.source.agrees(&run.target);
         }
@@ -362,7 +384,7 @@ impl Verifier {
             run.target.end_of_text(&mut run.target_events);
             run.comparison
                 .advance(&mut run.source_events, &mut run.target_events, true)
-                .map_err(|d| different(&d, self.last))?;
+                .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
         }
         Ok(())
     }
@@ -390,6 +412,23 @@ impl Verifier {
         for procedure in &source.procedures {
             self.prepare(&procedure.body, &source.assumed);
         }
+        let before: Vec<Exec> = self.runs.iter().map(|run| run.source.clone()).collect();
+        let verdict = self.whole_compared(source, text, base, inherited, pairs);
+        match verdict {
+            // A program that cannot be executed is told as that, whatever was made of it.
+            Err(Stop::Target(told)) => Err(alone(source, before).unwrap_or(Stop::Target(told))),
+            Ok(()) | Err(Stop::Source(_)) => verdict,
+        }
+    }
+
+    fn whole_compared(
+        &mut self,
+        source: &Program,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Stop> {
         self.reader.read(text, base, &mut self.batch);
         self.reader.finish(&mut self.batch);
         self.read_back(inherited)?;
@@ -414,7 +453,7 @@ impl Verifier {
                 }
                 run.comparison
                     .advance(&mut run.source_events, &mut run.target_events, over)
-                    .map_err(|d| different(&d, self.last))?;
+                    .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
                 if self.watched {
                     pairs(&run.comparison.take_pairs());
                 }
@@ -425,7 +464,7 @@ impl Verifier {
                 if run.source_events.len().max(run.target_events.len()) >= PIECE {
                     run.comparison
                         .advance(&mut run.source_events, &mut run.target_events, true)
-                        .map_err(|d| different(&d, self.last))?;
+                        .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
                 }
             }
         }
@@ -540,12 +579,32 @@ pub(crate) fn levels(stmts: &[Stmt]) -> u16 {
     found
 }
 
+/// Why the source cannot be executed by itself, if it cannot be.
+fn alone(source: &Program, starts: Vec<Exec>) -> Option<Stop> {
+    let mut events = Vec::new();
+    for mut exec in starts {
+        let mut runner = Runner::new(source);
+        for _ in 0..MOST_PIECES {
+            match runner.run(&mut exec, PIECE, &mut events) {
+                Err(fault) => return Some(Stop::Source(fault)),
+                Ok(Progress::Done) => break,
+                Ok(Progress::More) => events.clear(),
+            }
+        }
+    }
+    None
+}
+
 fn unreadable(d: &Diagnostic, at: Span) -> Stop {
     Stop::Target(Diagnostic::new(Fault::NotReadBack { code: d.fault.code() }, at))
 }
 
-fn different(difference: &Difference, last: Span) -> Stop {
+/// A difference is a fault of the compiler, but where the source leaves open what the target cannot.
+fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> Stop {
     let at = difference.source.as_ref().map_or(last, |event| event.span);
+    if let Some(fact) = unsaid {
+        return Stop::Source(Diagnostic::new(Fault::FactUnsaid { fact }, at));
+    }
     let difference = difference::describe(difference).into();
     Stop::Target(Diagnostic::new(Fault::NotTheSame { difference }, at))
 }

@@ -317,6 +317,10 @@ faults! {
     /// machine has nothing of the name that the source's has for it, or the source's has no name.
     NotInMap { what: Numbered, number: u32, name: Option<Box<str>> } = 506, Error;
 
+    /// A fact that the program leaves to what was in force before it, and that the target's control always
+    /// begins with a value of its own for.
+    FactUnsaid { fact: ModeName } = 507, Error;
+
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.
     NotTheSame { difference: Box<str> } = 601, Error;

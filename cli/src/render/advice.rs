@@ -155,6 +155,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             vec![format!("write it in a way that {to} has words for: `ncc dialects show {to}`")]
         }
         Fault::SecondWorkOffset { .. } => own("make one program for each work offset"),
+        Fault::FactUnsaid { .. } => own("say it at the head of the program"),
         Fault::ArcVanishes => own("leave the arc out of the source: it is below the resolution"),
         Fault::TargetRange { .. } => Vec::new(),
         Fault::NotInMap { what, .. } => {

@@ -268,6 +268,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoEnd { .. }
         | Fault::CannotSay { .. }
         | Fault::SecondWorkOffset { .. }
+        | Fault::FactUnsaid { .. }
         | Fault::ArcVanishes
         | Fault::TargetRange { .. }
         | Fault::ProfileDenies { .. }

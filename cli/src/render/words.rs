@@ -281,6 +281,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("a second work offset, and {to} has one"),
             format!("offset {second} here; the program began with offset {first}"),
         ),
+        Fault::FactUnsaid { fact } => (
+            format!("the program never says its {}", mode(*fact)),
+            format!("{to} always begins with one of its own, so this would not be the same there"),
+        ),
         Fault::ArcVanishes => (
             "the arc is too small to be written".into(),
             format!("its ends become one point when rounded to the digits of {to}"),

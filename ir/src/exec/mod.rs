@@ -9,6 +9,7 @@ mod ask;
 mod compensation;
 mod conduct;
 mod data;
+mod entry;
 mod event;
 mod frame;
 mod holes;
@@ -26,8 +27,7 @@ pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
 
 use crate::canon::{
-    AXES, Axis, Distance, Fact, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Spindle, Units,
-    same_point,
+    AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, Spindle, Units, same_point,
 };
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -172,49 +172,6 @@ impl Exec {
         };
         exec.reframe(world.start);
         exec
-    }
-
-    /// Takes facts for granted that nothing has set yet.
-    pub fn assume(&mut self, facts: &Modes) {
-        let here = self.machine();
-        let fresh = |said: u16, bit| said & bit == 0;
-        if let (Some(d), true) = (facts.distance, fresh(self.said, DISTANCE)) {
-            self.modes.distance = d;
-            self.said |= DISTANCE;
-        }
-        if let (Some(u), true) = (facts.units, fresh(self.said, UNITS)) {
-            self.modes.inch = u == Units::Inch;
-            self.said |= UNITS;
-        }
-        if let (Some(p), true) = (facts.plane, fresh(self.said, PLANE)) {
-            self.modes.plane = p;
-            self.said |= PLANE;
-        }
-        if let (Some(r), true) = (facts.return_level, fresh(self.said, RETURN)) {
-            self.modes.return_level = r;
-            self.said |= RETURN;
-        }
-        if let (Some(m), true) = (facts.motion, fresh(self.said, MOTION)) {
-            self.modes.motion = m;
-            self.said |= MOTION;
-        }
-        if let (Some(w), true) = (facts.work_offset, fresh(self.said, WORK)) {
-            self.modes.work_offset = w;
-            self.said |= WORK;
-        }
-        if let (Some(l), true) = (facts.length_offset, fresh(self.said, LENGTH)) {
-            self.modes.length = Length::Entry(l);
-            self.said |= LENGTH;
-        }
-        if let (Some(n), true) = (facts.no_origin_shift, fresh(self.said, SHIFT)) {
-            self.modes.shifted = !n;
-            self.said |= SHIFT;
-        }
-        if let (Some(f), true) = (facts.feed_mode, fresh(self.said, FEED_MODE)) {
-            self.state.feed_mode = f;
-            self.said |= FEED_MODE;
-        }
-        self.reframe(here);
     }
 
     /// Whether the program has ended.
