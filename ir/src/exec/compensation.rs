@@ -8,6 +8,7 @@
 use super::{Event, Exec, Length};
 use crate::canon::{Axis, Plane, Side};
 use crate::diag::{Diagnostic, Fault};
+use crate::kinds::{conduct, flow, miscellaneous};
 use crate::num::{Nanos, ONE};
 use crate::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use crate::source::Span;
@@ -281,7 +282,29 @@ impl Exec {
                 }
                 Data::Offset { .. } | Data::Tool { .. } => None,
             },
-            _ => None,
+            miscellaneous!()
+            | conduct!()
+            | Op::SelectPlane(_)
+            | Op::ArcFeed(_)
+            | Op::ArcForm(_)
+            | Op::UseLengthUnits(_)
+            | Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::SetDistanceMode(_)
+            | Op::SetFeedMode(_)
+            | Op::SetReturnLevel(_)
+            | Op::SetFeedRate(_)
+            | Op::SelectTool(_)
+            | Op::SelectToolByName(_)
+            | Op::StraightTraverse(_)
+            | Op::StraightFeed(_)
+            | Op::Position(_)
+            | Op::SetPole(_)
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::Message(_)
+            | Op::Assign(..)
+            | flow!() => None,
         })
     }
 }
