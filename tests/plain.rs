@@ -355,7 +355,8 @@ fn beside(compensation: &Compensation) -> Option<Beside> {
             Plane::Yz => 19,
         },
         // Above that it is an edge that is no entry.
-        entry: Some(compensation.radius).filter(|radius| radius >> 31 == 0),
+        entry: Some(compensation.radius).filter(|radius| radius >> 30 == 0),
+        diameter: (compensation.radius >> 30 == 1).then_some(i64::from(compensation.radius & !(1 << 30))),
     })
 }
 

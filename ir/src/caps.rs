@@ -196,11 +196,12 @@ pub struct Radii {
     pub entry: bool,
     pub tool: bool,
     pub in_force: bool,
+    pub diameter: bool,
 }
 
 impl Radii {
     /// All there are.
-    pub const ALL: Radii = Radii { entry: true, tool: true, in_force: true };
+    pub const ALL: Radii = Radii { entry: true, tool: true, in_force: true, diameter: true };
 }
 
 /// How a cycle that drives the spindle is said.

@@ -15,6 +15,8 @@ pub struct Beside {
     /// Entry of the table with the radius; edge 1 of a tool is the entry of its number, and other edges
     /// are no entry.
     pub entry: Option<u32>,
+    /// The diameter that the program states, in hundredths of a micrometre; then there is no entry.
+    pub diameter: Option<i64>,
 }
 
 impl Machine {
@@ -29,8 +31,19 @@ impl Machine {
         if entry == Some(0) {
             return self.halt("compensation by no radius");
         }
-        self.beside = Some(Beside { left: left != reversed, plane: self.plane, entry });
+        self.beside = Some(Beside { left: left != reversed, plane: self.plane, entry, diameter: None });
         self.lead = true;
+        Ok(())
+    }
+
+    /// Compensation on by a diameter in millimetres; less than nothing is the other side.
+    ///
+    /// # Errors
+    /// It is on already.
+    pub fn go_beside_by(&mut self, left: bool, reversed: bool, diameter: f64) -> Result<(), Halt> {
+        self.go_beside(left != (diameter < 0.0), reversed, None)?;
+        let diameter = Some((diameter.abs() * 1e5).round() as i64);
+        self.beside = self.beside.map(|beside| Beside { diameter, ..beside });
         Ok(())
     }
 

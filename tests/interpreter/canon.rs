@@ -63,6 +63,13 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let entry = number(m, entry)? as u32;
             m.go_beside(*side == "CANON_SIDE_LEFT", false, Some(entry))?;
         }
+        (
+            "START_CUTTER_RADIUS_COMPENSATION",
+            [side @ ("CANON_SIDE_LEFT" | "CANON_SIDE_RIGHT"), "CANON_DIAMETER", diameter],
+        ) => {
+            let diameter = number(m, diameter)? * unit;
+            m.go_beside_by(*side == "CANON_SIDE_LEFT", false, diameter)?;
+        }
         ("SET_FEED_MODE", ["CANON_PER_MINUTE"]) => m.count_feed(Per::Minute),
         ("SET_FEED_MODE", ["CANON_PER_REVOLUTION"]) => m.count_feed(Per::Turn),
         ("SET_FEED_MODE", ["CANON_INVERSE_TIME"]) => m.count_feed(Per::Move),

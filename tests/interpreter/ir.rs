@@ -478,6 +478,12 @@ impl Control {
             }
             _ => return self.m.halt("compensation without its side"),
         };
+        if let [Token::Name(n), diameter @ ..] = rest
+            && n == "diameter"
+        {
+            let diameter = self.first(diameter)?;
+            return self.m.go_beside_by(left, reversed, diameter);
+        }
         let entry = match rest {
             [Token::Name(n)] if n == "tool" => Some(self.m.tool.unwrap_or(0)),
             [Token::Name(n)] if n == "in-force" => match self.edge {

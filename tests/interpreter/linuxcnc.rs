@@ -122,7 +122,7 @@ const GROUPS: [&[u32]; 13] = [
     &[40, 100, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
-    &[400, 410, 420],
+    &[400, 410, 411, 420, 421],
     &[430, 490],
     &[540, 550, 560, 570, 580, 590, 591, 592, 593],
     &[610, 611, 640],
@@ -287,6 +287,10 @@ impl Control {
         self.m.inch = of(GROUPS[3]).map_or(self.m.inch, |code| code == 200);
         match (of(GROUPS[4]), words.get('D')) {
             (Some(400), None) => self.m.go_on(),
+            (Some(code @ (411 | 421)), Some(diameter)) => {
+                self.m.go_beside_by(code == 411, false, diameter * self.unit())?;
+            }
+            (Some(411 | 421), None) => return self.m.halt("G41.1 without D"),
             (Some(code), entry) if code != 400 => {
                 // Without D the tool in the spindle.
                 let entry = entry.map_or(self.m.tool, |entry| Some(entry as u32));

@@ -37,7 +37,7 @@ const PLAIN: [(&str, Must); 19] = [
     ("ccomp-lathe-comp", Must::BeRefusedByName),
     ("ccomp-mill-line-arc-entry", Must::Wait("START_CUTTER_RADIUS_COMPENSATION")),
     ("interp-bad--a-in-canned-cycle", Must::BeRefused("rotary axis in a canned cycle")),
-    ("interp-bad--ccomp-arcexit", Must::Wait("cutter compensation left by a radius")),
+    ("interp-bad--ccomp-arcexit", Must::Wait("START_CUTTER_RADIUS_COMPENSATION")),
     ("interp-bad--no-ijr", Must::BeRefused("ArcWithoutCentre")),
     ("interp-g10-g10-l1-l10", Must::Wait("(DEBUG,")),
     ("interp-g10-g10-with-g92", Must::Wait("WordUnused { word: \"r10\" }")),

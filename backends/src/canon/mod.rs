@@ -261,17 +261,31 @@ impl Writer {
                     self.value(within, "tolerance", s.span, out, diags).map_err(here)?;
                 }
             }
-            Op::StartCutterRadiusCompensation { side, radius: CutterRadius::Entry(entry) } => {
+            Op::StartCutterRadiusCompensation {
+                side,
+                radius: radius @ (CutterRadius::Entry(_) | CutterRadius::Diameter(_)),
+            } => {
                 let fault = Fault::EntryFactNeeded { fact: ModeName::Plane };
                 let plane = self.at.modes.plane.ok_or_else(|| here(fault))?;
-                let entry = arguments::count(entry, s.op.name()).map_err(here)?;
                 self.use_plane(plane, out);
+                let diameter = match radius {
+                    CutterRadius::Diameter(d) => Some(arguments::literal(d).map_err(here)?),
+                    CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce => None,
+                };
+                if let Some(diameter) = diameter {
+                    self.use_units(diameter.unit, out);
+                }
                 self.open(s, out);
                 out.extend_from_slice(match side {
                     Side::Left => b"CANON_SIDE_LEFT, ",
                     Side::Right => b"CANON_SIDE_RIGHT, ",
                 });
-                whole(entry, out);
+                if let Some(diameter) = diameter {
+                    out.extend_from_slice(b"CANON_DIAMETER, ");
+                    self.value(diameter, "diameter", s.span, out, diags).map_err(here)?;
+                } else if let CutterRadius::Entry(entry) = radius {
+                    whole(arguments::count(entry, s.op.name()).map_err(here)?, out);
+                }
             }
             Op::SetSpindleMode(mode) => {
                 self.open(s, out);

@@ -70,5 +70,9 @@ pub(super) fn compensation(side: Side, radius: &CutterRadius, out: &mut Vec<u8>)
         CutterRadius::Entry(entry) => expr(entry, out),
         CutterRadius::Tool => put("tool", out),
         CutterRadius::InForce => put("in-force", out),
+        CutterRadius::Diameter(diameter) => {
+            put("diameter ", out);
+            expr(diameter, out);
+        }
     }
 }

@@ -156,6 +156,8 @@ pub(crate) struct Codes {
     pub no_compensation: Option<Code>,
     /// To the left, to the right.
     pub compensation: [Option<Code>; 2],
+    /// The same by the diameter, and its word.
+    pub compensation_by_diameter: [Option<(Code, Letter)>; 2],
     /// Entry of the table that has the radius.
     pub radius_entry: Option<Letter>,
     /// Whether compensation is by the tool's own entry where none is named.
@@ -432,6 +434,11 @@ impl Codes {
             frames: find.frames(),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             compensation: [Side::Left, Side::Right].map(|s| code(Meaning::StartCutterRadiusCompensation(s))),
+            compensation_by_diameter: [Side::Left, Side::Right].map(|s| {
+                let letter = find.role(Role::RadiusEntry)?.letter;
+                let letter = find.letter(char::from(letter), Quantity::Length)?;
+                Some((code(Meaning::StartCompensationByDiameter(s))?, letter))
+            }),
             radius_entry: find.role(Role::RadiusEntry),
             own_radius: dialect.caps.radii.tool,
             machine: [false, true].map(|length| {

@@ -217,15 +217,32 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let code = self.codes.compensation[side as usize];
+        let code = match radius {
+            CutterRadius::Diameter(_) => self.codes.compensation_by_diameter[side as usize].map(|c| c.0),
+            CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce => {
+                self.codes.compensation[side as usize]
+            }
+        };
         let code = code.ok_or_else(|| cannot("cutter radius compensation"))?;
-        let entry = match (radius, self.codes.radius_entry) {
-            (CutterRadius::Entry(entry), Some(letter)) => {
+        let own = self.codes.compensation_by_diameter[side as usize].map(|c| c.1);
+        let entry = match (
+            radius,
+            self.codes
+                .radius_entry
+                .map(|l| own.filter(|_| matches!(radius, CutterRadius::Diameter(_))).unwrap_or(l)),
+        ) {
+            (CutterRadius::Entry(entry) | CutterRadius::Diameter(entry), Some(letter)) => {
                 Some((letter, self.value(&letter, entry, span, sink)?))
             }
             (CutterRadius::Tool, Some(_)) if self.codes.own_radius => None,
             (CutterRadius::InForce, None) => None,
-            (CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce, _) => {
+            (
+                CutterRadius::Entry(_)
+                | CutterRadius::Tool
+                | CutterRadius::InForce
+                | CutterRadius::Diameter(_),
+                _,
+            ) => {
                 return Err(cannot("compensation by this radius"));
             }
         };

@@ -240,6 +240,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             })
             .collect()
         }
+        Meaning::StartCompensationByDiameter(side) => {
+            let start = format!("START_CUTTER_RADIUS_COMPENSATION({}, diameter 12.5mm)", side.name());
+            vec![Said::new(format!("{start} & said STRAIGHT_TRAVERSE(X 10mm)"))]
+        }
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
         Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),
         Meaning::CancelToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(0)"),

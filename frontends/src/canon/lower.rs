@@ -201,7 +201,13 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
         "START_CUTTER_RADIUS_COMPENSATION" => Op::StartCutterRadiusCompensation {
             side: args
                 .one_of("side", &[("CANON_SIDE_LEFT", Side::Left), ("CANON_SIDE_RIGHT", Side::Right)])?,
-            radius: CutterRadius::Entry(Expr::int(args.count("entry")?.is)),
+            radius: match args.rest.len() > 1 {
+                true => {
+                    args.one_of("radius", &[("CANON_DIAMETER", ())])?;
+                    CutterRadius::Diameter(args.number("diameter", length)?)
+                }
+                false => CutterRadius::Entry(Expr::int(args.count("entry")?.is)),
+            },
         },
         "STOP_CUTTER_RADIUS_COMPENSATION" => Op::StopCutterRadiusCompensation,
         "START_SPINDLE_CLOCKWISE" => Op::StartSpindleClockwise,

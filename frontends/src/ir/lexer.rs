@@ -236,6 +236,8 @@ pub(crate) enum Token {
     Tool,
     #[token("in-force")]
     InForce,
+    #[token("diameter")]
+    Diameter,
     #[token("USE_TOOL_EDGE")]
     UseToolEdge,
     #[token("USE_MACHINE_COORDINATES")]

@@ -2,10 +2,12 @@
 //!
 //! Where a dialect has a word for the entry, it stands in the block or stays in force from an earlier
 //! one; where the code's row says so, it is the tool's own without that word, which then never stays.
-//! A dialect without such a word takes the radius that belongs to the length in force. Not here: what
+//! A dialect without such a word takes the radius that belongs to the length in force. Codes of their own
+//! have the tool's diameter in that word. Not here: what
 //! controls refuse under compensation; that is execution's.
 
-use ncc_dialects::Meaning;
+use ncc_dialects::{Meaning, Quantity};
+use ncc_ir::canon::Side;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{CutterRadius, Op};
@@ -20,12 +22,16 @@ impl Lower {
     /// Switches compensation on, and notes the entry that a word names.
     pub(super) fn compensation(&mut self, codes: &[Code], words: &mut Words, src: Source, out: &mut Batch) {
         let start = codes.iter().find_map(|code| match code.meaning {
-            Meaning::StartCutterRadiusCompensation(side) => Some((code, side)),
+            Meaning::StartCutterRadiusCompensation(side) => Some((code, side, false)),
+            Meaning::StartCompensationByDiameter(side) => Some((code, side, true)),
             _ => None,
         });
         let letter = self.roles.radius_entry;
-        let Some((code, side)) = start else { return self.radius_alone(codes, words, src, out) };
+        let Some((code, side, stated)) = start else { return self.radius_alone(codes, words, src, out) };
         self.set_mode(code.meaning, out);
+        if stated {
+            return self.by_diameter(code, side, words, src, out);
+        }
         let radius = match words.take(letter) {
             Some(word) => match self.entry(&word, src, out) {
                 Some(entry) => {
@@ -46,6 +52,19 @@ impl Lower {
             },
         };
         self.push(code.span, Op::StartCutterRadiusCompensation { side, radius }, out);
+    }
+
+    /// Compensation by a diameter that the block states.
+    fn by_diameter(&mut self, code: &Code, side: Side, words: &mut Words, src: Source, out: &mut Batch) {
+        let letter = self.roles.radius_entry;
+        let Some(word) = words.take(letter) else {
+            let (code_text, word) = (code.row.code.as_str().into(), char::from(letter).to_string().into());
+            return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+        };
+        if let Some(diameter) = self.number(&word, Quantity::Length, src, out) {
+            let radius = CutterRadius::Diameter(Expr::Num(diameter));
+            self.push(code.span, Op::StartCutterRadiusCompensation { side, radius }, out);
+        }
     }
 
     /// The word of an entry in a block that does not switch compensation on: it counts for the next one

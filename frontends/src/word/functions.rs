@@ -134,7 +134,9 @@ impl Lower {
             Meaning::StraightTraverse => self.set_motion(Motion::Traverse),
             Meaning::StraightFeed => self.set_motion(Motion::Feed),
             Meaning::ArcFeed(turn) => self.set_motion(Motion::Arc(turn)),
-            Meaning::StartCutterRadiusCompensation(_) => self.state.compensated = Know::Said(true),
+            Meaning::StartCutterRadiusCompensation(_) | Meaning::StartCompensationByDiameter(_) => {
+                self.state.compensated = Know::Said(true);
+            }
             Meaning::StopCutterRadiusCompensation => self.state.compensated = Know::Said(false),
             Meaning::EndCycle => {
                 self.state.cycle = InForce::None;

@@ -259,7 +259,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
         Meaning::SetData => 15,
         Meaning::OrientSpindle => 16,
-        Meaning::StartCutterRadiusCompensation(_) => 18,
+        Meaning::StartCutterRadiusCompensation(_) | Meaning::StartCompensationByDiameter(_) => 18,
         Meaning::ExactStop => 17,
         Meaning::EndCycle => RANK_MOTION,
         Meaning::UseMachineCoordinates { .. }

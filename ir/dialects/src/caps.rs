@@ -165,13 +165,16 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.address.iter().any(|row| row.role == crate::Role::Tool && row.named),
         radii: match (everything, says(Meaning::StartCutterRadiusCompensation(Side::Left))) {
             (true, _) => Radii::ALL,
-            (false, false) => Radii { entry: dialect.can.flat, ..Radii::default() },
+            (false, false) => {
+                Radii { entry: dialect.can.flat, diameter: dialect.can.flat, ..Radii::default() }
+            }
             (false, true) => {
                 let entry = dialect.letter_for(crate::Role::RadiusEntry).is_some();
                 let by_tool = |row: &crate::schema::CodeRow| {
                     row.own_tool && matches!(row.means, Some(Meaning::StartCutterRadiusCompensation(_)))
                 };
-                Radii { entry, tool: dialect.code.iter().any(by_tool), in_force: !entry }
+                let diameter = says(Meaning::StartCompensationByDiameter(Side::Left));
+                Radii { entry, tool: dialect.code.iter().any(by_tool), in_force: !entry, diameter }
             }
         },
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),

@@ -60,6 +60,8 @@ pub enum Meaning {
     PolarWords(bool),
     /// By the radius of the entry that a word names, or that the dialect has in force.
     StartCutterRadiusCompensation(Side),
+    /// The same by the diameter of the tool, which a word of the block states.
+    StartCompensationByDiameter(Side),
     StopCutterRadiusCompensation,
     SetMotionControlMode(PathMode),
     ExactStop,
@@ -165,6 +167,12 @@ impl fmt::Display for Meaning {
             Meaning::PolarWords(false) => "POLAR off",
             Meaning::StartCutterRadiusCompensation(Side::Left) => "START_CUTTER_RADIUS_COMPENSATION left",
             Meaning::StartCutterRadiusCompensation(Side::Right) => "START_CUTTER_RADIUS_COMPENSATION right",
+            Meaning::StartCompensationByDiameter(Side::Left) => {
+                "START_CUTTER_RADIUS_COMPENSATION left by-diameter"
+            }
+            Meaning::StartCompensationByDiameter(Side::Right) => {
+                "START_CUTTER_RADIUS_COMPENSATION right by-diameter"
+            }
             Meaning::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Meaning::SetMotionControlMode(mode) => {
                 return write!(f, "SET_MOTION_CONTROL_MODE {}", mode.name());
@@ -280,6 +288,12 @@ impl FromStr for Meaning {
             }
             ("START_CUTTER_RADIUS_COMPENSATION", "right") => {
                 Meaning::StartCutterRadiusCompensation(Side::Right)
+            }
+            ("START_CUTTER_RADIUS_COMPENSATION", "left by-diameter") => {
+                Meaning::StartCompensationByDiameter(Side::Left)
+            }
+            ("START_CUTTER_RADIUS_COMPENSATION", "right by-diameter") => {
+                Meaning::StartCompensationByDiameter(Side::Right)
             }
             ("STOP_CUTTER_RADIUS_COMPENSATION", "") => Meaning::StopCutterRadiusCompensation,
             ("SET_MOTION_CONTROL_MODE", mode) => Meaning::SetMotionControlMode(

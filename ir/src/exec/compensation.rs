@@ -23,7 +23,8 @@ pub struct Compensation {
     /// Whether two blocks or more without a move in the plane, or one that goes nowhere, stood before
     /// this move: some controls then do not look as far as this move for the corner before it.
     pub gap: bool,
-    /// The place of the radius: an entry of the table, or more than `EDGE` an edge that is none.
+    /// The place of the radius: an entry of the table, or with `EDGE` an edge that is none; with `STATED`
+    /// the diameter that the program states, in hundredths of a micrometre.
     pub radius: u32,
 }
 
@@ -36,8 +37,12 @@ impl Compensation {
             Plane::Zx => "ZX",
             Plane::Yz => "YZ",
         };
-        match self.radius & EDGE {
+        match self.radius & (EDGE | STATED) {
             0 => format!("{} in {plane} by entry {}", side.name(), self.radius),
+            STATED => {
+                let diameter = f64::from(self.radius & !STATED) / 1e5;
+                format!("{} in {plane} by diameter {diameter}", side.name())
+            }
             _ => format!("{} in {plane} by an edge of the tool", side.name()),
         }
     }
@@ -51,6 +56,12 @@ impl Default for Compensation {
 
 /// Marks the place of a radius that is no entry.
 const EDGE: u32 = 1 << 31;
+
+/// Marks a diameter.
+const STATED: u32 = 1 << 30;
+
+/// What a diameter is counted in: hundredths of a micrometre.
+const STEP: Nanos = ONE / 100_000;
 
 /// What is remembered of the way while compensation is on, or has not been left yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -106,13 +117,19 @@ impl Exec {
             return self.not_executed("cutter radius compensation while a cycle is in force", span);
         }
         let plane = self.modes.plane;
-        let radius = self.place_of_radius(radius, span)?;
+        let place = self.place_of_radius(radius, span)?;
+        let mut side = side;
+        if let CutterRadius::Diameter(diameter) = radius
+            && self.value(diameter, span)? < 0
+        {
+            side = side.other();
+        }
         let side = match self.mirrors(plane) {
             Some(false) => side,
             Some(true) => side.other(),
             None => return self.not_executed("cutter radius compensation in a plane that is tilted", span),
         };
-        self.state.compensation = super::Compensation { side: Some(side), plane, gap: false, radius };
+        self.state.compensation = super::Compensation { side: Some(side), plane, gap: false, radius: place };
         let Contour { elsewhere, lines, .. } = self.contour;
         self.contour = Contour { watched: true, elsewhere, lines, plane: Some(plane), ..Contour::default() };
         Ok(())
@@ -148,11 +165,18 @@ impl Exec {
                 }
                 Length::Left => 0,
             },
+            CutterRadius::Diameter(diameter) => {
+                let steps = (self.value(diameter, span)?.abs() + STEP / 2) / STEP;
+                return match u32::try_from(steps) {
+                    Ok(steps) if steps < STATED => Ok(STATED | steps),
+                    Ok(_) | Err(_) => self.fault(Fault::OutOfRange { word: "D".into() }, span),
+                };
+            }
         };
         if entry == 0 {
             return none();
         }
-        Ok(self.world.entry_number(entry) & !EDGE)
+        Ok(self.world.entry_number(entry) & !(EDGE | STATED))
     }
 
     /// Whether the frames turn left and right of a plane's ways round; `None` if they tilt the plane.

@@ -16,7 +16,7 @@ use crate::kinds::{flow, miscellaneous, tooling};
 use crate::num::{Num, Unit};
 use crate::polar;
 use crate::program::{
-    Centre, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Program, Shape, Slot, Stmt,
+    Centre, Coord, CutterRadius, Data, FrameStep, Op, Pitch, Point, PoleWords, Program, Shape, Slot, Stmt,
 };
 use crate::track::Tracker;
 
@@ -116,6 +116,9 @@ impl Converter<'_> {
                 }
             }
             Op::SetFeedRate(feed) => self.loose(feed)?,
+            Op::StartCutterRadiusCompensation { radius: CutterRadius::Diameter(diameter), .. } => {
+                self.whole(diameter)?;
+            }
             Op::StartCycle(cycle) => self.cycle(cycle)?,
             Op::Pattern(pattern) => self.pattern(pattern)?,
             Op::GoToReference(reference) => {

@@ -70,11 +70,12 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<CutterRad
         CutterRadius::Entry(entry) => (entry.literal().and_then(|n| n.whole()).and_then(number), radii.entry),
         CutterRadius::Tool => (tool, radii.tool),
         CutterRadius::InForce => (length, radii.in_force),
+        CutterRadius::Diameter(_) => (None, radii.diameter),
     };
     // What has no radius is refused where it is executed.
     let none = match radius {
         CutterRadius::Entry(entry) => entry.literal().is_some_and(|n| n.is_zero()),
-        CutterRadius::Tool => false,
+        CutterRadius::Tool | CutterRadius::Diameter(_) => false,
         CutterRadius::InForce => at.modes.length_offset == Some(0),
     };
     if can || none {
@@ -85,6 +86,7 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<CutterRad
             CutterRadius::Entry(_) => "compensation by a computed entry".into(),
             CutterRadius::Tool => "compensation by the radius of a tool that is not known".into(),
             CutterRadius::InForce => "compensation by the radius of an edge that is no entry".into(),
+            CutterRadius::Diameter(_) => "compensation by a diameter that the program states".into(),
         });
     };
     match () {

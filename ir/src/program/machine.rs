@@ -89,7 +89,7 @@ pub enum Data {
     },
 }
 
-/// By which radius a contour is compensated. None of them is a length: what stands in the control's
+/// By which radius a contour is compensated. In general it is no length: what stands in the control's
 /// tables is the operator's.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CutterRadius {
@@ -100,4 +100,6 @@ pub enum CutterRadius {
     Tool,
     /// That of the edge, or of the entry, whose length is in force.
     InForce,
+    /// Half of a diameter that the program itself states; a negative one makes the other side.
+    Diameter(Expr),
 }

@@ -344,7 +344,11 @@ fn pole() -> impl Strategy<Value = Op> {
 }
 
 fn radius() -> impl Strategy<Value = CutterRadius> {
-    prop_oneof![expr().prop_map(CutterRadius::Entry), select(vec![CutterRadius::Tool, CutterRadius::InForce]),]
+    prop_oneof![
+        expr().prop_map(CutterRadius::Entry),
+        expr().prop_map(CutterRadius::Diameter),
+        select(vec![CutterRadius::Tool, CutterRadius::InForce]),
+    ]
 }
 
 /// A statement's operation that has no body.
