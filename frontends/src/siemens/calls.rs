@@ -104,7 +104,7 @@ impl Lower {
     /// `MCALL`, alone or with a cycle.
     pub(super) fn call_modal(&mut self, called: Option<&Called>, head: &Head, src: Source, out: &mut Batch) {
         let Some(called) = called else {
-            return self.end_cycle(head.span, out);
+            return self.end_cycle(head.span, src, out);
         };
         let name = src.text(called.name).to_ascii_uppercase();
         let dialect = self.settings.dialect;
@@ -365,7 +365,7 @@ impl Lower {
         self.stand.forget();
         self.moved = None;
         self.cycled = false;
-        self.recall = false;
+        (self.recall, self.idle_tap) = (false, false);
         self.ended = false;
         self.refresh();
     }

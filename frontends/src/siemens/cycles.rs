@@ -143,10 +143,12 @@ impl Lower {
         out: &mut Batch,
     ) {
         let block = called.span;
+        self.no_idle_tap(block, src, out);
         let cycle = self.arguments(row, called, src, out).and_then(|a| self.cycle_of(&a, src, out));
         if modal {
             self.again.say(CYCLE);
         }
+        let says_speed = std::mem::take(&mut self.idle_tap);
         let Some(cycle) = cycle.filter(|_| !self.now.failed) else {
             if modal {
                 self.state.cycle = InForce::Refused;
@@ -163,6 +165,7 @@ impl Lower {
                 return self.not_supported(&row.name, name, block, out);
             }
             self.push(block, Op::StartCycle(cycle.clone()), out);
+            self.idle_tap = says_speed;
             // Whether it has made a hole or not: which feed is in force behind it must be said.
             self.hole_made(&cycle);
             self.state.cycle = InForce::Active(cycle);
@@ -183,8 +186,17 @@ impl Lower {
         self.hole_made(&cycle);
     }
 
+    /// A modal tap that goes without a hole: which speed the spindle then has is its control's matter.
+    fn no_idle_tap(&mut self, at: Span, src: Source, out: &mut Batch) {
+        if std::mem::take(&mut self.idle_tap) {
+            let name = "a modal tap with a speed of its own that makes no hole";
+            self.not_supported(&src.text(at), name, at, out);
+        }
+    }
+
     /// `MCALL` alone.
-    pub(super) fn end_cycle(&mut self, at: Span, out: &mut Batch) {
+    pub(super) fn end_cycle(&mut self, at: Span, src: Source, out: &mut Batch) {
+        self.no_idle_tap(at, src, out);
         self.again.say(CYCLE);
         if matches!(self.state.cycle, InForce::Subprogram(_)) {
             if self.skipped() {
@@ -204,6 +216,7 @@ impl Lower {
 
     /// Calls the cycle in force up again if a feed was said since, which is not its own.
     pub(super) fn call_up_again(&mut self, cycle: &Cycle, at: Span, out: &mut Batch) {
+        self.idle_tap = false;
         if std::mem::take(&mut self.recall) {
             self.push(at, Op::StartCycle(Box::new(cycle.clone())), out);
         }

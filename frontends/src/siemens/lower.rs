@@ -52,6 +52,9 @@ pub(super) struct Lower {
     pub(super) cycled: bool,
     /// Whether the cycle in force must be called up again, because a feed was said since.
     pub(super) recall: bool,
+    /// Whether the modal tap in force has put its own speed in force and made no hole yet: until it does,
+    /// the control has the speed that was said before.
+    pub(super) idle_tap: bool,
     /// Rows, options and patterns that have been reported.
     pub(super) reported: HashSet<Box<str>>,
     /// The subprogram that is being read; `None` in the main program.
@@ -133,6 +136,7 @@ impl Lower {
             moved: None,
             cycled: false,
             recall: false,
+            idle_tap: false,
             reported: HashSet::new(),
             sub: None,
             entry: InForce::None,

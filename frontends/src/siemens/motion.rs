@@ -109,7 +109,7 @@ impl Lower {
                     self.push(block, Op::StartCycle(cycle.clone()), out);
                     self.rely_on_frames(true, block, out);
                     self.push(block, Op::Hole(Move::default()), out);
-                    self.recall = false;
+                    (self.recall, self.idle_tap) = (false, false);
                 }
                 self.hole_made(&cycle);
             }

@@ -125,6 +125,7 @@ impl Lower {
                 self.push(a.span, Op::EndCycle, out);
             }
             self.push(a.span, Op::SetSpindleSpeed(Expr::Num(speed)), out);
+            self.idle_tap = true;
         }
         let pitch = Pitch::Stated(pitch.into());
         Some(CycleKind::Tap(Box::new(Tap { turn, pitch, chuck: false, dwell, settle: None, after })))
