@@ -308,6 +308,11 @@ impl Exec {
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
         if leg == Leg::Level {
+            if normal == super::Z && self.waiting.is_some() && cycle.approach != Approach::RetractFirst {
+                // Below the retract plane by the length before, not by the one that is taken up now.
+                let what = "a way up to R on which a length is taken up".into();
+                return self.fault(Fault::NotExecuted { what }, span);
+            }
             self.go_to_level(normal, cycle.retract, false, span, out)?;
         }
         let level = if leg == Leg::Slant { out_to } else { self.position[normal] };
