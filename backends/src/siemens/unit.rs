@@ -72,10 +72,14 @@ impl Writer {
         if self.under_cycle.contains(&p.name) {
             self.standing.modal = Modal::Doubtful;
         }
+        // There, the codes of the program's end lead back to what has called it.
+        for end in p.body.iter().filter(|s| matches!(s.op, Op::ProgramEnd)) {
+            sink.report(cannot("the program's end in a subprogram"), end.span);
+        }
         self.body(&p.body, &mut sink);
         let silent = |s: &&Stmt| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
         let last = p.body.iter().rev().find(silent);
-        if !last.is_some_and(|s| matches!(s.op, Op::Return | Op::ProgramEnd) && s.skip.is_none()) {
+        if !last.is_some_and(|s| matches!(s.op, Op::Return) && s.skip.is_none()) {
             let end = Stmt::new(p.body.last().map_or(span, |s| s.span), Op::Return);
             self.body(&[end], &mut sink);
         }
