@@ -66,6 +66,10 @@ pub enum Happening {
     MachineFunction(u64),
     /// A value put into a table: which, which entry, and what it holds now.
     Data(&'static str, u32, [f64; 6]),
+    /// A working plane: its zero, then its axes; or none.
+    Plane(Option<[[f64; 3]; 4]>),
+    /// The tool turned upright on it.
+    Upright,
     Stop,
     OptionalStop,
     End,
@@ -296,6 +300,12 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                     }
                 }
             }
+            Kind::Tilt(None) => Happening::Plane(None),
+            Kind::Tilt(Some(plane)) => {
+                let column = |k: usize| plane.axes.map(|row| row[k]);
+                Happening::Plane(Some([plane.origin.map(mm), column(0), column(1), column(2)]))
+            }
+            Kind::OrientToolAxis(_) => Happening::Upright,
             Kind::ProgramStop => Happening::Stop,
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
@@ -415,6 +425,9 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
             a == b && n == m && x.iter().zip(y).all(|(x, y)| near(*x, y, within.place))
         }
         (Happening::Orient(x), Happening::Orient(y)) => near(x, y, 0.0006),
+        (Happening::Plane(Some(x)), Happening::Plane(Some(y))) => {
+            x.as_flattened().iter().zip(y.as_flattened()).all(|(x, y)| near(*x, *y, within.place))
+        }
         (x, y) => x == y,
     };
     if !same_kind {

@@ -40,6 +40,8 @@ pub enum Unchecked {
     Frame(u8),
     /// Travel of an axis: it moves from a place that the program does not say.
     Start(u8),
+    /// Travel of an axis: points are those of the tool's tip, or of a tilted plane.
+    Tilted(u8),
     /// Feeds: the highest is not stated.
     MaxFeed,
     /// Speeds: the highest is not stated.

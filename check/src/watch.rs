@@ -59,6 +59,8 @@ pub(crate) struct Step<'s> {
     pub(crate) from_known: [bool; AXES],
     /// Whether its words are machine coordinates.
     pub(crate) raw: bool,
+    /// Whether points were those of the tool's tip, or of a tilted plane.
+    pub(crate) tilted: bool,
 }
 
 impl Checker {
@@ -103,6 +105,7 @@ impl Checker {
             from: exec.position(),
             from_known: self.seen.program,
             raw: std::mem::take(&mut self.seen.raw),
+            tilted: exec.is_tilted(),
         };
         self.before(stmt);
         let saved = (exec.feed() == 0 && cuts(&stmt.op, exec)).then(|| exec.clone());
@@ -221,6 +224,17 @@ impl Checker {
                     self.seen.switch_on(LeftOn::Frame, at);
                 }
                 self.forget_program();
+                if step.tilted != exec.is_tilted() {
+                    self.seen.machine[..3].fill(false);
+                }
+            }
+            Op::UseToolCentrePoint(_) => {
+                self.forget_program();
+                self.seen.machine[..3].fill(false);
+            }
+            Op::OrientToolAxis(_) => {
+                self.forget_program();
+                self.seen.machine = [false; AXES];
             }
             Op::SetOriginOffsets(_) => {
                 self.rebase(exec);
@@ -292,6 +306,8 @@ impl Checker {
             | Kind::Coolant
             | Kind::MachineFunction(_)
             | Kind::Data(_)
+            | Kind::Tilt(_)
+            | Kind::OrientToolAxis(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::TextEnd
@@ -324,6 +340,9 @@ impl Checker {
                 self.seen.program[axis] = true;
                 self.seen.machine[axis] = self.seen.base[axis];
             }
+        }
+        if exec.is_tilted() && !raw {
+            self.seen.machine[..3].fill(false);
         }
         if exec.has_frames() && !raw {
             // A turned frame mixes its axes.

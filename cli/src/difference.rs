@@ -37,6 +37,10 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
             format!("a thread of pitch {} mm{}", number(*pitch), if *chuck { " in a chuck" } else { "" })
         }
         Kind::Orient(angle) => format!("the spindle stopped at {} degrees", number(*angle)),
+        Kind::Tilt(Some(plane)) => plane.to_string(),
+        Kind::Tilt(None) => "the end of the tilted plane".to_owned(),
+        Kind::OrientToolAxis(None) => "the tool turned onto the plane".to_owned(),
+        Kind::OrientToolAxis(Some(toward)) => format!("the tool turned onto the plane, {}", toward.name()),
         Kind::Dwell(seconds) => format!("a dwell of {} s", number(*seconds)),
         Kind::ToolChange => format!("a change to tool {}", event.state.tool),
         Kind::Data(stored) => stored.to_string(),
@@ -66,6 +70,12 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
             text += &format!(" with tool {}, {spindle}, {coolant}", s.tool);
             if s.compensation.side.is_some() {
                 text += &format!(", compensation {}", s.compensation.words());
+            }
+            if s.tip {
+                text += ", points of the tool's tip";
+            }
+            if s.tilted {
+                text += ", in a tilted plane";
             }
         }
         Aspect::Feed => text += &format!(" at F{}", number(event.rate)),

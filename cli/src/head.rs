@@ -83,6 +83,10 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
         Fault::AssumedHoleOrder { pattern } => format!("order of the holes of {pattern}"),
         Fault::AssumedPath { path } => format!("corners always by {path}"),
+        Fault::AssumedTip => {
+            "rotary axes, and the zero of the tool's tip, as on the other control".to_owned()
+        }
+        Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedEdge { .. } => "edge 1 of a tool = the length entry of its number".to_owned(),
         _ => return None,

@@ -85,6 +85,10 @@ pub struct Caps {
     pub tool_names: bool,
     /// How it names the radius of cutter radius compensation; none of them is without compensation.
     pub radii: Radii,
+    /// How control of the tool's tip is said.
+    pub tip: TipForm,
+    /// How tilted working planes are said.
+    pub tilt: TiltForm,
     /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
     /// if either.
     pub tool_edges: Option<bool>,
@@ -146,6 +150,35 @@ pub struct Caps {
     pub advice: Vec<(AdviceKind, u8)>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
+}
+
+/// How a target says that points are those of the tool's tip.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TipForm {
+    /// Not at all.
+    #[default]
+    None,
+    /// By the word that takes the length up; the word that ends the length ends it.
+    WithLength,
+    /// By words of its own; the length stays what it is.
+    Apart,
+    /// As the text form does.
+    Any,
+}
+
+/// How a target says a tilted working plane.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TiltForm {
+    /// Not at all.
+    #[default]
+    None,
+    /// By turns about Z, the new X, and the new Z; the tool is turned by a word of its own.
+    Euler,
+    /// By turns about three different axes, each about the new one, in any order; the tool is turned by
+    /// the same word, towards a side that it names.
+    AxisByAxis,
+    /// As the text form does.
+    Any,
 }
 
 /// How a target says points by radius and angle.
@@ -325,12 +358,14 @@ impl Caps {
                 Slot::Rotation { .. } => self.rotation,
                 Slot::Scale { .. } => self.scale,
                 Slot::Mirror(_) | Slot::NoMirror(_) => self.mirror,
+                Slot::Tilt(_) => self.tilt != TiltForm::None,
             },
             Op::ClearFrame(FrameSlot::Shift) => self.clears_shift,
             Op::ClearFrame(FrameSlot::Local) => self.local_shift,
             Op::ClearFrame(FrameSlot::Rotation) => self.rotation,
             Op::ClearFrame(FrameSlot::Scale) => self.scale,
             Op::ClearFrame(FrameSlot::Mirror) => self.mirror,
+            Op::ClearFrame(FrameSlot::Tilt) => self.tilt != TiltForm::None,
             _ => true,
         }
     }

@@ -257,6 +257,11 @@ faults! {
     /// The tool goes onto a compensated contour, and leaves it, in the same way on both controls.
     AssumedContourEnds = 312, verdict(Verdict::Assumed);
 
+    /// Rotary axes, and the zero that points of the tool's tip count from, are the same on both controls.
+    AssumedTip = 320, verdict(Verdict::Assumed);
+    /// The tool is turned onto a tilted plane in the same way on both controls.
+    AssumedTilt = 321, verdict(Verdict::Assumed);
+
     // NC04xx: what became of it.
     /// A comment in the target's characters.
     CommentReformatted = 401, verdict(Verdict::Reformatted);

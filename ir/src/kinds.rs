@@ -73,16 +73,19 @@ macro_rules! frames {
             | $crate::program::Op::SetFrame(_)
             | $crate::program::Op::SetSlot(_)
             | $crate::program::Op::SetPosition(_)
+            | $crate::program::Op::UseToolCentrePoint(_)
             | $crate::program::Op::UseMachineCoordinates { .. }
     };
 }
 
-/// Rapid moves to points of the machine, behind which the program does not know where these axes
+/// Moves to where the machine alone knows, behind which the program does not know where these axes
 /// stand, and values put into the control's tables. What bare axis words do, the feed and the cycle
 /// stay as they are.
 macro_rules! machine {
     () => {
-        $crate::program::Op::GoToReference(_) | $crate::program::Op::SetData(_)
+        $crate::program::Op::GoToReference(_)
+            | $crate::program::Op::OrientToolAxis(_)
+            | $crate::program::Op::SetData(_)
     };
 }
 

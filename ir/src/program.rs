@@ -16,7 +16,7 @@ mod machine;
 mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
-pub use frame::{Frame, FrameSlot, FrameStep, Slot};
+pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
 pub use machine::{CutterRadius, Data, DataMode, Reference, ReferencePoint, ToolValue};
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
@@ -233,7 +233,7 @@ pub enum Op {
     ClearFrame(FrameSlot),
     /// `SET_FRAME` or `ADD_FRAME`: a step of [`FrameSlot::Chain`].
     SetFrame(Box<Frame>),
-    /// `SET_SHIFT`, `SET_ROTATION`, `SET_SCALE`, `SET_MIRROR`, `CLEAR_MIRROR`: fills a slot of the
+    /// `SET_SHIFT`, `SET_ROTATION`, `SET_SCALE`, `SET_MIRROR`, `CLEAR_MIRROR`, `SET_TILT`: fills a slot of the
     /// coordinate chain.
     SetSlot(Box<Slot>),
     /// `SET_POSITION`: from here on, the present point has these coordinates in the work offset with the
@@ -245,6 +245,13 @@ pub enum Op {
         /// Whether the tool's length stays; else it is off for the block too.
         length: bool,
     },
+    /// `USE_TOOL_CENTRE_POINT`: whether points are those of the tool's tip, which the control keeps there
+    /// while rotary axes turn the tool or the work. Moves nothing. Where the axes stand in the program's
+    /// coordinates behind it, the machine alone knows.
+    UseToolCentrePoint(bool),
+    /// `ORIENT_TOOL_AXIS`: rotary axes go to where the tool stands upright on the tilted plane. Which way,
+    /// and what the linear axes do meanwhile, is the machine's.
+    OrientToolAxis(Option<Toward>),
     /// `SET_OFFSET_DATA` or `SET_TOOL_DATA`: puts values into the control's tables.
     SetData(Box<Data>),
     /// `START_CUTTER_RADIUS_COMPENSATION`: from the next move in the plane on, the programmed contour is
@@ -400,6 +407,8 @@ impl Op {
             }
             Op::SetSlot(slot) => slot.name(),
             Op::SetPosition(_) => "SET_POSITION",
+            Op::UseToolCentrePoint(_) => "USE_TOOL_CENTRE_POINT",
+            Op::OrientToolAxis(_) => "ORIENT_TOOL_AXIS",
             Op::UseMachineCoordinates { .. } => "USE_MACHINE_COORDINATES",
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => "SET_OFFSET_DATA",

@@ -53,6 +53,8 @@ pub struct Tracker {
     pub pole_lost: bool,
     /// Whether cutter radius compensation may be on.
     pub compensated: bool,
+    /// Whether points may be those of the tool's tip, or of a tilted plane.
+    pub tilted: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -245,7 +247,8 @@ impl Tracker {
     /// Forgets everything: after a call, at a label.
     pub fn forget(&mut self) {
         // What is called leaves compensation as it was, or executes with another.
-        *self = Tracker { compensated: self.compensated, ..Tracker::unknown() };
+        let Tracker { compensated, tilted, .. } = *self;
+        *self = Tracker { compensated, tilted, ..Tracker::unknown() };
     }
 
     /// Executes a statement.
@@ -303,6 +306,7 @@ impl Tracker {
         self.raw |= other.raw;
         self.pole_lost |= other.pole_lost || self.pole != other.pole;
         self.compensated |= other.compensated;
+        self.tilted |= other.tilted;
     }
 
     /// Executes an operation, whatever the block-skip switches say.
@@ -401,6 +405,11 @@ impl Tracker {
                 self.framed = true;
                 self.chained = true;
             }
+            Op::UseToolCentrePoint(on) => {
+                self.position[..3].fill(None);
+                self.tilted = *on;
+            }
+            Op::OrientToolAxis(_) => self.position = [None; AXES],
             Op::UseMachineCoordinates { length } => {
                 self.raw = true;
                 self.raw_length = *length;
@@ -499,6 +508,12 @@ impl Tracker {
                 self.shift_locally(&[Some(0); AXES]);
                 self.local_lost = false;
             }
+            FrameSlot::Tilt => {
+                if self.tilted {
+                    self.position[..3].fill(None);
+                }
+                self.tilted = false;
+            }
             FrameSlot::Chain if self.chained => {
                 self.position = [None; AXES];
                 self.chained = false;
@@ -513,7 +528,6 @@ impl Tracker {
             | FrameSlot::Scale
             | FrameSlot::Mirror
             | FrameSlot::Polar
-            | FrameSlot::Tilt
             | FrameSlot::Chain => {}
         }
     }
@@ -535,6 +549,10 @@ impl Tracker {
                         *at = None;
                     }
                 }
+            }
+            Slot::Tilt(_) => {
+                self.position[..3].fill(None);
+                self.tilted = true;
             }
             Slot::Rotation { .. } | Slot::Scale { .. } | Slot::Mirror(_) | Slot::NoMirror(_) => {
                 self.position = [None; AXES];
@@ -574,7 +592,7 @@ impl Tracker {
     /// The machine goes along these axes to where the program does not know; a frame may mix them.
     fn lose(&mut self, axes: &[bool; AXES]) {
         for (at, goes) in self.position.iter_mut().zip(axes) {
-            if *goes || self.framed {
+            if *goes || self.framed || self.tilted {
                 *at = None;
             }
         }

@@ -510,6 +510,14 @@ impl Comparison {
                     return Some(Aspect::Kind);
                 }
             }
+            (Kind::Tilt(Some(x)), Kind::Tilt(Some(y))) => {
+                let half = self.half[usize::from(b.inch || self.as_inches)].max(self.within);
+                if !x.is_same(y, half, Resolution::half(self.resolution.degree, false)) {
+                    return Some(Aspect::Kind);
+                }
+            }
+            // One that does not say the way takes the machine's.
+            (Kind::OrientToolAxis(x), Kind::OrientToolAxis(y)) if x.is_none() || y.is_none() => {}
             (Kind::Orient(x), Kind::Orient(y)) => {
                 if !near(*x, *y, Resolution::half(self.resolution.degree, false)) {
                     return Some(Aspect::Kind);

@@ -186,6 +186,19 @@ impl World {
         })
     }
 
+    /// How far apart the zeros of the tool's tip (`true`), or of a tilted plane, and of the linear axes are:
+    /// nobody knows but the machine.
+    pub fn kinematic_shift(&self, tip: bool) -> [Nanos; 3] {
+        let first = if tip { 120_000 } else { 120_008 };
+        std::array::from_fn(|axis| if self.seed == 0 { 0 } else { self.odd(first + axis as u32, 60) })
+    }
+
+    /// Where the rotary axes A, B and C stand when the tool stands upright on a tilted plane, degrees; the
+    /// plain world does not say.
+    pub fn oriented(&self) -> Option<[Nanos; 3]> {
+        (self.seed != 0).then(|| std::array::from_fn(|axis| self.odd(120_016 + axis as u32, 90)))
+    }
+
     /// How much of the length of an entry is wear.
     pub fn length_wear(&self, entry: u32) -> Nanos {
         match self.tables.wears.get(&entry) {

@@ -109,6 +109,12 @@ pub const CORNERS: &str = "corners";
 /// Key of the reading that the tool goes onto a compensated contour, and leaves it, as on the other control.
 pub const CONTOUR_ENDS: &str = "contour-ends";
 
+/// Key of the reading that rotary axes, and the zero of points of the tool's tip, are those of the other machine.
+pub const TIP: &str = "tool-centre-point";
+
+/// Key of the reading that the tool is turned onto tilted planes as on the other machine.
+pub const TILT: &str = "tilted-plane";
+
 /// What follows the name of a pattern whose order of holes is the one that is written.
 const ORDER: &str = "-order";
 
@@ -164,6 +170,8 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
         Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
         Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
+        Fault::AssumedTip => (Side::To, Place::Confirmed(TIP.to_owned())),
+        Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
         Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
         Fault::AssumedEdge { .. } => {
             let side = if edges(to) { Side::To } else { Side::From };
@@ -229,7 +237,8 @@ fn slug(words: &str) -> String {
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
-    let readings = [OFFSET_WITH_Z, BARE_NUMBERS, CONTOUR_ENDS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES];
+    let readings =
+        [OFFSET_WITH_Z, BARE_NUMBERS, CONTOUR_ENDS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, TIP, TILT];
     if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE].contains(&key) {
         return true;
     }

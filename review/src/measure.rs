@@ -124,7 +124,7 @@ impl Measure {
             | bit(s.tool != t.tool, bits::TOOL)
             | bit((s.flood, s.mist) != (t.flood, t.mist), bits::COOLANT)
             | bit(s.compensation != t.compensation, bits::COMPENSATION)
-            | bit(frame || turned, bits::FRAME)
+            | bit(frame || turned || (s.tip, s.tilted) != (t.tip, t.tilted), bits::FRAME)
     }
 }
 

@@ -144,13 +144,16 @@ pub struct Still {
     pub flood: bool,
     pub mist: bool,
     pub compensation: Compensation,
+    pub tip: bool,
+    pub tilted: bool,
 }
 
 impl From<State> for Still {
     fn from(s: State) -> Still {
         // How blocks stand between moves is a matter of the text.
         let compensation = Compensation { gap: false, ..s.compensation };
-        Still { tool: s.tool, speed: s.speed, spindle: s.spindle, flood: s.flood, mist: s.mist, compensation }
+        let State { tool, speed, spindle, flood, mist, tip, tilted, .. } = s;
+        Still { tool, speed, spindle, flood, mist, compensation, tip, tilted }
     }
 }
 
@@ -323,6 +326,16 @@ impl Recorder {
                 self.texts += 1;
                 self.batch.texts.push(text.into());
             }
+            Kind::Tilt(_) | Kind::OrientToolAxis(_) => {
+                let text = match &event.kind {
+                    Kind::Tilt(Some(plane)) => plane.to_string(),
+                    Kind::Tilt(None) => "the tilted plane taken back".to_owned(),
+                    _ => "the tool turned onto the tilted plane".to_owned(),
+                };
+                more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
+                self.texts += 1;
+                self.batch.texts.push(text.into());
+            }
             Kind::Traverse | Kind::Feed => {}
             Kind::ToolChange
             | Kind::Coolant
@@ -364,7 +377,7 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::Arc { .. } => What::Arc,
         Kind::Dwell(_) => What::Dwell,
         Kind::ToolChange => What::ToolChange,
-        Kind::MachineFunction(_) | Kind::Data(_) => What::Function,
+        Kind::MachineFunction(_) | Kind::Data(_) | Kind::Tilt(_) | Kind::OrientToolAxis(_) => What::Function,
         Kind::ProgramStop => What::Stop,
         Kind::OptionalProgramStop => What::OptionalStop,
         Kind::ProgramEnd => What::End,

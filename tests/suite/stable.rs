@@ -182,6 +182,8 @@ fn framed(program: &Program) -> [usize; 2] {
                     }
                 }
                 Slot::Rotation { .. } => rotation = true,
+                // It is never worked into coordinates.
+                Slot::Tilt(_) => {}
                 Slot::Scale { .. } => scale = true,
                 Slot::Mirror(lines) => {
                     mirror.iter_mut().zip(lines.iter()).for_each(|(m, line)| *m |= line.is_some());

@@ -40,6 +40,8 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
         Kind::Orient(_) | Kind::Attribute(Attribute::StopSpindle) => known(machine.spindle_stop),
         Kind::MachineFunction(name) => known(machine.function(name)),
         Kind::ToolChange
+        | Kind::Tilt(_)
+        | Kind::OrientToolAxis(_)
         | Kind::Data(_)
         | Kind::Coolant
         | Kind::ProgramStop

@@ -347,6 +347,8 @@ impl Writer {
 
             Op::StartCutterRadiusCompensation { .. }
             | Op::ClearFrame(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
             | Op::SetFrame(_)
             | Op::Advise(_)
             | Op::SetSlot(_)

@@ -128,6 +128,8 @@ fn rank(op: &Op) -> u8 {
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::SetPosition(_)
+        | Op::UseToolCentrePoint(_)
+        | Op::OrientToolAxis(_)
         | Op::UseMachineCoordinates { .. }
         | Op::GoToReference(_)
         | Op::SetData(_)
@@ -340,6 +342,8 @@ impl Printer<'_> {
             | Op::SetPosition(_)
             | Op::ClearFrame(_)
             | Op::UseMachineCoordinates { .. }
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::StartCutterRadiusCompensation { .. }

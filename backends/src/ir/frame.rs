@@ -41,6 +41,19 @@ pub(super) fn filled(s: &Slot, out: &mut Vec<u8>) {
             axis_words(&factors[..], ", ", out);
         }
         Slot::Mirror(lines) => axis_words(&lines[..], "", out),
+        Slot::Tilt(tilt) => {
+            axis_words(&tilt.origin, "", out);
+            if tilt.origin.iter().any(Option::is_some) {
+                put(", ", out);
+            }
+            put("about", out);
+            for (about, angle) in tilt.about.iter().zip(&tilt.angles) {
+                put(" ", out);
+                out.push(about.letter());
+                put(" ", out);
+                expr(angle, out);
+            }
+        }
         Slot::NoMirror(axes) => {
             let mut before = "";
             for (axis, _) in Axis::ALL.into_iter().zip(axes).filter(|(_, over)| **over) {

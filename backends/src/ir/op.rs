@@ -47,6 +47,8 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::RepeatBlocks(_)
         | Op::StartCutterRadiusCompensation { .. }
         | Op::StopCutterRadiusCompensation
+        | Op::UseToolCentrePoint(_)
+        | Op::OrientToolAxis(_)
         | Op::SetMotionControlMode(_)
         | Op::ExactStop
         | Op::Advise(_)
@@ -118,6 +120,8 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::ClearFrame(s) => put(slot(*s), out),
         Op::SetFrame(f) => frame(f, out),
         Op::SetSlot(s) => filled(s, out),
+        Op::UseToolCentrePoint(on) => put(if *on { "on" } else { "off" }, out),
+        Op::OrientToolAxis(toward) => put(toward.map_or("", |toward| toward.name()), out),
         Op::StartCutterRadiusCompensation { side, radius } => machine::compensation(*side, radius, out),
         Op::SetPosition(words) => axis_words(&words[..], "", out),
         Op::UseToolEdge { edge: e, .. }

@@ -102,6 +102,7 @@ impl Writer {
             Op::LimitSpindleSpeed(speed) => self.named_alone(NameRole::SpindleLimit, speed, span, sink),
             Op::OrientSpindle(Some(angle)) => self.named_alone(NameRole::SpindleAngle, angle, span, sink),
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
+            Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) => self.words.statement(stmt, sink),
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
             Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => self.words.statement(stmt, sink),
             Op::SetFrame(frame) => self.frame(frame, span, sink),

@@ -48,6 +48,7 @@ impl Writer {
                 let code = frames.mirror.ok_or_else(|| cannot("a mirror"))?;
                 self.filled(code, &self.along(&lines[..])?, &[], Inserted::default(), span, sink)
             }
+            Slot::Tilt(_) => Err(cannot("a tilted plane")),
             Slot::NoMirror(axes) => self.zeros(frames.no_mirror, *axes, "a mirror", span, sink),
         }
     }

@@ -53,6 +53,8 @@ impl Setting {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::SetData(_)

@@ -71,6 +71,8 @@ impl Writer {
                 self.machine = Some(code.ok_or_else(|| cannot("machine coordinates"))?);
                 Ok(())
             }
+            Op::UseToolCentrePoint(_) => Err(cannot("control of the tool's tip")),
+            Op::OrientToolAxis(_) => Err(cannot("the tool's axis turned onto a tilted plane")),
             Op::GoToReference(reference) => self.reference(reference, span, sink),
             Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),

@@ -33,6 +33,10 @@ pub(crate) fn moved(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
             checker.unchecked.insert(Unchecked::Travel(axis as u8));
             continue;
         };
+        if axis < 3 && (event.state.tip || event.state.tilted) {
+            checker.unchecked.insert(Unchecked::Tilted(axis as u8));
+            continue;
+        }
         if !checker.seen.machine[axis] {
             let why = checker.why_unknown(axis);
             if checker.travel.noted[axis].as_ref() != Some(&why) {

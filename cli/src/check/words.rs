@@ -225,6 +225,9 @@ pub(super) fn not_checked(
             }
             Unchecked::Frame(axis) => say(travel(*axis), "zero is not known after blocks that were not read"),
             Unchecked::Start(axis) => say(travel(*axis), "where it starts is not said"),
+            Unchecked::Tilted(axis) => {
+                say(travel(*axis), "points of the tool's tip or of a tilted plane say nothing of the axes")
+            }
             Unchecked::MaxFeed => say("feeds".to_owned(), "the profile states no highest feed"),
             Unchecked::MaxSpeed => say("speeds".to_owned(), "the profile states no highest speed"),
             Unchecked::Endless => {

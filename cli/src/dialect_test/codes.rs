@@ -208,6 +208,24 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             Said::new("SET_SCALE(centre(X 1mm, Y 2mm, Z 3mm), X 1.5, Y 1.5, Z 1.5)"),
             Said::new("SET_SCALE(centre(X 1mm, Y 2mm, Z 3mm), X 2, Y 1.5, Z 1)"),
         ],
+        Meaning::SetTilt => {
+            let plane = match d.caps.tilt {
+                ncc_ir::caps::TiltForm::AxisByAxis => "X 10mm, about Z 30deg Y -12.5deg X 0deg",
+                _ => "X 10mm, Y -6.7mm, Z 3mm, about Z 30deg X -12.5deg Z 90deg",
+            };
+            vec![Said::new(format!("SET_TILT({plane})\nsaid STRAIGHT_TRAVERSE(X 1mm, Y 2mm, Z 3mm)"))]
+        }
+        Meaning::OrientToolAxis => {
+            let plane = "SET_TILT(X 10mm, Y -6.7mm, Z 3mm, about Z 30deg X -12.5deg Z 90deg)";
+            vec![Said::new("ORIENT_TOOL_AXIS()").after(plane)]
+        }
+        Meaning::UseToolCentrePoint(true) => match d.caps.tip {
+            ncc_ir::caps::TipForm::WithLength => {
+                one("USE_TOOL_CENTRE_POINT(on) & USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)")
+            }
+            _ => one("USE_TOOL_CENTRE_POINT(on)"),
+        },
+        Meaning::UseToolCentrePoint(false) => one("USE_TOOL_CENTRE_POINT(off)"),
         Meaning::SetMirror => one("SET_MIRROR(X 12.5mm)"),
         Meaning::ClearMirror => vec![Said::new("CLEAR_MIRROR(X)").after("SET_MIRROR(X 12.5mm)")],
         Meaning::UseMachineCoordinates { length: true, .. } => {

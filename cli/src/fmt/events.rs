@@ -104,6 +104,8 @@ fn take(event: &Event, into: &mut DefaultHasher) {
         Kind::Dwell(value) | Kind::Orient(value) => value.hash(into),
         Kind::MachineFunction(text) | Kind::Message(text) => text.hash(into),
         Kind::Data(stored) => stored.hash(into),
+        Kind::Tilt(plane) => plane.as_ref().map(ToString::to_string).hash(into),
+        Kind::OrientToolAxis(toward) => toward.hash(into),
         Kind::Traverse
         | Kind::Feed
         | Kind::ToolChange
@@ -117,6 +119,7 @@ fn take(event: &Event, into: &mut DefaultHasher) {
     }
     (end, rate, inch).hash(into);
     (state.tool, state.speed, state.spindle, state.flood, state.mist).hash(into);
+    (state.tip, state.tilted).hash(into);
     (state.compensation.side, state.compensation.radius, state.compensation.gap).hash(into);
     (
         state.compensation.plane,

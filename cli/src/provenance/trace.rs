@@ -39,7 +39,7 @@ const MOST_STRETCHES: usize = 1000;
 const MOST_PLACES: usize = 1000;
 
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
-pub const KINDS: [&str; 15] = [
+pub const KINDS: [&str; 17] = [
     "STRAIGHT_TRAVERSE",
     "STRAIGHT_FEED",
     "ARC_FEED",
@@ -55,6 +55,8 @@ pub const KINDS: [&str; 15] = [
     "SYNCHRONISED_FEED",
     "ORIENT_SPINDLE",
     "SET_DATA",
+    "SET_TILT",
+    "ORIENT_TOOL_AXIS",
 ];
 
 /// A kind's place in [`KINDS`]; `None` is no event of a comparison.
@@ -75,6 +77,8 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::Synchronised { .. } => 12,
         Kind::Orient(_) => 13,
         Kind::Data(_) => 14,
+        Kind::Tilt(_) => 15,
+        Kind::OrientToolAxis(_) => 16,
         Kind::Attribute(_) => return None,
     })
 }

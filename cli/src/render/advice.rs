@@ -80,6 +80,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),
         Fault::AssumedPath { .. } => own("compare corners on the machine with what the program wants"),
         Fault::PathRelaxed { .. } => own("check corners and their tolerance on the machine"),
+        Fault::AssumedTip => own(
+            "check on the machine which rotary axes there are, their senses, and whether the zero turns with the work",
+        ),
+        Fault::AssumedTilt => {
+            own("turn onto each plane on the machine first, with the tool far off the work")
+        }
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }

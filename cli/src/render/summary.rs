@@ -192,6 +192,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedRow { .. }
         | Fault::AssumedHoleOrder { .. }
         | Fault::AssumedContourEnds
+        | Fault::AssumedTip
+        | Fault::AssumedTilt
         | Fault::AssumedEdge { .. }
         | Fault::AssumedPath { .. }
         | Fault::AssumedParameter { .. } => {

@@ -165,6 +165,15 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("corners taken by {} assumed", plain(path)),
             format!("{to} has no word for it, and is taken to do it always"),
         ),
+        Fault::AssumedTip => (
+            "points of the tool's tip: rotary axes and zero as on the other control assumed".into(),
+            "names, senses and zeros of the rotary axes are the machine's, and what the zero turns with"
+                .into(),
+        ),
+        Fault::AssumedTilt => (
+            "tilted plane: the tool turned onto it as on the other control assumed".into(),
+            "which way the rotary axes go, and the linear axes with them, is the machine's".into(),
+        ),
         Fault::AssumedContourEnds => (
             "cutter radius compensation: the same way onto the contour and off it assumed".into(),
             "each control has a way of its own; the contour between is the same".into(),

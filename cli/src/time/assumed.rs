@@ -48,6 +48,12 @@ pub(crate) fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     if course.stops {
         lines.push("stops for the operator take no time".to_owned());
     }
+    if course.turns_onto_planes {
+        lines.push("turning the tool onto tilted planes takes no time".to_owned());
+    }
+    if course.tip {
+        lines.push("points of the tool's tip are timed as points of the linear axes".to_owned());
+    }
     lines.extend(of_offsets(plan, course));
     lines.extend(of_lengths(plan, course));
     lines

@@ -70,6 +70,9 @@ impl Columns {
             Kind::Message(_) => "MESSAGE",
             Kind::MachineFunction(_) => "MACHINE_FUNCTION",
             Kind::Data(_) => "SET_DATA",
+            Kind::Tilt(Some(_)) => "SET_TILT",
+            Kind::Tilt(None) => "CLEAR_FRAME",
+            Kind::OrientToolAxis(_) => "ORIENT_TOOL_AXIS",
             Kind::Attribute(Attribute::SelectTool(selected)) => {
                 tool = *selected;
                 "SELECT_TOOL"

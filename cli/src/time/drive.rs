@@ -126,6 +126,10 @@ pub(crate) struct Course {
     pub(crate) skip_levels: u16,
     /// Whether the program stops for the operator.
     pub(crate) stops: bool,
+    /// Whether it turns the tool onto tilted planes.
+    pub(crate) turns_onto_planes: bool,
+    /// Whether it has points of the tool's tip.
+    pub(crate) tip: bool,
     /// Work offsets in force while it moves.
     pub(crate) offsets: BTreeSet<u16>,
     /// Lengths in force while it moves.
@@ -246,6 +250,8 @@ impl<'d> Drive<'d> {
                 refused: false,
                 skip_levels: 0,
                 stops: false,
+                turns_onto_planes: false,
+                tip: false,
                 offsets: BTreeSet::new(),
                 lengths: BTreeSet::new(),
                 in_machine: false,
@@ -481,6 +487,8 @@ impl<'d> Drive<'d> {
             self.course.blocks += u64::from(!stmt.joined && says);
             match &stmt.op {
                 Op::ProgramStop | Op::OptionalProgramStop => self.course.stops = true,
+                Op::OrientToolAxis(_) => self.course.turns_onto_planes = true,
+                Op::UseToolCentrePoint(on) => self.course.tip |= on,
                 Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => self.course.in_machine = true,
                 Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
                 _ => {}

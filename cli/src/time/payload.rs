@@ -186,6 +186,8 @@ impl<W: Write> Sink for Payload<'_, W> {
             | Kind::Coolant
             | Kind::MachineFunction(_)
             | Kind::Data(_)
+            | Kind::Tilt(_)
+            | Kind::OrientToolAxis(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

@@ -297,6 +297,8 @@ impl Step {
             Kind::Coolant
             | Kind::MachineFunction(_)
             | Kind::Data(_)
+            | Kind::Tilt(_)
+            | Kind::OrientToolAxis(_)
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::ProgramEnd

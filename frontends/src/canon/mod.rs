@@ -175,6 +175,8 @@ impl State {
             | Op::SetReturnLevel(_)
             | Op::StartCutterRadiusCompensation { .. }
             | Op::StopCutterRadiusCompensation
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)
             | Op::SelectTool(_)

@@ -226,6 +226,20 @@ pub(crate) enum Token {
     PolarMove,
     #[token("pole")]
     Pole,
+    #[token("SET_TILT")]
+    SetTilt,
+    #[token("USE_TOOL_CENTRE_POINT")]
+    UseTip,
+    #[token("ORIENT_TOOL_AXIS")]
+    OrientToolAxis,
+    #[token("on")]
+    On,
+    #[token("off")]
+    Off,
+    #[token("minus")]
+    TowardMinus,
+    #[token("plus")]
+    TowardPlus,
     #[token("START_CUTTER_RADIUS_COMPENSATION")]
     StartCompensation,
     #[token("left")]

@@ -1,7 +1,7 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Side, Turn};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, Radii, References};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
 use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
 
 use crate::meaning::Meaning;
@@ -176,6 +176,18 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 let diameter = says(Meaning::StartCompensationByDiameter(Side::Left));
                 Radii { entry, tool: dialect.code.iter().any(by_tool), in_force: !entry, diameter }
             }
+        },
+        tip: match () {
+            () if everything => TipForm::Any,
+            () if says(Meaning::UseToolCentrePoint(true)) => TipForm::WithLength,
+            () if names(NameMeaning::Code(Meaning::UseToolCentrePoint(true))) => TipForm::Apart,
+            () => TipForm::None,
+        },
+        tilt: match () {
+            () if everything => TiltForm::Any,
+            () if says(Meaning::SetTilt) => TiltForm::Euler,
+            () if names(NameMeaning::Code(Meaning::SetTilt)) => TiltForm::AxisByAxis,
+            () => TiltForm::None,
         },
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
         return_planes: either(states),

@@ -40,6 +40,14 @@ pub enum Meaning {
     SetMirror,
     /// The axes of the block's words are mirrored no more.
     ClearMirror,
+    /// Points are those of the tool's tip. As a code, with the length entry that a word names; what ends
+    /// the length ends it.
+    UseToolCentrePoint(bool),
+    /// A tilted plane: the axis words are its zero, three words of the row the turns about Z, the new X and
+    /// the new Z; or the arguments of a call. What ends a rotation of the same group ends it.
+    SetTilt,
+    /// The tool is turned upright on it.
+    OrientToolAxis,
     /// With the tool's length, or without it.
     UseMachineCoordinates {
         length: bool,
@@ -141,6 +149,10 @@ impl fmt::Display for Meaning {
             Meaning::SetScale => "SET_SCALE",
             Meaning::SetMirror => "SET_MIRROR",
             Meaning::ClearMirror => "CLEAR_MIRROR",
+            Meaning::UseToolCentrePoint(true) => "USE_TOOL_CENTRE_POINT on",
+            Meaning::UseToolCentrePoint(false) => "USE_TOOL_CENTRE_POINT off",
+            Meaning::SetTilt => "SET_TILT",
+            Meaning::OrientToolAxis => "ORIENT_TOOL_AXIS",
             Meaning::UseMachineCoordinates { length: true, rapid: false } => "USE_MACHINE_COORDINATES",
             Meaning::UseMachineCoordinates { length: true, rapid: true } => "USE_MACHINE_COORDINATES rapid",
             Meaning::UseMachineCoordinates { length: false, rapid: false } => {
@@ -249,6 +261,10 @@ impl FromStr for Meaning {
             ("SET_SCALE", "") => Meaning::SetScale,
             ("SET_MIRROR", "") => Meaning::SetMirror,
             ("CLEAR_MIRROR", "") => Meaning::ClearMirror,
+            ("USE_TOOL_CENTRE_POINT", "on") => Meaning::UseToolCentrePoint(true),
+            ("USE_TOOL_CENTRE_POINT", "off") => Meaning::UseToolCentrePoint(false),
+            ("SET_TILT", "") => Meaning::SetTilt,
+            ("ORIENT_TOOL_AXIS", "") => Meaning::OrientToolAxis,
             ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates { length: true, rapid: false },
             ("USE_MACHINE_COORDINATES", "no-length") => {
                 Meaning::UseMachineCoordinates { length: false, rapid: false }

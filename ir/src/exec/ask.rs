@@ -82,7 +82,13 @@ impl Exec {
 
     /// Whether frames are chained between the program and its work offset.
     pub fn has_frames(&self) -> bool {
-        self.chain.is_some()
+        self.chain.is_some() || self.state.tilted
+    }
+
+    /// Whether points are those of the tool's tip, or of a tilted plane: where the linear axes then are,
+    /// the machine alone knows.
+    pub fn is_tilted(&self) -> bool {
+        self.state.tip || self.state.tilted
     }
 
     /// Plane of arcs and hole positions in force.

@@ -281,9 +281,18 @@ impl Exec {
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => {
                 Some("another frame under cutter radius compensation")
             }
-            Op::ClearFrame(_) if self.chain.is_some() || self.slots.is_some() || self.modes.shifted => {
+            Op::ClearFrame(_)
+                if self.chain.is_some()
+                    || self.slots.is_some()
+                    || self.modes.shifted
+                    || self.state.tilted =>
+            {
                 Some("another frame under cutter radius compensation")
             }
+            Op::UseToolCentrePoint(on) if *on != self.state.tip => {
+                Some("tool centre point control under cutter radius compensation")
+            }
+            Op::OrientToolAxis(_) => Some("the tool's axis turned under cutter radius compensation"),
             Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
                 Some("a point of the machine under cutter radius compensation")
             }
@@ -314,6 +323,7 @@ impl Exec {
             | Op::UseLengthUnits(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
+            | Op::UseToolCentrePoint(_)
             | Op::SetDistanceMode(_)
             | Op::SetFeedMode(_)
             | Op::SetReturnLevel(_)

@@ -1,9 +1,9 @@
 //! Events of the canonical stream.
 
-use super::Compensation;
+use super::{Compensation, TiltedPlane};
 use crate::canon::{AXES, AdviceKind, FeedMode, PathMode, Plane, Spindle, SpindleMode, Turn};
 use crate::num::Nanos;
-use crate::program::{Text, ToolValue};
+use crate::program::{Text, ToolValue, Toward};
 use crate::source::Span;
 
 /// One thing that the machine does.
@@ -55,6 +55,10 @@ pub enum Kind {
     ToolChange,
     /// The spindle is stopped at an angle, degrees in nanos.
     Orient(Nanos),
+    /// Another working plane counts, or none (`None`).
+    Tilt(Option<Box<TiltedPlane>>),
+    /// Rotary axes turn the tool upright on it.
+    OrientToolAxis(Option<Toward>),
     /// Coolant was switched.
     Coolant,
     /// Something of the machine was switched that no dialect has a word for.
@@ -144,6 +148,8 @@ impl Kind {
             Kind::Dwell(_)
             | Kind::ToolChange
             | Kind::Orient(_)
+            | Kind::Tilt(_)
+            | Kind::OrientToolAxis(_)
             | Kind::Coolant
             | Kind::MachineFunction(_)
             | Kind::Data(_)
@@ -201,6 +207,10 @@ pub struct State {
     pub feed_mode: FeedMode,
     /// How corners are taken; `None` is as at the start.
     pub path: Option<PathMode>,
+    /// Whether points are those of the tool's tip.
+    pub tip: bool,
+    /// Whether points are those of a tilted plane: the one of the last [`Kind::Tilt`].
+    pub tilted: bool,
     /// Flood coolant.
     pub flood: bool,
     /// Mist coolant.
@@ -220,6 +230,8 @@ impl Default for State {
             spindle_mode: SpindleMode::Turns,
             feed_mode: FeedMode::PerMinute,
             path: None,
+            tip: false,
+            tilted: false,
             flood: false,
             mist: false,
         }
@@ -238,6 +250,7 @@ impl State {
                     && self.limit == other.limit)
             && self.flood == other.flood
             && self.mist == other.mist
+            && (self.tip, self.tilted) == (other.tip, other.tilted)
             && self.path == other.path
             && self.compensation == other.compensation
             && self.advice == other.advice

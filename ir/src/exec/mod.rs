@@ -17,6 +17,7 @@ mod polar;
 mod run;
 mod slots;
 mod thread;
+mod tilt;
 
 pub use compensation::Compensation;
 pub use conduct::named_tool;
@@ -25,6 +26,7 @@ pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
+pub use tilt::TiltedPlane;
 
 use crate::canon::{
     AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, Spindle, Units, same_point,
@@ -33,7 +35,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
-use crate::program::{Coord, Op, Point, Stmt};
+use crate::program::{Coord, FrameSlot, Op, Point, Slot, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
 use arcs::Heading;
@@ -306,6 +308,9 @@ impl Exec {
                 *f = f.wrapping_add(s);
             }
         }
+        if self.state.tip || self.state.tilted {
+            self.shift_by_kinematics();
+        }
         self.frame[Z] += self.length_of(self.modes.length);
         self.position = self.unplace(&here);
         self.heading = Heading::None;
@@ -424,6 +429,9 @@ impl Exec {
     pub fn step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         if self.ended || stmt.skip.is_some_and(|level| self.skip >> level & 1 == 1) {
             return Ok(());
+        }
+        if self.state.tip || self.state.tilted {
+            self.check_tilted(stmt)?;
         }
         if self.contour.watched {
             return self.step_on_contour(stmt, out);
@@ -546,9 +554,15 @@ impl Exec {
                 self.said |= WORK;
                 self.reframe(here);
             }
+            Op::ClearFrame(FrameSlot::Tilt) => self.clear_tilt(span, out)?,
             Op::ClearFrame(slot) => self.clear_slot(*slot),
             Op::SetFrame(frame) => self.set_frame(frame, span)?,
-            Op::SetSlot(slot) => self.set_slot(slot, span)?,
+            Op::SetSlot(slot) => match &**slot {
+                Slot::Tilt(tilt) => self.set_tilt(tilt, span, out)?,
+                slot => self.set_slot(slot, span)?,
+            },
+            Op::UseToolCentrePoint(on) => self.use_tip(*on, span)?,
+            Op::OrientToolAxis(toward) => self.orient_tool_axis(*toward, span, out)?,
             Op::SetPosition(axes) => self.set_position(axes, span)?,
             Op::UseMachineCoordinates { length } => self.raw = Some(*length),
             Op::GoToReference(reference) => self.go_to_reference(reference, span, out)?,

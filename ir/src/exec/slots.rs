@@ -212,6 +212,8 @@ impl Frames {
                     }
                 }
             }
+            // A tilted plane is kept apart (`tilt`).
+            Slot::Tilt(_) => {}
         }
         Ok(())
     }

@@ -145,6 +145,9 @@ impl Converter<'_> {
                 | Slot::Mirror(words) => {
                     words.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
                 }
+                Slot::Tilt(tilt) => {
+                    tilt.origin.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
+                }
                 Slot::NoMirror(_) => {}
             },
             Op::SetPosition(axes) => {
@@ -157,6 +160,8 @@ impl Converter<'_> {
             | Op::SetReturnLevel(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd

@@ -299,6 +299,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
             Slot::Scale { centre: words, .. } | Slot::Mirror(words) => {
                 words.iter_mut().flatten().for_each(|w| settle_expr(w, here));
             }
+            Slot::Tilt(tilt) => tilt.origin.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
             Slot::NoMirror(_) => {}
         },
         Op::SetPosition(axes) => axes.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
@@ -310,6 +311,8 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         },
         Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
+        | Op::UseToolCentrePoint(_)
+        | Op::OrientToolAxis(_)
         | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd

@@ -8,14 +8,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::needs::{
     ARC, CALL, CONTROL, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE, PATH, PATTERN,
-    POLAR, RADIUS, SHIFT, SKIP, TABLE, WORK, interest, lacks,
+    POLAR, RADIUS, SHIFT, SKIP, TABLE, TOOL_AXIS, WORK, interest, lacks,
 };
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, cutter_radius, expand_calls, expand_cycles, expand_frames,
     expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names,
     offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, return_plane,
-    skip_levels, specialise_procedures, state_clearance, taps, tool_change, tool_edge, work_offset,
+    skip_levels, specialise_procedures, state_clearance, taps, tool_axis, tool_change, tool_edge,
+    work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -48,6 +49,7 @@ pub struct Legaliser {
     feed: feed_unit::State,
     edge: tool_edge::State,
     radius: cutter_radius::State,
+    axis: tool_axis::State,
     frames: expand_frames::State,
     taps: taps::State,
     machine: machine_moves::State,
@@ -70,7 +72,18 @@ impl Legaliser {
             lacks,
             measures: false,
             follow: lacks
-                & (PATTERN | CYCLE | ARC | LENGTH | EVERY | CALL | EDGE | TABLE | FRAME | MACHINE | POLAR)
+                & (PATTERN
+                    | CYCLE
+                    | ARC
+                    | LENGTH
+                    | EVERY
+                    | CALL
+                    | EDGE
+                    | TABLE
+                    | FRAME
+                    | MACHINE
+                    | POLAR
+                    | TOOL_AXIS)
                 != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
@@ -85,6 +98,7 @@ impl Legaliser {
             feed: feed_unit::State::default(),
             edge: tool_edge::State::default(),
             radius: cutter_radius::State::default(),
+            axis: tool_axis::State::default(),
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
             machine: machine_moves::State::default(),
@@ -111,7 +125,7 @@ impl Legaliser {
     /// The source is the program of another kind of control.
     pub fn between_controls(&mut self) {
         self.target.other_control = true;
-        self.lacks |= RADIUS;
+        self.lacks |= RADIUS | TOOL_AXIS;
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
@@ -214,6 +228,9 @@ impl Legaliser {
         }
         if self.edge.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
+        }
+        if self.axis.is_busy() && stmts.iter().any(|stmt| tool_axis::is_length(&stmt.op)) {
+            needs |= self.lacks & TOOL_AXIS;
         }
         needs
     }
@@ -332,6 +349,9 @@ impl Legaliser {
         if needs & (EDGE | TABLE) != 0 {
             tool_edge::over(stmts, &mut start.clone(), &mut self.edge, &self.target, diags);
         }
+        if needs & TOOL_AXIS != 0 {
+            tool_axis::over(stmts, &mut start.clone(), &mut self.axis, &self.target, diags);
+        }
         if needs & RADIUS != 0 {
             cutter_radius::over(stmts, &mut start.clone(), &mut self.radius, &self.target, diags);
         }
@@ -449,6 +469,7 @@ impl Legaliser {
             self.cycles = expand_cycles::State::default();
             self.taps = taps::State::default();
             self.edge.start_over();
+            self.axis.start_over();
             self.path.start_over();
             self.one = one_move::State::default();
             self.polar = polar_words::State::default();

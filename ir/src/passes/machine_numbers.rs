@@ -31,6 +31,8 @@ macro_rules! unnumbered {
             | Op::SetPosition(_)
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
             | polar!()

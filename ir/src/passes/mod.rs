@@ -44,6 +44,7 @@ pub mod specialise_procedures;
 mod spindle_holes;
 pub mod state_clearance;
 pub mod taps;
+pub mod tool_axis;
 mod tool_change;
 pub mod tool_edge;
 mod walk;
@@ -165,6 +166,11 @@ pub const PASSES: &[Pass] = &[
         run: tool_edge::run,
     },
     // Behind the lengths, which say what is in force.
+    Pass {
+        name: "tool-axis",
+        about: "says control of the tool's tip and tilted planes in the target's form",
+        run: tool_axis::run,
+    },
     Pass {
         name: "cutter-radius",
         about: "names the radius of cutter radius compensation as the target does",

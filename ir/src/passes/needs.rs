@@ -3,10 +3,10 @@
 //! Not here: what is done about it.
 
 use crate::canon::ReturnLevel;
-use crate::caps::{Caps, CycleForm, PolarForm, Radii, References};
+use crate::caps::{Caps, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
 use crate::exec::Seen;
 use crate::kinds::{conduct, miscellaneous};
-use crate::program::{FrameSlot, Op, Stmt};
+use crate::program::{FrameSlot, Op, Slot, Stmt};
 
 // What a statement may need, and a target may lack.
 pub(super) const PATTERN: u32 = 1;
@@ -29,6 +29,7 @@ pub(super) const PATH: u32 = 1 << 16;
 pub(super) const MOVE: u32 = 1 << 17;
 pub(super) const POLAR: u32 = 1 << 18;
 pub(super) const RADIUS: u32 = 1 << 19;
+pub(super) const TOOL_AXIS: u32 = 1 << 24;
 
 /// What a target lacks.
 pub(super) fn lacks(caps: &Caps) -> u32 {
@@ -82,6 +83,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(EDGE, caps.tool_edges != Some(false));
     needs(TABLE, caps.tool_edges != Some(true));
     needs(RADIUS, caps.radii == Radii::ALL);
+    needs(TOOL_AXIS, caps.tip == TipForm::Any && caps.tilt == TiltForm::Any);
     needs(FRAME, caps.says_all_frames());
     let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
     let points =
@@ -114,6 +116,8 @@ fn interest_of(op: &Op) -> u32 {
         Op::UseMachineCoordinates { .. } | Op::GoToReference(_) | Op::SetData(_) => MACHINE,
         Op::SetOriginOffsets(_) => WORK,
         Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
+        Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) | Op::ClearFrame(FrameSlot::Tilt) => TOOL_AXIS,
+        Op::SetSlot(slot) if matches!(**slot, Slot::Tilt(_)) => TOOL_AXIS,
         Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,

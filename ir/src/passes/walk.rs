@@ -170,6 +170,7 @@ impl Walk {
             }
             Op::SetPole(_) => false,
             Op::SetData(_)
+            | Op::OrientToolAxis(_)
             | Op::SetFeedRate(_)
             | Op::StartCycle(_)
             | Op::EndCycle

@@ -4,7 +4,7 @@
 //! Not here: what they amount to (`exec`).
 
 use super::Coord;
-use crate::canon::{AXES, Fact, Plane};
+use crate::canon::{AXES, Axis, Fact, Plane};
 use crate::expr::Expr;
 
 /// A named slot of the coordinate chain, from the machine towards the program.
@@ -76,6 +76,40 @@ pub enum Slot {
     Mirror(Box<[Option<Expr>; 3]>),
     /// `CLEAR_MIRROR`: the axes named are mirrored no more.
     NoMirror([bool; 3]),
+    /// `SET_TILT`: points are those of a plane that is turned in space.
+    Tilt(Box<Tilt>),
+}
+
+/// A tilted working plane. From the machine towards the program it lies directly inside the shifts; no
+/// other slot is filled with it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tilt {
+    /// Its zero, in the coordinates that are in force without it; one that is missing is 0.
+    pub origin: [Option<Expr>; 3],
+    /// The axes about which it is turned, one after the other: each is the one that the turns before have
+    /// made of it.
+    pub about: [Axis; 3],
+    /// By how many degrees, counter-clockwise positive.
+    pub angles: [Expr; 3],
+}
+
+/// Which of the two ways of turning the tool into an orientation, as the machine's maker has numbered them
+/// by the sense of one of the rotary axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[allow(missing_docs)] // The names are the meaning.
+pub enum Toward {
+    Minus,
+    Plus,
+}
+
+impl Toward {
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Toward::Minus => "minus",
+            Toward::Plus => "plus",
+        }
+    }
 }
 
 impl Slot {
@@ -87,6 +121,7 @@ impl Slot {
             Slot::Scale { .. } => "SET_SCALE",
             Slot::Mirror(_) => "SET_MIRROR",
             Slot::NoMirror(_) => "CLEAR_MIRROR",
+            Slot::Tilt(_) => "SET_TILT",
         }
     }
 }

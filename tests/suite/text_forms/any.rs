@@ -271,6 +271,10 @@ fn along<const N: usize>() -> BoxedStrategy<Box<[Option<Expr>; N]>> {
         .boxed()
 }
 
+fn linear() -> impl Strategy<Value = Axis> {
+    select(vec![Axis::X, Axis::Y, Axis::Z])
+}
+
 fn slot() -> BoxedStrategy<Slot> {
     prop_oneof![
         (any::<bool>(), along()).prop_map(|(origin, axes)| Slot::Shift { origin, axes }),
@@ -282,6 +286,8 @@ fn slot() -> BoxedStrategy<Slot> {
         (along(), along()).prop_map(|(centre, factors)| Slot::Scale { centre, factors }),
         along().prop_map(Slot::Mirror),
         any::<[bool; 3]>().prop_map(Slot::NoMirror),
+        ([of(expr()), of(expr()), of(expr())], [linear(), linear(), linear()], [expr(), expr(), expr()])
+            .prop_map(|(origin, about, angles)| Slot::Tilt(Box::new(Tilt { origin, about, angles }))),
     ]
     .boxed()
 }
@@ -373,6 +379,11 @@ fn simple() -> BoxedStrategy<Op> {
         Op::SetSpindleMode(SpindleMode::Surface),
         Op::UseMachineCoordinates { length: true },
         Op::UseMachineCoordinates { length: false },
+        Op::UseToolCentrePoint(true),
+        Op::UseToolCentrePoint(false),
+        Op::OrientToolAxis(None),
+        Op::OrientToolAxis(Some(Toward::Minus)),
+        Op::OrientToolAxis(Some(Toward::Plus)),
     ]);
     let setting = prop_oneof![
         select(units()).prop_map(Op::UseLengthUnits),

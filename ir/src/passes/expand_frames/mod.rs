@@ -78,6 +78,7 @@ impl State {
 /// chain and this is one of its steps.
 pub(super) fn concerns(op: &Op, caps: &Caps) -> bool {
     match op {
+        _ if tilts(op) => false,
         Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => !caps.frames,
         Op::SetSlot(_) | Op::SetPosition(_) => true,
         Op::ClearFrame(slot) => *slot != FrameSlot::Shift,
@@ -85,9 +86,18 @@ pub(super) fn concerns(op: &Op, caps: &Caps) -> bool {
     }
 }
 
+/// Whether a statement is about a tilted plane, which is another pass's business.
+fn tilts(op: &Op) -> bool {
+    match op {
+        Op::SetSlot(slot) => matches!(**slot, Slot::Tilt(_)),
+        Op::ClearFrame(slot) => *slot == FrameSlot::Tilt,
+        _ => false,
+    }
+}
+
 /// Whether any procedure of a program sets a frame that the target cannot say as it is.
 pub(super) fn has_frames(program: &Program, caps: &Caps) -> bool {
-    let sets = |op: &Op| matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_));
+    let sets = |op: &Op| matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_)) && !tilts(op);
     let unsaid = |s: &Stmt| sets(&s.op) && !caps.says_frame(&s.op);
     program.procedures.iter().flat_map(|p| &p.body).any(unsaid) || takes_origin_back(program, caps)
 }
@@ -201,6 +211,7 @@ impl Frames<'_> {
         self.inner.enter(stmt.skip);
         self.outer.enter(stmt.skip);
         let is_change = match &stmt.op {
+            op if tilts(op) => false,
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => true,
             Op::ClearFrame(FrameSlot::Shift) => self.set.lost || self.set.slots.origin != [None; AXES],
             Op::ClearFrame(_) => true,

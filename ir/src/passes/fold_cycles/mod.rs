@@ -105,7 +105,7 @@ impl Run {
         else {
             return Err(0);
         };
-        if walk.at.cycle_in_doubt || walk.at.compensated {
+        if walk.at.cycle_in_doubt || walk.at.compensated || walk.at.tilted {
             return Err(0);
         }
         let acts = Acts::new(rest, walk.at.clone(), feed, plane);

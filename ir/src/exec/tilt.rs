@@ -1,0 +1,288 @@
+//! Control of the tool's tip, and tilted working planes.
+//!
+//! Neither is worked into coordinates: the machine's kinematics are in no program. Points stay what the
+//! program says, of the tip or in the plane, and that they are is an attribute of each move; the plane
+//! itself is an event. How far such points lie from those of the linear axes differs from world to world,
+//! so that what is left out where one is switched shows.
+//!
+//! What controls refuse there, or do each in a way of their own, is refused by name.
+
+use super::{Event, Exec, Kind};
+use crate::canon::{Axis, Units};
+use crate::diag::Diagnostic;
+use crate::geometry;
+use crate::kinds::{conduct, flow, miscellaneous, modes, moves, polar, tooling};
+use crate::num::Nanos;
+use crate::program::{Data, FrameSlot, Op, Point, Slot, Stmt, Tilt, Toward};
+use crate::source::Span;
+
+/// A working plane in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TiltedPlane {
+    /// Its zero, in the coordinates that it is set in.
+    pub origin: [Nanos; 3],
+    /// Its axes, as columns, in those coordinates.
+    pub axes: [[f64; 3]; 3],
+}
+
+impl TiltedPlane {
+    /// The plane that is turned about these axes, one after the other, by so many degrees in nanos.
+    pub fn turned(origin: [Nanos; 3], turns: [(Axis, Nanos); 3]) -> TiltedPlane {
+        let mut axes = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        for (about, angle) in turns {
+            let (sin, cos) = geometry::sin_cos(angle);
+            let (f, s) = match about {
+                Axis::X | Axis::A => (1, 2),
+                Axis::Y | Axis::B => (2, 0),
+                Axis::Z | Axis::C => (0, 1),
+            };
+            for row in &mut axes {
+                (row[f], row[s]) = (row[f] * cos + row[s] * sin, row[s] * cos - row[f] * sin);
+            }
+        }
+        TiltedPlane { origin, axes }
+    }
+
+    /// Whether it is the same plane: its zero to within `half`, its directions to within `angle` (degrees
+    /// in nanos).
+    pub fn is_same(&self, other: &TiltedPlane, half: Nanos, angle: Nanos) -> bool {
+        // Three turns may each be off by that.
+        let most = 3.0 * (angle as f64 / 1e9).to_radians() + 1e-12;
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= most;
+        self.origin.iter().zip(&other.origin).all(|(a, b)| a.abs_diff(*b) <= half as u64)
+            && self.axes.as_flattened().iter().zip(other.axes.as_flattened()).all(near)
+    }
+}
+
+impl std::fmt::Display for TiltedPlane {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a tilted plane at")?;
+        self.origin.iter().try_for_each(|at| write!(f, " {}", *at as f64 / 1e9))?;
+        write!(f, " with Z along")?;
+        // No zero has a sign.
+        let digits = |part: f64| (part * 1e6).round() / 1e6 + 0.0;
+        self.axes.iter().try_for_each(|row| write!(f, " {}", digits(row[2])))?;
+        write!(f, " and X along")?;
+        self.axes.iter().try_for_each(|row| write!(f, " {}", digits(row[0])))
+    }
+}
+
+impl Exec {
+    /// What kinematics put between the program's zero and that of the linear axes.
+    #[cold]
+    pub(super) fn shift_by_kinematics(&mut self) {
+        for (on, tip) in [(self.state.tip, true), (self.state.tilted, false)] {
+            if on {
+                for (frame, by) in self.frame.iter_mut().zip(self.world.kinematic_shift(tip)) {
+                    *frame = frame.wrapping_add(by);
+                }
+            }
+        }
+    }
+
+    /// Whether points are those of the tool's tip from here on.
+    #[cold]
+    pub(super) fn use_tip(&mut self, on: bool, span: Span) -> Result<(), Diagnostic> {
+        if on == self.state.tip {
+            return Ok(());
+        }
+        let what = match () {
+            () if self.state.tilted => Some("tool centre point control in a tilted plane"),
+            () if self.cycle.is_some() => Some("tool centre point control while a cycle is in force"),
+            () if on && (self.chain.is_some() || self.slots.is_some()) => {
+                Some("tool centre point control under a frame")
+            }
+            () if self.state.compensation.side.is_some() || self.contour.watched => {
+                Some("tool centre point control under cutter radius compensation")
+            }
+            () => None,
+        };
+        if let Some(what) = what {
+            return self.not_executed(what, span);
+        }
+        let here = self.machine();
+        self.state.tip = on;
+        self.reframe(here);
+        Ok(())
+    }
+
+    /// Sets a tilted plane.
+    #[cold]
+    pub(super) fn set_tilt(
+        &mut self,
+        tilt: &Tilt,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let what = match () {
+            () if self.state.tip => Some("a tilted plane under tool centre point control"),
+            () if self.cycle.is_some() => Some("a tilted plane while a cycle is in force"),
+            () if self.chain.is_some() || self.slots.is_some() => Some("a tilted plane under a frame"),
+            () if self.state.compensation.side.is_some() || self.contour.watched => {
+                Some("a tilted plane under cutter radius compensation")
+            }
+            () if self.state.tilted => Some("a tilted plane in another one"),
+            () => None,
+        };
+        if let Some(what) = what {
+            return self.not_executed(what, span);
+        }
+        let mut origin = [0; 3];
+        for (at, word) in origin.iter_mut().zip(&tilt.origin) {
+            if let Some(word) = word {
+                *at = self.value(word, span)?;
+            }
+        }
+        let mut turns = [(Axis::X, 0); 3];
+        for ((turn, about), angle) in turns.iter_mut().zip(tilt.about).zip(&tilt.angles) {
+            *turn = (about, self.value(angle, span)?);
+        }
+        let here = self.machine();
+        self.state.tilted = true;
+        self.reframe(here);
+        self.emit(Kind::Tilt(Some(Box::new(TiltedPlane::turned(origin, turns)))), span, out)
+    }
+
+    /// Takes the tilted plane back, if there is one.
+    #[cold]
+    pub(super) fn clear_tilt(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if !self.state.tilted {
+            // What a control takes back with it, if anything, is its own.
+            return match self.chain.is_some() || self.slots.is_some() {
+                true => self.not_executed("the end of a tilted plane under another frame", span),
+                false => Ok(()),
+            };
+        }
+        if self.cycle.is_some() {
+            return self.not_executed("the end of a tilted plane while a cycle is in force", span);
+        }
+        let here = self.machine();
+        self.state.tilted = false;
+        self.reframe(here);
+        self.emit(Kind::Tilt(None), span, out)
+    }
+
+    /// Turns the tool upright on the tilted plane.
+    #[cold]
+    pub(super) fn orient_tool_axis(
+        &mut self,
+        toward: Option<Toward>,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if !self.state.tilted {
+            return self.not_executed("the tool's axis turned without a tilted plane", span);
+        }
+        if self.cycle.is_some() || self.state.compensation.side.is_some() || self.contour.watched {
+            return self.not_executed("the tool's axis turned under a cycle or a compensated contour", span);
+        }
+        let mut here = self.machine();
+        if let Some(rotary) = self.world.oriented() {
+            here[3..].copy_from_slice(&rotary);
+        }
+        self.position = self.unplace(&here);
+        self.last = here;
+        self.emit(Kind::OrientToolAxis(toward), span, out)
+    }
+
+    /// Refuses what is no matter of course under control of the tool's tip, or in a tilted plane.
+    #[cold]
+    pub(super) fn check_tilted(&self, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let what = match (self.state.tip, self.sets_another_frame(&stmt.op)) {
+            (true, true) => Some("another frame or work offset under tool centre point control"),
+            (false, true) => Some("another frame or work offset in a tilted plane"),
+            (true, false) => self.refused_at_tip(&stmt.op),
+            (false, false) => None,
+        };
+        what.map_or(Ok(()), |what| self.not_executed(what, stmt.span))
+    }
+
+    /// Whether it puts program zero elsewhere, other than by a tilted plane.
+    fn sets_another_frame(&self, op: &Op) -> bool {
+        match op {
+            Op::SetOriginOffsets(offset) => *offset != self.modes.work_offset,
+            Op::SetFrame(_) | Op::SetPosition(_) => true,
+            Op::SetSlot(slot) => !matches!(**slot, Slot::Tilt(_)),
+            Op::ClearFrame(FrameSlot::Shift) => self.modes.shifted,
+            Op::SetData(data) => match **data {
+                Data::Offset { offset, .. } => offset == self.modes.work_offset,
+                Data::Tool { .. } => self.state.tip,
+            },
+            Op::ClearFrame(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
+            | Op::UseMachineCoordinates { .. }
+            | Op::GoToReference(_)
+            | Op::SetFeedRate(_)
+            | Op::Position(_)
+            | Op::StartCycle(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::Message(_)
+            | Op::Assign(..)
+            | miscellaneous!()
+            | conduct!()
+            | modes!()
+            | tooling!()
+            | moves!()
+            | polar!()
+            | flow!() => false,
+        }
+    }
+
+    /// What is refused under control of the tool's tip.
+    fn refused_at_tip(&self, op: &Op) -> Option<&'static str> {
+        let rotary = |to: &Point| to.axes[3..].iter().any(Option::is_some);
+        match op {
+            Op::Polar(polar) => self.refused_at_tip(&polar.op),
+            Op::ArcFeed(arc) if rotary(&arc.to) => {
+                Some("an arc with rotary axes under tool centre point control")
+            }
+            Op::ArcForm(arc) if rotary(&arc.to) => {
+                Some("an arc with rotary axes under tool centre point control")
+            }
+            Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) => {
+                Some("a cycle under tool centre point control")
+            }
+            moves!() if matches!(op, Op::SynchronisedFeed(_)) => {
+                Some("a thread under tool centre point control")
+            }
+            miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => {
+                Some("cutter radius compensation under tool centre point control")
+            }
+            Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
+                Some("a point of the machine under tool centre point control")
+            }
+            Op::ChangeTool => Some("a tool change under tool centre point control"),
+            Op::UseLengthUnits(units) if (*units == Units::Inch) != self.modes.inch => {
+                Some("other units under tool centre point control")
+            }
+            Op::UseToolCentrePoint(_)
+            | Op::OrientToolAxis(_)
+            | Op::SetOriginOffsets(_)
+            | Op::ClearFrame(_)
+            | Op::SetFrame(_)
+            | Op::SetSlot(_)
+            | Op::SetPosition(_)
+            | Op::SetData(_)
+            | Op::SelectTool(_)
+            | Op::SelectToolByName(_)
+            | Op::UseToolLengthOffset(_)
+            | Op::UseToolEdge { .. }
+            | Op::SetFeedRate(_)
+            | Op::Position(_)
+            | Op::SetPole(_)
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::Message(_)
+            | Op::Assign(..)
+            | miscellaneous!()
+            | conduct!()
+            | modes!()
+            | moves!()
+            | flow!() => None,
+        }
+    }
+}
