@@ -8,17 +8,21 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use ncc_backends::Layout;
 use ncc_dialects::Settings;
+use ncc_ir::beside::Rules;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
 use ncc_ir::maps::Numbered;
 use ncc_ir::num::Nanos;
-use ncc_ir::passes::Pass;
+use ncc_ir::passes::{Compensating, Pass};
 use ncc_ir::program::Text;
 use ncc_machines::reading::{Place, Side};
 use tempfile::SpooledTempFile;
 
 use crate::called::Called;
 use crate::machines::pair::Machines;
+
+/// The pass that writes the path of the tool's centre.
+const EXPAND_COMPENSATION: &str = "expand-compensation";
 
 /// A translation to be done.
 #[derive(Clone, Debug)]
@@ -88,6 +92,22 @@ impl Job {
     pub fn between_controls(&self) -> bool {
         let to = self.to.dialect;
         self.from.dialect.id != to.id && !to.can.everything && !to.can.flat
+    }
+
+    /// Whether cutter radius compensation is worked out, so that the output has none.
+    pub fn works_compensation_out(&self) -> bool {
+        self.passes.iter().any(|pass| pass.name == EXPAND_COMPENSATION)
+    }
+
+    /// How it is worked out: as the source's control does it, by the tools of the source's machine.
+    pub fn compensating(&self) -> Compensating {
+        let known = self.from.dialect.can.stays_beside;
+        Compensating {
+            rules: if known { Rules::INTERPRETER } else { Rules::NEAR },
+            known,
+            radii: self.machines.from.as_ref().map(|machine| machine.tables().radii).unwrap_or_default(),
+            listing: false,
+        }
     }
 
     /// Whether a verdict stops this translation. What is denied stops even if it is allowed.

@@ -616,6 +616,7 @@ fn target(job: &Job) -> Target {
         decimals: legal_decimals(job),
         peck_clearance: parameter(job, PECK_CLEARANCE),
         break_lift: parameter(job, BREAK_LIFT),
+        compensating: job.compensating(),
         // What is asked for by name is done in the source's numbers.
         ..Target::default()
     }

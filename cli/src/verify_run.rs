@@ -149,6 +149,7 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     };
     let mut source = World::generate(seed, &from);
     source.tables.edge_entries = own_entries;
+    source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to);
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
@@ -186,6 +187,11 @@ impl Verifier {
         let mut runs: Vec<Run> = runs;
         if job.from.dialect.can.flat || job.to.dialect.can.flat {
             runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::without_blocks);
+        }
+        if job.works_compensation_out() {
+            // The source's contour is compared by the path of the tool's centre.
+            let rules = job.compensating().rules;
+            runs.iter_mut().for_each(|run| run.source.compute_compensation(rules));
         }
         if job.between_controls() {
             runs.iter_mut()

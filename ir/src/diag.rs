@@ -3,6 +3,7 @@
 //! A [`Fault`] carries data, no prose: the words, labels and advice are rendered by the command
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
+use crate::beside::Unreachable;
 use crate::maps::Numbered;
 use crate::source::Span;
 
@@ -227,6 +228,12 @@ faults! {
     /// A move in step with a spindle that has no speed.
     NoSpeed = 230, Error;
 
+    /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
+    /// of an entry, or of an edge.
+    RadiusUnknown { entry: Option<u32> } = 240, Error;
+    /// A contour along which the tool cannot go without cutting into it.
+    ContourUnreachable { why: Unreachable } = 241, Error;
+
     // NC03xx: assumptions.
     /// The program relies on a state at power-on that it never says.
     AssumedMode { fact: ModeName, value: Box<str> } = 301, verdict(Verdict::Assumed);
@@ -261,6 +268,8 @@ faults! {
     AssumedTip = 320, verdict(Verdict::Assumed);
     /// The tool is turned onto a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
+    /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
+    AssumedContourPath = 340, verdict(Verdict::Assumed);
 
     // NC04xx: what became of it.
     /// A comment in the target's characters.
@@ -305,6 +314,9 @@ faults! {
     AdviceLeftOut { kind: Box<str> } = 418, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
+
+    /// A compensated contour written as the path of the tool's centre; the radius in nanos of a millimetre.
+    CompensationExpanded { radius: i64 } = 440, verdict(Verdict::Expanded);
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.

@@ -7,6 +7,7 @@
 //!
 //! This crate knows no dialect by name, reads no file and prints nothing.
 
+pub mod beside;
 pub mod canon;
 pub mod caps;
 pub mod cycle;

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
-use crate::program::ReferencePoint;
+use crate::program::{ReferencePoint, ToolValue};
 
 /// One state of the machine and its tables before the program starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,12 +79,39 @@ pub struct Tables {
     pub lengths: BTreeMap<u32, Nanos>,
     /// How much of the length of an entry is wear.
     pub wears: BTreeMap<u32, Nanos>,
+    /// Radii of tools by their entries, without wear, in nanos of a millimetre.
+    pub radii: BTreeMap<u32, Nanos>,
+    /// Wear of those radii; where nobody has stated it there is none.
+    pub radius_wears: BTreeMap<u32, Nanos>,
     /// Points of the machine, in machine coordinates, axis by axis.
     pub references: BTreeMap<ReferencePoint, [Option<Nanos>; AXES]>,
     /// Lengths of edge 1 of tools with a name.
     pub named_lengths: BTreeMap<i64, Nanos>,
     /// The entry that edge 1 of a tool has, where it is not the tool's number.
     pub edge_entries: BTreeMap<u32, u32>,
+}
+
+impl Tables {
+    /// The radius that an entry makes a contour compensated by, if it is known.
+    pub fn radius(&self, entry: u32) -> Option<Nanos> {
+        let wear = self.radius_wears.get(&entry).copied().unwrap_or(0);
+        self.radii.get(&entry).and_then(|radius| radius.checked_add(wear))
+    }
+
+    /// Puts a radius or its wear into the table; what is added to an unknown radius stays unknown.
+    pub fn set_radius(&mut self, entry: u32, which: ToolValue, added: bool, value: Nanos) {
+        let (table, unsaid) = match which {
+            ToolValue::Radius => (&mut self.radii, None),
+            ToolValue::RadiusWear => (&mut self.radius_wears, Some(0)),
+            ToolValue::Length | ToolValue::LengthWear => return,
+        };
+        let before = table.get(&entry).copied().or(unsaid);
+        let now = if added { before.and_then(|before| before.checked_add(value)) } else { Some(value) };
+        match now {
+            Some(now) => table.insert(entry, now),
+            None => table.remove(&entry),
+        };
+    }
 }
 
 impl World {

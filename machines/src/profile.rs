@@ -161,6 +161,9 @@ impl Profile {
             if let Some(length) = row.length.get() {
                 tables.lengths.insert(entry, nanos(length));
             }
+            if let Some(diameter) = row.diameter.get() {
+                tables.radii.insert(row.radius_entry.get().unwrap_or(entry), nanos(diameter / 2.0));
+            }
             if entry != number {
                 tables.edge_entries.insert(number, entry);
             }

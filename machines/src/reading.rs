@@ -115,6 +115,9 @@ pub const TIP: &str = "tool-centre-point";
 /// Key of the reading that the tool is turned onto tilted planes as on the other machine.
 pub const TILT: &str = "tilted-plane";
 
+/// Key of the reading that the control goes beside a contour, onto it and off it, as RS274/NGC describes it.
+pub const CONTOUR_PATH: &str = "contour-path";
+
 /// What follows the name of a pattern whose order of holes is the one that is written.
 const ORDER: &str = "-order";
 
@@ -172,6 +175,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
         Fault::AssumedTip => (Side::To, Place::Confirmed(TIP.to_owned())),
         Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
+        Fault::AssumedContourPath => (Side::From, Place::Confirmed(CONTOUR_PATH.to_owned())),
         Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
         Fault::AssumedEdge { .. } => {
             let side = if edges(to) { Side::To } else { Side::From };
@@ -237,8 +241,17 @@ fn slug(words: &str) -> String {
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
-    let readings =
-        [OFFSET_WITH_Z, BARE_NUMBERS, CONTOUR_ENDS, CORNERS, EDGE_IS_ENTRY, MOTION_AT_CYCLES, TIP, TILT];
+    let readings = [
+        OFFSET_WITH_Z,
+        BARE_NUMBERS,
+        CONTOUR_ENDS,
+        CONTOUR_PATH,
+        CORNERS,
+        EDGE_IS_ENTRY,
+        MOTION_AT_CYCLES,
+        TIP,
+        TILT,
+    ];
     if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE].contains(&key) {
         return true;
     }

@@ -276,6 +276,8 @@ table! {
         length_entry: u32 = "a whole number above 0";
         /// Its length, mm: what that entry has, and edge 1 on a control whose tools have edges.
         length: f64 = "a number from 0 to 1000000";
+        /// The entry of the table of radii that has half of its diameter; where not stated, the one that has its length.
+        radius_entry: u32 = "a whole number above 0";
         /// Its diameter, mm.
         diameter: f64 = "a number from 0";
         /// Its place in the magazine.

@@ -89,6 +89,12 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
+        Fault::AssumedContourPath => own("look at corners, and at both ends of the contour, on the machine"),
+        Fault::RadiusUnknown { .. } => own(
+            "state the tool's diameter in the profile of the source's machine, or the radius in the program",
+        ),
+        Fault::ContourUnreachable { .. } => own("take a smaller tool, or change the contour at this place"),
+        Fault::CompensationExpanded { .. } => Vec::new(),
         Fault::AssumedEdge { .. } => {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }

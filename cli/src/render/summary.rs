@@ -9,7 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use super::About;
 use super::human::{Loudness, told};
 use super::source::Lines;
-use super::words::{Context, plain, plural, words, work_offset};
+use super::words::{Context, millimetres, plain, plural, words, work_offset};
 use crate::called::Called;
 use crate::head::{assumption, by_name};
 use crate::job::{Failure, Outcome};
@@ -194,6 +194,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedContourEnds
         | Fault::AssumedTip
         | Fault::AssumedTilt
+        | Fault::AssumedContourPath
         | Fault::AssumedEdge { .. }
         | Fault::AssumedPath { .. }
         | Fault::AssumedParameter { .. } => {
@@ -204,6 +205,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
         Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
         Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
+        Fault::CompensationExpanded { radius } => {
+            format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))
+        }
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
         Fault::FramesExpanded => "frames into the coordinates".to_owned(),
@@ -226,7 +230,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::MessageDropped => "messages to the operator".to_owned(),
 
         // What is no verdict has no place in the account, and would be named by its message.
-        Fault::UnexpectedCharacter { .. }
+        Fault::RadiusUnknown { .. }
+        | Fault::ContourUnreachable { .. }
+        | Fault::UnexpectedCharacter { .. }
         | Fault::BadNumber { .. }
         | Fault::UnclosedComment
         | Fault::BlockTooLong { .. }

@@ -178,6 +178,24 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "cutter radius compensation: the same way onto the contour and off it assumed".into(),
             "each control has a way of its own; the contour between is the same".into(),
         ),
+        Fault::AssumedContourPath => (
+            "cutter radius compensation worked out as RS274/NGC describes it".into(),
+            "corners, the way onto the contour and off it are each control's own".into(),
+        ),
+        Fault::RadiusUnknown { entry } => (
+            match entry {
+                Some(entry) => format!("the radius of entry {entry} is not known"),
+                None => "the radius of this edge is not known".into(),
+            },
+            "the path of the tool's centre cannot be worked out".into(),
+        ),
+        Fault::ContourUnreachable { why } => {
+            (format!("this contour cannot be gone along: {why}"), "the tool would cut into it".into())
+        }
+        Fault::CompensationExpanded { radius } => (
+            "compensated contour written as the path of the tool's centre".into(),
+            format!("by the radius {} mm", millimetres(*radius)),
+        ),
         Fault::AssumedEdge { tool } => (
             format!("edge 1 of tool {tool} = entry {tool} of the length table assumed"),
             "one control has lengths by edge, the other by entry".into(),
@@ -421,7 +439,7 @@ fn character(c: char) -> String {
 }
 
 /// Nanos in millimetres, to four digits after the point.
-fn millimetres(nanos: i64) -> String {
+pub(super) fn millimetres(nanos: i64) -> String {
     let text = format!("{:.4}", nanos.abs() as f64 / ONE as f64);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

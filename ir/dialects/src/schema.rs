@@ -571,6 +571,10 @@ pub struct Can {
     pub length_at_once: bool,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
+    /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is
+    /// neither gone round nor cut short, and behind the contour the tool goes on from where it is. Of others
+    /// that is taken for granted, with every corner gone round, where the path has to be worked out.
+    pub stays_beside: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,
     /// Grids are written only up to this many columns and rows.

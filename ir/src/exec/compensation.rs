@@ -48,6 +48,13 @@ impl Compensation {
     }
 }
 
+impl Compensation {
+    /// The entry of the table that has the radius, if it is one.
+    pub(super) fn entry(&self) -> Option<u32> {
+        (self.radius & (EDGE | STATED) == 0).then_some(self.radius)
+    }
+}
+
 impl Default for Compensation {
     fn default() -> Compensation {
         Compensation { side: None, plane: Plane::Xy, gap: false, radius: 0 }
@@ -132,7 +139,7 @@ impl Exec {
         self.state.compensation = super::Compensation { side: Some(side), plane, gap: false, radius: place };
         let Contour { elsewhere, lines, .. } = self.contour;
         self.contour = Contour { watched: true, elsewhere, lines, plane: Some(plane), ..Contour::default() };
-        Ok(())
+        self.start_path(radius, span)
     }
 
     /// Switches it off.
@@ -226,13 +233,21 @@ impl Exec {
                 span,
             );
         }
-        self.step_plainly(stmt, out)?;
-        let goes = |axis: Axis| self.position[axis as usize] != before[axis as usize];
+        let computed = self.centre_path.is_some();
+        match computed {
+            true => self.step_beside(stmt, on, out)?,
+            false => self.step_plainly(stmt, out)?,
+        }
+        let goes = |axis: Axis| {
+            // A word that leads off a computed contour leads to where the program is already.
+            let named = || to(&stmt.op).is_some_and(|to| to.axes[axis as usize].is_some());
+            self.position[axis as usize] != before[axis as usize] || computed && !on && named()
+        };
         let moved = arc || goes(first) || goes(second);
         if moved {
             if !on {
                 self.contour.watched = false;
-            } else if self.contour.entered && self.contour.still > 1 {
+            } else if self.contour.entered && self.contour.still > 1 && !computed {
                 if self.contour.elsewhere {
                     // The corner before them is each control's own.
                     let what = "a compensated contour with two still blocks in a row";
@@ -373,7 +388,7 @@ fn counts(op: &Op) -> bool {
 }
 
 /// The axis words of a move.
-fn to(op: &Op) -> Option<&Point> {
+pub(super) fn to(op: &Op) -> Option<&Point> {
     match op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) => Some(&m.to),
         Op::Polar(polar) => to(&polar.op),

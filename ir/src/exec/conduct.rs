@@ -123,6 +123,8 @@ impl Exec {
             && self.after_stop == other.after_stop
             && self.waiting == other.waiting
             && self.contour == other.contour
+            && self.centre_path.is_none()
+            && other.centre_path.is_none()
             && self.feed == other.feed
             && self.selected == other.selected
             && self.state == other.state

@@ -92,7 +92,10 @@ impl Exec {
                     ToolValue::Length | ToolValue::LengthWear => {
                         Stored::Length(number, self.set_length(*entry, *which, *added, value))
                     }
-                    ToolValue::Radius | ToolValue::RadiusWear => Stored::Value(number, *which, *added, value),
+                    ToolValue::Radius | ToolValue::RadiusWear => {
+                        self.world.tables.set_radius(*entry, *which, *added, value);
+                        Stored::Value(number, *which, *added, value)
+                    }
                 }
             }
         };

@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod centre_path;
 mod compensation;
 mod conduct;
 mod data;
@@ -39,6 +40,7 @@ use crate::program::{Coord, FrameSlot, Op, Point, Slot, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
 use arcs::Heading;
+use centre_path::CentrePath;
 use compensation::Contour;
 use holes::InForce;
 
@@ -75,6 +77,8 @@ pub struct Exec {
     waiting: Option<Length>,
     /// The contour that the tool goes beside.
     contour: Contour,
+    /// The path of the tool's centre beside it, where that is computed.
+    centre_path: Option<Box<CentrePath>>,
     feed: Nanos,
     selected: i64,
     state: State,
@@ -157,6 +161,7 @@ impl Exec {
             pole: Pole::ZERO,
             waiting: None,
             contour: Contour::default(),
+            centre_path: None,
             feed: 0,
             selected: -1,
             state: State {
@@ -185,6 +190,9 @@ impl Exec {
     pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
         if !self.ended {
             self.ended = true;
+            if self.centre_path.is_some() {
+                self.end_open_path(out);
+            }
             out.push(Event {
                 kind: Kind::TextEnd,
                 end: self.last,

@@ -15,6 +15,7 @@ pub mod convert_units;
 pub mod cutter_radius;
 pub mod drop_redundant;
 pub mod expand_calls;
+pub mod expand_compensation;
 pub mod expand_cycles;
 pub mod expand_frames;
 pub mod expand_patterns;
@@ -51,6 +52,7 @@ mod walk;
 pub mod work_offset;
 mod write;
 
+pub use expand_compensation::Compensating;
 pub use legalise::Legaliser;
 pub use path_control::seen_advice;
 
@@ -91,6 +93,8 @@ pub struct Target {
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.
     pub other_control: bool,
+    /// How compensation is worked out, where that is asked for.
+    pub compensating: Compensating,
 }
 
 impl Target {
@@ -244,6 +248,12 @@ pub const PASSES: &[Pass] = &[
         name: "flatten-facts",
         about: "gives every move all its axes, from program zero",
         run: flatten_facts::run,
+    },
+    // Only when asked for: the contour is gone.
+    Pass {
+        name: "expand-compensation",
+        about: "writes the path of the tool's centre for cutter radius compensation",
+        run: expand_compensation::run,
     },
     // Only when asked for: another way to write the same.
     Pass {

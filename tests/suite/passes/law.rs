@@ -402,6 +402,7 @@ fn the_machine_does_the_same() {
                     },
                     start: [None; 6],
                     maps: super::Maps::default(),
+                    beside: false,
                 };
                 told.start[..3].copy_from_slice(&start);
                 // What the source's own control could not execute proves nothing.

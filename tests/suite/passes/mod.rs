@@ -5,7 +5,8 @@
 //! `target ID OPTION=VALUE` (the capabilities of a dialect; without, a target that can say nothing), `start X0 Y0`
 //! (where the axes stand), `clearance 1.0` and `lift 0.5` (the parameters of peck drilling and of chip
 //! breaking, mm), `tools 3:7`, `entries`, `offsets`, `programs` (maps to another machine's numbers),
-//! `edge-entries 7:27` (entries of its tools), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
+//! `edge-entries 7:27` (entries of its tools), `radii 5:4.0` (by entries, mm), `interpreter yes` (contours as
+//! LinuxCNC's interpreter goes beside them), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
 //! `legaliser` the passes are picked by the target.
 //!
 //! Besides the text, every case that is not refused is executed before and after, in two worlds:
@@ -20,6 +21,7 @@ use std::path::{Path, PathBuf};
 use ncc_backends::{Layout, ir::Writer};
 use ncc_dialects::{Settings, builtin};
 use ncc_frontends::{Batch, ir::Reader};
+use ncc_ir::beside::Rules;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::Caps;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
@@ -39,6 +41,8 @@ struct Told {
     target: Target,
     start: [Option<Nanos>; AXES],
     maps: Maps,
+    /// Whether compensation is worked out before as well.
+    beside: bool,
 }
 
 fn folder() -> PathBuf {
@@ -50,6 +54,7 @@ fn told(text: &str) -> Result<Told, String> {
         target: Target { decimals: 3, ..Target::default() },
         start: [None; AXES],
         maps: Maps::default(),
+        beside: false,
     };
     for line in text.lines().filter_map(|l| l.strip_prefix("#! ")) {
         let (what, value) = line.split_once(' ').ok_or("a directive has a value")?;
@@ -84,6 +89,17 @@ fn told(text: &str) -> Result<Told, String> {
                 told.maps.programs = rows.collect::<Result<_, _>>()?;
             }
             "programs-in-force" => told.maps.programs_in_force = value == "yes",
+            "radii" => {
+                let rows = value.split(' ').map(|pair| {
+                    let (entry, radius) = pair.split_once(':').ok_or("a pair has a colon")?;
+                    Ok((entry.parse().map_err(|e| format!("{e}"))?, decimal(radius)?))
+                });
+                told.target.compensating.radii = rows.collect::<Result<_, String>>()?;
+            }
+            "interpreter" => {
+                told.target.compensating.rules = Rules::INTERPRETER;
+                told.target.compensating.known = true;
+            }
             "edge-entries" => told.target.edge_entries = numbers(value)?,
             "program-numbers" => told.target.program_numbers = numbers(value)?.into_keys().collect(),
             "can" => value.split(' ').try_for_each(|one| can(&mut told.target.caps, one))?,
@@ -236,7 +252,8 @@ fn before_and_after() {
 fn case(pass: &str, path: &Path) -> Result<(), String> {
     let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
     let before_text = text.split("---\n").next().unwrap_or_default();
-    let told = told(before_text)?;
+    let mut told = told(before_text)?;
+    told.beside = pass == "expand-compensation";
     let before = read(before_text)?;
     let mut after = before.clone();
     let diags = apply(pass, &mut after, &told)?;
@@ -299,6 +316,9 @@ fn same_events(before: &Program, after: &Program, told: &Told) -> Result<(), Str
         for skip in levels(before) {
             let world = world(seed, before, told);
             let mut a = Machine::new(before, &world, skip, told);
+            if told.beside {
+                a.exec.compute_compensation(told.target.compensating.rules);
+            }
             let on_after = if skip == 0 { 0 } else { skip | 1 << 1 };
             let mut there = world.clone();
             there.renaming = back(&told.maps);
@@ -337,6 +357,7 @@ fn world(seed: u32, program: &Program, told: &Told) -> World {
         no_origin_shift: Some(true),
     };
     let mut world = World::generate(seed, &usual);
+    world.tables.radii.clone_from(&told.target.compensating.radii);
     if let Some(clearance) = told.target.peck_clearance.and_then(|n| n.nanos(false)) {
         world.peck_clearance = clearance;
     }

@@ -1,0 +1,266 @@
+//! Execution of cutter radius compensation by the path of the tool's centre: its events in place of those
+//! of the programmed contour, in machine coordinates, wherever frames have put the contour.
+//!
+//! For a comparison with a program in which the compensation is worked out. A move is held back until the
+//! next one of the plane is known, and with it what stands between them. Refused is what nobody has said:
+//! a radius that neither the program nor a profile states; and what has no plain meaning here: a rotary
+//! axis that turns along the contour, feeds by time.
+
+use super::{Event, Exec, Kind};
+use crate::beside::{Beside, Leg, Rules, Spot, Unreachable};
+use crate::canon::{AXES, Axis, FeedMode, Plane, Side, Turn, same_point};
+use crate::diag::{Diagnostic, Fault};
+use crate::num::{Nanos, ONE};
+use crate::program::{CutterRadius, Op, Stmt};
+use crate::source::Span;
+
+/// The path of the tool's centre as it is being found.
+#[derive(Clone, Debug)]
+pub(super) struct CentrePath {
+    rules: Rules,
+    /// Radius, less than nothing for the other side; `None` while compensation is off.
+    radius: Option<f64>,
+    path: Option<Beside>,
+    /// The plane, and its axes.
+    plane: Plane,
+    axes: [usize; 2],
+    /// Where the contour is, and where the tool is that goes along it.
+    contour: [Nanos; AXES],
+    tool: [Nanos; AXES],
+    /// The move whose end is not settled, and what stands behind it.
+    held: Vec<Event>,
+    /// The tool is beside the contour that it has to leave.
+    leaving: bool,
+}
+
+fn spot(point: &[Nanos; AXES], axes: [usize; 2]) -> Spot {
+    axes.map(|axis| point[axis] as f64 / ONE as f64)
+}
+
+fn put(point: &mut [Nanos; AXES], axes: [usize; 2], spot: Spot) {
+    for (axis, mm) in axes.into_iter().zip(spot) {
+        point[axis] = (mm * ONE as f64).round() as Nanos;
+    }
+}
+
+fn unreachable(why: Unreachable, span: Span) -> Diagnostic {
+    Diagnostic::new(Fault::ContourUnreachable { why }, span)
+}
+
+impl Exec {
+    /// Makes events of the path of the tool's centre where a contour is compensated.
+    pub fn compute_compensation(&mut self, rules: Rules) {
+        self.centre_path = Some(Box::new(CentrePath {
+            rules,
+            radius: None,
+            path: None,
+            plane: Plane::Xy,
+            axes: [0, 1],
+            contour: self.last,
+            tool: self.last,
+            held: Vec::new(),
+            leaving: false,
+        }));
+    }
+
+    /// Notes the radius of the compensation that has been switched on.
+    pub(super) fn start_path(&mut self, radius: &CutterRadius, span: Span) -> Result<(), Diagnostic> {
+        if self.centre_path.is_none() {
+            return Ok(());
+        }
+        let mm = |nanos: Nanos| nanos as f64 / ONE as f64;
+        let radius = match radius {
+            CutterRadius::Diameter(diameter) => mm(self.value(diameter, span)?).abs() / 2.0,
+            CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce => {
+                let entry = self.state.compensation.entry();
+                match entry.and_then(|entry| self.world.tables.radius(entry)) {
+                    Some(radius) => mm(radius),
+                    None => return self.fault(Fault::RadiusUnknown { entry }, span),
+                }
+            }
+        };
+        let (first, second, _) = self.modes.plane.axes();
+        let (plane, here, last) = (self.modes.plane, self.machine(), self.last);
+        if let Some(path) = &mut self.centre_path {
+            path.radius = (radius != 0.0).then_some(radius);
+            (path.plane, path.axes) = (plane, [first as usize, second as usize]);
+            (path.contour, path.tool) = (here, last);
+        }
+        Ok(())
+    }
+
+    /// Executes a statement on a contour that is compensated by computation.
+    pub(super) fn step_beside(
+        &mut self,
+        stmt: &Stmt,
+        on: bool,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        if on && matches!(stmt.op, Op::StopCutterRadiusCompensation | Op::ProgramEnd) {
+            self.end_path(span, out)?;
+        }
+        let mut made = Vec::new();
+        self.step_plainly(stmt, &mut made)?;
+        let Some(mut path) = self.centre_path.take() else { return Ok(()) };
+        let words = super::compensation::to(&stmt.op);
+        let named = words.is_some_and(|to| path.axes.iter().any(|axis| to.axes[*axis].is_some()));
+        let done = made.into_iter().try_for_each(|event| match on {
+            true => path.along(event, out),
+            false => {
+                path.away(event, named, out);
+                Ok(())
+            }
+        });
+        if !on && path.leaving {
+            // The tool is beside the contour's end, wherever the program believes it to be.
+            self.last = path.tool;
+            path.leaving = !named;
+        }
+        self.centre_path = Some(path);
+        done
+    }
+
+    /// Settles the end of the contour.
+    pub(super) fn end_path(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let Some(path) = &mut self.centre_path else { return Ok(()) };
+        path.radius = None;
+        let Some(beside) = path.path.take() else { return Ok(()) };
+        let end = beside.leave().map_err(|why| unreachable(why, span))?;
+        path.settle(end, out);
+        path.leaving = !path.rules.stays;
+        self.last = path.tool;
+        if path.rules.stays {
+            let tool = path.tool;
+            self.position = self.unplace(&tool);
+        }
+        Ok(())
+    }
+}
+
+impl Exec {
+    /// Settles the end of a contour that the text leaves open.
+    #[cold]
+    pub(super) fn end_open_path(&mut self, out: &mut Vec<Event>) {
+        let Some(path) = &mut self.centre_path else { return };
+        path.radius = None;
+        if let Some(beside) = path.path.take() {
+            path.settle(beside.now(), out);
+            self.last = path.tool;
+        }
+        self.state.compensation = super::Compensation::default();
+    }
+}
+
+impl CentrePath {
+    /// An event behind the contour's end; `named` says whether its words lead away from there.
+    fn away(&mut self, mut event: Event, named: bool, out: &mut Vec<Event>) {
+        event.state.compensation = super::Compensation::default();
+        if event.kind.moves().is_some() {
+            if self.leaving && !named {
+                for axis in self.axes {
+                    event.end[axis] = self.tool[axis];
+                }
+            }
+            if same_point(&event.end, &self.tool) {
+                return;
+            }
+            self.tool = event.end;
+        }
+        out.push(event);
+    }
+
+    /// An event on the contour.
+    fn along(&mut self, mut event: Event, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = event.span;
+        let side = event.state.compensation.side;
+        event.state.compensation = super::Compensation::default();
+        let Some(radius) = self.radius else {
+            out.push(event);
+            return Ok(());
+        };
+        let Some(movement) = event.kind.moves() else {
+            match self.held.is_empty() {
+                true => out.push(event),
+                false => self.held.push(event),
+            }
+            return Ok(());
+        };
+        let refuse = |what: &str| Diagnostic::new(Fault::CannotSay { what: what.into() }, span);
+        let programmed = event.end;
+        if programmed[Axis::A as usize..] != self.contour[Axis::A as usize..] {
+            return Err(refuse("a rotary axis along a contour whose compensation is computed"));
+        }
+        if event.state.feed_mode == FeedMode::InverseTime && movement != super::Movement::Rapid {
+            return Err(refuse("feeds by time along a contour whose compensation is computed"));
+        }
+        let full = matches!(movement, super::Movement::Arc { full: true, .. });
+        let (from, to) = (spot(&self.contour, self.axes), spot(&programmed, self.axes));
+        if from == to && !full {
+            self.contour = programmed;
+            if self.path.is_some() {
+                self.held.push(event);
+            } else if self.rules.stays {
+                return Err(unreachable(Unreachable::Entry, span));
+            } else {
+                self.tool = event.end;
+                out.push(event);
+            }
+            return Ok(());
+        }
+        let left = (side == Some(Side::Left)) == (radius > 0.0);
+        match &mut self.path {
+            None => {
+                let path = Beside::enter(radius.abs(), left, self.rules, from, to)
+                    .map_err(|why| unreachable(why, span))?;
+                put(&mut event.end, self.axes, path.now());
+                self.path = Some(path);
+                out.append(&mut self.held);
+            }
+            Some(path) => {
+                let leg = match movement {
+                    super::Movement::Rapid => Leg::Line { rapid: true },
+                    super::Movement::Feed => Leg::Line { rapid: false },
+                    super::Movement::Arc { centre, turn, .. } => Leg::Arc {
+                        centre: centre.map(|c| c as f64 / ONE as f64),
+                        ccw: turn == Turn::Counterclockwise,
+                        turns: 0,
+                    },
+                };
+                let corner = path.go_on(leg, to).map_err(|why| unreachable(why, span))?;
+                let now = path.now();
+                self.settle(corner.end, out);
+                if let Some(round) = corner.round {
+                    put(&mut self.tool, self.axes, round.to);
+                    let mut around = Event { end: self.tool, ..event.clone() };
+                    if round.straight {
+                        around.kind = Kind::Traverse;
+                    } else {
+                        let centre = round.centre.map(|mm| (mm * ONE as f64).round() as Nanos);
+                        let turn = if round.ccw { Turn::Counterclockwise } else { Turn::Clockwise };
+                        around.kind = Kind::Arc { plane: self.plane, turn, full: false, centre };
+                    }
+                    out.push(around);
+                }
+                put(&mut event.end, self.axes, now);
+            }
+        }
+        self.contour = programmed;
+        self.held.push(event);
+        Ok(())
+    }
+
+    /// Ends the held move, and passes on what stands behind it.
+    fn settle(&mut self, end: Spot, out: &mut Vec<Event>) {
+        for mut event in self.held.drain(..) {
+            if event.kind.moves().is_some() {
+                put(&mut event.end, self.axes, end);
+                if let Kind::Arc { full, .. } = &mut event.kind {
+                    *full &= self.axes.iter().all(|axis| event.end[*axis] == self.tool[*axis]);
+                }
+                self.tool = event.end;
+            }
+            out.push(event);
+        }
+    }
+}
