@@ -244,13 +244,29 @@ pub enum CycleForm {
     #[default]
     Any,
     /// By the spindle, feed and speed in force and parameters of the control: the spindle turns as it
-    /// does; a tap's pitch follows from feed and speed, its dwell is made at both ends; a bore is left
-    /// in the control's own direction at its own angle, and the spindle then turns clockwise. After a
-    /// rigid tap it stands.
-    Control,
+    /// does; a tap's pitch follows from feed and speed; a bore is left in the control's own direction at
+    /// its own angle. After a rigid tap the spindle stands.
+    Control(Own),
     /// By its words: sense, angle, shift and pitch; the dwell is at the bottom alone; after boring the
     /// spindle stands.
     Stated,
+}
+
+/// What a control's own cycles do of themselves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Own {
+    /// The dwell of a tap is at the bottom alone, when the spindle has turned round; else at both ends,
+    /// before it does.
+    pub dwells_turned: bool,
+    /// After boring the spindle turns as it did before; else clockwise.
+    pub turns_on: bool,
+}
+
+impl Own {
+    /// What the spindle does after boring.
+    pub fn after(self) -> Option<Spindle> {
+        (!self.turns_on).then_some(Spindle::Clockwise)
+    }
 }
 
 impl CycleForm {
@@ -259,17 +275,20 @@ impl CycleForm {
     pub fn says(self, kind: &CycleKind) -> bool {
         let tap = |tap: &Tap| {
             let after = match (self, tap.chuck) {
-                (CycleForm::Control, false) => tap.after == Spindle::Stopped,
-                (CycleForm::Control, true) => tap.after == tap.turn.spindle(),
+                (CycleForm::Control(_), false) => tap.after == Spindle::Stopped,
+                (CycleForm::Control(_), true) => tap.after == tap.turn.spindle(),
                 (CycleForm::Stated | CycleForm::Any, _) => true,
             };
             let dwells = match self {
-                CycleForm::Control => tap.settle == tap.dwell,
-                CycleForm::Stated => tap.settle.is_none(),
+                CycleForm::Control(Own { dwells_turned: false, .. }) => {
+                    tap.settle == tap.dwell && tap.back.is_none()
+                }
+                CycleForm::Control(_) => tap.dwell.is_none() && tap.settle.is_none(),
+                CycleForm::Stated => tap.settle.is_none() && tap.back.is_none(),
                 CycleForm::Any => true,
             };
             let pitch = match self {
-                CycleForm::Control => tap.pitch == Pitch::Feed,
+                CycleForm::Control(_) => tap.pitch == Pitch::Feed,
                 CycleForm::Stated => tap.chuck || tap.pitch != Pitch::Feed,
                 CycleForm::Any => true,
             };
@@ -277,7 +296,7 @@ impl CycleForm {
         };
         let turns = |turn: Option<Turn>, after: Option<Spindle>| match self {
             CycleForm::Any => true,
-            CycleForm::Control => turn.is_none() && after == Some(Spindle::Clockwise),
+            CycleForm::Control(own) => turn.is_none() && after == own.after(),
             CycleForm::Stated => turn.is_some() && after == Some(Spindle::Stopped),
         };
         match kind {
@@ -286,7 +305,7 @@ impl CycleForm {
                 turns(bore.turn, bore.after)
                     && match self {
                         CycleForm::Any => true,
-                        CycleForm::Control => {
+                        CycleForm::Control(_) => {
                             bore.angle.is_none() && matches!(bore.shift, Shift::Parameter(_))
                         }
                         CycleForm::Stated => bore.angle.is_some() && matches!(bore.shift, Shift::Stated(_)),
@@ -329,6 +348,19 @@ pub struct CycleCap {
     pub turns: Vec<Turn>,
     /// Whether the lift that breaks a chip is at feed (`true`) or rapid; `None` if either.
     pub lift_at_feed: Option<bool>,
+    /// Whether a feed out goes on to where the tool is left (`true`) or ends at the retract plane; `None`
+    /// if either.
+    pub to_level: Option<bool>,
+}
+
+impl CycleCap {
+    /// Whether it ends a cycle's feed out where the cycle does; `level` is where the tool is left.
+    pub fn ends_feed(&self, kind: &CycleKind, level: Option<ReturnLevel>) -> bool {
+        let feeds_out = matches!(kind, CycleKind::Bore { .. } | CycleKind::Tap(_));
+        !feeds_out
+            || level == Some(ReturnLevel::Retract)
+            || self.to_level.is_none_or(|to_level| to_level == kind.feeds_to_level())
+    }
 }
 
 impl Caps {

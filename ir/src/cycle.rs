@@ -79,13 +79,15 @@ pub enum CycleKind {
         /// Seconds at the bottom, if any.
         dwell: Option<Expr>,
     },
-    /// Feed to the bottom, feed out to the retract plane.
+    /// Feed to the bottom, feed out.
     Bore {
         /// Seconds at the bottom, if any.
         dwell: Option<Expr>,
         /// Feed on the way out, where it is another. Which feed is in force after the cycle is then
         /// not known.
         feed_out: Option<Expr>,
+        /// Whether the feed goes on to where the tool is left; else from the retract plane it is rapid.
+        to_level: bool,
     },
     /// Cut a thread with a tap: in at the pitch, dwell, out with the spindle turned round.
     ///
@@ -111,10 +113,15 @@ pub struct Tap {
     pub chuck: bool,
     /// Seconds at the bottom, if any.
     pub dwell: Option<Expr>,
-    /// Seconds at the retract plane on the way out, if any.
+    /// Seconds at the bottom when the spindle has turned round, if any.
+    pub back: Option<Expr>,
+    /// Seconds where the way out of the thread ends, if any.
     pub settle: Option<Expr>,
     /// What the spindle does after the hole.
     pub after: Spindle,
+    /// Whether the way out in step goes on to where the tool is left; else from the retract plane it is
+    /// rapid.
+    pub to_level: bool,
 }
 
 /// What fine boring needs to know.
@@ -248,6 +255,34 @@ impl CycleKind {
     /// Whether it starts, stops or turns the spindle.
     pub fn drives_spindle(&self) -> bool {
         matches!(self, CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_))
+    }
+
+    /// A feed out that ends at the retract plane; it is the same where the tool is left there.
+    pub fn end_feed_at_retract(&mut self) {
+        match self {
+            CycleKind::Bore { to_level, .. } => *to_level = false,
+            CycleKind::Tap(tap) => tap.to_level = false,
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => {}
+        }
+    }
+
+    /// Whether its feed out goes on to where the tool is left.
+    pub fn feeds_to_level(&self) -> bool {
+        match self {
+            CycleKind::Bore { to_level, .. } => *to_level,
+            CycleKind::Tap(tap) => tap.to_level,
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::DrillPeck { .. }
+            | CycleKind::DrillBreak { .. }
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => false,
+        }
     }
 
     /// Calls something for each length that tapping and the boring cycles with a stop say: pitches and

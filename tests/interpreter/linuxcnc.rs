@@ -118,7 +118,7 @@ impl Words {
 
 /// Modal groups of G codes; codes of none stand alone.
 const GROUPS: [&[u32]; 13] = [
-    &[0, 10, 20, 30, 730, 740, 800, 810, 820, 830, 840, 850, 890],
+    &[0, 10, 20, 30, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
     &[40, 100, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
@@ -137,7 +137,7 @@ const GROUPS: [&[u32]; 13] = [
 const M_GROUPS: [&[u32]; 4] = [&[0, 10, 20, 300, 980, 990], &[60], &[30, 40, 50], &[70, 80, 90]];
 
 fn cycle(code: u32) -> bool {
-    matches!(code, 730 | 740 | 810 | 820 | 830 | 840 | 850 | 890)
+    matches!(code, 730 | 740 | 810 | 820 | 830 | 840 | 850 | 860 | 890)
 }
 
 impl Control {
@@ -505,6 +505,9 @@ impl Control {
             return self.m.halt("a cycle without feed, or by inverse time");
         }
         let unit = self.unit();
+        if matches!(code, 820 | 860 | 890) && self.motion != Some(code) && words.get('P').is_none() {
+            return self.m.halt("a cycle with a dwell, called up without P");
+        }
         if self.motion != Some(code) {
             // Only P outlasts its cycle.
             self.kept = Kept { p: self.kept.p, ..Kept::default() };
@@ -604,6 +607,17 @@ impl Control {
             850 => {
                 self.feed(normal, bottom)?;
                 self.feed(normal, r)?;
+            }
+            860 => {
+                let before = self.m.spindle;
+                if before == Spindle::Stopped {
+                    return self.m.halt("G86 and the spindle stands");
+                }
+                self.feed(normal, bottom)?;
+                self.stay(self.kept.p.unwrap_or(0.0));
+                self.m.turn(Spindle::Stopped);
+                self.rapid(normal, clear);
+                self.m.turn(before);
             }
             _ => return self.tap(code, normal, bottom, clear),
         }

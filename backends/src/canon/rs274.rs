@@ -604,7 +604,7 @@ impl Printer<'_> {
                 go(self, rapid, clear);
                 self.turn(before);
             }
-            CycleKind::Tap(tap) if tap.chuck => {
+            CycleKind::Tap(tap) if tap.chuck && tap.dwell.is_none() && tap.settle.is_none() => {
                 let (way, back) = match tap.turn {
                     Turn::Clockwise => (Turning::Clockwise, Turning::Counterclockwise),
                     Turn::Counterclockwise => (Turning::Counterclockwise, Turning::Clockwise),
@@ -617,7 +617,7 @@ impl Printer<'_> {
                 go(self, feed, depth);
                 self.turn(Turning::Stopped);
                 self.turn(back);
-                let dwell = tap.dwell.as_ref().map_or(Ok(0.0), literal)?;
+                let dwell = tap.back.as_ref().map_or(Ok(0.0), literal)?;
                 let _ = writeln!(self.out, "DWELL({dwell:.4})");
                 go(self, feed, clear);
                 self.turn(Turning::Stopped);

@@ -57,11 +57,18 @@ fn clearance(c: &Clearance, out: &mut Vec<u8>) {
 pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
     put(c.kind.name(), out);
     match &c.kind {
-        CycleKind::Drill | CycleKind::Bore { dwell: None, feed_out: None } => {}
+        CycleKind::Drill | CycleKind::Bore { dwell: None, feed_out: None, to_level: false } => {}
+        CycleKind::Bore { dwell: None, feed_out: None, to_level: true } => put("(to-level)", out),
         CycleKind::DrillDwell { dwell } => details(&[("(dwell ", Some(dwell))], out),
-        CycleKind::Bore { dwell, feed_out } => {
+        CycleKind::Bore { dwell, feed_out, to_level } => {
             let feed = if dwell.is_some() { ", feed-out " } else { "(feed-out " };
-            details(&[("(dwell ", dwell.as_ref()), (feed, feed_out.as_ref())], out);
+            for (word, value) in [("(dwell ", dwell), (feed, feed_out)] {
+                if let Some(value) = value {
+                    put(word, out);
+                    expr(value, out);
+                }
+            }
+            put(if *to_level { ", to-level)" } else { ")" }, out);
         }
         CycleKind::DrillPeck { peck, first, clearance: c, pause, settle, dwell } => {
             put("(peck ", out);
@@ -91,7 +98,9 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
             put(turn(tap.turn), out);
             put(", pitch ", out);
             pitch(&tap.pitch, out);
-            for (word, value) in [(", dwell ", &tap.dwell), (", settle ", &tap.settle)] {
+            for (word, value) in
+                [(", dwell ", &tap.dwell), (", back ", &tap.back), (", settle ", &tap.settle)]
+            {
                 if let Some(value) = value {
                     put(word, out);
                     expr(value, out);
@@ -99,7 +108,7 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
             }
             put(", after ", out);
             put(spindle(tap.after), out);
-            put(")", out);
+            put(if tap.to_level { ", to-level)" } else { ")" }, out);
         }
         CycleKind::FineBore(bore) => {
             put("(shift ", out);

@@ -164,7 +164,9 @@ impl Writer {
         }
         // Of several, the one that says what there is to say and no more.
         let fits = |row: &&CallRow| match kind {
-            CycleKind::Bore { dwell: Some(_), feed_out: None } if !feed => row.place(Role::FeedIn).is_none(),
+            CycleKind::Bore { dwell: Some(_), feed_out: None, .. } if !feed => {
+                row.place(Role::FeedIn).is_none()
+            }
             CycleKind::Bore { .. } => row.place(Role::FeedIn).is_some(),
             CycleKind::BoreStop(bore) => row.place(Role::Dwell).is_some() == bore.dwell.is_some(),
             _ => true,
@@ -239,7 +241,7 @@ impl Writer {
                     self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
                 }
             }
-            CycleKind::Bore { dwell, feed_out } => {
+            CycleKind::Bore { dwell, feed_out, .. } => {
                 if let Some(dwell) = dwell {
                     self.argument(&mut to, Role::Dwell, dwell, span, sink)?;
                 }

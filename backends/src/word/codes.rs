@@ -5,6 +5,7 @@
 
 use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
 use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, Turn, Units};
+use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint, ToolValue};
 
 use super::number::Format;
@@ -66,6 +67,12 @@ pub(crate) struct CycleCode {
     pub dwell: Option<Dwell>,
     pub peck: Option<Letter>,
     pub hand: Option<Turn>,
+    /// What the control does of itself in it.
+    pub form: CycleForm,
+    /// Whether its feed out goes on to where the tool is left.
+    pub to_level: bool,
+    /// Whether its dwell must be said.
+    pub dwell_needed: bool,
 }
 
 /// A bolt circle's words.
@@ -301,6 +308,9 @@ impl Finder {
                     None => None,
                 },
                 hand: row.hand.map(ncc_dialects::Hand::turn),
+                form: CycleForm::Control(row.own()),
+                to_level: row.feed_to_level,
+                dwell_needed: row.dwell_needed,
                 peck: match row.peck.or(row.shift) {
                     Some(letter) => Some(self.letter(letter, Quantity::Length)?),
                     None => None,

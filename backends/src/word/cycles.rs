@@ -5,7 +5,6 @@
 //! its feed.
 
 use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
-use ncc_ir::caps::CycleForm;
 use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -182,21 +181,22 @@ impl Writer {
             }
             CycleKind::Bore { dwell, .. } => dwell.as_ref(),
             CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_) => {
-                return self.driven_code(&cycle.kind);
+                return self.driven_code(cycle);
             }
         };
-        let code = self.codes.cycle(cycle.kind.name(), dwell.is_some());
+        let row = |dwell| self.codes.cycle(cycle.kind.name(), dwell).filter(|row| ends(row, cycle));
+        // One that must have a dwell can have one of no seconds.
+        let code =
+            row(dwell.is_some()).or_else(|| row(true).filter(|row| dwell.is_none() && row.dwell_needed));
         code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
     }
 
     /// The row of a cycle that drives the spindle.
-    fn driven_code(&self, kind: &CycleKind) -> Result<&CycleCode, Fault> {
+    fn driven_code(&self, cycle: &Cycle) -> Result<&CycleCode, Fault> {
+        let kind = &cycle.kind;
         let cannot = || cannot(format!("the cycle {} in this form", kind.name()));
-        if !CycleForm::Control.says(kind) {
-            return Err(cannot());
-        }
         let dwells = match kind {
-            CycleKind::Tap(tap) => tap.dwell.is_some(),
+            CycleKind::Tap(tap) => tap.dwell.is_some() || tap.back.is_some(),
             CycleKind::FineBore(bore) => bore.dwell.is_some(),
             CycleKind::BoreStop(bore) => bore.dwell.is_some(),
             CycleKind::Drill
@@ -215,7 +215,13 @@ impl Writer {
             _ => true,
         };
         let mut rows = self.codes.cycles.iter();
-        let row = rows.find(|row| name(row) && hand(row) && (row.dwell.is_some() || !dwells));
+        let row = rows.find(|row| {
+            name(row)
+                && hand(row)
+                && (row.dwell.is_some() || !dwells)
+                && row.form.says(kind)
+                && ends(row, cycle)
+        });
         row.ok_or_else(cannot)
     }
 
@@ -364,7 +370,7 @@ impl Writer {
                 (Some(peck), dwell.as_ref())
             }
             CycleKind::Bore { dwell, .. } => (None, dwell.as_ref()),
-            CycleKind::Tap(tap) => (None, tap.dwell.as_ref()),
+            CycleKind::Tap(tap) => (None, tap.dwell.as_ref().or(tap.back.as_ref())),
             CycleKind::FineBore(bore) => match &bore.shift {
                 Shift::Parameter(amount) => (Some(amount), bore.dwell.as_ref()),
                 Shift::Stated(_) => return Err(cannot("fine boring with a stated shift")),
@@ -391,8 +397,13 @@ impl Writer {
             (Some(word), Some(dwell)) => {
                 Some((word.word.letter, self.dwell_value(&word, dwell, span, sink)?))
             }
+            // Else an earlier one would hold.
+            (Some(word), None) if !same_kind && (self.dwell_left || row.dwell_needed) => {
+                Some((word.word.letter, self.dwell_value(&word, &Expr::int(0), span, sink)?))
+            }
             _ => None,
         };
+        self.dwell_left |= dwell.is_some() && self.dialect.cycles.dwell_left;
         let stated = before.and(held.feed.as_ref());
         let feed = match (cycle.feed.as_ref().filter(|f| Some(*f) != stated), self.codes.feed_word) {
             (Some(feed), Some(letter)) => Some((letter.letter, self.value(&letter, feed, span, sink)?)),
@@ -583,4 +594,12 @@ impl Writer {
         }
         Ok(())
     }
+}
+
+/// Whether a row's feed out of the hole, if it has one, ends where the cycle's does.
+fn ends(row: &CycleCode, cycle: &Cycle) -> bool {
+    let feeds_out = matches!(cycle.kind, CycleKind::Bore { .. } | CycleKind::Tap(_));
+    !feeds_out
+        || row.to_level == cycle.kind.feeds_to_level()
+        || cycle.return_level == Fact::Known(ReturnLevel::Retract) && cycle.return_plane.is_none()
 }

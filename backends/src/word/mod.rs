@@ -100,6 +100,8 @@ pub struct Writer {
     first_left: Option<Span>,
     /// Whether the source block at hand had to be split.
     pub(crate) split: bool,
+    /// A cycle has said a dwell that stays in force for others.
+    pub(crate) dwell_left: bool,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,
     /// The next straight move is in machine coordinates, by this code.
@@ -169,6 +171,7 @@ impl Writer {
             numbers_left: 0,
             first_left: None,
             split: false,
+            dwell_left: false,
             offset_waits: None,
             machine: None,
             polar: false,

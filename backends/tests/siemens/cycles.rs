@@ -98,7 +98,7 @@ fn dwell_and_bore() {
     let dwell = start(cycle(CycleKind::DrillDwell { dwell: seconds("0.6") }));
     assert_eq!(clean(&lines(vec![rapid("X0."), dwell])), "G0 X0\nMCALL CYCLE82(10,3,0,-6,,0.6)\n");
     let bore = |feed: Option<&str>, out: Option<&str>| {
-        let kind = CycleKind::Bore { dwell: None, feed_out: out.map(mm) };
+        let kind = CycleKind::Bore { dwell: None, feed_out: out.map(mm), to_level: false };
         start(Cycle { feed: feed.map(mm), ..cycle(kind) })
     };
     let stmts = lines(vec![rapid("X0."), bore(Some("60."), Some("120.")), hole("X1.")]);
@@ -108,7 +108,7 @@ fn dwell_and_bore() {
 
 #[test]
 fn the_feed_is_said_again_after_boring() {
-    let bore = start(cycle(CycleKind::Bore { dwell: None, feed_out: None }));
+    let bore = start(cycle(CycleKind::Bore { dwell: None, feed_out: None, to_level: false }));
     let stmts = lines(vec![
         Op::SetFeedRate(mm("80.")),
         feed("X0."),

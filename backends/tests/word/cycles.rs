@@ -132,7 +132,14 @@ fn a_change_of_the_cycle_is_written_by_what_changes() {
         vec![drill("-6.", Some("100.")), hole("X1.")],
         vec![drill("-8.", Some("100.")), hole("X2.")],
         vec![drill("-8.", Some("120.")), hole("X3.")],
-        vec![start(cycle(CycleKind::Bore { dwell: None, feed_out: None }, "-8.", Some("120."))), hole("X4.")],
+        vec![
+            start(cycle(
+                CycleKind::Bore { dwell: None, feed_out: None, to_level: false },
+                "-8.",
+                Some("120."),
+            )),
+            hole("X4."),
+        ],
     ]);
     assert_eq!(
         clean("fanuc", &stmts),
@@ -165,8 +172,11 @@ fn the_kinds_have_their_words() {
     let kinds = [
         (CycleKind::DrillDwell { dwell: seconds("0.5") }, "G99 G82 X1. Z-6. R3. P500"),
         (peck(Clearance::Parameter, None), "G99 G83 X1. Z-6. R3. Q2."),
-        (CycleKind::Bore { dwell: None, feed_out: None }, "G99 G85 X1. Z-6. R3."),
-        (CycleKind::Bore { dwell: Some(seconds("1")), feed_out: None }, "G99 G89 X1. Z-6. R3. P1000"),
+        (CycleKind::Bore { dwell: None, feed_out: None, to_level: false }, "G99 G85 X1. Z-6. R3."),
+        (
+            CycleKind::Bore { dwell: Some(seconds("1")), feed_out: None, to_level: false },
+            "G99 G89 X1. Z-6. R3. P1000",
+        ),
     ];
     for (kind, expected) in kinds {
         let stmts = lines(vec![start(cycle(kind, "-6.", None)), hole("X1.")]);

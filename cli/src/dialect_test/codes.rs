@@ -412,18 +412,20 @@ fn cycle_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
         return tap_text(d, row, values);
     }
     let own: Vec<String> = match row.kind.as_str() {
+        "bore" if row.feed_to_level => vec!["to-level".to_owned()],
         "bore-fine" => vec![format!("shift parameter {}mm, after clockwise", values.peck)],
+        "bore-stop" if row.turns_on => vec!["after as-before".to_owned()],
         "bore-stop" => vec!["after clockwise".to_owned()],
         "drill-peck" => vec![format!("peck {}mm, clearance parameter", values.peck)],
         "drill-break" => vec![format!("peck {}mm, lift parameter", values.peck)],
         _ => Vec::new(),
     };
-    let own: Vec<String> = own.into_iter().chain(row.dwell.map(|_| dwell)).collect();
-    let retracts = row.feed_to_level;
+    let last = if row.kind == "bore" { 0 } else { own.len() };
+    let mut own = own;
+    own.splice(last..last, row.dwell.map(|_| dwell));
     let own = if own.is_empty() { String::new() } else { format!("({})", own.join(", ")) };
     let level = match d.cycles.return_level.map(ReturnLevel::from) {
         Some(ReturnLevel::Retract) => "retract",
-        None if retracts => "retract",
         Some(ReturnLevel::Initial) | None => "initial",
     };
     let approach = match Approach::from(d.cycles.approach) {
@@ -446,11 +448,13 @@ fn tap_text(d: &Dialect, row: &CycleRow, values: &Values) -> String {
         Some(Hand::Right) | None => "clockwise",
     };
     let dwells = match row.dwell {
+        Some(_) if row.dwells_turned => format!(", back {}s", values.dwell),
         Some(_) => format!(", dwell {0}s, settle {0}s", values.dwell),
         None => String::new(),
     };
     let after = if row.kind == "tap" { turn } else { "stopped" };
-    let tap = format!("{}({turn}, pitch feed{dwells}, after {after})", row.kind);
+    let level = if row.feed_to_level { ", to-level" } else { "" };
+    let tap = format!("{}({turn}, pitch feed{dwells}, after {after}{level})", row.kind);
     cycle_text(d, &drill, values).replacen("drill", &tap, 1)
 }
 

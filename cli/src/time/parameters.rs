@@ -91,7 +91,7 @@ fn start(cycle: &Cycle, exec: &Exec) -> Parameters {
                 put("lift", value);
             }
         }
-        CycleKind::Bore { dwell, feed_out } => {
+        CycleKind::Bore { dwell, feed_out, .. } => {
             dwell.iter().for_each(|value| put("dwell", value));
             feed_out.iter().for_each(|value| put("feed_out", value));
         }
@@ -99,7 +99,7 @@ fn start(cycle: &Cycle, exec: &Exec) -> Parameters {
             if let Pitch::Stated(pitch) = &tap.pitch {
                 put("pitch", pitch);
             }
-            let words = [("dwell", &tap.dwell), ("settle", &tap.settle)];
+            let words = [("dwell", &tap.dwell), ("back", &tap.back), ("settle", &tap.settle)];
             words.into_iter().for_each(|(name, value)| value.iter().for_each(|value| put(name, value)));
         }
         CycleKind::FineBore(bore) => {

@@ -434,6 +434,10 @@ pub(crate) enum Token {
     DrillPeck,
     #[token("bore")]
     Bore,
+    #[token("to-level")]
+    ToLevel,
+    #[token("back")]
+    Back,
     #[token("tap")]
     Tap,
     #[token("tap-rigid")]

@@ -261,7 +261,7 @@ impl Lower {
             CallKind::BoreFine => self.fine_bore(a, plane.known(), dwell, src, out)?,
             CallKind::BoreStop => self.stop_bore(a, dwell, out)?,
             CallKind::Bore if a.row.place(Role::FeedIn).is_none() => {
-                CycleKind::Bore { dwell, feed_out: None }
+                CycleKind::Bore { dwell, feed_out: None, to_level: false }
             }
             CallKind::Bore => {
                 let into = self.needed(a, Role::FeedIn, src, out)?;
@@ -275,7 +275,7 @@ impl Lower {
                 feed = Some(Expr::Num(into));
                 let other = into.trimmed().mantissa != back.trimmed().mantissa
                     || into.trimmed().scale != back.trimmed().scale;
-                CycleKind::Bore { dwell, feed_out: other.then_some(Expr::Num(back)) }
+                CycleKind::Bore { dwell, feed_out: other.then_some(Expr::Num(back)), to_level: false }
             }
             CallKind::Line | CallKind::Circle | CallKind::Grid | CallKind::List => return None,
         };

@@ -128,7 +128,16 @@ impl Lower {
             self.idle_tap = true;
         }
         let pitch = Pitch::Stated(pitch.into());
-        Some(CycleKind::Tap(Box::new(Tap { turn, pitch, chuck: false, dwell, settle: None, after })))
+        Some(CycleKind::Tap(Box::new(Tap {
+            turn,
+            pitch,
+            chuck: false,
+            dwell,
+            back: None,
+            settle: None,
+            after,
+            to_level: false,
+        })))
     }
 
     /// Tapping with a compensating chuck.
@@ -169,7 +178,16 @@ impl Lower {
             }
             _ => return self.out_of_range(a, Role::Encoder, out),
         };
-        Some(CycleKind::Tap(Box::new(Tap { turn, pitch, chuck: true, dwell, settle: None, after })))
+        Some(CycleKind::Tap(Box::new(Tap {
+            turn,
+            pitch,
+            chuck: true,
+            dwell,
+            back: None,
+            settle: None,
+            after,
+            to_level: false,
+        })))
     }
 
     /// Boring with an oriented stop.

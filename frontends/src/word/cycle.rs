@@ -113,7 +113,6 @@ impl Lower {
         };
         let has_hole_word = self.has_axis_word(words) || words.get(row.retract as u8).is_some();
         self.check_rotary(row, block, words, out);
-        self.check_feed_to_level(row, block, out);
         // Pecks of other cycles' letter, in one that is made in one go.
         let peck = dialect.cycle.iter().find_map(|other| other.peck);
         let peck = peck.filter(|_| row.peck.is_none() && row.shift.is_none());
@@ -127,7 +126,9 @@ impl Lower {
         let bare = given.depth.is_none() && !self.has_axis_word(words);
         let depth = given.depth.or_else(|| kept.as_ref().map(|k| k.depth.clone()));
         let retract = given.retract.or_else(|| kept.as_ref().map(|k| k.retract.clone()));
+        self.note_dwell(row, given.dwell, out);
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
+        let dwell = dwell.or_else(|| self.dwell_left(row, code, out));
         let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck));
         let blame = !self.now.failed;
         for (letter, missing) in [(depth_letter, depth.is_none()), (row.retract, retract.is_none())] {
@@ -195,7 +196,6 @@ impl Lower {
             }
         }
         if self.now.recall {
-            self.check_feed_to_level(row, block, out);
             self.call_up(block, out);
         }
         if has_hole_word {
@@ -214,6 +214,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         let given = self.cycle_words(row, depth_letter, distance, words, src, out);
+        self.note_dwell(row, given.dwell, out);
         let InForce::Active(active) = &mut self.state.cycle else {
             return;
         };
@@ -243,8 +244,12 @@ impl Lower {
         let InForce::Active(active) = &self.state.cycle else {
             return;
         };
+        let mut kind = active.kind.clone();
+        if return_level == Fact::Known(ReturnLevel::Retract) {
+            kind.end_feed_at_retract();
+        }
         let cycle = Cycle {
-            kind: active.kind.clone(),
+            kind,
             plane: active.plane,
             retract: active.retract.clone(),
             depth: active.depth.clone(),
@@ -316,18 +321,35 @@ impl Lower {
         (normal == row.depth || self.settings.dialect.cycles.any_plane && !row.one_plane).then_some(normal)
     }
 
+    /// Takes note of a cycle's dwell where it stays in force for others.
+    fn note_dwell(&mut self, row: &CycleRow, dwell: Option<Num>, out: &mut Batch) {
+        let (Some(dwell), true) = (dwell, self.settings.dialect.cycles.dwell_left) else { return };
+        self.state.dwell_left = Know::Said(dwell);
+        self.dwells.said = true;
+        if let Some(relied) = self.dwells.relied.take() {
+            self.fault(left_open(row), relied, out);
+        }
+    }
+
+    /// The dwell that a cycle without one takes over from an earlier one.
+    fn dwell_left(&mut self, row: &CycleRow, code: &Code, out: &mut Batch) -> Option<Num> {
+        let takes = self.settings.dialect.cycles.dwell_left && row.dwell.is_some() && !row.dwell_needed;
+        match self.state.dwell_left {
+            _ if !takes => None,
+            Know::Said(dwell) | Know::Taken(dwell) => Some(dwell),
+            Know::Unsaid => None,
+            Know::Lost if self.dwells.said => self.refuse(left_open(row), code.span, out),
+            Know::Lost => {
+                self.dwells.relied.get_or_insert(code.span);
+                None
+            }
+        }
+    }
+
     /// A cycle cannot turn rotary axes on some controls.
     fn check_rotary(&mut self, row: &CycleRow, block: Span, words: &Words, out: &mut Batch) {
         if self.settings.dialect.cycles.no_rotary && words.has_any(self.roles.rotary) {
             let name = "rotary axis in a canned cycle".into();
-            self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
-        }
-    }
-
-    /// A feed that goes on to the initial level is another cycle.
-    fn check_feed_to_level(&mut self, row: &CycleRow, block: Span, out: &mut Batch) {
-        if row.feed_to_level && self.return_level(block, out) != Fact::Known(ReturnLevel::Retract) {
-            let name = "cycle that feeds out to the initial level".into();
             self.fault(Fault::NotSupported { code: row.code.as_str().into(), name }, block, out);
         }
     }
@@ -404,6 +426,11 @@ impl Lower {
     }
 }
 
+fn left_open(row: &CycleRow) -> Fault {
+    let name = "dwell that another cycle left in force, on some way to here".into();
+    Fault::NotSupported { code: row.code.as_str().into(), name }
+}
+
 /// A cycle's words in one block.
 struct Given {
     depth: Option<Coord>,
@@ -414,10 +441,14 @@ struct Given {
 
 /// The cycle of a row; `Err` with the letter of the word that it lacks.
 fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -> Result<CycleKind, char> {
+    let (own, to_level) = (row.own(), row.feed_to_level);
     if row.dwell_needed && dwell.is_none() {
         return Err(row.dwell.map_or(' ', |d| d.letter));
     }
-    let bottom = dwell.filter(|_| row.dwell.is_some()).map(Expr::Num);
+    // A dwell of no seconds is none, where a cycle can go without.
+    let none = row.kind.starts_with("tap") || row.dwell_needed && row.kind != "drill-dwell";
+    let is_one = |dwell: &Num| row.dwell.is_some() && !(none && dwell.is_zero());
+    let bottom = dwell.filter(is_one).map(Expr::Num);
     Ok(match row.kind.as_str() {
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
         "drill-peck" => CycleKind::DrillPeck {
@@ -440,19 +471,22 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -
             let turn = row.hand.unwrap_or(Hand::Right).turn();
             let chuck = !rigid;
             let after = if chuck { turn.spindle() } else { Spindle::Stopped };
-            let (dwell, settle) = (bottom.clone(), bottom);
-            CycleKind::Tap(Box::new(Tap { turn, pitch: Pitch::Feed, chuck, dwell, settle, after }))
+            let (dwell, back, settle) = match own.dwells_turned {
+                true => (None, bottom, None),
+                false => (bottom.clone(), None, bottom),
+            };
+            let pitch = Pitch::Feed;
+            CycleKind::Tap(Box::new(Tap { turn, pitch, chuck, dwell, back, settle, after, to_level }))
         }
         "bore-fine" => {
             let shift = Shift::Parameter(Expr::Num(peck.ok_or(row.shift.unwrap_or(' '))?));
-            let after = Some(Spindle::Clockwise);
+            let after = own.after();
             CycleKind::FineBore(Box::new(FineBore { turn: None, dwell: bottom, angle: None, shift, after }))
         }
         "bore-stop" => {
-            let after = Some(Spindle::Clockwise);
-            CycleKind::BoreStop(BoreStop { turn: None, dwell: bottom, stop: false, after })
+            CycleKind::BoreStop(BoreStop { turn: None, dwell: bottom, stop: false, after: own.after() })
         }
-        "bore" => CycleKind::Bore { dwell: bottom, feed_out: None },
+        "bore" => CycleKind::Bore { dwell: bottom, feed_out: None, to_level },
         // The loader lets no other kind pass.
         _ => CycleKind::Drill,
     })

@@ -124,6 +124,8 @@ pub(super) struct State {
     pub(super) level_open: bool,
     /// A feed that was said in a cycle's block and that no hole has used yet.
     pub(super) cycle_feed: Option<Num>,
+    /// The dwell that some cycle has said, where it stays in force for others.
+    pub(super) dwell_left: Know<Num>,
     /// The entry of the table of radii that was named last.
     pub(super) radius_entry: Know<Num>,
     /// Whether cutter radius compensation is on.
@@ -157,6 +159,7 @@ impl State {
             unplaced: 0,
             level_open: false,
             cycle_feed: None,
+            dwell_left: Know::Lost,
             radius_entry: Know::Lost,
             compensated: Know::Lost,
         }
@@ -196,6 +199,7 @@ impl State {
             self.cycle = InForce::Lost;
         }
         self.cycle_feed = self.cycle_feed.or(before.cycle_feed);
+        self.dwell_left.join(before.dwell_left);
         self.radius_entry.join(before.radius_entry);
         self.compensated.join(before.compensated);
     }

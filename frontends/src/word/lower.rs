@@ -41,6 +41,7 @@ pub(super) struct Lower {
     pub(super) units_seen: UnitsSeen,
     pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
+    pub(super) dwells: Dwells,
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
     /// Whether the program that is being read has ended.
@@ -49,6 +50,15 @@ pub(super) struct Lower {
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
     codes: Vec<Code>,
+}
+
+/// Dwells of cycles in the whole text, where they stay in force for other cycles.
+#[derive(Debug, Default)]
+pub(super) struct Dwells {
+    /// Whether any was said so far.
+    pub(super) said: bool,
+    /// Where it was first relied on that none was said, in blocks that others call or come back to.
+    pub(super) relied: Option<Span>,
 }
 
 /// What has been reported and is not to be reported again.
@@ -120,6 +130,7 @@ impl Lower {
             rules: table,
             letters: std::array::from_fn(|i| dialect.address_row(b'A' + i as u8)),
             roles: Roles::new(dialect),
+            dwells: Dwells::default(),
             reported: Reported { codes: vec![false; dialect.code.len()], ..Reported::default() },
             settings,
             assume,

@@ -58,23 +58,22 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 form: CycleForm::Any,
                 turns: Vec::new(),
                 lift_at_feed: None,
+                to_level: None,
             };
             all.into_iter().map(cap).collect()
         } else {
             let cap = |row: &CycleRow, kind: &str| CycleCap {
                 kind: kind.to_owned(),
-                returns: match row.feed_to_level {
-                    true => vec![ReturnLevel::Retract],
-                    false => returns.clone(),
-                },
+                returns: returns.clone(),
                 dwell: row.dwell.is_some(),
                 clearance: false,
                 parameter: true,
                 strokes: false,
                 feed_out: false,
-                form: CycleForm::Control,
+                form: CycleForm::Control(row.own()),
                 turns: row.hand.map(|hand| hand.turn()).into_iter().collect(),
                 lift_at_feed: Some(false),
+                to_level: Some(row.feed_to_level),
             };
             let called = |row: &CallRow| {
                 let has = |role| row.place(role).is_some();
@@ -89,6 +88,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     form: CycleForm::Stated,
                     turns: vec![Turn::Clockwise, Turn::Counterclockwise],
                     lift_at_feed: Some(has(ParameterRole::Lift)),
+                    to_level: Some(false),
                 });
                 caps.collect::<Vec<_>>()
             };

@@ -388,6 +388,8 @@ pub struct CycleRules {
     pub repeat: Option<char>,
     /// Whether 0 is no such number.
     pub repeat_once: bool,
+    /// Whether the dwell that any cycle has said stays in force for a later cycle that can go without one.
+    pub dwell_left: bool,
     /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
     /// needs one.
     pub peck_clearance: Option<f64>,
@@ -428,6 +430,13 @@ pub struct CycleRow {
     /// Of tapping, the hand of the thread.
     #[serde(default)]
     pub hand: Option<Hand>,
+    /// Of tapping, whether the dwell is at the bottom alone, when the spindle has turned round; else it is at
+    /// both ends, before it does.
+    #[serde(default)]
+    pub dwells_turned: bool,
+    /// Of boring with a stop, whether the spindle then turns as it did before; else clockwise.
+    #[serde(default)]
+    pub turns_on: bool,
     /// Of fine boring, the letter of the shift off the wall.
     #[serde(default)]
     pub shift: Option<char>,
@@ -436,6 +445,13 @@ pub struct CycleRow {
     pub sure: bool,
     /// Who says so.
     pub source: String,
+}
+
+impl CycleRow {
+    /// What the control does of itself in it.
+    pub fn own(&self) -> ncc_ir::caps::Own {
+        ncc_ir::caps::Own { dwells_turned: self.dwells_turned, turns_on: self.turns_on }
+    }
 }
 
 /// The hand of a thread.

@@ -57,13 +57,15 @@ enum Way {
     Bore {
         dwell: Option<Nanos>,
         feed_out: Option<Nanos>,
+        to_level: bool,
     },
     Tap {
         turn: Turn,
         pitch: Option<Nanos>,
         chuck: bool,
-        dwell: [Option<Nanos>; 2],
+        dwell: [Option<Nanos>; 3],
         after: Spindle,
+        to_level: bool,
     },
     Fine {
         turn: Option<Turn>,
@@ -156,7 +158,8 @@ impl Exec {
                 };
                 Way::Break { strokes, lift, at_feed: *lift_at_feed }
             }
-            CycleKind::Bore { dwell: d, feed_out } => Way::Bore {
+            CycleKind::Bore { dwell: d, feed_out, to_level } => Way::Bore {
+                to_level: *to_level,
                 dwell: dwell(d)?,
                 feed_out: feed_out.as_ref().map(|f| self.value(f, span)).transpose()?,
             },
@@ -164,8 +167,9 @@ impl Exec {
                 turn: tap.turn,
                 pitch: self.stated_pitch(&tap.pitch, span)?,
                 chuck: tap.chuck,
-                dwell: [dwell(&tap.dwell)?, dwell(&tap.settle)?],
+                dwell: [dwell(&tap.dwell)?, dwell(&tap.back)?, dwell(&tap.settle)?],
                 after: tap.after,
+                to_level: tap.to_level,
             },
             CycleKind::FineBore(bore) => Way::Fine {
                 turn: bore.turn,
@@ -356,15 +360,16 @@ impl Exec {
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
                 self.dwell(strokes.dwell, span, out)?;
             }
-            Way::Bore { dwell, feed_out } => {
+            Way::Bore { dwell, feed_out, to_level } => {
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
                 self.dwell(dwell, span, out)?;
                 let feed_in = self.feed;
                 self.feed = feed_out.unwrap_or(feed_in);
-                self.go_to_level(normal, cycle.retract, true, span, out)?;
+                let end = if to_level { out_to } else { cycle.retract };
+                self.go_to_level(normal, end, true, span, out)?;
                 self.feed = feed_in;
             }
-            Way::Tap { turn, pitch, chuck, dwell, after } => {
+            Way::Tap { turn, pitch, chuck, dwell, after, to_level } => {
                 if !chuck {
                     self.turn_spindle(turn.spindle(), span, out)?;
                 }
@@ -375,12 +380,13 @@ impl Exec {
                 }
                 self.dwell(dwell[0], span, out)?;
                 self.turn_spindle(turn.back().spindle(), span, out)?;
-                self.position[normal] = cycle.retract;
+                self.dwell(dwell[1], span, out)?;
+                self.position[normal] = if to_level { out_to } else { cycle.retract };
                 self.in_step(pitch, chuck, span, out)?;
                 if !chuck {
                     self.turn_spindle(Spindle::Stopped, span, out)?;
                 }
-                self.dwell(dwell[1], span, out)?;
+                self.dwell(dwell[2], span, out)?;
                 if chuck {
                     self.turn_spindle(after, span, out)?;
                 }

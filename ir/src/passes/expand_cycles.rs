@@ -315,11 +315,13 @@ pub(super) fn sayable(
             let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
             (dwell.is_some(), says_pecks(&cap, lift, strokes) && way)
         }
-        CycleKind::Bore { dwell, feed_out } => (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out)),
+        CycleKind::Bore { dwell, feed_out, .. } => {
+            (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
+        }
         CycleKind::Tap(tap) => {
             let turns = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
             (
-                tap.dwell.is_some(),
+                tap.dwell.is_some() || tap.back.is_some(),
                 driven(caps, cycle) && caps.cycles.iter().any(|c| c.kind == kind && turns(c)),
             )
         }
@@ -329,10 +331,12 @@ pub(super) fn sayable(
     if !details || caps.return_planes.is_some_and(|p| p != cycle.return_plane.is_some()) {
         return false;
     }
+    let mut rows = caps.cycles.iter().filter(|c| c.kind == kind && (c.dwell || !dwell));
     if cycle.return_plane.is_some() {
-        return caps.cycles.iter().any(|c| c.kind == kind && (c.dwell || !dwell));
+        return rows.any(|c| c.ends_feed(&cycle.kind, None));
     }
-    let says = |level| caps.cycle(kind, Some(level), dwell);
+    let says =
+        |level| rows.clone().any(|c| c.returns.contains(&level) && c.ends_feed(&cycle.kind, Some(level)));
     match cycle.return_level.known().or(walk.at.modes.return_level) {
         Some(level) => says(level),
         None => {
@@ -553,13 +557,16 @@ pub(super) fn hole(
 
     // 3. Out.
     match (&cycle.kind, out) {
-        (CycleKind::Bore { feed_out, .. }, out) => {
+        (CycleKind::Bore { feed_out, to_level, .. }, out) => {
             if let Some(feed) = feed_out {
                 moves.push((false, Op::SetFeedRate(feed.clone())));
             }
-            moves.push((feed_out.is_some(), cut(retract)));
-            if let Some(out) = out {
-                moves.push((false, traverse(out)));
+            match out {
+                Some(out) if *to_level => moves.push((feed_out.is_some(), cut(out))),
+                out => {
+                    moves.push((feed_out.is_some(), cut(retract)));
+                    moves.extend(out.map(|out| (false, traverse(out))));
+                }
             }
         }
         (_, out) => moves.push((false, traverse(out.unwrap_or(retract)))),

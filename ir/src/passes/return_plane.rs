@@ -41,9 +41,13 @@ fn by_planes(body: &mut [Stmt], walk: &mut Walk) {
             continue;
         }
         let in_force = walk.at.modes.return_level.filter(|_| keeps_level(&body[i + 1..]));
-        let plane = cycle.return_level.known().or(in_force).and_then(|l| plane_of(walk, cycle, l));
+        let returns = cycle.return_level.known().or(in_force);
+        let plane = returns.and_then(|l| plane_of(walk, cycle, l));
         if let (Some(plane), Op::StartCycle(cycle)) = (plane, &mut body[i].op) {
             cycle.return_plane = Some(plane);
+            if returns == Some(ReturnLevel::Retract) {
+                cycle.kind.end_feed_at_retract();
+            }
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Holes in which the cycle drives the spindle, for `expand-cycles`: taps, fine boring, boring with a
 //! stopped spindle. From the retract plane on; the way there is of all cycles alike.
 //!
-//! Refused are taps for a target that has no moves in step with the spindle, shifts that are computed
+//! A tap that is left by rapid goes to a target whose own cycle goes on at feed as one call a hole, left at
+//! the retract plane. Refused are taps for a target that has no moves in step with the spindle, shifts that are computed
 //! or whose direction is a parameter that nobody has stated, and a spindle that shall turn on as before
 //! where it is not known how it turned.
 
@@ -9,12 +10,13 @@ use super::Target;
 use super::expand_cycles::lasts;
 use super::walk::Walk;
 use super::write::{cut, exact, traverse, unit_of};
-use crate::canon::{Axis, Distance, Fact, Plane, Spindle};
-use crate::cycle::{CycleKind, Shift, absolute};
+use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle};
+use crate::caps::{CycleCap, CycleForm};
+use crate::cycle::{Cycle, CycleKind, Shift, absolute};
 use crate::diag::{Fault, ModeName};
 use crate::expr::Expr;
 use crate::num::Num;
-use crate::program::{Coord, Op, Point, Synchronised};
+use crate::program::{Coord, Move, Op, Point, Synchronised};
 use crate::track::InForce;
 
 /// The moves of a hole in which the cycle drives the spindle, from the retract plane on.
@@ -54,8 +56,15 @@ pub(super) fn with_spindle(
     };
     match &in_force.cycle.kind {
         CycleKind::Tap(tap) => {
+            if let (Some(out), Some(own)) = (&out, own_tap(in_force, plane, [&retract, &depth], target)) {
+                moves.push((false, Op::StartCycle(Box::new(own))));
+                moves.push((true, Op::Hole(Move { to: Point::default(), said: true })));
+                moves.push((false, Op::EndCycle));
+                moves.push((false, traverse(out.clone())));
+                return Ok(());
+            }
             if !target.caps.synchronised {
-                let what = match tap.settle == tap.dwell {
+                let what = match tap.settle == tap.dwell && tap.back.is_none() {
                     true => format!("the cycle {} in this form", in_force.cycle.kind.name()),
                     false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
                 };
@@ -70,8 +79,16 @@ pub(super) fn with_spindle(
             dwell(&tap.dwell, moves);
             if tap.chuck {
                 moves.push(turn_it(tap.turn.back().spindle()));
+                dwell(&tap.back, moves);
+            } else if tap.back.as_ref().is_some_and(lasts) {
+                let what = "a rigid tap that dwells when the spindle has turned round".into();
+                return Err(Fault::CannotSay { what });
             }
-            moves.push(step(&retract, tap.turn.back()));
+            let (end, out) = match out {
+                Some(out) if tap.to_level => (out, None),
+                out => (retract, out),
+            };
+            moves.push(step(&end, tap.turn.back()));
             dwell(&tap.settle, moves);
             if tap.chuck {
                 moves.push(turn_it(tap.after));
@@ -149,6 +166,39 @@ pub(super) fn with_spindle(
         | CycleKind::Bore { .. } => {}
     }
     Ok(())
+}
+
+/// The cycle with which a target taps one hole over which the tool stands at the retract plane, to leave it
+/// there: where its own cycle would go on at feed to the level of return, or has no such level.
+fn own_tap(
+    in_force: &InForce,
+    plane: Plane,
+    [retract, depth]: [&Point; 2],
+    target: &Target,
+) -> Option<Cycle> {
+    let (cycle, normal) = (&in_force.cycle, plane.axes().2);
+    let turn = match &cycle.kind {
+        CycleKind::Tap(tap) if !tap.to_level && !target.caps.flat => tap.turn,
+        _ => return None,
+    };
+    let says = |c: &CycleCap| {
+        c.kind == cycle.kind.name()
+            && c.form.says(&cycle.kind)
+            && c.form != CycleForm::Any
+            && c.turns.contains(&turn)
+            && c.returns.contains(&ReturnLevel::Retract)
+    };
+    target.caps.cycles.iter().any(says).then_some(())?;
+    Some(Cycle {
+        kind: cycle.kind.clone(),
+        plane: cycle.plane,
+        retract: retract.get(normal)?.clone(),
+        depth: depth.get(normal)?.clone(),
+        return_level: Fact::Known(ReturnLevel::Retract),
+        return_plane: None,
+        approach: target.caps.approach.unwrap_or(cycle.approach),
+        feed: None,
+    })
 }
 
 /// How far fine boring shifts the tool along X, Y and Z.

@@ -1,8 +1,10 @@
-//! `taps`: a thread's pitch and what the spindle does after the hole, as the target says them.
+//! `taps`: a thread's pitch and what the spindle does after a hole, as the target says them.
 //!
 //! Some controls take the pitch from feed and speed, others state it; some leave the spindle standing
 //! after a rigid tap, others start it again. Where the cycle's end has to say what the cycle itself
-//! cannot, it is said there. A feed that the cycle set stays in force after it, as it was.
+//! cannot, it is said there. A feed that the cycle set stays in force after it, as it was. After boring
+//! with a stop, one control has the spindle turn clockwise, another as it did before: where it surely
+//! turns clockwise, these are one.
 //!
 //! Not here: tapping for a target without a cycle for it, which `expand-cycles` writes out or refuses.
 
@@ -32,12 +34,14 @@ pub(super) struct State {
     changed: bool,
     /// What its end has to say.
     owed: Vec<Op>,
+    /// A bore is in force that relies on the spindle turning clockwise.
+    clockwise: bool,
 }
 
 impl State {
-    /// Whether the end of a tap that was changed is to come.
+    /// Whether the end of a cycle that was changed is to come.
     pub(super) fn is_busy(&self) -> bool {
-        self.changed
+        self.changed || self.clockwise
     }
 
     /// Takes note of feed and speed.
@@ -77,17 +81,28 @@ pub(super) fn over(
 ) {
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
-        let ends = state.changed
+        let ends = (state.changed || state.clockwise)
             && match stmt.op.unwrapped() {
                 Op::EndCycle | Op::StartCycle(_) | Op::ProgramEnd | moves!() | flow!() => true,
                 Op::Position(_) => walk.at.modes.motion != Some(Motion::Cycle),
                 _ => false,
             };
         let relies = state.changed && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_));
-        if ends && stmt.skip.is_some() || relies {
+        if ends && state.changed && stmt.skip.is_some() || relies {
             let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
+        let turned = state.clockwise
+            && match stmt.op {
+                Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_) => true,
+                Op::StartCycle(_) | Op::EndCycle => stmt.skip.is_some(),
+                _ => false,
+            };
+        if turned {
+            let what = "a spindle that turns another way while a boring cycle is in force".into();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        }
+        state.clockwise &= !ends;
         let mut after = Vec::new();
         if ends {
             state.changed = false;
@@ -154,6 +169,14 @@ fn fit(
     target: &Target,
 ) -> Result<Option<Option<Expr>>, Fault> {
     let name = cycle.kind.name();
+    if let Some(after) = spindle_after(cycle, walk, target) {
+        match &mut cycle.kind {
+            CycleKind::BoreStop(bore) => bore.after = after,
+            CycleKind::FineBore(bore) => bore.after = after,
+            _ => {}
+        }
+        state.clockwise = true;
+    }
     let CycleKind::Tap(tap) = &mut cycle.kind else { return Ok(None) };
     let mut caps = target.caps.cycles.iter().filter(|c| c.kind == name);
     let fits = |c: &CycleCap| c.form == CycleForm::Any || c.turns.contains(&tap.turn);
@@ -169,7 +192,7 @@ fn fit(
             tap.pitch = Pitch::Stated(pitch.into());
             before = cycle.feed.take();
         }
-        (CycleForm::Control, Pitch::Stated(pitch)) => {
+        (CycleForm::Control(_), Pitch::Stated(pitch)) => {
             let feed = feed_of(pitch.literal(), state.speed, walk)?;
             tap.pitch = Pitch::Feed;
             cycle.feed = Some(feed.into());
@@ -177,7 +200,7 @@ fn fit(
         }
         _ => {}
     }
-    if form == CycleForm::Control {
+    if matches!(form, CycleForm::Control(_)) {
         let own = if tap.chuck { tap.turn.spindle() } else { Spindle::Stopped };
         if tap.after != own {
             state.owed.insert(0, start(tap));
@@ -186,6 +209,29 @@ fn fit(
     }
     state.changed = true;
     Ok(Some(before))
+}
+
+/// What the spindle does after boring with a stop, as the target says it, where it says the cycle so and
+/// the spindle surely turns clockwise before it.
+#[allow(clippy::option_option)]
+fn spindle_after(cycle: &Cycle, walk: &Walk, target: &Target) -> Option<Option<Spindle>> {
+    let name = cycle.kind.name();
+    let (turn, after) = match &cycle.kind {
+        CycleKind::BoreStop(bore) => (bore.turn, bore.after),
+        CycleKind::FineBore(bore) => (bore.turn, bore.after),
+        CycleKind::Drill
+        | CycleKind::DrillDwell { .. }
+        | CycleKind::DrillPeck { .. }
+        | CycleKind::DrillBreak { .. }
+        | CycleKind::Bore { .. }
+        | CycleKind::Tap(_) => return None,
+    };
+    let own = target.caps.cycles.iter().filter(|c| c.kind == name).find_map(|c| match c.form {
+        CycleForm::Control(own) => Some(own.after()),
+        CycleForm::Any | CycleForm::Stated => None,
+    })?;
+    let one = [None, Some(Spindle::Clockwise)].contains(&after) && turn.is_none();
+    (one && own != after && walk.at.spindle == Some(Spindle::Clockwise)).then_some(own)
 }
 
 /// What brings the spindle to what it does after a tap.

@@ -38,20 +38,24 @@ enum Hole {
     Bore {
         dwell: Option<f64>,
         feed_out: Option<f64>,
+        to_level: bool,
     },
     Tap {
         into: Spindle,
         rigid: bool,
         pitch: Option<f64>,
         dwell: Option<f64>,
+        back: Option<f64>,
         settle: Option<f64>,
         after: Spindle,
+        to_level: bool,
     },
     Stop {
         turn: Option<Spindle>,
         dwell: Option<f64>,
         stop: bool,
-        after: Spindle,
+        /// As it turned before, or so.
+        after: Option<Spindle>,
     },
     Fine {
         turn: Option<Spindle>,
@@ -111,6 +115,7 @@ impl Control {
         let normal = normal(plane);
         let Some(Token::Name(name)) = kind.first() else { return self.m.halt("no cycle") };
         let number = |word: &str| self.after(kind, word);
+        let to_level = kind.iter().any(|t| matches!(t, Token::Name(n) if n == "to-level"));
         let hole = match (name.as_str(), number("dwell"), number("peck")) {
             ("drill", ..) => Hole::Drill { dwell: None },
             ("drill-dwell", dwell, _) => Hole::Drill { dwell },
@@ -127,13 +132,22 @@ impl Control {
                     Out::Break { lift: number("lift").unwrap_or(self.m.setup.break_lift), at_feed }
                 },
             },
-            ("bore", dwell, _) => Hole::Bore { dwell, feed_out: number("feed-out") },
+            ("bore", dwell, _) => Hole::Bore { dwell, feed_out: number("feed-out"), to_level },
             ("tap" | "tap-rigid", dwell, _) => {
                 let (Some(into), Some(after)) = (sense(kind, "("), sense(kind, "after")) else {
                     return self.m.halt("a tap without its senses");
                 };
                 let (pitch, settle) = (number("pitch"), number("settle"));
-                Hole::Tap { into, rigid: name == "tap-rigid", pitch, dwell, settle, after }
+                Hole::Tap {
+                    into,
+                    rigid: name == "tap-rigid",
+                    pitch,
+                    dwell,
+                    back: number("back"),
+                    settle,
+                    after,
+                    to_level,
+                }
             }
             ("bore-fine", dwell, _) => {
                 let Some(after) = sense(kind, "after") else {
@@ -150,9 +164,7 @@ impl Control {
                 Hole::Fine { turn, dwell, angle: number("angle"), shift, after }
             }
             ("bore-stop", dwell, _) => {
-                let Some(after) = sense(kind, "after") else {
-                    return self.m.halt("a spindle as before");
-                };
+                let after = sense(kind, "after");
                 let turn = Control::turn_in(kind);
                 let stop = kind.iter().any(|t| matches!(t, Token::Name(n) if n == "program-stop"));
                 Hole::Stop { turn, dwell, stop, after }
@@ -261,6 +273,7 @@ impl Control {
         let Some(cycle) = self.cycle else { return self.m.halt("a hole without a cycle") };
         let normal = normal(cycle.plane);
         let (r, z) = (cycle.retract, cycle.depth);
+        let turned = self.m.spindle;
         if let Hole::Tap { rigid: true, .. } = cycle.hole {
             self.m.turn(Spindle::Stopped);
         }
@@ -298,6 +311,7 @@ impl Control {
         if cycle.feed.is_some() {
             self.m.feed = cycle.feed;
         }
+        let up = |to_level: bool| if to_level { back.unwrap_or(r) } else { r };
         match cycle.hole {
             Hole::Drill { dwell } => {
                 self.feed(z)?;
@@ -325,7 +339,7 @@ impl Control {
                 self.feed(z)?;
                 self.stay(dwell);
             }
-            Hole::Tap { into, rigid, pitch, dwell, settle, after } => {
+            Hole::Tap { into, rigid, pitch, dwell, back: turned_dwell, settle, after, to_level } => {
                 let speed = self.m.speed.filter(|speed| *speed > 0.0);
                 let by_feed = self.m.feed.zip(speed).map(|(feed, speed)| feed / speed);
                 let Some(pitch) = pitch.or(by_feed) else { return self.m.halt("a thread without pitch") };
@@ -333,7 +347,7 @@ impl Control {
                     Spindle::Clockwise => Spindle::Counterclockwise,
                     _ => Spindle::Clockwise,
                 };
-                let (bottom, out) = (self.at_level(z), self.at_level(r));
+                let (bottom, out) = (self.at_level(z), self.at_level(up(to_level)));
                 if rigid {
                     self.m.turn(into);
                 }
@@ -343,6 +357,7 @@ impl Control {
                 }
                 self.stay(dwell);
                 self.m.turn(back);
+                self.stay(turned_dwell);
                 self.m.thread(out, pitch, !rigid);
                 self.m.turn(if rigid { Spindle::Stopped } else { back });
                 self.stay(settle);
@@ -370,12 +385,12 @@ impl Control {
                 self.m.orient(angle);
                 self.move_by(shift);
             }
-            Hole::Bore { dwell, feed_out } => {
+            Hole::Bore { dwell, feed_out, to_level } => {
                 self.feed(z)?;
                 self.stay(dwell);
                 let feed_in = self.m.feed;
                 self.m.feed = feed_out.or(feed_in);
-                self.feed(r)?;
+                self.feed(up(to_level))?;
                 self.m.feed = feed_in;
             }
         }
@@ -384,7 +399,8 @@ impl Control {
             None => return self.m.halt("the initial level is not known"),
         }
         match cycle.hole {
-            Hole::Tap { rigid: true, after, .. } | Hole::Stop { after, .. } => self.m.turn(after),
+            Hole::Tap { rigid: true, after, .. } => self.m.turn(after),
+            Hole::Stop { after, .. } => self.m.turn(after.unwrap_or(turned)),
             Hole::Fine { shift, after, .. } => {
                 // Back over the hole; how far out of it the tool is is not taken back.
                 let normal = match cycle.plane {

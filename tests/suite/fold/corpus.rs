@@ -18,10 +18,16 @@ const STOPPED: &str = "no statement of the spindle is read as part of a hole: wh
     hole is the program's business too, and one stop more or less of it is another program";
 
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 11] = [
+const LOST: [(&str, &str, &str); 13] = [
     ("fanuc/g86.nc", "cycle bore-stop of 1", STOPPED),
     ("fanuc/g86.nc", "cycle bore-stop of 2", STOPPED),
     ("siemens/boring-stop.mpf", "cycle bore-stop of 1", STOPPED),
+    ("linuxcnc/g86.ngc", "cycle bore-stop of 2", STOPPED),
+    (
+        "linuxcnc/g89-initial.ngc",
+        "cycle bore of 2",
+        "its feed out goes on beyond R, as none is read that way",
+    ),
     ("siemens/fine-boring.mpf", "cycle bore-fine of 1", STOPPED),
     (
         "siemens/cycle-args.mpf",

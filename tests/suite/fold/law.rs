@@ -28,6 +28,7 @@ pub(super) fn everything(decimals: u8) -> Target {
         feed_out: true,
         lift_at_feed: None,
         form: ncc_ir::caps::CycleForm::Any,
+        to_level: None,
         turns: Vec::new(),
     };
     let caps = Caps {

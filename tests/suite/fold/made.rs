@@ -228,7 +228,7 @@ impl Maker {
             }
             _ => {
                 let feed_out = self.chance.percent(30).then(|| self.feed());
-                CycleKind::Bore { dwell: dwell(self), feed_out }
+                CycleKind::Bore { dwell: dwell(self), feed_out, to_level: false }
             }
         };
         (kind, deep)

@@ -64,8 +64,8 @@ fn kind() -> impl Strategy<Value = CycleKind> {
                 CycleKind::DrillBreak { peck: mm(peck).into(), first, lift, lift_at_feed, pause, dwell }
             }
         ),
-        1 => (pause(), prop::option::of(100i64..900)).prop_map(|(dwell, out)| {
-            CycleKind::Bore { dwell, feed_out: out.map(|f| mm(f).into()) }
+        1 => (pause(), prop::option::of(100i64..900), any::<bool>()).prop_map(|(dwell, out, to_level)| {
+            CycleKind::Bore { dwell, feed_out: out.map(|f| mm(f).into()), to_level }
         }),
     ]
 }

@@ -167,17 +167,15 @@ fn cycle() -> BoxedStrategy<Cycle> {
                 dwell,
             }
         ),
-        (of(expr()), of(expr())).prop_map(|(dwell, feed_out)| CycleKind::Bore { dwell, feed_out }),
-        (turn(), pitch(), any::<bool>(), of(expr()), of(expr()), select(spindles())).prop_map(
-            |(turn, pitch, chuck, dwell, settle, after)| CycleKind::Tap(Box::new(Tap {
-                turn,
-                pitch,
-                chuck,
-                dwell,
-                settle,
-                after
-            }))
-        ),
+        (of(expr()), of(expr()), any::<bool>()).prop_map(|(dwell, feed_out, to_level)| CycleKind::Bore {
+            dwell,
+            feed_out,
+            to_level
+        }),
+        (turn(), pitch(), any::<[bool; 2]>(), [of(expr()), of(expr()), of(expr())], select(spindles()))
+            .prop_map(|(turn, pitch, [chuck, to_level], [dwell, back, settle], after)| CycleKind::Tap(
+                Box::new(Tap { turn, pitch, chuck, dwell, back, settle, after, to_level })
+            )),
         (of(turn()), of(expr()), of(expr()), shift(), of(select(spindles()))).prop_map(
             |(turn, dwell, angle, shift, after)| CycleKind::FineBore(Box::new(FineBore {
                 turn,

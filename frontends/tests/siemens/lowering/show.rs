@@ -184,7 +184,7 @@ fn cycle(c: &Cycle) -> String {
         other @ (CycleKind::Tap(_) | CycleKind::FineBore(_) | CycleKind::BoreStop(_)) => {
             format!(" {other:?}")
         }
-        CycleKind::Bore { dwell, feed_out } => option("dwell", dwell) + &option("out", feed_out),
+        CycleKind::Bore { dwell, feed_out, .. } => option("dwell", dwell) + &option("out", feed_out),
     };
     let feed = option("F", &c.feed).replace("F ", "F");
     let back = c.return_plane.as_ref().map_or("?".into(), coord);

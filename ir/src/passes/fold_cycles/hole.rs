@@ -193,7 +193,11 @@ pub(super) fn read(acts: &mut Acts<'_>, plane: Plane, reading: Reading) -> Resul
                     *acts = next;
                 }
                 let feed_out = if same(rate_out, feed) { None } else { rate_out };
-                let kind = CycleKind::Bore { dwell: pause.map(|p| p.0), feed_out: feed_out.map(Expr::from) };
+                let kind = CycleKind::Bore {
+                    dwell: pause.map(|p| p.0),
+                    feed_out: feed_out.map(Expr::from),
+                    to_level: false,
+                };
                 let depth = (word, bottom);
                 let found = Found { to, from, retract, depth, out, feed, dwell: None };
                 return finish(Hole { left_by_cut, ..found.hole(kind, acts) }, plane, acts);
