@@ -3,6 +3,8 @@
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
+use crate::expr::Expr;
+use crate::num::Num;
 use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, ReferencePoint, Slot};
 
@@ -46,6 +48,8 @@ pub struct Caps {
     pub repeats: bool,
     /// Number of work offsets that it can name; 0 if it has one, without a word for it.
     pub work_offsets: u16,
+    /// A word for none of its settable work offsets: number 0.
+    pub work_offsets_off: bool,
     /// A word that cancels a temporary shift of the origin.
     pub clears_shift: bool,
     /// A chain of frames: translation, rotation in the plane, scale, mirror.
@@ -273,6 +277,9 @@ impl CycleForm {
     /// Whether a cycle is said so, but for what [`CycleCap`] says of its kind; the pitch is another
     /// matter, since one follows from the other.
     pub fn says(self, kind: &CycleKind) -> bool {
+        // Of no seconds it is none.
+        let zero = |dwell: &Expr| dwell.literal().is_some_and(Num::is_zero);
+        let none = |dwell: &Option<Expr>| dwell.as_ref().is_none_or(zero);
         let tap = |tap: &Tap| {
             let after = match (self, tap.chuck) {
                 (CycleForm::Control(_), false) => tap.after == Spindle::Stopped,
@@ -281,10 +288,10 @@ impl CycleForm {
             };
             let dwells = match self {
                 CycleForm::Control(Own { dwells_turned: false, .. }) => {
-                    tap.settle == tap.dwell && tap.back.is_none()
+                    tap.settle == tap.dwell && none(&tap.back)
                 }
-                CycleForm::Control(_) => tap.dwell.is_none() && tap.settle.is_none(),
-                CycleForm::Stated => tap.settle.is_none() && tap.back.is_none(),
+                CycleForm::Control(_) => none(&tap.dwell) && none(&tap.settle),
+                CycleForm::Stated => none(&tap.settle) && none(&tap.back),
                 CycleForm::Any => true,
             };
             let pitch = match self {

@@ -312,6 +312,8 @@ faults! {
     PathRelaxed { from: Box<str>, to: Box<str> } = 417, verdict(Verdict::WithinTolerance);
     /// Advice to the control of a kind that the target has no word for.
     AdviceLeftOut { kind: Box<str> } = 418, verdict(Verdict::Reformatted);
+    /// A work offset that the target cannot name, and in which nothing moves.
+    WorkOffsetLeftOut { offset: u16 } = 419, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

@@ -151,6 +151,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }
         | Fault::AdviceLeftOut { .. }
+        | Fault::WorkOffsetLeftOut { .. }
         | Fault::NameAsComment
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),

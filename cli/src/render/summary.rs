@@ -221,6 +221,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
         Fault::PathRelaxed { from, to } => format!("corners by {} as {}", plain(from), plain(to)),
         Fault::AdviceLeftOut { kind } => format!("advice on {} left out", plain(kind)),
+        Fault::WorkOffsetLeftOut { offset } => format!("work offset {offset} left out: nothing moves in it"),
         Fault::NumbersLeftOut { count } => {
             format!("{count} block {} left out", plural(u64::from(*count), "number"))
         }

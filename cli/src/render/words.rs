@@ -282,6 +282,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("advice on {} left out", plain(kind)),
             format!("{to} has no word of this kind; the programmed moves stay"),
         ),
+        Fault::WorkOffsetLeftOut { offset } => (
+            format!("work offset {offset} left out"),
+            format!("{to} has no word for it; nothing moves before the next one"),
+        ),
         Fault::NumbersLeftOut { count } => (
             format!("{count} block {} left out", plural(u64::from(*count), "number")),
             "the first one".into(),

@@ -212,6 +212,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             };
             dialect.code.iter().filter_map(last).max().unwrap_or(0)
         },
+        work_offsets_off: everything || dialect.family == Family::Canon || says(Meaning::SetOriginOffsets(0)),
         clears_shift: everything
             || dialect.can.flat
             || dialect.power_on.no_origin_shift.as_ref().is_some_and(|f| f.always && f.value)

@@ -212,6 +212,9 @@ impl Legaliser {
         if self.path.is_busy() {
             needs |= PATH;
         }
+        if self.work.is_busy() {
+            needs |= WORK;
+        }
         if (needs & MOVE != 0 || self.one.is_busy()) && self.lacks & MOVE != 0 {
             let concerned = needs & PATH != 0 || self.one.concerns(stmts);
             needs = if concerned { needs | MOVE } else { needs & !MOVE };

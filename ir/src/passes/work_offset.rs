@@ -1,12 +1,15 @@
 //! `work-offset`: a control that has one work offset stands for the only one that a program uses.
 //!
-//! A second one is refused, and so is one that the target cannot name.
+//! A second one is refused, and so is one that the target cannot name, but for one in which nothing moves
+//! before the next one or the end: that is left out.
 
 use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
+use crate::kinds::{conduct, flow, machine, miscellaneous, modes, polar, tooling};
 use crate::program::{Op, Program, Stmt};
+use crate::source::Span;
 use crate::track::Tracker;
 
 /// What the pass remembers from piece to piece of a program.
@@ -15,6 +18,74 @@ pub(super) struct State {
     /// The work offset that the target's own one stands for.
     pub(super) only: Option<u16>,
     told: bool,
+    /// The work offset in force, if the target cannot name it and nothing has moved in it, and where the
+    /// program says it.
+    idle: Option<(u16, Span)>,
+    /// The next straight move is in machine coordinates.
+    raw: bool,
+}
+
+impl State {
+    /// Whether it must be shown what follows.
+    pub(super) fn is_busy(&self) -> bool {
+        self.idle.is_some()
+    }
+
+    /// Ends a work offset in which nothing has moved.
+    fn leave(&mut self, diags: &mut Vec<Diagnostic>) {
+        if let Some((offset, span)) = self.idle.take() {
+            diags.push(Diagnostic::new(Fault::WorkOffsetLeftOut { offset }, span));
+        }
+    }
+
+    /// Refuses the work offset in force where something depends on it.
+    fn refuse_if_used(&mut self, op: &Op, diags: &mut Vec<Diagnostic>) {
+        if let Some((offset, span)) = self.idle.filter(|_| uses(op, &mut self.raw)) {
+            self.idle = None;
+            diags.push(cannot_name(offset, span));
+        }
+    }
+}
+
+/// Whether something depends on the work offset in force. `raw` is whether the straight move that follows
+/// is in machine coordinates.
+fn uses(op: &Op, raw: &mut bool) -> bool {
+    match op {
+        Op::UseMachineCoordinates { .. } => {
+            *raw = true;
+            false
+        }
+        Op::StraightTraverse(_) | Op::StraightFeed(_) => !std::mem::take(raw),
+        miscellaneous!()
+        | conduct!()
+        | modes!()
+        | tooling!()
+        | Op::SetOriginOffsets(_)
+        | Op::ClearFrame(_)
+        | Op::SetFeedRate(_)
+        | Op::EndCycle
+        | Op::ProgramEnd
+        | Op::Message(_) => false,
+        Op::UseToolCentrePoint(_)
+        | Op::SetFrame(_)
+        | Op::SetSlot(_)
+        | Op::SetPosition(_)
+        | Op::SynchronisedFeed(_)
+        | Op::ArcFeed(_)
+        | Op::ArcForm(_)
+        | Op::Position(_)
+        | Op::StartCycle(_)
+        | Op::Hole(_)
+        | Op::Pattern(_)
+        | Op::Assign(..)
+        | machine!()
+        | polar!()
+        | flow!() => true,
+    }
+}
+
+fn cannot_name(offset: u16, span: Span) -> Diagnostic {
+    Diagnostic::new(Fault::CannotSay { what: format!("work offset {offset}").into() }, span)
 }
 
 /// Takes the work offsets out, or refuses them.
@@ -35,13 +106,21 @@ pub(super) fn over(
     state.only = state.only.or(assumed.work_offset);
     let names = target.caps.work_offsets;
     rebuild(body, |stmt: Stmt, made: &mut Rebuild| {
+        state.refuse_if_used(&stmt.op, diags);
+        if matches!(stmt.op, Op::SetOriginOffsets(_) | Op::ProgramEnd) && stmt.skip.is_none() {
+            state.leave(diags);
+        }
         let Op::SetOriginOffsets(number) = stmt.op else { return made.push(stmt) };
         if names > 0 {
-            if number > names {
-                let what = format!("work offset {number}").into();
-                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            if (number > 0 || target.caps.work_offsets_off) && number <= names {
+                return made.push(stmt);
             }
-            return made.push(stmt);
+            if stmt.skip.is_some() {
+                diags.push(cannot_name(number, stmt.span));
+            } else {
+                state.idle = Some((number, stmt.span));
+            }
+            return made.leave_out(stmt);
         }
         match state.only {
             Some(first) if first != number => {
