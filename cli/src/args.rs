@@ -207,6 +207,20 @@ pub struct Translate {
     #[arg(long, conflicts_with = "no_verify", help_heading = "How the result looks")]
     pub no_head: bool,
 
+    /// How canon is written: rs274 lists the calls as LinuxCNC's stand-alone interpreter prints them,
+    /// compensated contours by the path of the tool's centre; it is a listing, and no program
+    /// [default: plain]
+    #[arg(
+        long,
+        value_name = "plain|rs274",
+        value_enum,
+        default_value_t = Style::Plain,
+        hide_possible_values = true,
+        hide_default_value = true,
+        help_heading = "How the result looks"
+    )]
+    pub style: Style,
+
     /// Put the line of the source at the end of each line of the result, as a comment with its number;
     /// only where it is another one than that of the line before
     #[arg(long, help_heading = "How the result looks")]
@@ -302,6 +316,15 @@ pub struct Completions {
     /// The shell
     #[arg(value_enum)]
     pub shell: clap_complete::Shell,
+}
+
+/// How canon is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Style {
+    /// As a program that can be read again
+    Plain,
+    /// As LinuxCNC's stand-alone interpreter prints calls
+    Rs274,
 }
 
 /// Line ends of the output.

@@ -21,6 +21,7 @@ pub mod head;
 pub mod job;
 pub mod judge;
 pub mod known;
+mod listing;
 pub mod machines;
 mod order;
 pub mod plot;

@@ -10,7 +10,7 @@ use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, W
 use ncc_dialects::{Dialect, SettingError, Settings};
 use ncc_ir::passes::PASSES;
 
-use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Translate, Verb};
+use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
 use crate::files::{self, Destination, Source};
 use crate::guess::{Guess, guess};
 use crate::job::{Failure, Job, Outcome};
@@ -23,8 +23,8 @@ use crate::render::human::Loudness;
 use crate::render::{About, human, json, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
-    arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, machines, plot, report,
-    review, time, translate,
+    arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, listing, machines, plot,
+    report, review, time, translate,
 };
 
 /// What to say to who names no target.
@@ -161,6 +161,9 @@ fn translated(
     err: &mut StandardStream,
 ) -> Result<Exit, Problem> {
     if batch::is_meant(args) {
+        if args.style == Style::Rs274 {
+            return Err(Problem::usage("`--style rs274` lists one program", "list them one by one"));
+        }
         return batch::run(args, arrow, known, err);
     }
     let path = args.files.first().map_or(Path::new("-"), PathBuf::as_path);
@@ -213,6 +216,10 @@ fn translated(
     called::gather(&mut source, &job.from, known.folders())?;
     job.called.clone_from(&source.called);
     source.rewind()?;
+    if args.style == Style::Rs274 {
+        listing::check(args, &job)?;
+        return listing::run(args, &job, &mut source, &destination, err);
+    }
     let cannot_read = |e: &io::Error, source: &Source| Problem::file("translate", &source.shown, e);
     let asked = Asked { map: args.map.is_some(), annotate: args.annotate };
     let (mut outcome, record) = translate::translate_recording(&job, asked, &mut source.file)

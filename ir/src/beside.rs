@@ -302,7 +302,9 @@ impl Beside {
     fn meeting(&self, leg: Leg, before: f64, behind: f64, away: f64, to: Spot) -> Result<Spot, Unreachable> {
         let inside = |ccw: bool| ccw == (self.side > 0.0);
         let circle = |centre: Spot, ccw: bool| -> Result<f64, Unreachable> {
-            let radius = length(minus(to, centre));
+            // Rounded words make a spiral: near is what counts here.
+            let by = if self.rules.strict { self.at } else { to };
+            let radius = length(minus(by, centre));
             match inside(ccw) {
                 true if radius <= self.radius => Err(Unreachable::SmallArc),
                 true => Ok(radius - self.radius),
@@ -336,16 +338,24 @@ impl Beside {
                     }
                     Leg::Arc { centre: next, ccw, .. } => two_circles(centre, own, next, circle(next, ccw)?)?,
                 };
-                let back = |spot: Spot| sweep(spot, self.now, centre, ccw);
+                let back = |spot: Spot| {
+                    let by = sweep(spot, self.now, centre, ccw) * own;
+                    let around = TAU * own;
+                    // Going back nearly all the way round is a little forwards.
+                    if around - by < FORWARDS { around - by } else { by }
+                };
                 Ok(first_back(found, &back))
             }
         }
     }
 }
 
-/// A distance backwards; forwards is farther than any.
+/// How far forwards two paths may meet, mm: where they are nearly tangent, rounded words make that much.
+const FORWARDS: f64 = 0.05;
+
+/// A distance backwards; farther forwards than rounding explains is farther than any.
 fn backwards(by: f64) -> f64 {
-    if by < -1e-9 { f64::INFINITY } else { by }
+    if by < -FORWARDS { f64::INFINITY } else { by.abs() }
 }
 
 /// Both points where a line through a point in a direction meets a circle.

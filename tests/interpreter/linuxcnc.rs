@@ -166,7 +166,12 @@ impl Control {
                 '(' => {
                     let Some(end) = rest.find(')') else { return self.m.halt("a remark without an end") };
                     let said: String = rest[..end].split_whitespace().collect::<String>().to_uppercase();
-                    message = said.starts_with("MSG,");
+                    // A parameter's value is not known here.
+                    let shown = ["DEBUG,", "PRINT,"].iter().any(|word| said.starts_with(word));
+                    if shown && said.contains('#') {
+                        return self.m.halt("the value of a parameter");
+                    }
+                    message = said.starts_with("MSG,") || shown;
                     rest = &rest[end + 1..];
                 }
                 _ if c.is_whitespace() => {}

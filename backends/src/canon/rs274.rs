@@ -4,23 +4,27 @@
 //! A program of a control that works as that one does is executed with all tables zero, from program
 //! zero in millimetres, and every call is written where the interpreter makes it: a block's calls in its
 //! own order, cycles as its expansion of them, its notes on modes that make no call, what it does before
-//! the first block and after the last. Subprograms are followed into.
+//! the first block and after the last. Subprograms are followed into. Cutter radius compensation makes no
+//! call: what is printed is the path of the tool's centre, by the radius that the program or the table of
+//! tools states.
 //!
 //! Refused is what needs a table (offsets, tools' lengths), and what this control has no call for.
 
+mod holes;
+
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, ReturnLevel, Turn, Units};
-use ncc_ir::cycle::{BoreStop, CycleKind};
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::beside::Rules;
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::passes::{Compensating, Target, expand_compensation};
 use ncc_ir::program::{Arc, Centre, FrameSlot, Move, Op, Point, Program, Stmt};
-use ncc_ir::track::{InForce, Tracker};
-
-/// Where a peck goes on, and how far a chip is broken: 0.010 inch.
-const GAP: Nanos = 254 * ONE / 1000;
+use ncc_ir::track::Tracker;
+use ncc_ir::valid::unknown_calls;
 
 /// Least radius of an arc: 0.00005 inch.
 const LEAST_RADIUS: f64 = 0.00127;
@@ -39,11 +43,12 @@ enum Turning {
     Counterclockwise,
 }
 
-/// Prints the calls of a program; `source` is its text, of which the comments are shown.
+/// Prints the calls of a program; `source` is its text, of which the comments are shown, and `radii` are
+/// those of tools by their numbers, in nanos of a millimetre.
 ///
 /// # Errors
 /// The interpreter refuses it, or it says what this printer has no table for.
-pub fn print(program: &Program, source: &[u8]) -> Result<String, Diagnostic> {
+pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> Result<String, Diagnostic> {
     let entry = Modes {
         units: Some(Units::Mm),
         plane: Some(Plane::Xy),
@@ -52,11 +57,19 @@ pub fn print(program: &Program, source: &[u8]) -> Result<String, Diagnostic> {
         return_level: Some(ReturnLevel::Initial),
         ..Modes::default()
     };
+    if let Some(unknown) = unknown_calls(program).into_iter().next() {
+        return Err(unknown);
+    }
+    let start = Tracker { position: [Some(0); AXES], ..Tracker::new(entry) };
+    let program = &beside(program, &start, radii)?;
     let mut printer = Printer {
         program,
         source,
         out: String::new(),
-        at: Tracker { position: [Some(0); AXES], ..Tracker::new(entry) },
+        at: start,
+        beside: false,
+        path: PathMode::Continuous,
+        within: 0.0,
         turning: Turning::Stopped,
         mist: false,
         flood: false,
@@ -95,7 +108,25 @@ struct Printer<'p> {
     offset: u16,
     /// The feed that was said last.
     feed: Option<f64>,
+    /// Whether calls of moves wait in the interpreter's queue for what the next one is.
+    beside: bool,
+    /// How corners are taken, and how far from the path, in the unit that was in force.
+    path: PathMode,
+    within: f64,
     ended: bool,
+}
+
+/// The program with the path of the tool's centre in place of contours.
+fn beside(program: &Program, start: &Tracker, radii: &BTreeMap<u32, Nanos>) -> Result<Program, Diagnostic> {
+    let compensating =
+        Compensating { rules: Rules::INTERPRETER, known: true, radii: radii.clone(), listing: true };
+    let target = Target { decimals: 9, compensating, ..Target::default() };
+    let (mut program, mut found) = (program.clone(), Vec::new());
+    expand_compensation::run(&mut program, &target, start, &mut found);
+    match found.into_iter().find(|d| d.fault.gravity() == Gravity::Error) {
+        Some(refused) => Err(refused),
+        None => Ok(program),
+    }
 }
 
 /// Place of a function in the interpreter's order of a block; `None` if it is none of those that are
@@ -244,6 +275,10 @@ impl Printer<'_> {
 
     fn statement(&mut self, stmt: &Stmt) -> Result<(), Fault> {
         let zeros = "0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000";
+        if self.beside && overtakes(&stmt.op) {
+            // It would be printed before the move that waits for the next one.
+            return Err(cannot(&format!("{} under cutter radius compensation", stmt.op.name())));
+        }
         match &stmt.op {
             // A comment is the block's.
             Op::Comment(_) | Op::Blank | Op::Return | Op::EndCycle | Op::StartCycle(_) | Op::NoEffect(_) => {}
@@ -270,7 +305,14 @@ impl Printer<'_> {
                 ReturnLevel::Initial => "retract mode set to old_z",
                 ReturnLevel::Retract => "retract mode set to r_plane",
             }),
-            Op::StopCutterRadiusCompensation => self.note("cutter radius compensation off"),
+            Op::StartCutterRadiusCompensation { side, .. } => {
+                self.beside = true;
+                self.note(&format!("cutter radius compensation on {}", side.name()));
+            }
+            Op::StopCutterRadiusCompensation => {
+                self.beside = false;
+                self.note("cutter radius compensation off");
+            }
             Op::SetFeedMode(FeedMode::PerMinute) => {
                 self.note("feed mode set to units per minute");
                 self.call("SET_FEED_MODE(0, 0)");
@@ -330,6 +372,15 @@ impl Printer<'_> {
                 self.straight("STRAIGHT_FEED", to);
             }
             Op::ArcFeed(arc) => self.arc(arc)?,
+            Op::SetMotionControlMode(control) => {
+                self.path = control.mode;
+                self.within = match &control.within {
+                    // In the unit in force.
+                    Some(within) => literal(within)?,
+                    None => 0.0,
+                };
+                self.path_control();
+            }
             Op::ProgramStop => self.call("PROGRAM_STOP()"),
             Op::OptionalProgramStop => self.call("OPTIONAL_PROGRAM_STOP()"),
             Op::ProgramEnd => {
@@ -346,8 +397,6 @@ impl Printer<'_> {
             | Op::OrientToolAxis(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
-            | Op::StartCutterRadiusCompensation { .. }
-            | Op::SetMotionControlMode(_)
             | Op::ExactStop
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
@@ -372,6 +421,21 @@ impl Printer<'_> {
             | Op::Label(_) => return Err(cannot(stmt.op.name())),
         }
         Ok(())
+    }
+
+    /// The way of taking corners that is in force. The tolerance of moves that are made one goes with it.
+    fn path_control(&mut self) {
+        match self.path {
+            PathMode::ExactPath => self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"),
+            PathMode::ExactStop => self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"),
+            _ => {
+                let within = self.within;
+                let _ = writeln!(self.out, "SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {within:.6})");
+            }
+        }
+        if self.path != PathMode::ExactPath && self.path != PathMode::ExactStop {
+            let _ = writeln!(self.out, "SET_NAIVECAM_TOLERANCE({:.4})", self.within);
+        }
     }
 
     fn feed(&mut self, feed: f64) {
@@ -495,142 +559,20 @@ impl Printer<'_> {
         );
         Ok(())
     }
+}
 
-    /// The holes of one block: one, or as many as it repeats.
-    fn holes(&mut self, holes: &[&Stmt]) -> Result<(), Diagnostic> {
-        let Some(first) = holes.first() else { return Ok(()) };
-        let refuse = |fault| Diagnostic::new(fault, first.span);
-        let unknown = || refuse(cannot("a cycle whose planes are not known"));
-        let in_force = self.at.cycle.clone().ok_or_else(|| refuse(Fault::NoCycle))?;
-        let plane = self.at.plane(in_force.cycle.plane).ok_or_else(unknown)?;
-        let normal = plane.axes().2 as usize;
-        let retract = in_force.retract.ok_or_else(unknown)?;
-        let initial = in_force.initial.ok_or_else(unknown)?;
-        let clear = match in_force.cycle.return_level.known().or(self.at.modes.return_level) {
-            Some(ReturnLevel::Initial) => initial.max(retract),
-            Some(ReturnLevel::Retract) | None => retract,
-        };
-        let mut here = self.here().map_err(refuse)?;
-        if initial < retract {
-            here[normal] = retract;
-            self.straight("STRAIGHT_TRAVERSE", here);
-        }
-        self.call("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)");
-        // No higher than the retract plane, it goes straight to where it would return to.
-        let mut level = if here[normal] > retract { here[normal] } else { clear };
-        for stmt in holes {
-            let Op::Hole(hole) = &stmt.op else { continue };
-            let mut to = self.target(&hole.to).map_err(refuse)?;
-            to[normal] = level;
-            self.straight("STRAIGHT_TRAVERSE", to);
-            if level > retract {
-                to[normal] = retract;
-                self.straight("STRAIGHT_TRAVERSE", to);
-            }
-            self.hole(&in_force, to, normal, retract, clear).map_err(refuse)?;
-            self.at.apply(&stmt.op);
-            level = clear;
-        }
-        self.call("SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, 0.000000)");
-        self.call("SET_NAIVECAM_TOLERANCE(0.0000)");
-        Ok(())
-    }
-
-    /// One hole, from the retract plane over it.
-    fn hole(
-        &mut self,
-        in_force: &InForce,
-        to: [Nanos; AXES],
-        normal: usize,
-        retract: Nanos,
-        clear: Nanos,
-    ) -> Result<(), Fault> {
-        let depth = in_force.depth.ok_or_else(|| cannot("a cycle whose planes are not known"))?;
-        let go = |printer: &mut Self, name: &str, level: Nanos| {
-            let mut at = to;
-            at[normal] = level;
-            printer.straight(name, at);
-        };
-        let (feed, rapid) = ("STRAIGHT_FEED", "STRAIGHT_TRAVERSE");
-        match &in_force.cycle.kind {
-            CycleKind::Drill => {
-                go(self, feed, depth);
-                go(self, rapid, clear);
-            }
-            CycleKind::DrillDwell { dwell } => {
-                go(self, feed, depth);
-                let _ = writeln!(self.out, "DWELL({:.4})", literal(dwell)?);
-                go(self, rapid, clear);
-            }
-            CycleKind::DrillPeck { peck, .. } => {
-                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;
-                let mut bottom = retract - peck;
-                while bottom > depth {
-                    go(self, feed, bottom);
-                    go(self, rapid, retract);
-                    go(self, rapid, bottom + GAP);
-                    bottom -= peck;
-                }
-                go(self, feed, depth);
-                go(self, rapid, clear);
-            }
-            CycleKind::DrillBreak { peck, .. } => {
-                let peck = self.at.nanos(peck).filter(|p| *p > 0).ok_or_else(|| cannot("this peck"))?;
-                let mut bottom = retract - peck;
-                while bottom > depth {
-                    go(self, feed, bottom);
-                    go(self, rapid, bottom + GAP);
-                    bottom -= peck;
-                }
-                go(self, feed, depth);
-                go(self, rapid, clear);
-            }
-            CycleKind::Bore { dwell: None, .. } => {
-                go(self, feed, depth);
-                go(self, feed, retract);
-                go(self, rapid, clear);
-            }
-            CycleKind::Bore { dwell: Some(dwell), .. } => {
-                go(self, feed, depth);
-                let _ = writeln!(self.out, "DWELL({:.4})", literal(dwell)?);
-                go(self, feed, clear);
-            }
-            CycleKind::BoreStop(BoreStop { dwell, stop: false, .. }) => {
-                let before = self.turning;
-                go(self, feed, depth);
-                let dwell = dwell.as_ref().map_or(Ok(0.0), literal)?;
-                let _ = writeln!(self.out, "DWELL({dwell:.4})");
-                self.turn(Turning::Stopped);
-                go(self, rapid, clear);
-                self.turn(before);
-            }
-            CycleKind::Tap(tap) if tap.chuck && tap.dwell.is_none() && tap.settle.is_none() => {
-                let (way, back) = match tap.turn {
-                    Turn::Clockwise => (Turning::Clockwise, Turning::Counterclockwise),
-                    Turn::Counterclockwise => (Turning::Counterclockwise, Turning::Clockwise),
-                };
-                if self.turning != way {
-                    return Err(cannot("tapping without the spindle turning so"));
-                }
-                self.call("DISABLE_FEED_OVERRIDE()");
-                self.call("DISABLE_SPEED_OVERRIDE(0)");
-                go(self, feed, depth);
-                self.turn(Turning::Stopped);
-                self.turn(back);
-                let dwell = tap.back.as_ref().map_or(Ok(0.0), literal)?;
-                let _ = writeln!(self.out, "DWELL({dwell:.4})");
-                go(self, feed, clear);
-                self.turn(Turning::Stopped);
-                self.turn(way);
-                self.call("ENABLE_FEED_OVERRIDE()");
-                self.call("ENABLE_SPEED_OVERRIDE(0)");
-            }
-            CycleKind::BoreStop(_) | CycleKind::Tap(_) | CycleKind::FineBore(_) => {
-                return Err(cannot(in_force.cycle.kind.name()));
-            }
-        }
-        Ok(())
-    }
+/// Calls that do not wait behind a move whose end is not settled.
+fn overtakes(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::Message(_)
+            | Op::SelectTool(_)
+            | Op::SetMotionControlMode(_)
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::UseLengthUnits(_)
+            | Op::SelectPlane(_)
+    )
 }
 
 /// The last comment in brackets of the line at a place; what follows a semicolon is none.

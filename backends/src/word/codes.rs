@@ -189,6 +189,8 @@ pub(crate) struct Codes {
     pub rigid_tapping: Option<Code>,
     /// Stop of the spindle at the control's own angle.
     pub orient: Option<Code>,
+    /// The code that rounds corners with a word that says how far from the path, and that word.
+    pub path_within: Option<(Code, Letter)>,
     /// Ways of taking corners, in the order of [`PathMode::ALL`].
     pub path: [Option<Code>; 9],
     pub exact_stop: Option<Code>,
@@ -477,6 +479,13 @@ impl Codes {
             spindle_stop: code(Meaning::StopSpindleTurning),
             rigid_tapping: code(Meaning::RigidTapping),
             orient: code(Meaning::OrientSpindle),
+            path_within: dialect
+                .code_for(Meaning::SetMotionControlMode(PathMode::Continuous))
+                .and_then(|row| row.words.chars().next())
+                .and_then(|letter| {
+                    let code = code(Meaning::SetMotionControlMode(PathMode::Continuous))?;
+                    Some((code, find.letter(letter, Quantity::Length)?))
+                }),
             path: PathMode::ALL.map(|(mode, _)| code(Meaning::SetMotionControlMode(mode))),
             exact_stop: code(Meaning::ExactStop),
             polar: [false, true].map(|on| code(Meaning::PolarWords(on))),

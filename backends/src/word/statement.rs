@@ -1,7 +1,7 @@
 //! One statement: which words say it, and where they stand in the block.
 
 use ncc_dialects::Meaning;
-use ncc_ir::canon::Side;
+use ncc_ir::canon::{PathMode, Side};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, Stmt};
@@ -52,7 +52,7 @@ impl Writer {
             Op::StartCutterRadiusCompensation { side, radius } => {
                 self.compensation(*side, radius, span, sink)
             }
-            Op::SetMotionControlMode(control) => self.path_control(control, sink),
+            Op::SetMotionControlMode(control) => self.path_control(control, span, sink),
             Op::ExactStop => {
                 let code = codes.exact_stop.ok_or_else(|| cannot("an exact stop of one move"))?;
                 self.admit(&Need::new(Rank::ExactStop).code(Some(code)), sink)?;
@@ -201,8 +201,17 @@ impl Writer {
         Ok(())
     }
 
-    /// A way of taking corners that has a code and no length of its own.
-    fn path_control(&mut self, control: &PathControl, sink: &mut Sink) -> Result<(), Fault> {
+    /// A way of taking corners that has a code, and a length of its own where that is a word of the code.
+    fn path_control(&mut self, control: &PathControl, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if let (PathMode::Tolerance, Some(within), Some((code, letter))) =
+            (control.mode, &control.within, self.codes.path_within)
+        {
+            let value = self.value(&letter, within, span, sink)?;
+            self.admit(&Need::new(Rank::Setting).code(Some(code)).letter(letter.letter), sink)?;
+            self.block.code(Part::Mode, &code);
+            self.block.word(Part::Mode, letter.letter, value);
+            return Ok(());
+        }
         let code = self.codes.path[control.mode as usize];
         let code = code.filter(|_| control.within.is_none() && control.rapids.is_none());
         let code = code.ok_or_else(|| cannot(format!("corners by {}", control.mode.name())))?;

@@ -27,7 +27,7 @@ pub(crate) struct Stretch {
     pub(crate) first: u64,
     pub(crate) last: u64,
     /// Their kinds, a bit each.
-    pub(crate) kinds: u16,
+    pub(crate) kinds: u32,
 }
 
 /// Rows in their order.
@@ -95,7 +95,7 @@ impl Rows {
         }
         row.stretches.clear();
         for _ in 0..read(from)? {
-            let (first, last, kinds) = (read(from)?, read(from)?, read(from)? as u16);
+            let (first, last, kinds) = (read(from)?, read(from)?, read(from)? as u32);
             row.stretches.push(Stretch { first, last, kinds });
         }
         row.more = read(from)?;

@@ -91,7 +91,7 @@ pub(crate) struct Trace {
     /// Places of lines that are not there yet: a text may be handed over with its last line open.
     origins: VecDeque<Origin>,
     /// Events of the line that is still open: their number, kind and place in the source.
-    ahead: Vec<(u64, u16, Span)>,
+    ahead: Vec<(u64, u32, Span)>,
     /// Where the open line begins in the body.
     open: u64,
     /// Bytes of the body so far.
@@ -215,7 +215,7 @@ impl Trace {
 }
 
 impl Row {
-    fn add(&mut self, event: u64, kind: u16, place: Span) {
+    fn add(&mut self, event: u64, kind: u32, place: Span) {
         let own = |span: &Span| span.start < place.end && place.start < span.end;
         if place.start < place.end
             && !self.spans.iter().any(own)

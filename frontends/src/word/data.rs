@@ -106,6 +106,11 @@ impl Lower {
                 by[axis as usize] = self.number(&word, axis_row.quantity, src, out).map(Expr::Num);
             }
         }
+        if let Some(word) = row.turns.and_then(|letter| words.take(letter as u8)) {
+            let code = format!("{} {}", row.name, src.text(word.span)).into();
+            let name = "rotation of a work offset".into();
+            return self.fault(Fault::NotSupported { code, name }, word.span, out);
+        }
         if by.iter().all(Option::is_none) {
             return self.fault(Fault::WordMissing { code: row_name(), word: "X".into() }, code.span, out);
         }

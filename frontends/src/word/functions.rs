@@ -4,7 +4,7 @@
 //! Moves, cycles and calls have files of their own.
 
 use ncc_dialects::{Meaning, Quantity};
-use ncc_ir::canon::{AdviceKind, Motion};
+use ncc_ir::canon::{AdviceKind, Motion, PathMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
@@ -69,6 +69,9 @@ impl Lower {
                 }
                 Meaning::SetOriginOffsets(first) if code.row.count.is_some() => {
                     self.counted_offset(code, first, words, src, out);
+                }
+                Meaning::SetMotionControlMode(_) if !code.row.words.is_empty() => {
+                    self.path_within(code, words, src, out);
                 }
                 meaning if is_frame(meaning) => {
                     self.frame(code, functions, words, src, out);
@@ -181,6 +184,36 @@ impl Lower {
             },
         };
         self.push(code.span, op, out);
+    }
+
+    /// A way of taking corners whose first word says how far from the path; without it, as the control
+    /// does. A second word says how far from their common line moves may lie that are made one; it is the
+    /// same where it is left out, and another value is refused.
+    fn path_within(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
+        let mut letters = code.row.words.bytes();
+        let (first, second) = (letters.next().unwrap_or(0), letters.next().unwrap_or(0));
+        let mut length = |lower: &mut Lower, letter: u8, out: &mut Batch| {
+            let word = words.take(letter)?;
+            let number = lower.number(&word, Quantity::Length, src, out)?;
+            match number.mantissa < 0 {
+                true => lower.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
+                false => Some((number, word.span)),
+            }
+        };
+        let within = length(self, first, out);
+        if let Some((merged, span)) = length(self, second, out)
+            && within.is_none_or(|(within, _)| within.trimmed() != merged.trimmed())
+        {
+            let name = "another tolerance for moves that are made one than for corners".into();
+            return self.fault(Fault::NotSupported { code: src.text(span), name }, span, out);
+        }
+        let control = match within {
+            Some((within, _)) => {
+                PathControl { mode: PathMode::Tolerance, within: Some(Expr::Num(within)), rapids: None }
+            }
+            None => PathControl::plain(PathMode::Continuous),
+        };
+        self.push(code.span, Op::SetMotionControlMode(Box::new(control)), out);
     }
 
     /// Advice that a word of the block switches on or off.

@@ -212,6 +212,16 @@ impl Lower {
             self.now.message = true;
             return self.push(span, Op::Message(text), out);
         }
+        if let Some((name, at)) = rules.shown.iter().find_map(|name| Some((name, begins(bytes, name)?))) {
+            if bytes.contains(&b'#') {
+                let code = format!("{}{name}", rules.open).into();
+                let name = "the value of a parameter in a message".into();
+                return self.fault(Fault::NotSupported { code, name }, span, out);
+            }
+            let text = decode(&bytes[at..]);
+            self.now.message = true;
+            return self.push(span, Op::Message(text), out);
+        }
         if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
             let code = format!("{}{name}", rules.open).into();
             self.fault(Fault::NotSupported { code, name: "comment that does something".into() }, span, out);

@@ -244,7 +244,14 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             }
             (false, false) => PathMode::ALL
                 .iter()
-                .filter(|(mode, _)| says(Meaning::SetMotionControlMode(*mode)))
+                .filter(|(mode, _)| {
+                    let within = |row: &crate::schema::CodeRow| {
+                        let rounded = row.means == Some(Meaning::SetMotionControlMode(PathMode::Continuous));
+                        rounded && !row.words.is_empty()
+                    };
+                    says(Meaning::SetMotionControlMode(*mode))
+                        || *mode == PathMode::Tolerance && dialect.code.iter().any(within)
+                })
                 .fold(0, |bits, (mode, _)| bits | 1 << *mode as u16),
         },
         path_in_rapids: everything || dialect.name_with(NameRole::RoundingInRapids).is_some(),

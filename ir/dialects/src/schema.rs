@@ -160,6 +160,9 @@ pub struct CommentRules {
     /// How a comment begins that is a message to the operator: `MSG,`. Capitals and small letters are
     /// the same.
     pub message: String,
+    /// How comments begin that show their text as well, and put values of parameters into it: one without
+    /// a `#` is a message, another is refused.
+    pub shown: Vec<String>,
     /// How comments begin that do something else, which is not translated.
     pub active: Vec<String>,
     /// Whether only capitals, digits and simple signs can be shown.

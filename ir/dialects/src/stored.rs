@@ -28,6 +28,9 @@ pub struct DataRow {
     /// Of tools, the words of a block: what each is, and its letter.
     #[serde(default)]
     pub values: Vec<ValueWord>,
+    /// Letter of a word that turns a work offset, which is refused by name.
+    #[serde(default)]
+    pub turns: Option<char>,
     /// Who says so.
     pub source: String,
 }

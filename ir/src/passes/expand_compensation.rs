@@ -46,6 +46,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
             tables: Tables { radii: target.compensating.radii.clone(), ..Tables::default() },
             on: None,
             leaving: None,
+            no_arc: false,
             told: std::mem::take(&mut told),
         };
         rebuild(body, |stmt, made| {
@@ -67,6 +68,8 @@ struct Expansion<'t> {
     on: Option<Contour>,
     /// The plane of a contour that the next move leaves.
     leaving: Option<Plane>,
+    /// The next move must be straight.
+    no_arc: bool,
     told: bool,
 }
 
@@ -179,7 +182,7 @@ impl Expansion<'_> {
         if self.on.is_some() {
             return cannot("another start", span);
         }
-        if at.framed || at.turned {
+        if at.framed || at.turned || at.tilted {
             return cannot("a frame", span);
         }
         let plane = at.modes.plane.ok_or(refuse(Fault::EntryFactNeeded { fact: ModeName::Plane }))?;
@@ -322,6 +325,7 @@ impl Expansion<'_> {
         span: Span,
     ) -> Result<(), Diagnostic> {
         let Some(path) = &contour.path else { return Ok(()) };
+        self.no_arc = true;
         let end = path.leave().map_err(|why| {
             let mut found = Diagnostic::new(Fault::ContourUnreachable { why }, span);
             found.related.push(contour.start);
@@ -344,6 +348,15 @@ impl Expansion<'_> {
 
     /// A statement where compensation is off.
     fn beyond(&mut self, mut stmt: Stmt, walk: &mut Walk, made: &mut Rebuild) -> Result<(), Diagnostic> {
+        if self.no_arc {
+            match &stmt.op {
+                Op::ArcFeed(_) | Op::ArcForm(_) => {
+                    return cannot("an arc that leaves the contour", stmt.span);
+                }
+                Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::Position(_) => self.no_arc = false,
+                _ => {}
+            }
+        }
         let Some(plane) = self.leaving else {
             walk.step(&stmt);
             made.push(stmt);

@@ -1,0 +1,96 @@
+//! `--style rs274`: the calls of a program as LinuxCNC's stand-alone interpreter prints them.
+//!
+//! A listing to be held beside that interpreter's, no program: no control reads it, and nothing reads it
+//! back. Its judge is the interpreter itself, whose own test programs are printed as it prints them.
+//! Compensated contours are listed by the path of the tool's centre.
+
+use std::io::{Read, Seek, SeekFrom};
+
+use codespan_reporting::term::termcolor::WriteColor;
+use ncc_backends::canon::rs274;
+use ncc_frontends::{Batch, Reader};
+use ncc_ir::diag::Gravity;
+use ncc_ir::program::{Procedure, Program};
+
+use crate::args::{Format, Style, Translate};
+use crate::files::{self, Destination, Source};
+use crate::job::Job;
+use crate::problem::{Exit, Problem};
+use crate::render::{About, human, json};
+
+/// What the command line asks for beside a listing that has no meaning there.
+///
+/// # Errors
+/// It does.
+pub(crate) fn check(args: &Translate, job: &Job) -> Result<(), Problem> {
+    let wrong = |message: &str, help: &str| Err(Problem::usage(message, help));
+    if args.style != Style::Rs274 {
+        return Ok(());
+    }
+    if !job.to.dialect.can.flat {
+        return wrong("`--style rs274` is a style of canon", "ncc linuxcnc to canon FILE --style rs274");
+    }
+    if !job.from.dialect.can.stays_beside {
+        let message =
+            format!("a program of {} makes no calls of LinuxCNC's interpreter", job.from.dialect.id);
+        return wrong(&message, "translate it into linuxcnc first, and list the result");
+    }
+    if !args.pass.is_empty() || args.optimise.is_some() {
+        return wrong("the calls of a program are those of its own words", "leave --pass and -O out");
+    }
+    if args.report.is_some() || args.map.is_some() || args.annotate {
+        return wrong(
+            "a listing of calls has no report and no map",
+            "leave --report, --map and --annotate out",
+        );
+    }
+    Ok(())
+}
+
+/// Lists the calls of a program.
+///
+/// # Errors
+/// The source cannot be read, the listing cannot be written.
+pub(crate) fn run(
+    args: &Translate,
+    job: &Job,
+    source: &mut Source,
+    destination: &Destination,
+    err: &mut dyn WriteColor,
+) -> Result<Exit, Problem> {
+    let cannot_read = |e: &std::io::Error, shown: &str| Problem::file("read", shown, e);
+    let mut text = Vec::new();
+    let read = source.file.seek(SeekFrom::Start(0)).and_then(|_| source.file.read_to_end(&mut text));
+    read.map_err(|e| cannot_read(&e, &source.shown))?;
+    let mut batch = Batch::default();
+    let mut reader = Reader::new(job.from.clone(), true);
+    reader.read(&text, 0, &mut batch);
+    reader.finish(&mut batch);
+    let mut found = std::mem::take(&mut batch.diagnostics);
+    let refused = |found: &[ncc_ir::diag::Diagnostic]| found.iter().any(|d| job.refuses(d));
+    let mut listing = None;
+    if !refused(&found) {
+        let main = Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() };
+        let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
+        let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
+        match rs274::print(&program, &text, &job.compensating().radii) {
+            Ok(text) => listing = Some(text),
+            Err(why) => found.push(why),
+        }
+    }
+    // What the interpreter starts with is known: nothing is taken for granted of it.
+    found.retain(|d| d.fault.gravity() == Gravity::Error || job.refuses(d));
+    let mut about = About { job, name: &source.shown, source: &mut source.file };
+    let loudness = args.telling.loudness();
+    // Messages that cannot be written change nothing about what was done.
+    let _ = match args.format {
+        Format::Json => json::print(&mut crate::problem::as_write(err), &mut about, &found, loudness),
+        Format::Human => human::print(err, &mut about, &found, loudness),
+    };
+    let Some(listing) = listing else { return Ok(Exit::Refused) };
+    match destination {
+        Destination::Stdout => files::to_stdout(&mut |out| out.write_all(listing.as_bytes()))?,
+        Destination::File(path) => files::to_file(path, &mut |out| out.write_all(listing.as_bytes()))?,
+    }
+    Ok(Exit::Done)
+}
