@@ -631,7 +631,7 @@ impl Control {
             (81, ..) => Hole::Drill,
             (82, _, Some(p)) => Hole::DrillDwell(p),
             (73, Some(q), _) if q > 0.0 => Hole::Break(q),
-            (83, Some(q), _) if q > 0.0 => Hole::Peck(q),
+            (83, Some(q), p) if q > 0.0 => Hole::Peck(q, p.filter(|_| self.haas).unwrap_or(0.0)),
             (85, ..) => Hole::Bore(0.0),
             (74 | 84, _, p) => {
                 let into = if cycle == 74 { Spindle::Counterclockwise } else { Spindle::Clockwise };

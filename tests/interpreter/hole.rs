@@ -9,8 +9,8 @@ pub enum Hole {
     Drill,
     /// Feed in, dwell, rapid out.
     DrillDwell(f64),
-    /// Pecks of so much.
-    Peck(f64),
+    /// Pecks of so much, dwell behind the last one if not zero.
+    Peck(f64, f64),
     /// Pecks of so much, the tool staying in the hole.
     Break(f64),
     /// Feed in, dwell if not zero, feed out to R.
@@ -43,7 +43,7 @@ impl Machine {
                 self.straight(level(self.at, z))?;
                 self.record(What::Dwell(seconds));
             }
-            Hole::Peck(q) | Hole::Break(q) => {
+            Hole::Peck(q, _) | Hole::Break(q) => {
                 if q <= 0.0 || (r - z) / q > 10_000.0 {
                     return self.halt("a peck that leads nowhere");
                 }
@@ -62,6 +62,9 @@ impl Machine {
                     }
                 }
                 self.straight(level(self.at, z))?;
+                if let Hole::Peck(_, seconds) = hole {
+                    self.stay(seconds);
+                }
             }
             Hole::Tap(into, rigid, seconds) => {
                 let (Some(feed), Some(speed)) = (self.feed, self.speed.filter(|s| *s > 0.0)) else {

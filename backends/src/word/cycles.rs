@@ -185,9 +185,8 @@ impl Writer {
             }
         };
         let row = |dwell| self.codes.cycle(cycle.kind.name(), dwell).filter(|row| ends(row, cycle));
-        // One that must have a dwell can have one of no seconds.
-        let code =
-            row(dwell.is_some()).or_else(|| row(true).filter(|row| dwell.is_none() && row.dwell_needed));
+        // One that can have a dwell need have none, or has one of no seconds.
+        let code = row(dwell.is_some()).or_else(|| row(true).filter(|_| dwell.is_none()));
         code.ok_or_else(|| cannot(format!("the cycle {}", cycle.kind.name())))
     }
 
@@ -393,17 +392,22 @@ impl Writer {
             (Some(letter), Some(peck)) => Some((letter.letter, self.value(&letter, peck, span, sink)?)),
             _ => None,
         };
+        if self.force.motion != Some(Motion::Cycle) && !self.dialect.cycles.dwell_left {
+            self.dwell_left = false;
+        }
+        let left = self.dwell_left;
         let dwell = match (row.dwell, dwell.filter(|_| !same_kind)) {
             (Some(word), Some(dwell)) => {
                 Some((word.word.letter, self.dwell_value(&word, dwell, span, sink)?))
             }
             // Else an earlier one would hold.
-            (Some(word), None) if !same_kind && (self.dwell_left || row.dwell_needed) => {
+            (Some(word), None) if !same_kind && (left || row.dwell_needed) => {
                 Some((word.word.letter, self.dwell_value(&word, &Expr::int(0), span, sink)?))
             }
             _ => None,
         };
-        self.dwell_left |= dwell.is_some() && self.dialect.cycles.dwell_left;
+        self.dwell_left |=
+            dwell.is_some() && (self.dialect.cycles.dwell_left || self.dialect.cycles.retained);
         let stated = before.and(held.feed.as_ref());
         let feed = match (cycle.feed.as_ref().filter(|f| Some(*f) != stated), self.codes.feed_word) {
             (Some(feed), Some(letter)) => Some((letter.letter, self.value(&letter, feed, span, sink)?)),

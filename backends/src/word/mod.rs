@@ -100,7 +100,7 @@ pub struct Writer {
     first_left: Option<Span>,
     /// Whether the source block at hand had to be split.
     pub(crate) split: bool,
-    /// A cycle has said a dwell that stays in force for others.
+    /// A cycle has said a dwell that stays in force for others: for those of its series, or for all.
     pub(crate) dwell_left: bool,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,

@@ -446,7 +446,7 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -
         return Err(row.dwell.map_or(' ', |d| d.letter));
     }
     // A dwell of no seconds is none, where a cycle can go without.
-    let none = row.kind.starts_with("tap") || row.dwell_needed && row.kind != "drill-dwell";
+    let none = row.kind != "drill-dwell";
     let is_one = |dwell: &Num| row.dwell.is_some() && !(none && dwell.is_zero());
     let bottom = dwell.filter(is_one).map(Expr::Num);
     Ok(match row.kind.as_str() {
