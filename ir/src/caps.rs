@@ -135,7 +135,7 @@ pub struct Caps {
     /// Positions that a subprogram's caller gives the meaning to.
     pub inherits_motion: bool,
     /// Straight moves in step with the spindle.
-    pub synchronised: bool,
+    pub threads: Threads,
     /// How points by radius and angle are said.
     pub polar: PolarForm,
     /// Messages to the operator.
@@ -183,6 +183,23 @@ pub enum TiltForm {
     AxisByAxis,
     /// As the text form does.
     Any,
+}
+
+/// Straight moves in step with the spindle that a target has words for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Threads {
+    /// As the spindle turns.
+    pub plain: bool,
+    /// As the spindle turns, and back to where it began.
+    pub back: bool,
+    /// With a spindle that the control turns itself; it must have been stopped at an angle before.
+    pub turned: bool,
+    /// With a compensating chuck, at feed and speed in force.
+    pub chuck: bool,
+    /// The feed word says the pitch, and no feed is known after it.
+    pub by_feed: bool,
+    /// Whatever there is.
+    pub any: bool,
 }
 
 /// How a target says points by radius and angle.

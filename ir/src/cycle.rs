@@ -31,6 +31,12 @@ pub struct Cycle {
 }
 
 impl Cycle {
+    /// Whether its holes are made at the feed that the program has in force.
+    pub fn relies_on_feed(&self) -> bool {
+        let stated = matches!(&self.kind, CycleKind::Tap(tap) if matches!(tap.pitch, Pitch::Stated(_)));
+        self.feed.is_none() && !stated
+    }
+
     /// Whether a position's words are measured as the cycle's own planes are.
     pub fn measured_as(&self, to: &Point) -> bool {
         let planes = [&self.retract, &self.depth].map(|c| c.distance);

@@ -145,6 +145,9 @@ pub struct Synchronised {
     /// The sense in which the control turns the spindle for this move, to hold it after; without, it
     /// turns as it does.
     pub turn: Option<Turn>,
+    /// Whether it comes back to where it began, the spindle turned round for the way back and turning as
+    /// before after it.
+    pub back: bool,
 }
 
 /// How far an axis goes in one turn of the spindle.

@@ -315,7 +315,11 @@ impl Tracker {
             Op::StraightTraverse(m) => self.go(&m.to, Motion::Traverse),
             Op::StraightFeed(m) => self.go(&m.to, Motion::Feed),
             Op::SynchronisedFeed(m) => {
+                let began = self.position;
                 self.go(&m.to, Motion::Feed);
+                if m.back {
+                    self.position = began;
+                }
                 // What a block without a code does after it is another thing on each control.
                 self.modes.motion = None;
                 if m.turn.is_some() {

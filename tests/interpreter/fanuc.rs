@@ -2,6 +2,7 @@
 //! differ as its section on close relatives says: the feed's increments, P in seconds where it has a
 //! point, L for repetition, five digits, work offsets G110 to G129.
 
+mod machine;
 mod polar;
 
 use super::{Corner, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
@@ -37,6 +38,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         rigid: false,
         polar: None,
         radius: None,
+        lead: None,
         haas,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
@@ -120,6 +122,8 @@ struct Control {
     polar: Option<Option<(f64, f64)>>,
     /// The D that was said last.
     radius: Option<u32>,
+    /// Of G33.
+    lead: Option<f64>,
     haas: bool,
 }
 
@@ -241,7 +245,7 @@ impl Control {
                 return self.m.halt(format!("G{}", f64::from(g) / 10.0));
             }
             match g / 10 {
-                g @ 0..=3 => motion_last = Some(g),
+                g @ (0..=3 | 33) => motion_last = Some(g),
                 g @ (73 | 74 | 76 | 80..=86 | 89) => motion_last = Some(g),
                 4 => dwell = true,
                 10 => table = true,
@@ -296,7 +300,15 @@ impl Control {
             }
             None => {}
         }
-        if let Some((feed, point)) = number(&words, 'F') {
+        // In a thread's block, or behind it without another code, F is its lead.
+        let threads = motion_last.map_or(self.cycle.is_none() && self.motion == 33, |g| g == 33);
+        if let Some((lead, true)) = number(&words, 'F').filter(|_| threads && !self.haas) {
+            self.lead = Some(lead * if self.m.inch { 25.4 } else { 1.0 });
+            self.m.feed = None;
+        } else if let Some((feed, point)) = number(&words, 'F') {
+            if threads {
+                return self.m.halt("a lead without a point, or on a Haas");
+            }
             if !point && self.m.per != Per::Minute {
                 return self.m.halt("a feed of a turn or of a move without a point");
             }
@@ -492,41 +504,6 @@ impl Control {
         Ok(())
     }
 
-    /// G53, G28 and G30: all rapid; what is left of a tool's length by G28 is not looked at.
-    fn machine_point(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
-        if self.cycle.is_some() {
-            return self.m.halt("a move of the machine within a cycle");
-        }
-        let named = self.axis_words(words);
-        let mut to = self.m.at;
-        if code == 53 {
-            if !self.m.absolute {
-                return self.m.halt("G53 under G91");
-            }
-            for (to, word) in to.iter_mut().zip(named) {
-                *to = word.unwrap_or(*to);
-            }
-        } else {
-            let way = self.m.target(named)?;
-            if way != self.m.at {
-                self.m.traverse(way);
-            }
-            to = way;
-            let point = match code {
-                28 => [0.0; 6],
-                _ => (self.m.setup.reference)(number(words, 'P').map_or(2, |(p, _)| p as u32)),
-            };
-            for ((to, word), point) in to.iter_mut().zip(named).zip(point) {
-                *to = if word.is_some() { point } else { *to };
-            }
-        }
-        self.m.traverse(to);
-        for (settled, word) in self.m.settled.iter_mut().zip(named) {
-            *settled &= word.is_none();
-        }
-        Ok(())
-    }
-
     fn end_cycle(&mut self) {
         self.cycle = None;
         self.rigid = false;
@@ -559,6 +536,13 @@ impl Control {
         match self.motion {
             0 => self.m.traverse(to),
             1 => self.m.straight(to)?,
+            33 => {
+                let along = axes.iter().filter(|word| word.is_some()).count();
+                let Some(lead) = self.lead.filter(|_| along == 1 && !self.haas) else {
+                    return self.m.halt("a thread without a lead, along several axes, or on a Haas");
+                };
+                self.m.cut_thread(to, lead)?;
+            }
             motion => {
                 let (first, second, normal) = self.m.axes();
                 let turn = self.m.turn;

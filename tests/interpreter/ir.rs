@@ -5,6 +5,7 @@ mod cycles;
 mod data;
 mod moves;
 mod text;
+mod threads;
 
 use std::collections::HashMap;
 
@@ -430,6 +431,7 @@ impl Control {
                 self.go(a)?;
                 self.m.begin_block();
             }
+            "SYNCHRONISED_FEED" => self.thread(a)?,
             "POSITION" if self.cycle.is_some() => self.hole_word(a)?,
             "POSITION" => self.go(a)?,
             "ARC_FEED" => {

@@ -118,7 +118,7 @@ impl Words {
 
 /// Modal groups of G codes; codes of none stand alone.
 const GROUPS: [&[u32]; 13] = [
-    &[0, 10, 20, 30, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
+    &[0, 10, 20, 30, 330, 331, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
     &[40, 100, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
@@ -401,6 +401,20 @@ impl Control {
                         }
                     }
                     Some(code @ (20 | 30)) if once != Some(530) => self.arc(code, words, axes)?,
+                    Some(code @ (330 | 331)) if once.is_none() => {
+                        let (along, to) =
+                            (axes.iter().filter(|word| word.is_some()).count(), self.target(axes));
+                        let Some(lead) = words.get('K').filter(|_| along == 1) else {
+                            return self.m.halt("a thread without K, or along several axes");
+                        };
+                        if words.get('I').or(words.get('J')).or(words.get('R')).is_some() {
+                            return self.m.halt("a thread with other words");
+                        }
+                        match code {
+                            330 => self.m.cut_thread(to, lead * self.unit())?,
+                            _ => self.m.tap_and_back(to, lead * self.unit())?,
+                        }
+                    }
                     Some(_) => return self.m.halt("G53 without a straight move"),
                     None => return self.m.halt("axis words and no motion code"),
                 }

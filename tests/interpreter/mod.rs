@@ -18,6 +18,7 @@ mod setup;
 pub mod siemens;
 mod slots;
 mod stored;
+mod threads;
 
 pub use beside::Beside;
 pub use hole::Hole;

@@ -10,6 +10,7 @@ mod cycles;
 pub(super) mod frame;
 mod moves;
 mod text;
+mod threads;
 
 use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
@@ -38,6 +39,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         pole: (0.0, 0.0),
         radius: None,
         angle: None,
+        floating: false,
         depth: 0,
     };
     let Some(main) = units.iter().find(|unit| unit.main) else { return control.m.halt("no main program") };
@@ -55,6 +57,8 @@ enum Motion {
     Counterclockwise,
     ThroughPoint,
     Tangent,
+    /// G33, and the sense in which the control turns for a positive lead of G331 and G332.
+    Thread(Option<Spindle>),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,6 +90,8 @@ struct Control<'a> {
     pole: (f64, f64),
     radius: Option<f64>,
     angle: Option<f64>,
+    /// G63 stands in the block.
+    floating: bool,
     depth: u32,
 }
 
@@ -457,18 +463,6 @@ impl<'a> Control<'a> {
         std::array::from_fn(|axis| shift[axis] + if axis < 3 { xyz[axis] } else { place[axis] })
     }
 
-    /// Length is that of an edge of the tool in the spindle; like another work offset it moves nothing.
-    fn take_edge(&mut self, edge: u32, tool: Option<u32>) {
-        if (edge, tool) != (self.edge, self.m.tool) {
-            self.m.settled[2] = false;
-            if self.frame.turns() {
-                self.m.settled[..3].fill(false);
-            }
-        }
-        self.edge = edge;
-        self.m.entry = if edge == 0 { 0 } else { tool.unwrap_or(0) };
-    }
-
     fn words(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
         self.m.begin_block();
         if w.letters.iter().any(|l| l.0 == 'G' && (110.0..=112.0).contains(&l.1.number)) {
@@ -498,6 +492,7 @@ impl<'a> Control<'a> {
     }
 
     fn with_modes(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
+        self.floating = false;
         let dwell = self.modes(w)?;
         let m_codes: Vec<u32> = w
             .letters
@@ -531,7 +526,8 @@ impl<'a> Control<'a> {
         }
         let edge = w.letter('D').map(|d| self.whole(d.number)).transpose()?;
         if m_codes.contains(&6) {
-            if moves || m_codes.len() > 1 {
+            // A spindle that stops with it stands after it in either order.
+            if moves || m_codes.iter().any(|code| !matches!(code, 5 | 6)) {
                 return self.m.halt("M6 with a move or another M");
             }
             let tool = self.m.selected;
@@ -583,22 +579,6 @@ impl<'a> Control<'a> {
         self.end_codes(&m_codes)
     }
 
-    fn end_codes(&mut self, codes: &[u32]) -> Result<Next, Halt> {
-        let last: Vec<u32> = codes.iter().copied().filter(|c| [0, 1, 2, 17, 30].contains(c)).collect();
-        match (&last[..], self.depth) {
-            ([], _) => {}
-            ([0], _) => self.m.record(What::Stop),
-            ([1], _) => self.m.record(What::OptionalStop),
-            (_, 1..) if last.len() == 1 => return Ok(Next::Back),
-            (_, 0) if last.len() == 1 => {
-                self.m.record(What::End);
-                return Ok(Next::End);
-            }
-            _ => return self.m.halt("several stops or ends"),
-        }
-        Ok(Next::Block)
-    }
-
     /// G codes and their like; true at G4.
     fn modes(&mut self, w: &Words<'a>) -> Result<bool, Halt> {
         let mut seen = Vec::new();
@@ -618,6 +598,19 @@ impl<'a> Control<'a> {
                             [code as usize],
                     );
                     group(1)
+                }
+                33 | 331 | 332 => {
+                    let turns = match code {
+                        33 => None,
+                        331 => Some(Spindle::Clockwise),
+                        _ => Some(Spindle::Counterclockwise),
+                    };
+                    self.motion = Some(Motion::Thread(turns));
+                    group(1)
+                }
+                63 => {
+                    self.floating = true;
+                    group(2)
                 }
                 4 => {
                     dwell = true;

@@ -181,12 +181,23 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
 }
 
 /// What a dialect was given and cannot give back, and why.
-const NO_WAY_BACK: [(&str, &str); 1] = [(
-    "haas/g84.nc through siemens",
-    "a hole left to the initial level follows holes left to R: as a call of its own it has a return plane \
-     above where the tool stands, which only a cycle written out can have there, and a rigid tap is not \
-     written out in words",
-)];
+const NO_WAY_BACK: [(&str, &str); 3] = [
+    (
+        "fanuc/g74-dwell.nc through siemens",
+        "a tap with a chuck that dwells at R as well is written out as blocks with the chuck (G63), of which the \
+         way back makes no cycle",
+    ),
+    (
+        "haas/g84.nc through siemens",
+        "a hole left to the initial level follows holes left to R: as a call of its own it has a return plane \
+         above where the tool stands, which only a cycle written out can have there, and a rigid tap is not \
+         written out in words",
+    ),
+    (
+        "linuxcnc/g84-dwell.ngc through siemens",
+        "the dwell behind the spindle's turn at the bottom is written out as blocks with the chuck (G63) likewise",
+    ),
+];
 
 /// The corpus, there and back: every program that a dialect takes comes back as the same cut.
 #[test]

@@ -140,6 +140,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             pitch(&m.pitch, out);
             put(if m.chuck { ", chuck" } else { "" }, out);
             further_turn(m.turn, out);
+            put(if m.back { ", back" } else { "" }, out);
         }
         Op::OrientSpindle(angle) => angle.iter().for_each(|angle| expr(angle, out)),
         Op::ArcFeed(a) => arc(a, out),

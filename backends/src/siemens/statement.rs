@@ -48,7 +48,6 @@ impl Writer {
             | Op::SelectTool(_)
             | Op::StartSpindleClockwise
             | Op::StartSpindleCounterclockwise
-            | Op::SynchronisedFeed(_)
             | Op::OrientSpindle(None)
             | Op::MachineFunction(_)
             | Op::FloodOn
@@ -57,6 +56,13 @@ impl Writer {
             | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Return => self.words.statement(stmt, sink),
+            Op::SynchronisedFeed(m) => {
+                if std::mem::replace(&mut self.raw, false) {
+                    return Err(cannot("a thread in machine coordinates"));
+                }
+                self.before_move(&m.to, m.chuck, span, sink)?;
+                self.words.statement(stmt, sink)
+            }
             // Beside a move, machine data decide whether it is off before or after.
             Op::StopSpindleTurning | Op::CoolantOff => {
                 if b"XYZABCIJK".iter().any(|letter| self.words.block.has(*letter)) {
@@ -100,7 +106,10 @@ impl Writer {
                 }
             }
             Op::LimitSpindleSpeed(speed) => self.named_alone(NameRole::SpindleLimit, speed, span, sink),
-            Op::OrientSpindle(Some(angle)) => self.named_alone(NameRole::SpindleAngle, angle, span, sink),
+            Op::OrientSpindle(Some(angle)) => {
+                self.words.turned_in = None;
+                self.named_alone(NameRole::SpindleAngle, angle, span, sink)
+            }
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
             Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) => self.words.statement(stmt, sink),
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),

@@ -3,7 +3,7 @@
 //! A row counts only if its word reads back to the same meaning, so every code here was found by
 //! its meaning and checked by its number. Not here: when a word is written.
 
-use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role};
+use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role, Thread};
 use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, Turn, Units};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint, ToolValue};
@@ -147,6 +147,8 @@ pub(crate) struct Codes {
     pub traverse: Option<Code>,
     pub feed: Option<Code>,
     pub arcs: [Option<Code>; 2],
+    /// Threads, with the letters of their leads: one for all axes, or one for each.
+    pub threads: Vec<(Thread, Code, Vec<Letter>)>,
     pub dwell: Option<(Code, Dwell)>,
     pub units: [Option<Code>; 2],
     pub distance: [Option<Code>; 2],
@@ -347,6 +349,30 @@ impl Finder {
         })
     }
 
+    fn threads(&self) -> Vec<(Thread, Code, Vec<Letter>)> {
+        let feed = self.dialect.letter_for(Role::Feed);
+        let lead = |letter: char| {
+            let mut rules = self.dialect.numbers(Quantity::Length);
+            // Fractions of an inch as leads in millimetres.
+            rules.decimals += 2;
+            rules.decimals_inch = rules.decimals_inch.map(|decimals| decimals + 2);
+            match Some(letter) == feed {
+                true => self.letter(letter, Quantity::Feed),
+                false => Some(Letter {
+                    format: Format::new(rules, false),
+                    ..self.letter(letter, Quantity::Length)?
+                }),
+            }
+        };
+        let rows = self.dialect.code.iter();
+        rows.filter_map(|row| {
+            let Some(meaning @ Meaning::SynchronisedFeed(thread)) = row.means else { return None };
+            let letters = row.words.chars().filter_map(lead).collect();
+            Some((thread, self.row(&row.code, meaning)?, letters))
+        })
+        .collect()
+    }
+
     fn frames(&self) -> FrameCodes {
         let words = |meaning| {
             let row = self.dialect.code_for(meaning);
@@ -433,6 +459,7 @@ impl Codes {
             traverse: code(Meaning::StraightTraverse),
             feed: code(Meaning::StraightFeed),
             arcs: [Turn::Clockwise, Turn::Counterclockwise].map(|t| code(Meaning::ArcFeed(t))),
+            threads: find.threads(),
             dwell: find.dwell_code(),
             units: [Units::Mm, Units::Inch].map(|u| code(Meaning::UseLengthUnits(u))),
             distance: [Distance::Absolute, Distance::Incremental].map(|d| code(Meaning::SetDistanceMode(d))),

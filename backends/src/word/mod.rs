@@ -21,9 +21,10 @@ mod plain;
 mod polar;
 mod start;
 pub(crate) mod statement;
+mod thread;
 
 use ncc_dialects::{Dialect, Settings};
-use ncc_ir::canon::{AXES, Axis, Modes, Units};
+use ncc_ir::canon::{AXES, Axis, Modes, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt};
@@ -104,6 +105,8 @@ pub struct Writer {
     pub(crate) dwell_left: bool,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,
+    /// The sense in which the spindle turned on the way into the thread at hand.
+    pub(crate) turned_in: Option<Turn>,
     /// The next straight move is in machine coordinates, by this code.
     machine: Option<codes::Code>,
     /// Whether the words of the plane's axes are radius and angle.
@@ -173,6 +176,7 @@ impl Writer {
             split: false,
             dwell_left: false,
             offset_waits: None,
+            turned_in: None,
             machine: None,
             polar: false,
             units_stated: [false; 2],

@@ -25,6 +25,12 @@ impl Writer {
         self.leave_polar(stmt, sink)?;
         let span = stmt.span;
         let codes = &self.codes;
+        if matches!(
+            stmt.op,
+            Op::OrientSpindle(_) | Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise
+        ) {
+            self.turned_in = None;
+        }
         match &stmt.op {
             Op::Comment(text) => {
                 self.comment(text, span, sink);
@@ -77,7 +83,7 @@ impl Writer {
             Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
-            Op::SynchronisedFeed(_) => Err(cannot("a move in step with the spindle")),
+            Op::SynchronisedFeed(m) => self.thread(m, span, sink),
             Op::OrientSpindle(Some(_)) => Err(cannot("a spindle stopped at an angle")),
             Op::OrientSpindle(None) => {
                 self.m_code(Rank::SpindleOn, codes.orient, "a spindle stopped at an angle", sink)

@@ -2,7 +2,7 @@
 
 use ncc_dialects::{
     CodeRow, CycleRow, DataKind, DataRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity,
-    ValueName, ValueWord,
+    Thread, ValueName, ValueWord,
 };
 use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
@@ -147,6 +147,25 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
                 Turn::Counterclockwise => "counterclockwise",
             };
             ["XY", "ZX", "YZ"].map(|plane| arc(d, plane, turn)).into()
+        }
+        Meaning::SynchronisedFeed(thread) => {
+            const TURNS: &str = "SET_SPINDLE_SPEED(500)\nSTART_SPINDLE_CLOCKWISE()\nSET_FEED_RATE(625mm)";
+            const HELD: &str = "SET_SPINDLE_SPEED(500)\nORIENT_SPINDLE(0deg)";
+            const IN: &str = "SYNCHRONISED_FEED(Z -20mm, pitch 1.25mm, clockwise)";
+            const OUT: &str = "SYNCHRONISED_FEED(Z 2mm, pitch 1.25mm, counterclockwise)";
+            match thread {
+                Thread::Plain => vec![Said::new("SYNCHRONISED_FEED(Z -20mm, pitch 1.25mm)").after(TURNS)],
+                Thread::Back => {
+                    vec![Said::new("SYNCHRONISED_FEED(Z -20mm, pitch 1.25mm, back)").after(TURNS)]
+                }
+                Thread::Turned(Turn::Clockwise) => vec![Said::new(IN).after(HELD)],
+                Thread::Turned(Turn::Counterclockwise) => {
+                    vec![Said::new(OUT).after(format!("{HELD}\n{IN}"))]
+                }
+                Thread::Chuck => {
+                    vec![Said::new("SYNCHRONISED_FEED(Z -20mm, pitch feed, chuck)").after(TURNS)]
+                }
+            }
         }
         Meaning::UseLengthUnits(units) => vec![match units {
             Units::Mm => Said::new("USE_LENGTH_UNITS(mm)")

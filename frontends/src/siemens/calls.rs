@@ -248,7 +248,7 @@ impl Lower {
         match motion {
             Some(Motion::Traverse) => self.push(at, Op::StraightTraverse(nowhere), out),
             Some(Motion::Feed) => self.push(at, Op::StraightFeed(nowhere), out),
-            Some(Motion::Arc(_) | Motion::Through | Motion::Tangent) | None => {}
+            Some(Motion::Arc(_) | Motion::Through | Motion::Tangent | Motion::Thread(_)) | None => {}
         }
     }
 

@@ -176,7 +176,7 @@ impl Lower {
             let name = "cycle called while another is modal";
             return self.not_supported(&row.name, name, block, out);
         }
-        if cycle.feed.is_none() {
+        if cycle.relies_on_feed() {
             self.rely_on_feed(block, out);
         }
         self.rely_on_frames(true, block, out);

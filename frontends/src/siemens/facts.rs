@@ -7,6 +7,7 @@
 //!
 //! Not here: what repeated blocks and subprograms find in force (`again`).
 
+use ncc_dialects::Thread;
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, Turn, Units};
 use ncc_ir::cycle::Cycle;
 use ncc_ir::diag::{Fault, ModeName};
@@ -29,6 +30,8 @@ pub(super) enum Motion {
     Through,
     /// `CT`
     Tangent,
+    /// `G33`, `G331`, `G332`
+    Thread(Thread),
 }
 
 impl From<ncc_ir::canon::Motion> for Motion {

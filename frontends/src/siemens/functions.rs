@@ -3,7 +3,7 @@
 //!
 //! Moves and frames have files of their own.
 
-use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role};
+use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
 use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
@@ -28,6 +28,9 @@ pub(super) fn motion_of(meaning: NameMeaning) -> Option<Motion> {
         NameMeaning::Code(Meaning::StraightTraverse) => Some(Motion::Traverse),
         NameMeaning::Code(Meaning::StraightFeed) => Some(Motion::Feed),
         NameMeaning::Code(Meaning::ArcFeed(turn)) => Some(Motion::Arc(turn)),
+        // The chuck's is for one block.
+        NameMeaning::Code(Meaning::SynchronisedFeed(Thread::Chuck)) => None,
+        NameMeaning::Code(Meaning::SynchronisedFeed(thread)) => Some(Motion::Thread(thread)),
         NameMeaning::ArcThrough => Some(Motion::Through),
         NameMeaning::ArcTangent => Some(Motion::Tangent),
         _ => None,
@@ -115,7 +118,13 @@ impl Lower {
             coded.clone().find(|(_, m)| matches!(m, Meaning::UseMachineCoordinates { .. })).map(|(c, _)| *c);
         let moves = words.has_point();
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
-        self.motion_words(motion, machine, head.span, words, src, out);
+        let chuck = coded.clone().find(|(_, m)| *m == Meaning::SynchronisedFeed(Thread::Chuck));
+        match chuck {
+            Some((code, _)) => {
+                self.chuck_thread(code, motion.is_some() || machine.is_some(), words, src, out)
+            }
+            None => self.motion_words(motion, machine, head.span, words, src, out),
+        }
         for (code, meaning) in coded {
             if rank(meaning) >= RANK_AFTER {
                 if moves && matches!(meaning, Meaning::StopSpindleTurning | Meaning::CoolantOff) {

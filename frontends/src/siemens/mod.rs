@@ -28,6 +28,7 @@ mod polar;
 mod reader;
 mod sort;
 mod spindles;
+mod synchronised;
 #[cfg(test)]
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;

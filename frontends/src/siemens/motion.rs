@@ -60,8 +60,8 @@ impl Lower {
                 self.not_supported(code.name, name, code.span, out);
             }
         }
-        let arc_now =
-            matches!(self.state.motion.value(), Some(m) if !matches!(m, Motion::Traverse | Motion::Feed));
+        let line = |m| matches!(m, Motion::Traverse | Motion::Feed | Motion::Thread(_));
+        let arc_now = self.state.motion.value().is_some_and(|m| !line(m));
         let arc_words = words.has_any(CENTRE) || NAMED.iter().any(|&role| words.named(role).is_some());
         if !(words.has_point() || arc_now && arc_words) {
             if let Some(code) = machine {
@@ -72,6 +72,10 @@ impl Lower {
         }
         self.again.use_fact(CYCLE);
         self.again.use_fact(MOTION);
+        if let Some(Motion::Thread(thread)) = self.state.motion.value() {
+            self.moved = None;
+            return self.thread(thread, machine, block, words, src, out);
+        }
         match std::mem::take(&mut self.state.cycle) {
             cycle @ (InForce::None | InForce::Refused) => {
                 self.state.cycle = cycle;
@@ -91,7 +95,7 @@ impl Lower {
                 if self.state.motion.value().is_none() {
                     self.take_rapid(block, out);
                 }
-                if cycle.feed.is_none() {
+                if cycle.relies_on_feed() {
                     self.rely_on_feed(block, out);
                 }
                 if self.is_position(machine, block, words, out) {
@@ -198,7 +202,7 @@ impl Lower {
                 match arc {
                     Motion::Through => self.through(said, block, words, src, out),
                     Motion::Arc(turn) => self.arc(turn, said, block, words, src, out),
-                    Motion::Tangent | Motion::Traverse | Motion::Feed => {
+                    Motion::Tangent | Motion::Traverse | Motion::Feed | Motion::Thread(_) => {
                         let plane = self.plane(block, out);
                         let to = self.point(false, None, words, src, out);
                         let arc = ArcForm { plane, to, shape: Shape::Tangent, turns: 0, said };

@@ -58,7 +58,7 @@ impl Lower {
         self.rely_on_frames(true, called.span, out);
         if let InForce::Active(cycle) = &self.state.cycle {
             let cycle = cycle.clone();
-            if cycle.feed.is_none() {
+            if cycle.relies_on_feed() {
                 self.rely_on_feed(called.span, out);
             }
             self.call_up_again(&cycle, called.span, out);

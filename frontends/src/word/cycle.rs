@@ -27,6 +27,9 @@ impl Lower {
         let Some(word) = words.take(self.roles.feed) else {
             return;
         };
+        if self.is_lead(motion) {
+            return self.lead(&word, src, out);
+        }
         self.rely_on_feed_mode(word.span, out);
         let Some(mut num) = self.number(&word, Quantity::Feed, src, out) else {
             return;

@@ -6,7 +6,7 @@
 //!
 //! Not here: what a control has in force at run time; that is execution's.
 
-use ncc_dialects::PowerOnFact;
+use ncc_dialects::{CodeRow, PowerOnFact};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::cycle::CycleKind;
 use ncc_ir::diag::{Fault, ModeName};
@@ -130,6 +130,10 @@ pub(super) struct State {
     pub(super) radius_entry: Know<Num>,
     /// Whether cutter radius compensation is on.
     pub(super) compensated: Know<bool>,
+    /// The code of the thread that bare axis words cut on.
+    pub(super) thread: Option<&'static CodeRow>,
+    /// The lead that the feed word has said for it.
+    pub(super) lead: Option<Num>,
 }
 
 impl State {
@@ -162,6 +166,8 @@ impl State {
             dwell_left: Know::Lost,
             radius_entry: Know::Lost,
             compensated: Know::Lost,
+            thread: None,
+            lead: None,
         }
     }
 
@@ -202,6 +208,10 @@ impl State {
         self.dwell_left.join(before.dwell_left);
         self.radius_entry.join(before.radius_entry);
         self.compensated.join(before.compensated);
+        if self.thread != before.thread {
+            (self.thread, self.motion) = (None, Know::Lost);
+        }
+        self.lead = self.lead.filter(|_| self.lead == before.lead);
     }
 }
 

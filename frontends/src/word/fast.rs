@@ -82,6 +82,7 @@ impl Lower {
             || state.cycle != InForce::None
             || state.unplaced != 0
             || state.words != Words::Cartesian
+            || state.thread.is_some()
             || self.level_open()
             || self.ended
         {

@@ -151,6 +151,7 @@ impl Lower {
 
     pub(super) fn set_motion(&mut self, motion: Motion) {
         self.state.motion = Know::Said(motion);
+        (self.state.thread, self.state.lead) = (None, None);
         self.state.no_motion = false;
     }
 

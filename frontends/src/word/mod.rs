@@ -34,6 +34,7 @@ pub(crate) mod sort;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]
 mod tests;
+mod thread;
 pub(crate) mod token;
 pub(crate) mod words;
 

@@ -61,8 +61,12 @@ impl Lower {
                 self.state.cycle = InForce::None;
                 self.state.rigid = false;
             }
+            let lead = self.state.lead;
             self.set_motion(motion);
             self.state.after_cycle = false;
+            if matches!(code.meaning, Meaning::SynchronisedFeed(_)) {
+                (self.state.thread, self.state.lead) = (Some(code.row), lead);
+            }
         }
         if let (Some(cycle), Some(pattern)) = (cycle, pattern) {
             let fault = Fault::CodesExclude { first: src.text(cycle.span), second: src.text(pattern.span) };
@@ -70,6 +74,10 @@ impl Lower {
         }
         let machine = find(|m| matches!(m, Meaning::UseMachineCoordinates { .. }));
         let reference = find(|m| matches!(m, Meaning::GoToReference { .. }));
+        if let (Some(code), Some(_)) = (machine, self.state.thread) {
+            let name = "machine coordinates while a thread's code is in force".into();
+            return self.fault(Fault::NotSupported { code: src.text(code.span), name }, code.span, out);
+        }
         if let Some(code) = machine.or(reference) {
             let other = cycle.or(pattern).or(machine.and(reference));
             if let Some(other) = other.filter(|other| other.at != code.at) {
@@ -95,6 +103,9 @@ impl Lower {
         let arc_now = matches!(self.state.motion.value(), Some(Motion::Arc(_)));
         if !(self.has_axis_word(words) || arc_now && self.has_arc_word(words)) {
             return;
+        }
+        if let Some(row) = self.state.thread {
+            return self.thread(row, block, words, src, out);
         }
         match self.motion(block, out) {
             Err(()) => self.give_up(words),

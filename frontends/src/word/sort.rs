@@ -271,6 +271,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         | Meaning::GoToReference { .. }
         | Meaning::StraightTraverse
         | Meaning::StraightFeed
+        | Meaning::SynchronisedFeed(_)
         | Meaning::ArcFeed(_) => 21,
         Meaning::StartCycle | Meaning::Pattern => 22,
         Meaning::StopSpindleTurning => RANK_AFTER,
@@ -285,7 +286,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
 pub(super) fn motion_of(meaning: Meaning) -> Option<Motion> {
     match meaning {
         Meaning::StraightTraverse => Some(Motion::Traverse),
-        Meaning::StraightFeed => Some(Motion::Feed),
+        Meaning::StraightFeed | Meaning::SynchronisedFeed(_) => Some(Motion::Feed),
         Meaning::ArcFeed(turn) => Some(Motion::Arc(turn)),
         _ => None,
     }

@@ -1,10 +1,10 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Side, Turn};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
+use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm};
 use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
 
-use crate::meaning::Meaning;
+use crate::meaning::{Meaning, Thread};
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
 use crate::schema::{CycleRow, Dialect, Family, PatternRow};
 use crate::stored::DataKind;
@@ -234,7 +234,19 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         one_move_apart: everything || dialect.can.flat,
         flat: dialect.can.flat,
         inherits_motion: everything || dialect.can.inherits_motion,
-        synchronised: everything,
+        threads: {
+            let has = |thread| says(Meaning::SynchronisedFeed(thread));
+            Threads {
+                plain: has(Thread::Plain),
+                back: has(Thread::Back),
+                turned: has(Thread::Turned(Turn::Clockwise)) && has(Thread::Turned(Turn::Counterclockwise)),
+                chuck: has(Thread::Chuck),
+                by_feed: dialect
+                    .code_for(Meaning::SynchronisedFeed(Thread::Plain))
+                    .is_some_and(|row| row.words.chars().next() == dialect.letter_for(crate::Role::Feed)),
+                any: everything,
+            }
+        },
         path_modes: match (everything, dialect.can.flat) {
             (true, _) => u16::MAX,
             (false, true) => {

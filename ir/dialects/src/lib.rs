@@ -21,7 +21,7 @@ mod stored;
 
 pub use fault::{DialectError, DialectFault, Place, Text};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
-pub use meaning::Meaning;
+pub use meaning::{Meaning, Thread};
 pub use names::*;
 pub use power_on::*;
 pub use schema::*;

@@ -17,6 +17,8 @@ pub enum Meaning {
     StraightTraverse,
     StraightFeed,
     ArcFeed(Turn),
+    /// A straight move in step with the spindle; the row's words are those of the lead.
+    SynchronisedFeed(Thread),
     Dwell,
     UseLengthUnits(Units),
     SetDistanceMode(Distance),
@@ -109,6 +111,19 @@ pub enum Meaning {
     Return,
 }
 
+/// Moves in step with the spindle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Thread {
+    /// As the spindle turns.
+    Plain,
+    /// As the spindle turns, and back to where it began with the spindle turned round.
+    Back,
+    /// The control turns the spindle itself, in this sense for a positive lead, and holds it after.
+    Turned(Turn),
+    /// Feed and spindle each on their own, with a compensating chuck.
+    Chuck,
+}
+
 impl<'de> Deserialize<'de> for Meaning {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Meaning, D::Error> {
         String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
@@ -123,6 +138,13 @@ impl fmt::Display for Meaning {
             Meaning::StraightFeed => "STRAIGHT_FEED",
             Meaning::ArcFeed(Turn::Clockwise) => "ARC_FEED clockwise",
             Meaning::ArcFeed(Turn::Counterclockwise) => "ARC_FEED counterclockwise",
+            Meaning::SynchronisedFeed(Thread::Plain) => "SYNCHRONISED_FEED",
+            Meaning::SynchronisedFeed(Thread::Back) => "SYNCHRONISED_FEED back",
+            Meaning::SynchronisedFeed(Thread::Turned(Turn::Clockwise)) => "SYNCHRONISED_FEED clockwise",
+            Meaning::SynchronisedFeed(Thread::Turned(Turn::Counterclockwise)) => {
+                "SYNCHRONISED_FEED counterclockwise"
+            }
+            Meaning::SynchronisedFeed(Thread::Chuck) => "SYNCHRONISED_FEED chuck",
             Meaning::Dwell => "DWELL",
             Meaning::UseLengthUnits(Units::Mm) => "USE_LENGTH_UNITS mm",
             Meaning::UseLengthUnits(Units::Inch) => "USE_LENGTH_UNITS inch",
@@ -233,6 +255,13 @@ impl FromStr for Meaning {
             ("STRAIGHT_FEED", "") => Meaning::StraightFeed,
             ("ARC_FEED", "clockwise") => Meaning::ArcFeed(Turn::Clockwise),
             ("ARC_FEED", "counterclockwise") => Meaning::ArcFeed(Turn::Counterclockwise),
+            ("SYNCHRONISED_FEED", "") => Meaning::SynchronisedFeed(Thread::Plain),
+            ("SYNCHRONISED_FEED", "back") => Meaning::SynchronisedFeed(Thread::Back),
+            ("SYNCHRONISED_FEED", "clockwise") => Meaning::SynchronisedFeed(Thread::Turned(Turn::Clockwise)),
+            ("SYNCHRONISED_FEED", "counterclockwise") => {
+                Meaning::SynchronisedFeed(Thread::Turned(Turn::Counterclockwise))
+            }
+            ("SYNCHRONISED_FEED", "chuck") => Meaning::SynchronisedFeed(Thread::Chuck),
             ("DWELL", "") => Meaning::Dwell,
             ("USE_LENGTH_UNITS", "mm") => Meaning::UseLengthUnits(Units::Mm),
             ("USE_LENGTH_UNITS", "inch") => Meaning::UseLengthUnits(Units::Inch),

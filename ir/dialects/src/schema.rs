@@ -478,7 +478,7 @@ impl Hand {
 }
 
 /// A word that says how long to dwell.
-#[derive(Clone, Copy, Debug, Deserialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct DwellWord {
     /// Its letter.
@@ -506,7 +506,7 @@ impl PatternRow {
 }
 
 /// A G or M code.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct CodeRow {
     /// The code as it is written: `G01`, `M6`.

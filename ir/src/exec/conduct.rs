@@ -59,6 +59,7 @@ impl Exec {
         let moves = matches!(
             stmt.op,
             Op::StraightFeed(_)
+                | Op::SynchronisedFeed(_)
                 | Op::StraightTraverse(_)
                 | Op::ArcFeed(_)
                 | Op::ArcForm(_)

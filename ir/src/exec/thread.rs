@@ -3,7 +3,7 @@
 //! Not here: how a hole is reached and left (`holes`).
 
 use super::{Event, Exec, Kind};
-use crate::canon::{FeedMode, Motion, Spindle, same_point};
+use crate::canon::{FeedMode, Motion, Spindle, SpindleMode, Turn, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
@@ -22,15 +22,31 @@ impl Exec {
             return self.not_executed("a thread in machine coordinates", span);
         }
         let stated = self.stated_pitch(&m.pitch, span)?;
+        let (began, turns) = (self.position, self.state.spindle);
+        if !m.chuck && m.turn.is_none() && turns == Spindle::Stopped {
+            return self.not_executed("a thread with a spindle that stands", span);
+        }
         self.set_axes(&m.to, span)?;
         self.heading = super::Heading::None;
-        self.modes.motion = Motion::Feed;
+        // Bare axis words after it are no plain feed: without a cycle in force they are an error.
+        self.modes.motion = Motion::Cycle;
         self.said |= super::MOTION;
         self.cycle = None;
         if let Some(turn) = m.turn {
             self.turn_spindle(turn.spindle(), span, out)?;
         }
         self.in_step(stated, m.chuck, span, out)?;
+        if m.back {
+            let turned = m.turn.map_or(turns, Turn::spindle);
+            let other = match turned {
+                Spindle::Counterclockwise => Spindle::Clockwise,
+                Spindle::Clockwise | Spindle::Stopped => Spindle::Counterclockwise,
+            };
+            self.turn_spindle(other, span, out)?;
+            self.position = began;
+            self.in_step(stated, m.chuck, span, out)?;
+            self.turn_spindle(turned, span, out)?;
+        }
         if m.turn.is_some() {
             self.turn_spindle(Spindle::Stopped, span, out)?;
         }
@@ -55,6 +71,9 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         let speed = self.state.speed;
+        if self.state.spindle_mode == SpindleMode::Surface {
+            return self.not_executed("a thread at a constant surface speed", span);
+        }
         if speed <= 0 {
             return self.fault(Fault::NoSpeed, span);
         }

@@ -8,14 +8,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::needs::{
     ARC, CALL, CONTROL, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE, PATH, PATTERN,
-    POLAR, RADIUS, SHIFT, SKIP, TABLE, TOOL_AXIS, WORK, interest, lacks,
+    POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use super::walk::Walk;
 use super::{
     Target, absolute_holes, approach, arc_form, cutter_radius, expand_calls, expand_cycles, expand_frames,
     expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names,
     offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, return_plane,
-    skip_levels, specialise_procedures, state_clearance, taps, tool_axis, tool_change, tool_edge,
+    skip_levels, specialise_procedures, state_clearance, taps, threads, tool_axis, tool_change, tool_edge,
     work_offset,
 };
 use crate::canon::{AXES, Modes};
@@ -52,6 +52,7 @@ pub struct Legaliser {
     axis: tool_axis::State,
     frames: expand_frames::State,
     taps: taps::State,
+    threads: threads::State,
     machine: machine_moves::State,
     change: tool_change::State,
 }
@@ -72,7 +73,8 @@ impl Legaliser {
             lacks,
             measures: false,
             follow: lacks
-                & (PATTERN
+                & (THREAD
+                    | PATTERN
                     | CYCLE
                     | ARC
                     | LENGTH
@@ -101,6 +103,7 @@ impl Legaliser {
             axis: tool_axis::State::default(),
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
+            threads: threads::State::default(),
             machine: machine_moves::State::default(),
             change: tool_change::State::default(),
         }
@@ -161,6 +164,10 @@ impl Legaliser {
             self.change.over(stmts, diags);
         }
         let needs = self.needs(stmts);
+        self.threads.said = self.taps.said;
+        if needs & (CYCLE | THREAD) == 0 && self.target.caps.threads.turned {
+            stmts.iter().for_each(|stmt| self.threads.note(stmt));
+        }
         if needs & CYCLE == 0 {
             // Feeds and speeds that a tap may rely on.
             stmts.iter().for_each(|stmt| self.taps.note(stmt));
@@ -199,6 +206,7 @@ impl Legaliser {
         let mut needs = found & self.lacks;
         needs |= if self.length.is_busy() { LENGTH } else { 0 };
         needs |= if self.cycles.is_busy() || self.taps.is_busy() { CYCLE } else { 0 };
+        needs |= if self.threads.is_busy() { THREAD } else { 0 };
         if self.target.caps.feed_again {
             let changes = |stmt: &Stmt| matches!(stmt.op, Op::UseLengthUnits(_));
             needs |= if self.feed.is_busy() || stmts.iter().any(changes) { MEASURE } else { 0 };
@@ -339,7 +347,7 @@ impl Legaliser {
         // Computed words are from zero, others may not be.
         let computed = self.measures && needs & (ARC | FRAME) != 0;
         let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
-        let needs = if mixed { needs | MEASURE } else { needs };
+        let mut needs = if mixed { needs | MEASURE } else { needs };
         if needs & MEASURE != 0 && self.target.caps.feed_again {
             feed_unit::again(stmts, &mut start.clone(), &mut self.feed, &self.target);
         }
@@ -361,6 +369,10 @@ impl Legaliser {
         if needs & (ARC | MESSAGE | CALL | CONTROL | MACHINE) != 0 {
             self.check(stmts, &mut start.clone(), diags);
         }
+        if needs & THREAD != 0 && stmts.iter().any(|stmt| threads::is_cycle(stmt, &self.target)) {
+            threads::as_cycles(stmts, &mut start.clone(), &self.target);
+            needs |= self.lacks & CYCLE;
+        }
         if needs & CYCLE != 0 {
             state_clearance::over(stmts, &self.target, diags);
             taps::over(stmts, &mut start.clone(), &mut self.taps, &self.target, diags);
@@ -377,6 +389,9 @@ impl Legaliser {
             } else if self.target.caps.cycles_measured_anew {
                 absolute_holes::alike(stmts, &mut start.clone(), diags);
             }
+        }
+        if needs & (CYCLE | THREAD) != 0 && self.lacks & THREAD != 0 {
+            threads::over(stmts, &mut start.clone(), &mut self.threads, &self.target, diags);
         }
         if needs & PATTERN != 0 {
             expand_patterns::reform(stmts, &mut start.clone(), &self.target, diags);
@@ -471,6 +486,7 @@ impl Legaliser {
             self.walk = Walk::new(Tracker::unknown());
             self.cycles = expand_cycles::State::default();
             self.taps = taps::State::default();
+            self.threads = threads::State::default();
             self.edge.start_over();
             self.axis.start_over();
             self.path.start_over();
@@ -489,6 +505,7 @@ impl Legaliser {
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.length.flush(stmts, diags);
         self.one.flush(stmts);
+        self.threads.finish(stmts, diags);
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what

@@ -45,6 +45,7 @@ pub mod specialise_procedures;
 mod spindle_holes;
 pub mod state_clearance;
 pub mod taps;
+pub mod threads;
 pub mod tool_axis;
 mod tool_change;
 pub mod tool_edge;
@@ -211,6 +212,8 @@ pub const PASSES: &[Pass] = &[
         run: approach::run,
     },
     Pass { name: "expand-cycles", about: "turns canned cycles into their moves", run: expand_cycles::run },
+    // Behind the cycles, which may have been written out as threads.
+    Pass { name: "threads", about: "says threads in the target's form", run: threads::run },
     Pass {
         name: "absolute-holes",
         about: "measures planes and positions of cycles from program zero",

@@ -29,6 +29,7 @@ pub(super) const PATH: u32 = 1 << 16;
 pub(super) const MOVE: u32 = 1 << 17;
 pub(super) const POLAR: u32 = 1 << 18;
 pub(super) const RADIUS: u32 = 1 << 19;
+pub(super) const THREAD: u32 = 1 << 20;
 pub(super) const TOOL_AXIS: u32 = 1 << 24;
 
 /// What a target lacks.
@@ -89,6 +90,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     let points =
         caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
     needs(MACHINE, caps.machine_coordinates && caps.machine_length.is_none() && data && points);
+    needs(THREAD, caps.threads.any);
     needs(POLAR, caps.polar == PolarForm::Any);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
@@ -105,7 +107,7 @@ fn interest_of(op: &Op) -> u32 {
     match op {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
         Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
-        Op::SynchronisedFeed(_) => ARC,
+        Op::SynchronisedFeed(_) => THREAD,
         Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
         Op::SetPole(_) => POLAR,
         Op::Polar(polar) => POLAR | interest_of(&polar.op),

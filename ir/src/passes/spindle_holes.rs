@@ -63,7 +63,9 @@ pub(super) fn with_spindle(
                 moves.push((false, traverse(out.clone())));
                 return Ok(());
             }
-            if !target.caps.synchronised {
+            let threads = target.caps.threads;
+            let says = if tap.chuck { threads.chuck } else { threads.turned || threads.back };
+            if !threads.any && !says {
                 let what = match tap.settle == tap.dwell && tap.back.is_none() {
                     true => format!("the cycle {} in this form", in_force.cycle.kind.name()),
                     false => "a tapping cycle that dwells at one end of the thread alone".to_owned(),
@@ -73,7 +75,16 @@ pub(super) fn with_spindle(
             let step = |to: &Point, turn| {
                 let (to, pitch) = (to.clone(), tap.pitch.clone());
                 let turn = (!tap.chuck).then_some(turn);
-                (false, Op::SynchronisedFeed(Box::new(Synchronised { to, pitch, chuck: tap.chuck, turn })))
+                (
+                    false,
+                    Op::SynchronisedFeed(Box::new(Synchronised {
+                        to,
+                        pitch,
+                        chuck: tap.chuck,
+                        turn,
+                        back: false,
+                    })),
+                )
             };
             moves.push(step(&depth, tap.turn));
             dwell(&tap.dwell, moves);

@@ -25,11 +25,18 @@ use super::walk::Walk;
 /// Digits of a pitch that follows from feed and speed.
 const PITCH_DIGITS: u8 = 6;
 
+/// Feed and speed in force, as far as they are numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Said {
+    pub(super) speed: Option<Num>,
+    pub(super) feed: Option<Num>,
+}
+
 /// What the pass remembers from piece to piece of a body.
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
-    speed: Option<Num>,
-    feed: Option<Num>,
+    /// Feed and speed in force.
+    pub(super) said: Said,
     /// A tap has been changed and is in force, and relies on feed or speed staying as they are.
     changed: bool,
     /// What its end has to say.
@@ -47,6 +54,14 @@ impl State {
     /// Takes note of feed and speed.
     #[inline]
     pub(super) fn note(&mut self, stmt: &Stmt) {
+        self.said.note(stmt);
+    }
+}
+
+impl Said {
+    /// Takes note of feed and speed.
+    #[inline]
+    pub(super) fn note(&mut self, stmt: &Stmt) {
         let literal = |value: &Expr| value.literal().filter(|_| stmt.skip.is_none());
         match &stmt.op {
             Op::SetFeedRate(feed) => self.feed = literal(feed),
@@ -60,6 +75,7 @@ impl State {
                 }
             }
             Op::UseLengthUnits(_) | Op::SetFeedMode(_) => self.feed = None,
+            Op::SetSpindleMode(_) => self.speed = None,
             flow!() => (self.feed, self.speed) = (None, None),
             _ => {}
         }
@@ -187,16 +203,16 @@ fn fit(
     let mut before = None;
     match (form, &tap.pitch) {
         (CycleForm::Stated, Pitch::Feed) if !tap.chuck => {
-            let feed = cycle.feed.as_ref().and_then(Expr::literal).or(state.feed);
-            let pitch = pitch_of(feed, state.speed, walk)?;
+            let feed = cycle.feed.as_ref().and_then(Expr::literal).or(state.said.feed);
+            let pitch = pitch_of(feed, state.said.speed, walk)?;
             tap.pitch = Pitch::Stated(pitch.into());
             before = cycle.feed.take();
         }
         (CycleForm::Control(_), Pitch::Stated(pitch)) => {
-            let feed = feed_of(pitch.literal(), state.speed, walk)?;
+            let feed = feed_of(pitch.literal(), state.said.speed, walk)?;
             tap.pitch = Pitch::Feed;
             cycle.feed = Some(feed.into());
-            state.owed.extend(state.feed.map(|feed| Op::SetFeedRate(feed.into())));
+            state.owed.extend(state.said.feed.map(|feed| Op::SetFeedRate(feed.into())));
         }
         _ => {}
     }
@@ -273,7 +289,7 @@ fn turns(speed: Option<Num>) -> Result<i128, Fault> {
     nanos.map(i128::from).ok_or_else(|| unknown("the speed"))
 }
 
-fn pitch_of(feed: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
+pub(super) fn pitch_of(feed: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
     let (feed, unit) = in_unit(feed.ok_or_else(|| unknown("the feed"))?, walk)?;
     if !per_minute(walk)? {
         return Ok(exact(feed, unit));

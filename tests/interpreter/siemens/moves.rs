@@ -5,6 +5,18 @@ use super::text::{Mark, Value};
 use super::{AXES, Control, Motion, Words, arcs};
 
 impl<'a> Control<'a> {
+    /// Length is that of an edge of the tool in the spindle; like another work offset it moves nothing.
+    pub(super) fn take_edge(&mut self, edge: u32, tool: Option<u32>) {
+        if (edge, tool) != (self.edge, self.m.tool) {
+            self.m.settled[2] = false;
+            if self.frame.turns() {
+                self.m.settled[..3].fill(false);
+            }
+        }
+        self.edge = edge;
+        self.m.entry = if edge == 0 { 0 } else { tool.unwrap_or(0) };
+    }
+
     /// G41 and G42: by the radius of the edge that the block, or one before it, has made active.
     pub(super) fn compensate(&mut self, w: &Words) -> Result<(), Halt> {
         let side = w.letters.iter().find_map(|(letter, value, _)| match (letter, value.number as u32) {
@@ -45,6 +57,9 @@ impl<'a> Control<'a> {
                 return self.m.halt("an incremental word after a change of offsets or frames");
             }
         }
+        if self.floating {
+            return self.floating_thread(axes, to);
+        }
         let Some(motion) = self.motion else { return self.m.halt("a motion and no code for it yet") };
         let polar = w.named("AP").is_some() || w.named("RP").is_some();
         if polar {
@@ -54,6 +69,9 @@ impl<'a> Control<'a> {
             }
             (to[first], to[second]) = self.polar_point(w)?;
             (self.m.settled[first], self.m.settled[second]) = (true, true);
+        }
+        if let Motion::Thread(turns) = motion {
+            return self.thread(turns, w, axes, to);
         }
         let straight = matches!(motion, Motion::Rapid | Motion::Straight);
         let extra = w.letters.iter().any(|l| "IJK".contains(l.0))
@@ -74,7 +92,7 @@ impl<'a> Control<'a> {
             }
             _ if polar => return self.m.halt("polar words of this motion"),
             Motion::ThroughPoint => self.through_point(w, from, to)?,
-            Motion::Tangent => self.tangential(extra, from, to)?,
+            Motion::Thread(_) | Motion::Tangent => self.tangential(extra, from, to)?,
             Motion::Clockwise | Motion::Counterclockwise => {
                 self.arc(w, axes, from, to, motion == Motion::Clockwise)?;
             }

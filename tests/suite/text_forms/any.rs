@@ -432,9 +432,15 @@ fn simple() -> BoxedStrategy<Op> {
             }
         ),
         pole(),
-        (point(), pitch(), any::<bool>(), of(turn())).prop_map(|(to, pitch, chuck, turn)| {
-            Op::SynchronisedFeed(Box::new(Synchronised { to, pitch, chuck, turn }))
-        }),
+        (point(), pitch(), any::<bool>(), of(turn()), any::<bool>()).prop_map(
+            |(to, pitch, chuck, turn, back)| Op::SynchronisedFeed(Box::new(Synchronised {
+                to,
+                pitch,
+                chuck,
+                turn,
+                back
+            }))
+        ),
         of(expr()).prop_map(Op::OrientSpindle),
         moves().prop_map(Op::Hole),
         (fact(planes()), turn(), point(), centre(), 0u32..3, any::<bool>()).prop_map(

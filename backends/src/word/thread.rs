@@ -1,0 +1,70 @@
+//! Moves in step with the spindle: the code, one axis word and its lead.
+//!
+//! What the target has of them, a pass has seen to.
+
+use ncc_dialects::Thread;
+use ncc_ir::canon::{Axis, Turn};
+use ncc_ir::diag::Fault;
+use ncc_ir::num::Num;
+use ncc_ir::program::{Pitch, Synchronised};
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::modes::{Inserted, cannot};
+use super::number;
+use super::statement::unwritable;
+use super::{Sink, Writer};
+
+impl Writer {
+    /// Writes a move in step with the spindle.
+    ///
+    /// # Errors
+    /// The dialect has no such move, or the lead has more digits than its word.
+    pub(crate) fn thread(&mut self, m: &Synchronised, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        // In and out of one thread, the lead's sign is that of the way in.
+        let turned_in = self.turned_in.filter(|turn| m.turn == Some(turn.back()));
+        let (thread, minus) = match (m.turn, m.chuck, m.back) {
+            (None, true, false) => (Thread::Chuck, false),
+            (None, false, false) => (Thread::Plain, false),
+            (None, false, true) => (Thread::Back, false),
+            (Some(turn), false, false) => {
+                let way_in = turned_in.unwrap_or(turn);
+                self.turned_in = Some(way_in);
+                let code = if turned_in.is_some() { Turn::Counterclockwise } else { Turn::Clockwise };
+                (Thread::Turned(code), way_in == Turn::Counterclockwise)
+            }
+            _ => return Err(cannot("a move in step with the spindle in this form")),
+        };
+        let row = self.codes.threads.iter().find(|(own, ..)| *own == thread);
+        let (_, code, letters) = row.ok_or_else(|| cannot("a move in step with the spindle"))?.clone();
+        let along = Axis::ALL.into_iter().find(|axis| m.to.get(*axis).is_some());
+        let lead = match (&m.pitch, along.and_then(|axis| letters.get(axis as usize)).or(letters.first())) {
+            (Pitch::Feed, None) => None,
+            (Pitch::Stated(pitch), Some(letter)) => {
+                let pitch = pitch.literal().ok_or_else(|| cannot("a computed lead"))?;
+                self.check_unit(pitch, span)?;
+                let mantissa = if minus { -pitch.mantissa } else { pitch.mantissa };
+                let pitch = Num { mantissa, ..pitch };
+                let shaped = number::shape(pitch, &letter.format)
+                    .map_err(|why| unwritable(why, letter.letter, pitch))?;
+                if shaped.rounded {
+                    return Err(cannot("a lead with so many digits"));
+                }
+                Some((letter.letter, shaped))
+            }
+            _ => return Err(cannot("a thread whose lead is said in this way")),
+        };
+        let mut inserted = Inserted::default();
+        self.need_distance(m.to.axes.iter().flatten(), &mut inserted)?;
+        let need = self.point_need(Need::new(Rank::Motion), &m.to)?.code(Some(code));
+        let need = lead.map_or(need, |(letter, _)| need.letter(letter));
+        self.admit_with(need, inserted, sink)?;
+        self.block.code(Part::Motion, &code);
+        self.point(&m.to, span, sink)?;
+        if let Some((letter, shaped)) = lead {
+            self.block.word(Part::Axes, letter, shaped);
+        }
+        self.force.motion = None;
+        Ok(())
+    }
+}

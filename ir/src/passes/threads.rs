@@ -1,0 +1,318 @@
+//! `threads`: moves in step with the spindle, as the target says them.
+//!
+//! Controls cut a thread as the spindle turns, at a lead that is stated; some turn the spindle
+//! themselves, after it has been stopped at an angle, some go in and out again in one block; some say the
+//! lead with the feed word. What a target has no such move for is refused: a thread never becomes a plain
+//! feed. Along one axis all of them mean the same by a lead; along several they do not.
+//!
+//! In and out in one block is a rigid tapping cycle where the target has that instead. Not here: tapping cycles, which `expand-cycles` writes out as such moves.
+
+use super::taps::{self, Said};
+use super::walk::Walk;
+use super::write::{Rebuild, at, rebuild};
+use super::{Target, each_body};
+use crate::canon::{AXES, Axis, Fact, ReturnLevel, Spindle, Turn};
+use crate::caps::Threads;
+use crate::cycle::{Approach, Cycle, CycleKind, Tap};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::kinds::flow;
+use crate::num::{Nanos, Num};
+use crate::program::{Move, Op, Pitch, Program, Stmt, Synchronised};
+use crate::track::Tracker;
+
+/// The way out that belongs to a thread which is written with its way back.
+#[derive(Clone, Debug)]
+struct WayOut {
+    to: [Option<Nanos>; AXES],
+    pitch: Pitch,
+    turn: Turn,
+}
+
+/// What the pass remembers from piece to piece of a body.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    /// Feed and speed in force.
+    pub(super) said: Said,
+    /// What is written already, and has to come next.
+    way_out: Option<WayOut>,
+    /// The feed that a lead has taken the place of.
+    owed: Option<Num>,
+    /// Whether the spindle was stopped at an angle, and held since.
+    held: bool,
+}
+
+impl State {
+    /// Whether something is to come yet.
+    pub(super) fn is_busy(&self) -> bool {
+        self.way_out.is_some() || self.owed.is_some()
+    }
+
+    /// Takes note of statements that need nothing.
+    #[inline]
+    pub(super) fn note(&mut self, stmt: &Stmt) {
+        match &stmt.op {
+            Op::OrientSpindle(_) => self.held = stmt.skip.is_none(),
+            Op::SynchronisedFeed(m) if m.turn.is_some() => {}
+            Op::StartSpindleClockwise
+            | Op::StartSpindleCounterclockwise
+            | Op::StopSpindleTurning
+            | Op::ChangeTool
+            | Op::StartCycle(_)
+            | Op::Call(_)
+            | Op::Return
+            | Op::Label(_)
+            | Op::Control(_)
+            | Op::RepeatBlocks(_) => self.held = false,
+            _ => {}
+        }
+    }
+}
+
+/// Says them as the target does.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    each_body(program, entry, |body, walk| {
+        let mut state = State::default();
+        over(body, walk, &mut state, target, diags);
+        state.finish(body, diags);
+    });
+}
+
+/// The same for one piece of a body.
+pub(super) fn over(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
+    rebuild(body, |mut stmt, made| {
+        walk.enter(stmt.skip);
+        let span = stmt.span;
+        let before = walk.at.position;
+        let (speed_of, remark) = (state.said, matches!(stmt.op, Op::Comment(_) | Op::Blank));
+        state.said.note(&stmt);
+        state.note(&stmt);
+        let Op::SynchronisedFeed(m) = &mut stmt.op else {
+            if !remark {
+                if state.way_out.take().is_some() {
+                    let what = "a rigid thread with something else before its way back";
+                    diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
+                }
+                if let Err(fault) = give_back(state, &mut stmt, made) {
+                    diags.push(Diagnostic::new(fault, span));
+                }
+            }
+            walk.step(&stmt);
+            made.push(stmt);
+            return;
+        };
+        let (original, threads) = (m.clone(), target.caps.threads);
+        let way_out = state.way_out.take();
+        let ops = if threads.any {
+            Ok(vec![stmt.op.clone()])
+        } else {
+            let skipped = stmt.skip.is_some();
+            said(m, way_out, state, (walk, &before, skipped), speed_of, threads)
+        };
+        if threads.by_feed && original.turn.is_none() && !original.chuck {
+            state.owed = speed_of.feed;
+        }
+        walk.step(&stmt);
+        match ops {
+            Ok(ops) => {
+                for op in ops {
+                    let joined = stmt.joined;
+                    let mut one = Stmt::new(span, op);
+                    (one.skip, one.number, one.joined) = (stmt.skip, stmt.number.take(), joined);
+                    one.comment = stmt.comment.take();
+                    stmt.joined = false;
+                    made.push(one);
+                }
+            }
+            Err(fault) => {
+                diags.push(Diagnostic::new(fault, span));
+                made.push(stmt);
+            }
+        }
+    });
+}
+
+/// Whether a statement goes in and out of a thread, and the target has a cycle for it and no such move.
+pub(super) fn is_cycle(stmt: &Stmt, target: &Target) -> bool {
+    let caps = &target.caps;
+    let says = caps.threads.any || caps.threads.back;
+    let thread = matches!(&stmt.op, Op::SynchronisedFeed(m) if m.back && m.turn.is_none() && !m.chuck);
+    thread && !says && caps.cycles.iter().any(|cap| cap.kind == "tap-rigid")
+}
+
+/// Writes threads with their way back as rigid tapping cycles, where the target has no such move. What
+/// cannot be written so is left, and refused later.
+pub(super) fn as_cycles(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target) {
+    rebuild(body, |mut stmt, made| {
+        walk.enter(stmt.skip);
+        let cycle =
+            if is_cycle(&stmt, target) && stmt.skip.is_none() { cycle_of(&stmt, walk, target) } else { None };
+        let Some(cycle) = cycle else {
+            walk.step(&stmt);
+            made.push(stmt);
+            return;
+        };
+        let (span, comment) = (stmt.span, stmt.comment.take());
+        for op in [Op::StartCycle(Box::new(cycle)), Op::Hole(Move::default()), Op::EndCycle] {
+            let hole = matches!(op, Op::Hole(_));
+            let mut one = Stmt::new(span, op);
+            (one.number, one.joined) = (stmt.number.take(), hole || stmt.joined);
+            stmt.joined = false;
+            walk.step(&one);
+            made.push(one);
+        }
+        if let (Some(comment), Some(last)) = (comment, made.out.last_mut()) {
+            last.comment = Some(comment);
+        }
+    });
+}
+
+/// The cycle that makes the same moves from where the tool stands.
+fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
+    let Op::SynchronisedFeed(m) = &stmt.op else { return None };
+    let plane = walk.at.modes.plane?;
+    let normal = plane.axes().2;
+    let only = Axis::ALL.into_iter().all(|axis| (axis == normal) == m.to.get(axis).is_some());
+    let start = walk.at.position[normal as usize]?;
+    let end = walk.at.resolve(m.to.get(normal)?, Some(start))?;
+    let (turn, after) = match walk.at.spindle? {
+        Spindle::Clockwise => (Turn::Clockwise, Spindle::Clockwise),
+        Spindle::Counterclockwise => (Turn::Counterclockwise, Spindle::Counterclockwise),
+        Spindle::Stopped => return None,
+    };
+    if !only || end >= start {
+        return None;
+    }
+    let pitch = m.pitch.clone();
+    let tap =
+        Tap { turn, pitch, chuck: false, dwell: None, back: None, settle: None, after, to_level: false };
+    Some(Cycle {
+        kind: CycleKind::Tap(Box::new(tap)),
+        plane: Fact::Known(plane),
+        retract: at(start, normal, walk.unit()),
+        depth: at(end, normal, walk.unit()),
+        return_level: Fact::Known(ReturnLevel::Retract),
+        return_plane: None,
+        approach: target.caps.approach.unwrap_or(Approach::PlaneFirst),
+        feed: None,
+    })
+}
+
+/// Says again the feed that a lead has taken the place of, in the block that needs it.
+fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(), Fault> {
+    let Some(feed) = state.owed else { return Ok(()) };
+    match stmt.op.unwrapped() {
+        Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd if stmt.skip.is_none() => state.owed = None,
+        Op::StartCycle(cycle) if cycle.feed.is_some() && stmt.skip.is_none() => state.owed = None,
+        Op::StraightFeed(_)
+        | Op::ArcFeed(_)
+        | Op::ArcForm(_)
+        | Op::Position(_)
+        | Op::StartCycle(_)
+        | Op::Hole(_)
+        | Op::Pattern(_)
+        | Op::SetFeedRate(_)
+        | flow!() => {
+            if stmt.skip.is_some() {
+                return cannot("a feed behind a thread, in a block that can be skipped");
+            }
+            state.owed = None;
+            let mut one = Stmt::new(stmt.span, Op::SetFeedRate(Expr::Num(feed)));
+            (one.number, one.joined) = (stmt.number.take(), stmt.joined);
+            stmt.joined = !matches!(stmt.op, flow!());
+            made.push(one);
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+impl State {
+    /// The end of the body.
+    pub(super) fn finish(&mut self, body: &[Stmt], diags: &mut Vec<Diagnostic>) {
+        if self.way_out.take().is_some() {
+            let what = "a rigid thread without its way back".into();
+            let span = body.last().map(|stmt| stmt.span).unwrap_or_default();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
+        }
+        self.owed = None;
+    }
+}
+
+fn cannot<T>(what: &str) -> Result<T, Fault> {
+    Err(Fault::CannotSay { what: what.into() })
+}
+
+/// One move in the target's words.
+fn said(
+    m: &mut Synchronised,
+    way_out: Option<WayOut>,
+    state: &mut State,
+    (walk, before, skipped): (&Walk, &[Option<Nanos>; AXES], bool),
+    speed: Said,
+    threads: Threads,
+) -> Result<Vec<Op>, Fault> {
+    let words: Vec<Axis> = Axis::ALL.into_iter().filter(|axis| m.to.get(*axis).is_some()).collect();
+    let along = match words[..] {
+        [axis] if !axis.is_rotary() => axis,
+        _ => return cannot("a thread along several axes, or round one"),
+    };
+    if m.chuck {
+        return match (&m.pitch, m.turn, threads.chuck) {
+            (Pitch::Feed, None, true) if !m.back => Ok(vec![whole(m)]),
+            (_, _, false) => cannot("a thread with a compensating chuck"),
+            _ => cannot("a thread with a compensating chuck in this form"),
+        };
+    }
+    if let Pitch::Feed = m.pitch {
+        m.pitch = Pitch::Stated(taps::pitch_of(speed.feed, speed.speed, walk)?.into());
+    }
+    match (m.turn, m.back) {
+        (None, false) if threads.plain => Ok(vec![whole(m)]),
+        (None, true) if threads.back => Ok(vec![whole(m)]),
+        (Some(_), false) if threads.turned && state.held => Ok(vec![whole(m)]),
+        (Some(_), false) if threads.turned => {
+            cannot("a rigid thread whose spindle has not been stopped at an angle before it")
+        }
+        (Some(turn), false) if threads.back => {
+            let Some(out) = way_out else {
+                // The way in: the way out, which has to come next, is said with it.
+                if skipped {
+                    return cannot("a rigid thread in a block that can be skipped");
+                }
+                if before[along as usize].is_none() {
+                    return Err(Fault::PositionUnknown { axis: along.letter() as char });
+                }
+                state.way_out = Some(WayOut { to: *before, pitch: m.pitch.clone(), turn: turn.back() });
+                let start = match turn {
+                    Turn::Clockwise => Op::StartSpindleClockwise,
+                    Turn::Counterclockwise => Op::StartSpindleCounterclockwise,
+                };
+                let thread = Synchronised { turn: None, back: true, ..m.clone() };
+                return Ok(vec![start, Op::SynchronisedFeed(Box::new(thread)), Op::StopSpindleTurning]);
+            };
+            let to = m.to.get(along).and_then(|word| walk.at.resolve(word, before[along as usize]));
+            let same = to.is_some() && to == out.to[along as usize];
+            if !same || skipped || out.turn != turn || out.pitch != m.pitch {
+                return cannot("a rigid thread that is not left as it was entered");
+            }
+            Ok(Vec::new())
+        }
+        (None, true) if walk.at.spindle == Some(Spindle::Stopped) => {
+            cannot("a thread and back with a spindle that stands")
+        }
+        (None, true) => cannot("a thread and back in one"),
+        (None, false) => cannot("a move in step with the spindle"),
+        (Some(_), _) => cannot("a thread for which the control turns the spindle"),
+    }
+}
+
+fn whole(m: &Synchronised) -> Op {
+    Op::SynchronisedFeed(Box::new(m.clone()))
+}

@@ -1,0 +1,41 @@
+//! Moves to points of the machine.
+
+use super::super::Halt;
+use super::{Control, Word, number};
+
+impl Control {
+    /// G53, G28 and G30: all rapid; what is left of a tool's length by G28 is not looked at.
+    pub(super) fn machine_point(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
+        if self.cycle.is_some() {
+            return self.m.halt("a move of the machine within a cycle");
+        }
+        let named = self.axis_words(words);
+        let mut to = self.m.at;
+        if code == 53 {
+            if !self.m.absolute {
+                return self.m.halt("G53 under G91");
+            }
+            for (to, word) in to.iter_mut().zip(named) {
+                *to = word.unwrap_or(*to);
+            }
+        } else {
+            let way = self.m.target(named)?;
+            if way != self.m.at {
+                self.m.traverse(way);
+            }
+            to = way;
+            let point = match code {
+                28 => [0.0; 6],
+                _ => (self.m.setup.reference)(number(words, 'P').map_or(2, |(p, _)| p as u32)),
+            };
+            for ((to, word), point) in to.iter_mut().zip(named).zip(point) {
+                *to = if word.is_some() { point } else { *to };
+            }
+        }
+        self.m.traverse(to);
+        for (settled, word) in self.m.settled.iter_mut().zip(named) {
+            *settled &= word.is_none();
+        }
+        Ok(())
+    }
+}
