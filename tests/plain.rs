@@ -121,7 +121,7 @@ impl Tolerance {
 /// A world in the second interpreter's terms.
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
-    let points = world.clone();
+    let (points, stored) = (world.clone(), world.clone());
     let named = Rc::new(RefCell::new(BTreeMap::new()));
     let known = named.clone();
     Setup {
@@ -146,6 +146,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         peck_clearance: mm(world.peck_clearance),
         break_lift: mm(world.break_lift),
         reference: Box::new(move |point| points.reference(ReferencePoint::Further(point as u8)).map(mm)),
+        stored: Box::new(move |point| stored.reference(ReferencePoint::Stored(point as u8)).map(mm)),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         orientation: mm(world.orientation),
         power_on: PowerOn::default(),

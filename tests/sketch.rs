@@ -1,4 +1,4 @@
-//! Random part programs, drawn as what the machine does and spelled in any of three dialects.
+//! Random part programs, drawn as what the machine does and spelled in any of four dialects.
 //!
 //! Coordinates are whole micrometres, so that no spelling rounds; arcs are quarter turns, so that
 //! their ends are exact.
@@ -92,22 +92,23 @@ pub fn number(micrometres: i32) -> String {
 }
 
 /// Dialects in which sketches are spelled.
-pub const SPELLED: [&str; 3] = ["mach9", "fanuc", "siemens"];
+pub const SPELLED: [&str; 4] = ["mach9", "fanuc", "siemens", "linuxcnc"];
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Control {
     Mach9,
     Fanuc,
     Sinumerik,
+    LinuxCnc,
 }
 
 impl Control {
-    /// One of three spellings.
+    /// One of three spellings; LinuxCNC's is the third.
     fn say<T>(self, mach9: T, fanuc: T, sinumerik: T) -> T {
         match self {
             Control::Mach9 => mach9,
             Control::Fanuc => fanuc,
-            Control::Sinumerik => sinumerik,
+            Control::Sinumerik | Control::LinuxCnc => sinumerik,
         }
     }
 }
@@ -121,12 +122,15 @@ pub fn spell(pieces: &[Piece], dialect: &str) -> String {
         "mach9" => Control::Mach9,
         "fanuc" => Control::Fanuc,
         "siemens" => Control::Sinumerik,
+        "linuxcnc" => Control::LinuxCnc,
         other => panic!("sketches are not spelled in {other}"),
     };
+    let sinumerik = "G710 G17 G90 G40 G94\nG54\nT1 M6\nD1\nS500 M3\nG0 X0 Y0\nZ20\n";
+    let linuxcnc = "G21 G17 G90 G40 G49 G80 G94 G91.1\nG54 G92.1\nT1 M6\nG43 H1\nS500 M3\nG0 X0 Y0\nZ20\n";
     let mut out = String::from(control.say(
         "G99\nG90\nG71\nG17\nT1M6\nO1S500M3\nG0X0.Y0.\nZ20.\n",
         "%\nO0007\nG21 G17 G90 G40 G49 G80 G94\nG54\nT1 M06\nS500 M03\nG00 X0. Y0.\nG43 Z20. H1\n",
-        "G710 G17 G90 G40 G94\nG54\nT1 M6\nD1\nS500 M3\nG0 X0 Y0\nZ20\n",
+        if control == Control::LinuxCnc { linuxcnc } else { sinumerik },
     ));
     let mut at = [0, 0, 20_000];
     for piece in pieces {
@@ -173,7 +177,7 @@ fn one(piece: &Piece, control: Control, incremental: bool, at: &mut [i32; 3], ou
                 Control::Fanuc => {
                     writeln!(out, "G0{g} X{x} Y{y} I{} J{} F300.", number(i), number(j))
                 }
-                Control::Sinumerik => {
+                Control::Sinumerik | Control::LinuxCnc => {
                     writeln!(out, "G{g} X{x} Y{y} I{} J{} F300", number(i), number(j))
                 }
                 Control::Mach9 => {
@@ -185,12 +189,13 @@ fn one(piece: &Piece, control: Control, incremental: bool, at: &mut [i32; 3], ou
             holes(control, *kind % 3, [*retract, retract - depth], *feed, places, out);
             let last = places.last().copied().unwrap_or((at[0], at[1]));
             *at = [last.0, last.1, *retract];
-            writeln!(out, "{}", control.say("G80", "G80", "MCALL"))
+            writeln!(out, "{}", if control == Control::Sinumerik { "MCALL" } else { "G80" })
         }
         Piece::Dwell(ms) => match control {
             Control::Fanuc => writeln!(out, "G04 P{ms}"),
             Control::Mach9 => writeln!(out, "G4D{}", number(i32::from(*ms))),
             Control::Sinumerik => writeln!(out, "G4 F{}", number(i32::from(*ms))),
+            Control::LinuxCnc => writeln!(out, "G4 P{}", number(i32::from(*ms))),
         },
         Piece::Coolant(n) => writeln!(out, "{}{}", control.say("M", "M0", "M"), 7 + n % 3),
         Piece::Tool(t) => {
@@ -199,6 +204,7 @@ fn one(piece: &Piece, control: Control, incremental: bool, at: &mut [i32; 3], ou
                 Control::Fanuc => writeln!(out, "M05\nT{t} M06\nG00 G43 Z30. H{t}"),
                 Control::Mach9 => writeln!(out, "M5\nT{t}M6\nG0Z30.O{t}"),
                 Control::Sinumerik => writeln!(out, "M5\nT{t} M6\nG0 Z30"),
+                Control::LinuxCnc => writeln!(out, "M5\nT{t} M6\nG43 H{t}\nG0 Z30"),
             }
         }
         Piece::Spindle(s, d) => {
@@ -210,7 +216,7 @@ fn one(piece: &Piece, control: Control, incremental: bool, at: &mut [i32; 3], ou
         }
         Piece::Remark(text) => match control {
             Control::Fanuc => writeln!(out, "({text})"),
-            Control::Mach9 | Control::Sinumerik => writeln!(out, ";{text}"),
+            Control::Mach9 | Control::Sinumerik | Control::LinuxCnc => writeln!(out, ";{text}"),
         },
         Piece::Incremental(piece) => {
             let _ = writeln!(out, "G91");
@@ -240,6 +246,7 @@ fn holes(control: Control, kind: u8, levels: [i32; 2], feed: u16, places: &[(i32
     let call = match control {
         Control::Mach9 => format!("G0Z20.\nG{g}Z{z}R{r}{}F{feed}\n", ["", "D.25", ""][kind]),
         Control::Fanuc => format!("G00 Z20.\nG99 G{g} "),
+        Control::LinuxCnc => format!("G0 Z20\nG99 G{g} "),
         Control::Sinumerik => {
             let more = ["".to_owned(), ",,0.25".to_owned(), format!(",,,{feed},{feed}")];
             format!("G0 Z20\nF{feed}\nMCALL CYCLE{g}({r},{r},0,{z}{})\n", more[kind])
@@ -251,6 +258,9 @@ fn holes(control: Control, kind: u8, levels: [i32; 2], feed: u16, places: &[(i32
         let _ = write!(out, "X{}{blank}Y{}", number(*x), number(*y));
         if control == Control::Fanuc && index == 0 {
             let _ = write!(out, " Z{z} R{r}{} F{feed}.", ["", " P250", ""][kind]);
+        }
+        if control == Control::LinuxCnc && index == 0 {
+            let _ = write!(out, " Z{z} R{r}{} F{feed}", ["", " P0.25", ""][kind]);
         }
         out.push('\n');
     }

@@ -201,11 +201,17 @@ pub enum AdviceKind {
     PathTolerance,
     /// What of a compensated contour the feed counts for.
     CompensatedFeed,
+    /// Whether the operator's switch changes the feed (NIST `ENABLE_FEED_OVERRIDE`).
+    FeedOverride,
+    /// Whether the operator's switch changes the spindle's speed (NIST `ENABLE_SPEED_OVERRIDE`).
+    SpeedOverride,
+    /// Whether a switch of the machine holds the feed.
+    FeedStop,
 }
 
 impl AdviceKind {
     /// All kinds with their names in text.
-    pub const ALL: [(AdviceKind, &'static str); 13] = [
+    pub const ALL: [(AdviceKind, &'static str); 16] = [
         (AdviceKind::LookAhead, "look-ahead"),
         (AdviceKind::ContourControl, "contour-control"),
         (AdviceKind::HighPrecision, "high-precision"),
@@ -219,6 +225,9 @@ impl AdviceKind {
         (AdviceKind::StrokeCheck, "stroke-check"),
         (AdviceKind::PathTolerance, "path-tolerance"),
         (AdviceKind::CompensatedFeed, "compensated-feed"),
+        (AdviceKind::FeedOverride, "feed-override"),
+        (AdviceKind::SpeedOverride, "speed-override"),
+        (AdviceKind::FeedStop, "feed-stop"),
     ];
 
     /// Its name in text.
@@ -239,7 +248,10 @@ impl AdviceKind {
             | AdviceKind::HighPrecision
             | AdviceKind::FeedForward
             | AdviceKind::WorkingArea
-            | AdviceKind::StrokeCheck => &["off", "on"],
+            | AdviceKind::StrokeCheck
+            | AdviceKind::FeedOverride
+            | AdviceKind::SpeedOverride
+            | AdviceKind::FeedStop => &["off", "on"],
             AdviceKind::Acceleration => &["stepped", "soft", "reduced"],
             AdviceKind::Compressor => &["off", "lines", "curves", "cad", "surface"],
             AdviceKind::Dynamics => {
@@ -260,6 +272,11 @@ impl AdviceKind {
     /// Whether a length belongs to it.
     pub const fn has_amount(self) -> bool {
         matches!(self, AdviceKind::PathTolerance)
+    }
+
+    /// Whether its word alone means on: what else would it be said for.
+    pub const fn on_alone(self) -> bool {
+        matches!(self, AdviceKind::FeedOverride | AdviceKind::SpeedOverride | AdviceKind::FeedStop)
     }
 
     /// Its place among the values of all kinds: where they begin, in bits; each has four.

@@ -12,6 +12,7 @@ const SHIPPED: &[&str] = &[
     include_str!("../data/fanuc-vmc.toml"),
     include_str!("../data/haas-vf2.toml"),
     include_str!("../data/sinumerik-vmc.toml"),
+    include_str!("../data/linuxcnc-mill.toml"),
 ];
 
 static PROFILES: LazyLock<Vec<Profile>> = LazyLock::new(|| {

@@ -119,7 +119,7 @@ impl Words {
 /// Modal groups of G codes; codes of none stand alone.
 const GROUPS: [&[u32]; 13] = [
     &[0, 10, 20, 30, 330, 331, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
-    &[40, 100, 520, 530, 920, 921, 922],
+    &[40, 100, 280, 300, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
     &[400, 410, 411, 420, 421],
@@ -133,8 +133,9 @@ const GROUPS: [&[u32]; 13] = [
     &[],
 ];
 
-/// Modal groups of M codes.
-const M_GROUPS: [&[u32]; 4] = [&[0, 10, 20, 300, 980, 990], &[60], &[30, 40, 50], &[70, 80, 90]];
+/// Modal groups of M codes; switches of the operator's overrides change no move of their own.
+const M_GROUPS: [&[u32]; 8] =
+    [&[0, 10, 20, 300, 980, 990], &[60], &[30, 40, 50], &[70, 80, 90], &[480, 490], &[500], &[510], &[530]];
 
 fn cycle(code: u32) -> bool {
     matches!(code, 730 | 740 | 810 | 820 | 830 | 840 | 850 | 860 | 890)
@@ -368,6 +369,18 @@ impl Control {
                 }
             }
             Some(921 | 922) => self.m.slots.origin = [0.0; 6],
+            Some(code @ (280 | 300)) => {
+                let way = self.target(axes);
+                if way != self.m.at {
+                    self.m.traverse(way);
+                }
+                let stored = (self.m.setup.stored)(if code == 280 { 1 } else { 2 });
+                let to = std::array::from_fn(|axis| match axes[axis] {
+                    None if any => way[axis],
+                    _ => stored[axis],
+                });
+                self.m.traverse(to);
+            }
             Some(100) => self.table(words, axes)?,
             _ => {
                 if code == Some(800) {
@@ -464,10 +477,11 @@ impl Control {
     /// Words that nothing in the block uses are an error.
     fn unused(&self, words: &Words, once: Option<u32>) -> Result<(), Halt> {
         let control = words.codes('M').contains(&980);
+        let switch = words.codes('M').iter().any(|code| matches!(code, 500 | 510 | 530));
         let path = words.codes('G').contains(&640);
         for (letter, _) in &words.words {
             let used = match letter {
-                'P' => once == Some(40) || control || path,
+                'P' => once == Some(40) || control || path || switch,
                 'L' => control,
                 'Q' => path,
                 'D' => words.codes('G').iter().any(|code| matches!(code, 410 | 420)),

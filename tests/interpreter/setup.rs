@@ -25,6 +25,8 @@ pub struct Setup {
     pub break_lift: f64,
     /// The second, third and fourth reference point, in machine coordinates.
     pub reference: Box<dyn Fn(u32) -> Place>,
+    /// The positions that a LinuxCNC goes to by G28 (1) and G30 (2), in machine coordinates.
+    pub stored: Box<dyn Fn(u32) -> Place>,
     /// Where a Fanuc shifts a tool off the wall of a bore: which axis of the plane, and its sign.
     pub bore_shift: (usize, f64),
     /// Where M19 stops the spindle, degrees.
@@ -86,6 +88,7 @@ impl Setup {
             peck_clearance: 1.0,
             break_lift: 1.0,
             reference: Box::new(|_| [0.0; 6]),
+            stored: Box::new(|_| [0.0; 6]),
             bore_shift: (0, 1.0),
             orientation: 0.0,
             power_on: PowerOn::default(),

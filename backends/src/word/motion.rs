@@ -62,7 +62,10 @@ impl Writer {
         let row = self.codes.references.iter().find(|(own, ..)| *own == point);
         let (_, code, letter) = *row.ok_or_else(|| cannot("a move to this point of the machine"))?;
         let mut via = to.via.clone();
-        for axis in Axis::ALL {
+        // To a stored position all axes go without a word of any.
+        let stored = matches!(to.point, ReferencePoint::Stored(_)) && via.is_empty();
+        let all = stored && to.axes == self.codes.axes.map(|axis| axis.is_some());
+        for axis in Axis::ALL.into_iter().filter(|_| !all) {
             if to.axes[axis as usize] && via.get(axis).is_none() {
                 let value = Expr::Num(Num::int(0, Unit::Entry));
                 via.set(axis, Coord { value, distance: Fact::Known(Distance::Incremental) });

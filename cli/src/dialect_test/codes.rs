@@ -4,7 +4,7 @@ use ncc_dialects::{
     CodeRow, CycleRow, DataKind, DataRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity,
     Thread, ValueName, ValueWord,
 };
-use ncc_ir::canon::{Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::cycle::Approach;
 use ncc_ir::program::{CentreFrom, PoleFrom};
 
@@ -36,6 +36,11 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
                 rows.push(must_show(bench.both_ways(&said), &row.code).row("code", &row.code, row.sure));
             }
             Meaning::SetOriginOffsets(first) if row.count.is_some() => counted(bench, row, first, rows),
+            Meaning::Overrides(_) => {
+                for said in said(d, meaning, &row.code) {
+                    rows.push(overrides(bench, row, &said).row("code", row.code.clone(), row.sure));
+                }
+            }
             _ => {
                 for said in said(d, meaning, &row.code) {
                     rows.push(code(bench, row, meaning, &said).row("code", row.code.clone(), row.sure));
@@ -124,6 +129,24 @@ fn code(bench: &Bench, row: &CodeRow, meaning: Meaning, said: &Said) -> Tried {
         }
         None => Tried::failure("no row is written for this meaning: none has `write`"),
     }
+}
+
+/// A code that says at once what is written by two.
+fn overrides(bench: &Bench, row: &CodeRow, said: &Said) -> Tried {
+    let own = |kind| bench.dialect.code_for(Meaning::Advise(kind, None)).map(|code| code.code.clone());
+    let both = own(AdviceKind::FeedOverride).zip(own(AdviceKind::SpeedOverride));
+    let Some((feed, speed)) = both else {
+        return Tried::failure("feed and speed have no words of their own");
+    };
+    let change = |text: String| {
+        let one = |line: &str| match line {
+            line if line.starts_with(&feed) => Some(row.code.clone()),
+            line if line.starts_with(&speed) => None,
+            line => Some(line.to_owned()),
+        };
+        text.lines().filter_map(one).map(|line| line + "\n").collect()
+    };
+    must_show(bench.reads(said, &said.say, change), &row.code).read_only()
 }
 
 /// The row's word must stand in what was written, else nothing was shown of it.
@@ -307,6 +330,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
                 Said::new(format!("ADVISE(\"{}\", \"{name}\"{amount})", kind.name()))
             };
             values.into_iter().map(say).collect()
+        }
+        Meaning::Overrides(on) => {
+            let value = if on { "on" } else { "off" };
+            one(&format!("ADVISE(\"feed-override\", \"{value}\") & ADVISE(\"speed-override\", \"{value}\")"))
         }
         Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
         Meaning::ChangeTool => one(match d.caps.tool_edges {

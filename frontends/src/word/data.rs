@@ -96,7 +96,9 @@ impl Lower {
             return self.tool_data(code, row, number, added, words, src, out);
         }
         self.check_shut(code, out);
-        if words.get(b'Z').is_some() && self.level_open() {
+        // A zero that is stated is what it is, whatever length counts; one from where the tool stands is not.
+        if row.kind == DataKind::OffsetHere && words.get(b'Z').is_some() && self.level_open() {
+            words.left = 0;
             return self.refuse_level(code.span, out);
         }
         let mut by = [const { None }; AXES];

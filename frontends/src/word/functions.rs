@@ -61,6 +61,12 @@ impl Lower {
                 Meaning::SetFeedMode(_) if before_feed => {}
                 Meaning::PolarWords(on) => self.polar_words(code, on, out),
                 Meaning::Advise(kind, None) => self.advise(code, kind, words, src, out),
+                Meaning::Overrides(on) => {
+                    for kind in [AdviceKind::FeedOverride, AdviceKind::SpeedOverride] {
+                        let advice = Advice { kind, value: u8::from(on), amount: None };
+                        self.push(code.span, Op::Advise(Box::new(advice)), out);
+                    }
+                }
                 Meaning::Advise(AdviceKind::StrokeCheck, Some(_)) if self.has_axis_word(words) => {
                     let name = "limits of the stroke check".into();
                     let code_text = code.row.code.as_str().into();
@@ -222,6 +228,13 @@ impl Lower {
         let code_text: Box<str> = code.row.code.as_str().into();
         let letter = code.row.words.bytes().next().unwrap_or(b' ');
         let Some(word) = words.take(letter) else {
+            if kind.on_alone() {
+                return self.push(
+                    code.span,
+                    Op::Advise(Box::new(Advice { kind, value: 1, amount: None })),
+                    out,
+                );
+            }
             let word = char::from(letter).to_string().into();
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };

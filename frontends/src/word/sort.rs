@@ -242,7 +242,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::ClearFrame(_) => 6,
         Meaning::SetReturnLevel(_) | Meaning::SetCentreMode(_) => 7,
         Meaning::StopCutterRadiusCompensation => 8,
-        Meaning::SetMotionControlMode(_) | Meaning::Advise(..) => 9,
+        Meaning::SetMotionControlMode(_) | Meaning::Advise(..) | Meaning::Overrides(_) => 9,
         Meaning::SetSpindleMode(_) | Meaning::LimitSpindleSpeed => 9,
         Meaning::SetShift(_)
         | Meaning::SetPosition

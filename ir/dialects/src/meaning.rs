@@ -78,6 +78,9 @@ pub enum Meaning {
     /// Advice of a kind; without its value, a word of the block says it: 0 is off, and another number,
     /// which the row has, is on.
     Advise(AdviceKind, Option<u8>),
+    /// Whether the operator's switches change feed and speed: [`AdviceKind::FeedOverride`] and
+    /// [`AdviceKind::SpeedOverride`] at once.
+    Overrides(bool),
     SetSpindleMode(SpindleMode),
     /// The speed word of the block is the highest one, and axes have no words in it.
     LimitSpindleSpeed,
@@ -217,6 +220,8 @@ impl fmt::Display for Meaning {
                 let value = kind.values().get(usize::from(*value)).unwrap_or(&"off");
                 return write!(f, "ADVISE {} {value}", kind.name());
             }
+            Meaning::Overrides(true) => "ENABLE_OVERRIDES",
+            Meaning::Overrides(false) => "DISABLE_OVERRIDES",
             Meaning::SetSpindleMode(SpindleMode::Turns) => "SET_SPINDLE_MODE turns",
             Meaning::SetSpindleMode(SpindleMode::Surface) => "SET_SPINDLE_MODE surface",
             Meaning::LimitSpindleSpeed => "LIMIT_SPINDLE_SPEED",
@@ -353,6 +358,8 @@ impl FromStr for Meaning {
                     value => Meaning::Advise(kind, value),
                 }
             }
+            ("ENABLE_OVERRIDES", "") => Meaning::Overrides(true),
+            ("DISABLE_OVERRIDES", "") => Meaning::Overrides(false),
             ("SET_SPINDLE_MODE", "turns") => Meaning::SetSpindleMode(SpindleMode::Turns),
             ("SET_SPINDLE_MODE", "surface") => Meaning::SetSpindleMode(SpindleMode::Surface),
             ("LIMIT_SPINDLE_SPEED", "") => Meaning::LimitSpindleSpeed,

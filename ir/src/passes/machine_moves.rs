@@ -173,7 +173,10 @@ fn by_machine_zero(
         diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
     };
     if reference.point != ReferencePoint::Home {
-        cannot("a move to this point of the machine");
+        cannot(match reference.point {
+            ReferencePoint::Stored(_) => "a move to a position that is stored in the control",
+            _ => "a move to this point of the machine",
+        });
         return made.push(stmt);
     }
     if !target.caps.machine_coordinates {
