@@ -14,7 +14,7 @@ use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::world::World;
 
-use crate::interpreter::{self, Beside, Corner, Machine, Per, PowerOn, Setup, Spindle, What};
+use crate::interpreter::{self, Beside, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What};
 
 /// An event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,6 +37,8 @@ pub struct Plain {
     pub coolant: (bool, bool),
     /// Cutter radius compensation.
     pub beside: Option<Beside>,
+    /// Whether points are those of the tool's tip, and of a tilted plane.
+    pub five: [bool; 2],
 }
 
 /// What happened.
@@ -149,6 +151,11 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         stored: Box::new(move |point| stored.reference(ReferencePoint::Stored(point as u8)).map(mm)),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         orientation: mm(world.orientation),
+        kinematics: Kinematics {
+            tip: world.kinematic_shift(true).map(mm),
+            plane: world.kinematic_shift(false).map(mm),
+            upright: world.oriented().map(|rotary| rotary.map(mm)),
+        },
         power_on: PowerOn::default(),
     }
 }
@@ -209,6 +216,8 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Coolant(..) => Happening::Coolant,
             What::Message => Happening::Message,
             What::Data(table, entry, values) => Happening::Data(table, entry, values),
+            What::Plane(plane) => Happening::Plane(plane),
+            What::Upright => Happening::Upright,
             What::Stop => Happening::Stop,
             What::OptionalStop => Happening::OptionalStop,
             What::End => Happening::End,
@@ -241,6 +250,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 },
                 coolant: event.coolant,
                 beside: event.beside,
+                five: event.five,
             },
         );
     }
@@ -351,6 +361,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 },
                 coolant: (event.state.flood, event.state.mist),
                 beside: beside(&event.state.compensation),
+                five: [event.state.tip, event.state.tilted],
             },
         );
     }
@@ -453,6 +464,9 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
     }
     if a.beside != b.beside {
         return Some("another cutter radius compensation");
+    }
+    if a.five != b.five {
+        return Some("points of another kind: of the tool's tip, or of a plane in space");
     }
     None
 }

@@ -4,6 +4,7 @@
 
 mod machine;
 mod polar;
+mod tilt;
 
 use super::{Corner, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
 
@@ -241,6 +242,9 @@ impl Control {
                 }
                 continue;
             }
+            if self.five_axes(g, &mut length, &mut slot) {
+                continue;
+            }
             if g % 10 != 0 {
                 return self.m.halt(format!("G{}", f64::from(g) / 10.0));
             }
@@ -289,6 +293,11 @@ impl Control {
             Some(500) => {
                 self.m.slots.scale = None;
                 self.m.use_slots([true, true, true, false, false, false]);
+            }
+            Some(690) if self.m.plane_set => self.m.leave_plane()?,
+            Some(code @ (682 | 531)) => {
+                self.plane(code, &words)?;
+                return Ok(Next::Block);
             }
             Some(690) => {
                 let axes = self.m.slots.rotation.take().map_or([0, 1], |(axes, ..)| axes);
@@ -340,8 +349,11 @@ impl Control {
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
         }
+        if let Some(code) = length {
+            self.m.use_tip(code == 434)?;
+        }
         match (length, number(&words, 'H')) {
-            (Some(43), Some((entry, _))) => self.m.use_length(entry as u32),
+            (Some(43 | 434), Some((entry, _))) => self.m.use_length(entry as u32),
             (Some(49), None) => self.m.use_length(0),
             (None, None) => {}
             _ => return self.m.halt("G43 and H"),

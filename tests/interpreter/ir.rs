@@ -6,6 +6,7 @@ mod data;
 mod moves;
 mod text;
 mod threads;
+mod tilt;
 
 use std::collections::HashMap;
 
@@ -282,7 +283,7 @@ impl Control {
         let mut shift = if self.machine_once { [0.0; 6] } else { self.m.zero_of(self.m.offset) };
         if !self.machine_once {
             let slots = self.m.slots.shift();
-            shift = std::array::from_fn(|axis| shift[axis] + slots[axis]);
+            shift = std::array::from_fn(|axis| shift[axis] + slots[axis] + self.m.apart(axis));
         }
         let none = self.machine_once && self.without_length;
         shift[2] += match self.edge {
@@ -340,6 +341,8 @@ impl Control {
             "COMMENT" | "NO_EFFECT" | "BLANK" | "LABEL" => {}
             "STOP_CUTTER_RADIUS_COMPENSATION" => self.m.go_on(),
             "START_CUTTER_RADIUS_COMPENSATION" => self.compensate(a)?,
+            "USE_TOOL_CENTRE_POINT" | "SET_TILT" | "ORIENT_TOOL_AXIS" => self.five_axes(name, a)?,
+            "CLEAR_FRAME" if self.word(a)? == "tilt" => self.m.leave_plane()?,
             "CLEAR_FRAME" if self.word(a)? != "chain" => {
                 match self.word(a)? {
                     "shift" => self.m.slots.origin = [0.0; 6],

@@ -19,6 +19,7 @@ pub mod siemens;
 mod slots;
 mod stored;
 mod threads;
+mod tilt;
 
 pub use beside::Beside;
 pub use hole::Hole;
@@ -26,6 +27,7 @@ pub use setup::{PowerOn, Setup};
 use siemens::frame::Frame;
 use slots::Slots;
 use stored::Stored;
+pub use tilt::{Kinematics, Plane};
 
 /// X Y Z A B C; millimetres and degrees.
 pub type Place = [f64; 6];
@@ -96,6 +98,10 @@ pub enum What {
     Tool(u32),
     /// A value was put into a table: which table, which entry, what it holds now (axis by axis).
     Data(&'static str, u32, Place),
+    /// Another plane in space, or none.
+    Plane(Option<Plane>),
+    /// The tool stands upright on it.
+    Upright,
     /// A program stop.
     Stop,
     /// A text for the operator.
@@ -139,6 +145,8 @@ pub struct Event {
     pub coolant: (bool, bool),
     /// Beside which side of the contour the tool goes.
     pub beside: Option<Beside>,
+    /// Whether the tip is kept where it is, and whether a plane in space counts.
+    pub five: [bool; 2],
 }
 
 /// Why a program was not run to its end.
@@ -199,6 +207,10 @@ pub struct Machine {
     pub beside: Option<Beside>,
     /// Whether its first move, or the one that leaves it, is still to come.
     pub lead: bool,
+    /// Whether the tip is kept where it is while rotary axes turn.
+    pub tip: bool,
+    /// Whether a plane in space counts.
+    pub plane_set: bool,
     /// Line of the text.
     pub line: usize,
     /// What happened so far.
@@ -233,6 +245,8 @@ impl Machine {
             coolant: (false, false),
             beside: None,
             lead: false,
+            tip: false,
+            plane_set: false,
             line: 0,
             events: Vec::new(),
         }
@@ -241,7 +255,7 @@ impl Machine {
     /// What separates program from machine coordinates on an axis.
     pub fn shift(&self, axis: usize) -> f64 {
         let length = if axis == 2 { self.length_of(self.entry) } else { 0.0 };
-        self.zero_of(self.offset)[axis] + length + self.slots.shift()[axis]
+        self.zero_of(self.offset)[axis] + length + self.slots.shift()[axis] + self.apart(axis)
     }
 
     /// Where the machine stands, counted from the work offset.
@@ -366,6 +380,7 @@ impl Machine {
             tool: self.tool,
             coolant: self.coolant,
             beside: self.beside,
+            five: [self.tip, self.plane_set],
         });
     }
 

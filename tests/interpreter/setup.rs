@@ -1,6 +1,6 @@
 //! What the control knows that no program says: its tables, its switches, its modes at power-on.
 
-use super::Place;
+use super::{Kinematics, Place};
 
 /// What the control knows that the program does not say.
 pub struct Setup {
@@ -31,6 +31,8 @@ pub struct Setup {
     pub bore_shift: (usize, f64),
     /// Where M19 stops the spindle, degrees.
     pub orientation: f64,
+    /// How the machine is built, as far as it shows.
+    pub kinematics: Kinematics,
     /// Modes at power-on.
     pub power_on: PowerOn,
 }
@@ -91,6 +93,7 @@ impl Setup {
             stored: Box::new(|_| [0.0; 6]),
             bore_shift: (0, 1.0),
             orientation: 0.0,
+            kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),
         }
     }

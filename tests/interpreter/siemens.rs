@@ -11,10 +11,11 @@ pub(super) mod frame;
 mod moves;
 mod text;
 mod threads;
+mod tilt;
 
 use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
-use text::{Argument, Block, Item, Mark, Unit, Value};
+use text::{ADVICE, Argument, Block, Item, Mark, Unit, Value};
 
 /// Runs the main program of a text.
 ///
@@ -129,48 +130,6 @@ const CENTRE: [&str; 6] = ["CR", "AR", "TURN", "I1", "J1", "K1"];
 const POLAR: [&str; 2] = ["AP", "RP"];
 /// How far from a corner rounding begins; the limit of a speed, and the angle at which the spindle stops.
 const ROUNDING: [&str; 4] = ["ADIS", "ADISPOS", "LIMS", "SPOS"];
-/// Words of the drives, of look-ahead and of tolerances: the programmed path stays.
-const ADVICE: [&str; 39] = [
-    "FFWON",
-    "FFWOF",
-    "SOFT",
-    "BRISK",
-    "DRIVE",
-    "COMPOF",
-    "COMPON",
-    "COMPCURV",
-    "COMPCAD",
-    "COMPSURF",
-    "CFC",
-    "CFTCP",
-    "CFIN",
-    "NORM",
-    "KONT",
-    "KONTC",
-    "KONTT",
-    "CUT2D",
-    "CUT2DF",
-    "CDON",
-    "CDOF",
-    "CDOF2",
-    "DYNNORM",
-    "DYNPOS",
-    "DYNROUGH",
-    "DYNSEMIFIN",
-    "DYNFINISH",
-    "DIAMOF",
-    "CP",
-    "SPATH",
-    "UPATH",
-    "STARTFIFO",
-    "STOPFIFO",
-    "FIFOCTRL",
-    "STOPRE",
-    "ORIWKS",
-    "ORIMKS",
-    "WALIMON",
-    "WALIMOF",
-];
 
 impl<'a> Control<'a> {
     /// Runs the blocks from one place up to another.
@@ -298,6 +257,9 @@ impl<'a> Control<'a> {
 
     /// Statements that stand alone in their block.
     fn alone(&mut self, w: &Words<'a>) -> Result<Option<Next>, Halt> {
+        if self.five_axes(w)? {
+            return Ok(Some(Next::Block));
+        }
         let bare = w.letters.is_empty() && w.named.is_empty();
         if let Some((name, arguments)) = w.call {
             match (name, bare, &w.names[..]) {
@@ -435,6 +397,9 @@ impl<'a> Control<'a> {
     fn shift(&self) -> Place {
         let mut shift = if self.suppressed { [0.0; 6] } else { (self.m.setup.work_offset)(self.m.offset) };
         shift[2] += (self.m.setup.edge_length)(self.m.tool, self.edge);
+        if !self.suppressed {
+            (0..3).for_each(|axis| shift[axis] += self.m.apart(axis));
+        }
         shift
     }
 

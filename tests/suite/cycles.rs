@@ -82,6 +82,7 @@ fn read(path: &PathBuf) -> Cited {
             speed: 0.0,
             coolant: (false, false),
             beside: None,
+            five: [false; 2],
         });
     }
     let place = if page.fact("digits") == Some("3") { 0.0005001 } else { 1e-6 };

@@ -14,6 +14,7 @@ mod names;
 mod pattern;
 mod polar;
 mod statement;
+mod tilt;
 mod tool;
 mod unit;
 
@@ -227,10 +228,12 @@ impl Writer {
         }
         let opened = self.words.open(stmt, sink);
         let before = self.standing;
-        let said = cycle::called_here(rest);
-        let written = match &opened {
-            Err(fault) => Err(fault.clone()),
-            Ok(_) => self.statement(stmt, said, sink),
+        let tilt = tilt::of(rest);
+        let said = tilt.map_or_else(|| cycle::called_here(rest), |tilt| tilt.said());
+        let written = match (&opened, tilt) {
+            (Err(fault), _) => Err(fault.clone()),
+            (Ok(_), Some(tilt)) => self.tilt(tilt, stmt.span, sink),
+            (Ok(_), None) => self.statement(stmt, said, sink),
         };
         self.words.close(stmt, opened.ok(), written, sink);
         for further in &rest[1..said] {

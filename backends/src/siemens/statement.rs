@@ -111,7 +111,18 @@ impl Writer {
                 self.named_alone(NameRole::SpindleAngle, angle, span, sink)
             }
             Op::NoEffect(name) => self.no_effect(name, stmt, sink),
-            Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) => self.words.statement(stmt, sink),
+            Op::UseToolCentrePoint(on) => {
+                let row = self.dialect.name_for(NameMeaning::Code(Meaning::UseToolCentrePoint(*on)));
+                let row = row.ok_or_else(|| cannot("control of the tool's tip"))?;
+                self.alone(&row.name, sink)
+            }
+            // It is said with the plane that it belongs to.
+            Op::OrientToolAxis(_) => Err(cannot("the tool's axis turned apart from its plane")),
+            Op::ClearFrame(FrameSlot::Tilt) => {
+                let row = self.dialect.name_for(NameMeaning::Code(Meaning::SetTilt));
+                let row = row.ok_or_else(|| cannot("the end of a tilted plane"))?;
+                self.alone(&format!("{}()", row.name), sink)
+            }
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
             Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => self.words.statement(stmt, sink),
             Op::SetFrame(frame) => self.frame(frame, span, sink),

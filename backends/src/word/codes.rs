@@ -139,6 +139,9 @@ pub(crate) struct FrameCodes {
     pub no_scale: Option<Code>,
     pub mirror: Option<Code>,
     pub no_mirror: Option<Code>,
+    /// A tilted plane with the letters of its turns, and the tool turned upright on it.
+    pub tilt: Option<(Code, [Letter; 3])>,
+    pub upright: Option<Code>,
 }
 
 /// Every word that can be written. `None` where the dialect has none.
@@ -162,6 +165,8 @@ pub(crate) struct Codes {
     pub no_shift: Option<Code>,
     /// What fills the slots of the coordinate chain.
     pub frames: FrameCodes,
+    /// Takes up a length with control of the tool's tip.
+    pub tip: Option<Code>,
     pub no_compensation: Option<Code>,
     /// To the left, to the right.
     pub compensation: [Option<Code>; 2],
@@ -377,7 +382,8 @@ impl Finder {
         let words = |meaning| {
             let row = self.dialect.code_for(meaning);
             let letters = row.map_or(&[][..], |row| row.words.as_bytes());
-            let quantity = if meaning == Meaning::SetRotation { Quantity::Angle } else { Quantity::Factor };
+            let angles = matches!(meaning, Meaning::SetRotation | Meaning::SetTilt);
+            let quantity = if angles { Quantity::Angle } else { Quantity::Factor };
             letters.iter().filter_map(|l| self.letter(*l as char, quantity)).collect::<Vec<_>>()
         };
         let scale = match words(Meaning::SetScale)[..] {
@@ -385,6 +391,10 @@ impl Finder {
             _ => None,
         };
         let angle = words(Meaning::SetRotation).first().copied();
+        let tilt = match words(Meaning::SetTilt)[..] {
+            [first, second, third, ..] => Some([first, second, third]),
+            _ => None,
+        };
         FrameCodes {
             local: self.code(Meaning::SetShift(false)),
             origin: self.code(Meaning::SetShift(true)),
@@ -395,6 +405,8 @@ impl Finder {
             no_scale: self.code(Meaning::ClearFrame(FrameSlot::Scale)),
             mirror: self.code(Meaning::SetMirror),
             no_mirror: self.code(Meaning::ClearMirror),
+            tilt: self.code(Meaning::SetTilt).zip(tilt),
+            upright: self.code(Meaning::OrientToolAxis),
         }
     }
 
@@ -471,6 +483,7 @@ impl Codes {
             no_origin: code(Meaning::SetOriginOffsets(0)),
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
             frames: find.frames(),
+            tip: code(Meaning::UseToolCentrePoint(true)),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),
             compensation: [Side::Left, Side::Right].map(|s| code(Meaning::StartCutterRadiusCompensation(s))),
             compensation_by_diameter: [Side::Left, Side::Right].map(|s| {

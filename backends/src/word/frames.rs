@@ -48,7 +48,18 @@ impl Writer {
                 let code = frames.mirror.ok_or_else(|| cannot("a mirror"))?;
                 self.filled(code, &self.along(&lines[..])?, &[], Inserted::default(), span, sink)
             }
-            Slot::Tilt(_) => Err(cannot("a tilted plane")),
+            Slot::Tilt(tilt) => {
+                let (code, letters) = frames.tilt.ok_or_else(|| cannot("a tilted plane"))?;
+                if tilt.about != [Axis::Z, Axis::X, Axis::Z] {
+                    return Err(cannot("a tilted plane by turns about these axes"));
+                }
+                // All of its words are written.
+                let zero = Expr::Num(Num::int(0, ncc_ir::num::Unit::Mm));
+                let origin =
+                    [0, 1, 2].map(|axis| Some(tilt.origin[axis].clone().unwrap_or_else(|| zero.clone())));
+                let own: Vec<_> = letters.into_iter().zip(tilt.angles.iter().cloned()).collect();
+                self.filled(code, &self.along(&origin)?, &own, Inserted::default(), span, sink)
+            }
             Slot::NoMirror(axes) => self.zeros(frames.no_mirror, *axes, "a mirror", span, sink),
         }
     }
@@ -64,6 +75,13 @@ impl Writer {
         self.filled(code, &self.along(axes)?, &[], Inserted::default(), span, sink)
     }
 
+    /// Turns the tool upright on a tilted plane.
+    pub(crate) fn upright(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let code = self.codes.frames.upright;
+        let code = code.ok_or_else(|| cannot("the tool's axis turned onto a tilted plane"))?;
+        self.filled(code, &[], &[], Inserted::default(), span, sink)
+    }
+
     /// Empties a slot.
     pub(crate) fn clear_slot(&mut self, slot: FrameSlot, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let frames = self.codes.frames;
@@ -72,6 +90,7 @@ impl Writer {
             FrameSlot::Mirror => return self.zeros(frames.no_mirror, [true; 3], "a mirror", span, sink),
             FrameSlot::Rotation => frames.no_rotation,
             FrameSlot::Scale => frames.no_scale,
+            FrameSlot::Tilt if frames.tilt.is_some() => frames.no_rotation,
             FrameSlot::Shift | FrameSlot::Polar | FrameSlot::Tilt | FrameSlot::Chain => None,
         };
         let code = code.ok_or_else(|| cannot("clearing this frame"))?;

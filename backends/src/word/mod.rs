@@ -111,6 +111,8 @@ pub struct Writer {
     machine: Option<codes::Code>,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
+    /// Whether lengths are taken up with control of the tool's tip.
+    tip: bool,
     /// Units that the text states anywhere.
     units_stated: [bool; 2],
     /// A literal that relies on one unit being in force throughout, and where.
@@ -179,6 +181,7 @@ impl Writer {
             turned_in: None,
             machine: None,
             polar: false,
+            tip: false,
             units_stated: [false; 2],
             units_relied: None,
             page: [0; plain::PAGE],

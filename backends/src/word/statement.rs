@@ -42,7 +42,11 @@ impl Writer {
                 Ok(())
             }
             Op::ClearFrame(
-                slot @ (FrameSlot::Local | FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror),
+                slot @ (FrameSlot::Local
+                | FrameSlot::Rotation
+                | FrameSlot::Scale
+                | FrameSlot::Mirror
+                | FrameSlot::Tilt),
             ) => self.clear_slot(*slot, span, sink),
             Op::UseLengthUnits(_)
             | Op::SetDistanceMode(_)
@@ -77,8 +81,14 @@ impl Writer {
                 self.machine = Some(code.ok_or_else(|| cannot("machine coordinates"))?);
                 Ok(())
             }
+            // It is said with the length that follows.
+            Op::UseToolCentrePoint(on) if codes.tip.is_some() || !on => {
+                self.tip = *on;
+                Ok(())
+            }
             Op::UseToolCentrePoint(_) => Err(cannot("control of the tool's tip")),
-            Op::OrientToolAxis(_) => Err(cannot("the tool's axis turned onto a tilted plane")),
+            Op::OrientToolAxis(None) => self.upright(span, sink),
+            Op::OrientToolAxis(Some(_)) => Err(cannot("the way in which the tool's axis is turned")),
             Op::GoToReference(reference) => self.reference(reference, span, sink),
             Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
@@ -343,12 +353,14 @@ impl Writer {
             self.block.code(Part::Mode, &code);
             return Ok(());
         }
-        if let (Some(code), Some(letter)) = (self.codes.length, self.codes.entry) {
+        let taken_up = if self.tip { self.codes.tip } else { self.codes.length };
+        if let (Some(code), Some(letter)) = (taken_up, self.codes.entry) {
             let value = self.value(&letter, entry, span, sink)?;
             self.admit(&Need::new(Rank::Offset).code(Some(code)).letter(letter.letter), sink)?;
             self.block.code(Part::Offset, &code);
             self.block.word(Part::Offset, letter.letter, value);
-            self.offset_waits = self.dialect.can.offset_with_z.then_some(span);
+            // With control of the tip it stands where it is switched on.
+            self.offset_waits = (self.dialect.can.offset_with_z && !self.tip).then_some(span);
             return Ok(());
         }
         let letter = self.codes.corrector.filter(|_| self.options.corrector_counts);

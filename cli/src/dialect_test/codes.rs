@@ -252,7 +252,9 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         ],
         Meaning::SetTilt => {
             let plane = match d.caps.tilt {
-                ncc_ir::caps::TiltForm::AxisByAxis => "X 10mm, about Z 30deg Y -12.5deg X 0deg",
+                ncc_ir::caps::TiltForm::AxisByAxis => {
+                    "X 10mm, Y -6.7mm, Z 3mm, about Z 30deg Y -12.5deg X 0deg"
+                }
                 _ => "X 10mm, Y -6.7mm, Z 3mm, about Z 30deg X -12.5deg Z 90deg",
             };
             vec![Said::new(format!("SET_TILT({plane})\nsaid STRAIGHT_TRAVERSE(X 1mm, Y 2mm, Z 3mm)"))]

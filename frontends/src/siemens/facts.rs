@@ -100,6 +100,8 @@ pub(super) struct State {
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
     pub(super) pole: Pole,
+    /// Whether points are those of a tilted plane.
+    pub(super) tilt: Know<bool>,
 }
 
 impl State {
@@ -121,6 +123,7 @@ impl State {
             tool: Know::Lost,
             cycle,
             pole: Pole::Lost,
+            tilt: Know::Lost,
         }
     }
 
@@ -139,6 +142,7 @@ impl State {
         self.feed.join(before.feed);
         self.tool.join(before.tool);
         self.pole.join(before.pole);
+        self.tilt.join(before.tilt);
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost { own_feed: self.cycle.own_feed() || before.cycle.own_feed() };
         }

@@ -87,6 +87,20 @@ impl Lower {
         self.tool(change.map(|(code, _)| code), words, src, out);
         for (code, meaning) in coded.clone() {
             let op = match meaning {
+                Meaning::UseToolCentrePoint(_) if words.has_point() => {
+                    let name = "transformation in a block with axis words";
+                    self.not_supported(code.name, name, code.span, out);
+                    continue;
+                }
+                Meaning::UseToolCentrePoint(on) => {
+                    self.stand.forget();
+                    Op::UseToolCentrePoint(on)
+                }
+                Meaning::SetTilt => {
+                    let name = "swivelled plane without parentheses";
+                    self.not_supported(code.name, name, code.span, out);
+                    continue;
+                }
                 Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
                 Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
                 Meaning::MachineFunction(_) if words.has_point() => {

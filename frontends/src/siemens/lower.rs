@@ -28,6 +28,7 @@ use crate::word::facts::Know;
 use crate::word::fast::{self, Fast, FeedWord};
 use crate::word::lower::decode;
 use crate::word::number::unit_of;
+use crate::word::tilt::Met;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -70,6 +71,8 @@ pub(super) struct Lower {
     pub(super) now: Now,
     words: Words,
     stretch: Option<Stretch>,
+    /// What the text has said of swivelled planes.
+    pub(super) tilt: Met,
 }
 
 /// Blocks one after another that one switch skips: within them, what they say counts.
@@ -146,6 +149,7 @@ impl Lower {
             now: Now::default(),
             words: Words::default(),
             stretch: None,
+            tilt: Met::default(),
         }
     }
 

@@ -33,6 +33,7 @@ mod synchronised;
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;
 mod threads;
+mod tilt;
 mod token;
 mod tree;
 mod unit;

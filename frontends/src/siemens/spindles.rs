@@ -80,6 +80,7 @@ impl Lower {
         match row.and_then(|row| row.means) {
             Some(NameMeaning::Code(Meaning::Advise(kind, None))) => kind == AdviceKind::PathTolerance,
             Some(NameMeaning::Code(Meaning::NoEffect)) => name == SET_MASTER,
+            Some(NameMeaning::Code(Meaning::SetTilt | Meaning::UseToolCentrePoint(_))) => true,
             _ => false,
         }
     }
@@ -87,6 +88,16 @@ impl Lower {
     /// Such a word.
     pub(super) fn word_with_arguments(&mut self, name: &str, called: &Called, src: Source, out: &mut Batch) {
         let arguments = called.arguments.as_deref().unwrap_or_default();
+        let means = self.settings.dialect.name_row(name).and_then(|row| row.means);
+        match means {
+            Some(NameMeaning::Code(Meaning::SetTilt)) => {
+                return self.swivel(name, called.span, arguments, src, out);
+            }
+            Some(NameMeaning::Code(Meaning::UseToolCentrePoint(on))) => {
+                return self.transformation(name, called.span, on, arguments, out);
+            }
+            _ => {}
+        }
         if name != SET_MASTER {
             return self.path_tolerance(name, called, arguments, src, out);
         }
@@ -149,7 +160,7 @@ impl Lower {
 }
 
 /// A whole number that is an argument.
-fn number(argument: Option<&Option<Expr>>) -> Option<i64> {
+pub(super) fn number(argument: Option<&Option<Expr>>) -> Option<i64> {
     match argument {
         Some(Some(Expr::Number(digits, _))) if digits.scale == 0 => Some(digits.mantissa),
         _ => None,

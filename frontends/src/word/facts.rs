@@ -134,6 +134,10 @@ pub(super) struct State {
     pub(super) thread: Option<&'static CodeRow>,
     /// The lead that the feed word has said for it.
     pub(super) lead: Option<Num>,
+    /// Whether points are those of the tool's tip.
+    pub(super) tip: Know<bool>,
+    /// Whether points are those of a tilted plane.
+    pub(super) tilt: Know<bool>,
 }
 
 impl State {
@@ -168,6 +172,8 @@ impl State {
             compensated: Know::Lost,
             thread: None,
             lead: None,
+            tip: Know::Lost,
+            tilt: Know::Lost,
         }
     }
 
@@ -212,6 +218,8 @@ impl State {
             (self.thread, self.motion) = (None, Know::Lost);
         }
         self.lead = self.lead.filter(|_| self.lead == before.lead);
+        self.tip.join(before.tip);
+        self.tilt.join(before.tilt);
     }
 }
 

@@ -32,6 +32,7 @@ pub(super) fn is_frame(meaning: Meaning) -> bool {
             | Meaning::SetRotation
             | Meaning::SetScale
             | Meaning::SetMirror
+            | Meaning::SetTilt
             | Meaning::ClearMirror
     )
 }
@@ -81,6 +82,7 @@ impl Lower {
             Meaning::SetRotation => self.rotation(code, words, src, out),
             Meaning::SetScale => self.scale(code, words, src, out),
             Meaning::SetMirror => self.mirror(code, words, src, out),
+            Meaning::SetTilt => self.tilt(code, words, src, out),
             Meaning::ClearMirror => self.clear_mirror(code, words, src, out),
             _ => None,
         };
@@ -179,7 +181,7 @@ impl Lower {
     }
 
     /// The block's words along X, Y and Z.
-    fn linear(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> [Option<Expr>; 3] {
+    pub(super) fn linear(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> [Option<Expr>; 3] {
         [b'X', b'Y', b'Z'].map(|letter| {
             let word = words.take(letter)?;
             self.number(&word, Quantity::Length, src, out).map(Expr::Num)
@@ -286,6 +288,7 @@ fn noun(meaning: Meaning) -> &'static str {
         Meaning::SetPosition => "coordinates of the present point",
         Meaning::SetRotation => "rotation",
         Meaning::SetScale => "scaling",
+        Meaning::SetTilt => "tilted plane",
         _ => "mirror",
     }
 }

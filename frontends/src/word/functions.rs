@@ -147,6 +147,8 @@ impl Lower {
                 self.state.compensated = Know::Said(true);
             }
             Meaning::StopCutterRadiusCompensation => self.state.compensated = Know::Said(false),
+            Meaning::UseToolCentrePoint(on) => self.state.tip = Know::Said(on),
+            Meaning::SetTilt => self.state.tilt = Know::Said(true),
             Meaning::EndCycle => {
                 self.state.cycle = InForce::None;
                 self.state.no_motion |= self.settings.dialect.cycles.ends_motion;
@@ -164,6 +166,9 @@ impl Lower {
     fn setting(&mut self, code: &Code, out: &mut Batch) {
         if let Meaning::ClearFrame(slot) = code.meaning {
             self.frame_over(slot);
+            if slot == FrameSlot::Rotation && self.end_tilt(code, out) {
+                return;
+            }
         }
         if let (Meaning::SetOriginOffsets(_), false) = (code.meaning, self.now.failed) {
             self.check_shut(code, out);
@@ -339,6 +344,7 @@ impl Lower {
                 }
             }
             Meaning::UseToolLengthOffset => {
+                self.end_tip(code.span, out);
                 let word = words.take(self.roles.length_entry);
                 if word.is_none() && code.row.own_tool {
                     self.state.length_offset = Know::Said(());
@@ -353,7 +359,10 @@ impl Lower {
                 };
                 return self.length_offset(&word, code.span.to(word.span), words, src, out);
             }
+            Meaning::UseToolCentrePoint(true) => return self.use_tip(code, words, src, out),
+            Meaning::OrientToolAxis => return self.upright(code, words, out),
             Meaning::CancelToolLengthOffset => {
+                self.end_tip(code.span, out);
                 self.state.length_offset = Know::Said(());
                 self.state.level_open = true;
                 Op::UseToolLengthOffset(Expr::int(0))
@@ -395,7 +404,14 @@ impl Lower {
         self.length_offset(&word, word.span, words, src, out);
     }
 
-    fn length_offset(&mut self, word: &Word, span: Span, words: &Words, src: Source, out: &mut Batch) {
+    pub(super) fn length_offset(
+        &mut self,
+        word: &Word,
+        span: Span,
+        words: &Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
         self.state.length_offset = Know::Said(());
         self.state.level_open = true;
         let Some(num) = self.entry(word, src, out) else {

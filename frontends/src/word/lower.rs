@@ -20,6 +20,7 @@ use super::facts::{InForce, Know, State};
 use super::fast::Fast;
 use super::number::{CentreSeen, UnitsSeen};
 use super::sort::{Code, Roles, Words};
+use super::tilt::Met;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -50,6 +51,9 @@ pub(super) struct Lower {
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
     codes: Vec<Code>,
+    /// What the text has said of control of the tool's tip, and of tilted planes.
+    pub(super) tip: Met,
+    pub(super) tilt: Met,
 }
 
 /// Dwells of cycles in the whole text, where they stay in force for other cycles.
@@ -143,6 +147,8 @@ impl Lower {
             fast: None,
             now: Now::default(),
             codes: Vec::new(),
+            tip: Met::default(),
+            tilt: Met::default(),
         };
         lower.refresh();
         lower

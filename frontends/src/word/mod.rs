@@ -35,6 +35,7 @@ pub(crate) mod sort;
 #[path = "../../tests/word/mod.rs"]
 mod tests;
 mod thread;
+pub(crate) mod tilt;
 pub(crate) mod token;
 pub(crate) mod words;
 

@@ -251,8 +251,6 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         | Meaning::SetMirror
         | Meaning::SetTilt
         | Meaning::ClearMirror => 9,
-        // Where it is a word of its own, what follows it in the block is said under it.
-        Meaning::UseToolCentrePoint(false) => 9,
         // Feed, speed and tool words.
         Meaning::ChangeTool => RANK_WORDS,
         Meaning::StartSpindleClockwise | Meaning::StartSpindleCounterclockwise => 11,
@@ -260,7 +258,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::Dwell | Meaning::MachineFunction(_) => 13,
         Meaning::RigidTapping => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
-        Meaning::UseToolCentrePoint(true) => 14,
+        Meaning::UseToolCentrePoint(_) => 14,
         Meaning::OrientToolAxis => 15,
         Meaning::SetData => 15,
         Meaning::OrientSpindle => 16,

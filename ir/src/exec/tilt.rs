@@ -13,7 +13,7 @@ use crate::diag::Diagnostic;
 use crate::geometry;
 use crate::kinds::{conduct, flow, miscellaneous, modes, moves, polar, tooling};
 use crate::num::Nanos;
-use crate::program::{Data, FrameSlot, Op, Point, Slot, Stmt, Tilt, Toward};
+use crate::program::{Data, FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use crate::source::Span;
 
 /// A working plane in space.
@@ -234,14 +234,11 @@ impl Exec {
 
     /// What is refused under control of the tool's tip.
     fn refused_at_tip(&self, op: &Op) -> Option<&'static str> {
-        let rotary = |to: &Point| to.axes[3..].iter().any(Option::is_some);
         match op {
             Op::Polar(polar) => self.refused_at_tip(&polar.op),
-            Op::ArcFeed(arc) if rotary(&arc.to) => {
-                Some("an arc with rotary axes under tool centre point control")
-            }
-            Op::ArcForm(arc) if rotary(&arc.to) => {
-                Some("an arc with rotary axes under tool centre point control")
+            // Which of them a control takes depends on how its rotary axes are built.
+            moves!() if matches!(op, Op::ArcFeed(_) | Op::ArcForm(_)) => {
+                Some("an arc under tool centre point control")
             }
             Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) => {
                 Some("a cycle under tool centre point control")

@@ -73,7 +73,18 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
         state.block = state.block.wrapping_add(u64::from(!stmt.joined));
         let commands = walk.commands_z(&stmt.op) || calls_up(walk, &stmt.op);
         let leaves = leaves(&stmt.op);
+        let with_tip = made.out.last().is_some_and(|last| matches!(last.op, Op::UseToolCentrePoint(_)));
         match &stmt.op {
+            // One word says both, where it stands.
+            Op::UseToolLengthOffset(_) if stmt.joined && with_tip => {
+                walk.step(&stmt);
+                if let Some(before) = state.waiting.take()
+                    && before.skip.is_some()
+                {
+                    cannot(diags, before.span);
+                }
+                made.push(stmt);
+            }
             Op::UseToolLengthOffset(entry) => {
                 walk.step(&stmt);
                 if let Some(before) = state.waiting.take()

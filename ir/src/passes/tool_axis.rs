@@ -23,7 +23,7 @@ use crate::track::Tracker;
 pub(super) struct State {
     tip: Known,
     tilt: Known,
-    /// Whether the length that comes next belongs to the word before it.
+    /// Whether the length that comes next was said already with the word before it.
     pair: bool,
     /// Whether each was told.
     told: [bool; 2],
@@ -123,6 +123,7 @@ pub(super) fn over(
         walk.enter(stmt.skip);
         let span = stmt.span;
         let before = walk.at.modes.length_offset;
+        let offset = walk.at.modes.work_offset;
         walk.step(&stmt);
         let mut refuse = |what: &str| {
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, span));
@@ -166,13 +167,23 @@ pub(super) fn over(
             }
             Op::UseToolLengthOffset(entry) if caps.tip == TipForm::WithLength && state.tip.met => {
                 let entry = number(entry);
-                if std::mem::take(&mut state.pair) || state.tip.is_off() {
+                if std::mem::take(&mut state.pair) {
+                    return made.leave_out(stmt);
+                }
+                if state.tip.is_off() {
                     return made.push(stmt);
                 }
                 if entry.is_some() && entry == before && state.tip.is_on() {
                     return made.leave_out(stmt);
                 }
                 refuse("another length where the tool's tip may be under control");
+            }
+            // The one in force is said again; a control may take no such word there.
+            Op::SetOriginOffsets(n) if caps.tip == TipForm::WithLength && !state.tip.is_off() => {
+                match offset == Some(*n) && state.tip.is_on() {
+                    true => made.leave_out(stmt),
+                    false => made.push(stmt),
+                }
             }
             Op::SetSlot(slot) => {
                 let Slot::Tilt(tilt) = &**slot else { return made.push(stmt) };
@@ -270,9 +281,9 @@ fn with_length(
         return Err("control of the tool's tip in a block that can be skipped");
     }
     match (on, behind) {
-        (true, Some(1..)) | (false, Some(0)) => {
+        (true, Some(entry @ 1..)) | (false, Some(entry @ 0)) => {
             state.pair = true;
-            made.push(stmt);
+            made.replace(stmt, [(true, op), (true, length(entry))]);
         }
         (true, None) => match in_force {
             Some(entry @ 1..) => {

@@ -64,6 +64,49 @@ pub(super) enum Argument {
     Text,
 }
 
+/// Words of the drives, of look-ahead and of tolerances: the programmed path stays.
+pub(super) const ADVICE: [&str; 39] = [
+    "FFWON",
+    "FFWOF",
+    "SOFT",
+    "BRISK",
+    "DRIVE",
+    "COMPOF",
+    "COMPON",
+    "COMPCURV",
+    "COMPCAD",
+    "COMPSURF",
+    "CFC",
+    "CFTCP",
+    "CFIN",
+    "NORM",
+    "KONT",
+    "KONTC",
+    "KONTT",
+    "CUT2D",
+    "CUT2DF",
+    "CDON",
+    "CDOF",
+    "CDOF2",
+    "DYNNORM",
+    "DYNPOS",
+    "DYNROUGH",
+    "DYNSEMIFIN",
+    "DYNFINISH",
+    "DIAMOF",
+    "CP",
+    "SPATH",
+    "UPATH",
+    "STARTFIFO",
+    "STOPFIFO",
+    "FIFOCTRL",
+    "STOPRE",
+    "ORIWKS",
+    "ORIMKS",
+    "WALIMON",
+    "WALIMOF",
+];
+
 /// Parts a text.
 pub(super) fn units(text: &str) -> Vec<Unit> {
     let mut units: Vec<Unit> = Vec::new();

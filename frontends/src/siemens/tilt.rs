@@ -1,0 +1,183 @@
+//! Lowering of the transformation that keeps the tool's tip where it is, and of swivelled planes.
+//!
+//! A plane is read where its call only sets it anew, by turns about three different axes one after the other,
+//! and turns the tool towards a stated side or not at all. Refused by name: further transformations and their
+//! parameters, planes that are added, other ways of stating angles, a second shift, and retracting first.
+
+use ncc_dialects::Quantity;
+use ncc_ir::canon::Axis;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr as Value;
+use ncc_ir::program::{FrameSlot, Op, Slot, Tilt, Toward};
+use ncc_ir::source::Span;
+
+use super::facts::InForce;
+use super::lower::Lower;
+use super::sort::Given;
+use super::spindles::number;
+use super::tree::Expr;
+use crate::Batch;
+use crate::word::Source;
+use crate::word::facts::Know;
+use crate::word::lower::decode;
+
+/// What the name of a record of kinematics stands for.
+const SWIVEL_RECORD: &str = "only swivel data record";
+
+/// Places of the arguments of a swivelled plane.
+const RETRACT: usize = 0;
+const RECORD: usize = 1;
+const ADDED: usize = 2;
+const MODE: usize = 3;
+const ZERO: [usize; 3] = [4, 5, 6];
+const ANGLES: [usize; 3] = [7, 8, 9];
+const SECOND_SHIFT: [usize; 3] = [10, 11, 12];
+const DIRECTION: usize = 13;
+const RETRACT_BY: usize = 14;
+const PLANE: usize = 15;
+
+impl Lower {
+    /// `TRAORI(1)`, `TRAFOOF()`.
+    pub(super) fn transformation(
+        &mut self,
+        name: &str,
+        span: Span,
+        on: bool,
+        arguments: &[Option<Expr>],
+        out: &mut Batch,
+    ) {
+        let first = on && arguments.len() == 1 && number(arguments.first()) == Some(1);
+        if !arguments.is_empty() && !first {
+            return self.not_supported(name, "transformation with parameters", span, out);
+        }
+        self.stand.forget();
+        self.push(span, Op::UseToolCentrePoint(on), out);
+    }
+
+    /// `CYCLE800(0,"",0,57,0,0,0,30,0,0,0,0,0,-1)`; without arguments the plane is taken back.
+    pub(super) fn swivel(
+        &mut self,
+        name: &str,
+        span: Span,
+        arguments: &[Option<Expr>],
+        src: Source,
+        out: &mut Batch,
+    ) {
+        if !matches!(self.state.cycle, InForce::None) {
+            return self.not_supported(name, "swivelled plane while a cycle is in force", span, out);
+        }
+        self.stand.forget();
+        self.state.pole.lose();
+        if arguments.iter().all(Option::is_none) {
+            self.tilt.ends(self.state.tilt);
+            self.state.tilt = Know::Said(false);
+            return self.push(span, Op::ClearFrame(FrameSlot::Tilt), out);
+        }
+        if let Some(what) = refused(arguments) {
+            return self.not_supported(name, what, span, out);
+        }
+        if !self.swivel_record(arguments.get(RECORD), src, out) {
+            return self.not_supported(name, "swivelled plane without kinematics", span, out);
+        }
+        let about = number(arguments.get(MODE)).and_then(order_of);
+        let Some(about) = about else {
+            return self.not_supported(name, "swivelled plane by angles of another kind", span, out);
+        };
+        let toward = match number(arguments.get(DIRECTION)) {
+            Some(-1) => Some(Toward::Minus),
+            Some(0) => None,
+            Some(1) => Some(Toward::Plus),
+            Some(_) | None => {
+                return self.not_supported(name, "swivelled plane without a stated direction", span, out);
+            }
+        };
+        let origin = ZERO.map(|place| self.swivel_value(arguments, place, Quantity::Length, src, out));
+        let angles = ANGLES.map(|place| self.swivel_value(arguments, place, Quantity::Angle, src, out));
+        let ([Some(x), Some(y), Some(z)], [Some(a), Some(b), Some(c)]) = (origin, angles) else { return };
+        if self.tilt.ends(self.state.tilt) {
+            self.push(span, Op::ClearFrame(FrameSlot::Tilt), out);
+        }
+        if !self.tilt.starts() {
+            return self.not_supported(name, "swivelled plane where one may be in force already", span, out);
+        }
+        self.state.tilt = Know::Said(true);
+        let tilt = Tilt { origin: [Some(x), Some(y), Some(z)], about, angles: [a, b, c] };
+        self.push(span, Op::SetSlot(Box::new(Slot::Tilt(Box::new(tilt)))), out);
+        if toward.is_some() {
+            self.push(span, Op::OrientToolAxis(toward), out);
+        }
+    }
+
+    /// The record of the machine's kinematics is taken to be its only one; `false` if it is deselected.
+    fn swivel_record(&mut self, record: Option<&Option<Expr>>, src: Source, out: &mut Batch) -> bool {
+        let Some(Some(record)) = record else { return true };
+        let Expr::Text(span) = record else { return false };
+        let bytes = src.bytes(*span);
+        let name = decode(bytes.get(1..bytes.len().saturating_sub(1)).unwrap_or_default());
+        if !name.is_empty() && self.first_time(SWIVEL_RECORD) {
+            let (parameter, value) = (SWIVEL_RECORD.into(), name.clone());
+            out.report(Fault::AssumedParameter { parameter, value }, *span);
+        }
+        *name != *"0"
+    }
+
+    /// A number among the arguments; an empty one is 0.
+    fn swivel_value(
+        &mut self,
+        arguments: &[Option<Expr>],
+        place: usize,
+        quantity: Quantity,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Value> {
+        let zero = || Value::Num(ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Mm));
+        match arguments.get(place) {
+            None | Some(None) if quantity == Quantity::Angle => {
+                Some(Value::Num(ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Degree)))
+            }
+            None | Some(None) => Some(zero()),
+            Some(Some(Expr::Number(digits, span))) => {
+                let given = Given { digits: *digits, distance: None, span: *span };
+                self.number(given, quantity, src, out).map(Value::Num)
+            }
+            Some(Some(other)) => {
+                let span = other.span();
+                self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
+                None
+            }
+        }
+    }
+}
+
+/// What of the arguments nobody here can say.
+fn refused(arguments: &[Option<Expr>]) -> Option<&'static str> {
+    let is_zero = |place: usize| match arguments.get(place) {
+        None | Some(None) => true,
+        Some(Some(Expr::Number(digits, _))) => digits.mantissa == 0,
+        Some(Some(_)) => false,
+    };
+    let plane = matches!(number(arguments.get(PLANE)), Some(0 | 1)) || is_zero(PLANE);
+    match () {
+        () if arguments.len() > PLANE + 1 || !plane => Some("swivelled plane of another working plane"),
+        () if !is_zero(RETRACT) => Some("swivelled plane that retracts first"),
+        () if !is_zero(RETRACT_BY) => Some("swivelled plane that retracts first"),
+        () if !is_zero(ADDED) => Some("swivelled plane that is added, or tracks the tool's tip"),
+        () if !SECOND_SHIFT.iter().all(|place| is_zero(*place)) => {
+            Some("swivelled plane with a shift behind its turns")
+        }
+        () => None,
+    }
+}
+
+/// The order of turns of a number: two bits each, the first turn lowest, X 1, Y 2, Z 3.
+fn order_of(mode: i64) -> Option<[Axis; 3]> {
+    let axis = |bits: i64| match bits & 3 {
+        1 => Some(Axis::X),
+        2 => Some(Axis::Y),
+        3 => Some(Axis::Z),
+        _ => None,
+    };
+    let about = [axis(mode)?, axis(mode >> 2)?, axis(mode >> 4)?];
+    let different = about[0] != about[1] && about[1] != about[2] && about[0] != about[2];
+    (different && mode >> 6 == 0).then_some(about)
+}
