@@ -434,6 +434,7 @@ fn concerns_position(fault: &Fault) -> bool {
             | Fault::ArcRadiusTooSmall
             | Fault::ArcRadiusNoWay
             | Fault::NoArc
+            | Fault::NoCorner { .. }
             | Fault::ArcWithoutCentre
             | Fault::PositionUnknown { .. }
             | Fault::NoMotionMode

@@ -391,6 +391,7 @@ impl Verifier {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
             }
+            run.source.no_open_corner().map_err(Stop::Source)?;
             run.source.end_of_text(&mut run.source_events);
             run.target.end_of_text(&mut run.target_events);
             run.comparison
@@ -459,6 +460,7 @@ impl Verifier {
                     .map_err(|d| unreadable(&d, self.last))?;
                 let over = more_a == Progress::Done && more_b == Progress::Done;
                 if over {
+                    run.source.no_open_corner().map_err(Stop::Source)?;
                     run.source.end_of_text(&mut run.source_events);
                     run.target.end_of_text(&mut run.target_events);
                 }

@@ -302,6 +302,22 @@ pub enum Turn {
     Counterclockwise,
 }
 
+/// What is put into a corner between two moves, and by which length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CornerShape {
+    /// An arc tangent to both moves, of this radius.
+    Round,
+    /// A line that begins so far before the corner, and ends so far behind it.
+    Leg,
+    /// A line of this length, as far from the corner where it begins as where it ends.
+    Length,
+}
+
+impl CornerShape {
+    /// All of them.
+    pub const ALL: [CornerShape; 3] = [CornerShape::Round, CornerShape::Leg, CornerShape::Length];
+}
+
 /// On which side of the programmed contour, seen along the way, the tool goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The names are the meaning.

@@ -138,6 +138,8 @@ pub struct Caps {
     pub threads: Threads,
     /// How points by radius and angle are said.
     pub polar: PolarForm,
+    /// Rounded and chamfered corners.
+    pub corners: Corners,
     /// Messages to the operator.
     pub messages: bool,
     /// Modes of taking corners, a bit each.
@@ -183,6 +185,24 @@ pub enum TiltForm {
     AxisByAxis,
     /// As the text form does.
     Any,
+}
+
+/// Corners that a target has words for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Corners {
+    /// Rounded, by their radius.
+    pub round: bool,
+    /// Chamfered, by how far the chamfer begins before the corner.
+    pub leg: bool,
+    /// Chamfered, by the length of the chamfer.
+    pub length: bool,
+    /// Beside arcs too.
+    pub arcs: bool,
+}
+
+impl Corners {
+    /// All there are.
+    pub const ALL: Corners = Corners { round: true, leg: true, length: true, arcs: true };
 }
 
 /// Straight moves in step with the spindle that a target has words for.

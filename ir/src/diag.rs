@@ -233,6 +233,8 @@ faults! {
     RadiusUnknown { entry: Option<u32> } = 240, Error;
     /// A contour along which the tool cannot go without cutting into it.
     ContourUnreachable { why: Unreachable } = 241, Error;
+    /// A corner that cannot be rounded or chamfered.
+    NoCorner { what: Box<str> } = 250, Error;
 
     // NC03xx: assumptions.
     /// The program relies on a state at power-on that it never says.
@@ -319,6 +321,8 @@ faults! {
 
     /// A compensated contour written as the path of the tool's centre; the radius in nanos of a millimetre.
     CompensationExpanded { radius: i64 } = 440, verdict(Verdict::Expanded);
+    /// A rounded or chamfered corner written as an arc or a line.
+    CornerExpanded = 450, verdict(Verdict::Expanded);
 
     // NC05xx: what the target cannot say.
     /// The target has no words for it.

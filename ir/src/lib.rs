@@ -10,6 +10,7 @@
 pub mod beside;
 pub mod canon;
 pub mod caps;
+pub mod corner;
 pub mod cycle;
 pub mod diag;
 pub mod exec;

@@ -21,8 +21,8 @@ pub use machine::{CutterRadius, Data, DataMode, Reference, ReferencePoint, ToolV
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use crate::canon::{
-    AXES, AdviceKind, Axis, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, Side, SpindleMode,
-    Turn, Units,
+    AXES, AdviceKind, Axis, CornerShape, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, Side,
+    SpindleMode, Turn, Units,
 };
 use crate::cycle::{Cycle, Pattern};
 use crate::expr::{Expr, Var};
@@ -271,6 +271,15 @@ pub enum Op {
     SetMotionControlMode(Box<PathControl>),
     /// `EXACT_STOP`: the move that follows in this block ends in an exact stop.
     ExactStop,
+    /// `ROUND_CORNER`, `CHAMFER_CORNER` or `CHAMFER_CORNER_BY_LENGTH`: the corner between the move that follows
+    /// in this block and the next one of the plane is rounded or chamfered. Both are programmed to the
+    /// corner itself.
+    Corner {
+        /// How.
+        shape: CornerShape,
+        /// By which length.
+        size: Expr,
+    },
     /// `ADVISE`: a word for the control's own conduct, without effect on what the program says.
     Advise(Box<Advice>),
 
@@ -423,6 +432,11 @@ impl Op {
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",
             Op::ExactStop => "EXACT_STOP",
+            Op::Corner { shape, .. } => match shape {
+                CornerShape::Round => "ROUND_CORNER",
+                CornerShape::Leg => "CHAMFER_CORNER",
+                CornerShape::Length => "CHAMFER_CORNER_BY_LENGTH",
+            },
             Op::Advise(_) => "ADVISE",
             Op::SetFeedRate(_) => "SET_FEED_RATE",
             Op::SetSpindleSpeed(_) => "SET_SPINDLE_SPEED",

@@ -6,7 +6,7 @@ mod machine;
 mod polar;
 mod tilt;
 
-use super::{Corner, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
+use super::{Corner, Cut, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
 
 /// Runs the first program of a text.
 ///
@@ -46,7 +46,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
     if !control.program(main, &programs)? {
         control.m.record(What::TextEnd);
     }
-    Ok(control.m)
+    control.m.with_corners()
 }
 
 /// A program of the text: its number and its blocks, each with its line.
@@ -153,8 +153,13 @@ impl Control {
     fn words(&self, block: &str) -> Result<Option<Vec<Word>>, Halt> {
         let mut words = Vec::new();
         let mut rest = block;
-        while let Some(letter) = rest.chars().next() {
+        while let Some(mut letter) = rest.chars().next() {
             rest = &rest[1..];
+            // A letter after a comma is kept as a small one.
+            let comma = letter == ',';
+            if comma {
+                (letter, rest) = (rest.chars().next().unwrap_or(' '), rest.get(1..).unwrap_or(""));
+            }
             if letter == '/' {
                 let level = rest.chars().next().and_then(|c| c.to_digit(10)).filter(|n| *n > 0);
                 if level.is_some() {
@@ -177,6 +182,7 @@ impl Control {
                 return self.m.halt(format!("no number: {letter}{text}"));
             };
             if letter != 'N' {
+                let letter = if comma { letter.to_ascii_lowercase() } else { letter };
                 words.push((letter, value, text.contains('.')));
             }
         }
@@ -203,7 +209,7 @@ impl Control {
 
     fn block(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
         let Some(words) = self.words(block)? else { return Ok(Next::Block) };
-        if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGM".contains(w.0)) {
+        if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGMrc".contains(w.0)) {
             return self.m.halt(format!("the word {letter}"));
         }
         let codes = |letter: char| -> Vec<u32> {
@@ -545,6 +551,8 @@ impl Control {
             return self.m.halt("a centre or radius without an arc");
         }
         let to = self.place(axes, words)?;
+        let round = self.length(words, 'r').map(Cut::Round);
+        self.m.asked = round.or(self.length(words, 'c').map(Cut::Leg));
         match self.motion {
             0 => self.m.traverse(to),
             1 => self.m.straight(to)?,

@@ -11,7 +11,7 @@ mod tilt;
 use std::collections::HashMap;
 
 use super::siemens::frame::Frame;
-use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What};
+use super::{Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What};
 use text::{Line, Token, label, tokens};
 
 /// Runs a program.
@@ -67,7 +67,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     if !matches!(control.body(&main)?, Next::End) {
         control.m.record(What::TextEnd);
     }
-    Ok(control.m)
+    control.m.with_corners()
 }
 
 enum Next {
@@ -380,6 +380,9 @@ impl Control {
                 _ => return self.m.halt("another feed mode"),
             },
             "EXACT_STOP" => self.m.stop_once = true,
+            "ROUND_CORNER" => self.m.asked = Some(Cut::Round(self.first(a)?)),
+            "CHAMFER_CORNER" => self.m.asked = Some(Cut::Leg(self.first(a)?)),
+            "CHAMFER_CORNER_BY_LENGTH" => self.m.asked = Some(Cut::Long(self.first(a)?)),
             "SET_MOTION_CONTROL_MODE" => {
                 self.m.corners = match a.first() {
                     Some(Token::Text(name)) => match name.as_str() {

@@ -1,6 +1,6 @@
 //! Mach-9 programs of the corpus' scope, from `reference/mach9.md` alone.
 
-use super::{Halt, Hole, Machine, Setup, Spindle, What, characters};
+use super::{Cut, Halt, Hole, Machine, Setup, Spindle, What, characters};
 
 /// Runs a program.
 ///
@@ -11,11 +11,11 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     for (index, line) in characters(text).split('\n').enumerate() {
         control.m.line = index + 1;
         if control.block(line)? {
-            return Ok(control.m);
+            return control.m.with_corners();
         }
     }
     control.m.record(What::TextEnd);
-    Ok(control.m)
+    control.m.with_corners()
 }
 
 struct Control {
@@ -201,6 +201,10 @@ impl Control {
         }
         let start = self.m.at;
         let to = self.m.target(axes)?;
+        self.m.asked = value(words, 'Q').map(|q| match q > 0.0 {
+            true => Cut::Round(q * unit),
+            false => Cut::Leg(-q * unit),
+        });
         match self.motion {
             Some(0) => self.m.traverse(to),
             Some(1) => self.m.straight(to)?,

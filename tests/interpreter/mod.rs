@@ -9,6 +9,7 @@
 
 mod beside;
 pub mod canon;
+mod corner;
 pub mod fanuc;
 mod hole;
 pub mod ir;
@@ -22,6 +23,8 @@ mod threads;
 mod tilt;
 
 pub use beside::Beside;
+pub use corner::Cut;
+use corner::Planned;
 pub use hole::Hole;
 pub use setup::{PowerOn, Setup};
 use siemens::frame::Frame;
@@ -213,6 +216,12 @@ pub struct Machine {
     pub plane_set: bool,
     /// Line of the text.
     pub line: usize,
+    /// What the corner behind the next move becomes.
+    pub asked: Option<Cut>,
+    /// Behind which events corners are cut.
+    cuts: Vec<Planned>,
+    /// The radius of every corner (RNDM), millimetres.
+    pub round_all: Option<f64>,
     /// What happened so far.
     pub events: Vec<Event>,
 }
@@ -248,6 +257,9 @@ impl Machine {
             tip: false,
             plane_set: false,
             line: 0,
+            asked: None,
+            cuts: Vec::new(),
+            round_all: None,
             events: Vec::new(),
         }
     }
@@ -361,6 +373,9 @@ impl Machine {
     /// Records an event at the present place.
     pub fn record(&mut self, what: What) {
         assert!(self.events.len() < 1_000_000, "line {}: a program without an end", self.line);
+        if let Some(cut) = self.asked.take() {
+            self.cuts.push((self.events.len(), cut, self.axes()));
+        }
         let mut program = self.at;
         for (axis, value) in program.iter_mut().enumerate() {
             *value -= self.shift(axis);

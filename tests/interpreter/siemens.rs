@@ -13,7 +13,7 @@ mod text;
 mod threads;
 mod tilt;
 
-use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
+use super::{Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
 use text::{ADVICE, Argument, Block, Item, Mark, Unit, Value};
 
@@ -47,7 +47,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     if control.blocks(main, 0, main.blocks.len())? != Next::End {
         control.m.record(What::TextEnd);
     }
-    Ok(control.m)
+    control.m.with_corners()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -128,8 +128,9 @@ const SUPPRESS: [u32; 2] = [53, 153];
 const CENTRE: [&str; 6] = ["CR", "AR", "TURN", "I1", "J1", "K1"];
 /// Polar words.
 const POLAR: [&str; 2] = ["AP", "RP"];
-/// How far from a corner rounding begins; the limit of a speed, and the angle at which the spindle stops.
-const ROUNDING: [&str; 4] = ["ADIS", "ADISPOS", "LIMS", "SPOS"];
+/// How far from a corner rounding begins; the limit of a speed, and the angle at which the spindle stops; the
+/// corner behind a move.
+const ROUNDING: [&str; 8] = ["ADIS", "ADISPOS", "LIMS", "SPOS", "RND", "RNDM", "CHF", "CHR"];
 
 impl<'a> Control<'a> {
     /// Runs the blocks from one place up to another.
@@ -528,8 +529,12 @@ impl<'a> Control<'a> {
                 other => return self.m.halt(format!("M{other}")),
             }
         }
+        if let Some(radius) = w.named("RNDM") {
+            self.m.round_all = Some(radius.number * self.unit()).filter(|r| *r > 0.0);
+        }
         if moves {
             self.hold_spindle();
+            self.ask_corner(w);
             self.go(w, &axes)?;
             if let Some(cycle) = self.modal {
                 self.suppressed = false;
@@ -542,6 +547,17 @@ impl<'a> Control<'a> {
             }
         }
         self.end_codes(&m_codes)
+    }
+
+    /// The corner behind the block's move.
+    fn ask_corner(&mut self, w: &Words<'a>) {
+        let word = |name: &str| w.named(name).map(|v| v.number * self.unit());
+        let own = word("RND").map(Cut::Round).or(word("CHR").map(Cut::Leg)).or(word("CHF").map(Cut::Long));
+        let (first, second, _) = self.m.axes();
+        let in_plane = (0..6).all(|axis| axis == first || axis == second || w.letter(AXES[axis]).is_none());
+        let rapid = matches!(self.motion, None | Some(Motion::Rapid));
+        let all = self.m.round_all.filter(|_| in_plane && !rapid).map(Cut::Round);
+        self.m.asked = own.or(all);
     }
 
     /// G codes and their like; true at G4.

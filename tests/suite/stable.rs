@@ -19,7 +19,7 @@ use ncc_ir::canon::{AXES, Distance, Fact, Modes};
 use ncc_ir::exec::{Event, Exec, Kind, Runner};
 use ncc_ir::expr::Expr;
 use ncc_ir::passes::{PASSES, Target};
-use ncc_ir::program::{FrameSlot, FrameStep, Op, Program, Slot, Stmt};
+use ncc_ir::program::{Centre, CentreFrom, FrameSlot, FrameStep, Op, Program, Slot, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::world::World;
@@ -274,9 +274,10 @@ fn required(old: &Meaning, new: &Meaning, flat: bool, text: &Program) -> usize {
     let [gone_said, come_said] = changes(&old_said, &new_said);
     let (old, new) = if flat { (&old.narrated, &new.narrated) } else { (&old.events, &new.events) };
     let mut most = 0;
+    let centres = counts_centres_from_zero(text);
     for form in forms {
         for (old, new) in old.iter().zip(new) {
-            let [gone, come] = changes(&steps(old, form), &steps(new, form));
+            let [gone, come] = changes(&steps(old, form, centres), &steps(new, form, centres));
             most = most.max(lines_of(&gone, old, &gone_said, &old_places));
             most = most.max(lines_of(&come, new, &come_said, &new_places));
         }
@@ -299,9 +300,18 @@ fn lines_of(events: &[usize], all: &[Event], said: &[usize], places: &[Span]) ->
 }
 
 /// A line for each event, by what it changes.
-fn steps(events: &[Event], form: Form) -> Vec<String> {
+fn steps(events: &[Event], form: Form, centres: bool) -> Vec<String> {
     let last = std::iter::once(None).chain(events.iter().map(Some));
-    events.iter().zip(last).map(|(e, last)| told(e, last, form)).collect()
+    events.iter().zip(last).map(|(e, last)| told(e, last, form, centres)).collect()
+}
+
+/// Whether a text says the centres of its arcs from program zero: there an arc that moves is said otherwise.
+fn counts_centres_from_zero(text: &Program) -> bool {
+    let from_zero = |stmt: &Stmt| match &stmt.op {
+        Op::ArcFeed(arc) => matches!(arc.centre, Centre::Point { from: CentreFrom::Zero, .. }),
+        _ => false,
+    };
+    text.procedures.iter().flat_map(|p| &p.body).any(from_zero)
 }
 
 /// Whether a text has absolute and incremental words.
@@ -322,9 +332,9 @@ fn distances(text: &Program) -> (bool, bool) {
 }
 
 /// An event in words, after another.
-fn told(event: &Event, last: Option<&Event>, form: Form) -> String {
+fn told(event: &Event, last: Option<&Event>, form: Form, from_zero: bool) -> String {
     let Event { kind, end, rate, state, .. } = event;
-    let from = |axis: usize| last.map_or(0, |last| last.end[axis]);
+    let from = |axis: usize| last.filter(|_| !from_zero).map_or(0, |last| last.end[axis]);
     let mut out = match kind {
         Kind::Arc { plane, turn, full, centre } => {
             let (a, b, _) = plane.axes();

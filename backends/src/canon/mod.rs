@@ -346,6 +346,7 @@ impl Writer {
             | Op::ProgramEnd => self.open(s, out),
 
             Op::StartCutterRadiusCompensation { .. }
+            | Op::Corner { .. }
             | Op::ClearFrame(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)

@@ -165,6 +165,7 @@ fn rank(op: &Op) -> u8 {
         | Op::GoToReference(_)
         | Op::SetData(_)
         | Op::SetPole(_)
+        | Op::Corner { .. }
         | Op::ExactStop => 19,
         Op::EndCycle => 20,
         Op::StraightTraverse(_)
@@ -398,6 +399,7 @@ impl Printer<'_> {
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::ExactStop
+            | Op::Corner { .. }
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
             | Op::LimitSpindleSpeed(_)

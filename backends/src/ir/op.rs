@@ -51,6 +51,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::OrientToolAxis(_)
         | Op::SetMotionControlMode(_)
         | Op::ExactStop
+        | Op::Corner { .. }
         | Op::Advise(_)
         | Op::SetFeedRate(_)
         | Op::SetSpindleSpeed(_)
@@ -130,6 +131,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         | Op::LimitSpindleSpeed(e)
         | Op::SelectTool(e)
         | Op::UseToolLengthOffset(e)
+        | Op::Corner { size: e, .. }
         | Op::Dwell(e) => expr(e, out),
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
             point(&m.to, b"", out);

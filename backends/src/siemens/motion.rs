@@ -161,6 +161,7 @@ impl Writer {
         for word in words {
             self.words.block.text(Part::Axes, word);
         }
+        self.words.put_corner();
         Ok(())
     }
 

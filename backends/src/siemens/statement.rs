@@ -1,7 +1,7 @@
 //! One statement: which words say it.
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity};
-use ncc_ir::canon::AdviceKind;
+use ncc_ir::canon::{AdviceKind, CornerShape};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
@@ -89,6 +89,15 @@ impl Writer {
                 let op = Op::SetMotionControlMode(Box::new(plain));
                 self.words.statement(&Stmt { op, ..stmt.clone() }, sink)?;
                 words.iter().for_each(|word| self.words.block.text(Part::Mode, word));
+                Ok(())
+            }
+            Op::Corner { shape, size } => {
+                let role = match shape {
+                    CornerShape::Round => NameRole::RoundCorner,
+                    CornerShape::Leg => NameRole::ChamferCorner,
+                    CornerShape::Length => NameRole::ChamferCornerByLength,
+                };
+                self.words.corner = Some(self.named(role, size, None, span, sink)?);
                 Ok(())
             }
             Op::Advise(advice) if advice.kind == AdviceKind::PathTolerance => {

@@ -18,13 +18,15 @@ pub(crate) enum Part {
     Offset,
     /// Axis, centre and cycle words.
     Axes,
+    /// The word of the corner behind the move.
+    Corner,
     /// The feed.
     Feed,
     /// Speed, tool, M codes, the words of a call.
     Tail,
 }
 
-const PARTS: usize = 7;
+const PARTS: usize = 8;
 
 /// Place of a statement in the order of one block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -248,10 +250,26 @@ impl Block {
     /// Appends the words to a line and empties the block, all but its skip level.
     pub(crate) fn write(&mut self, to: &mut Vec<u8>, mut blank: bool) {
         let order = match self.calls_up {
-            true => [Part::Label, Part::Mode, Part::Offset, Part::Motion, Part::Axes, Part::Feed, Part::Tail],
-            false => {
-                [Part::Label, Part::Mode, Part::Motion, Part::Offset, Part::Axes, Part::Feed, Part::Tail]
-            }
+            true => [
+                Part::Label,
+                Part::Mode,
+                Part::Offset,
+                Part::Motion,
+                Part::Axes,
+                Part::Corner,
+                Part::Feed,
+                Part::Tail,
+            ],
+            false => [
+                Part::Label,
+                Part::Mode,
+                Part::Motion,
+                Part::Offset,
+                Part::Axes,
+                Part::Corner,
+                Part::Feed,
+                Part::Tail,
+            ],
         };
         for part in order {
             let from = &mut self.parts[part as usize];

@@ -9,6 +9,7 @@
 pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
+mod corner;
 mod cycles;
 mod data;
 mod force;
@@ -109,6 +110,9 @@ pub struct Writer {
     pub(crate) turned_in: Option<Turn>,
     /// The next straight move is in machine coordinates, by this code.
     machine: Option<codes::Code>,
+    /// The word of the corner behind the next move.
+    pub(crate) corner: Option<String>,
+    told_corner: bool,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
     /// Whether lengths are taken up with control of the tool's tip.
@@ -180,6 +184,8 @@ impl Writer {
             offset_waits: None,
             turned_in: None,
             machine: None,
+            corner: None,
+            told_corner: false,
             polar: false,
             tip: false,
             units_stated: [false; 2],

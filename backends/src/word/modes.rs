@@ -67,6 +67,7 @@ impl Setting {
             | Op::Polar(_)
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
+            | Op::Corner { .. }
             | Op::Advise(_)
             | Op::SetFeedRate(_)
             | Op::SetSpindleSpeed(_)

@@ -50,7 +50,9 @@ impl Writer {
             self.block.code(Part::Motion, &code);
         }
         self.force.motion = Some(motion);
-        self.point(&to.to, span, sink)
+        self.point(&to.to, span, sink)?;
+        self.put_corner();
+        Ok(())
     }
 
     /// A move to a point of the machine, by way of the point that it names or of where it stands.
@@ -241,6 +243,7 @@ impl Writer {
         if let Some((letter, turns)) = turns {
             self.block.digits(Part::Axes, letter, &turns.to_string());
         }
+        self.put_corner();
         self.check_vanished(arc, start)
     }
 

@@ -40,6 +40,7 @@ impl Writer {
             || self.preamble.is_some()
             || self.held.is_some()
             || self.residual
+            || self.corner.is_some()
             || self.polar
         {
             return false;

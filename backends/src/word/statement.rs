@@ -69,6 +69,7 @@ impl Writer {
                 self.block.code(Part::Mode, &code);
                 Ok(())
             }
+            Op::Corner { shape, size } => self.ask_corner(*shape, size, span, sink),
             Op::Advise(advice) => self.advise(advice, sink),
             Op::SetSpindleMode(_) => Err(cannot("a constant surface speed")),
             Op::LimitSpindleSpeed(_) => Err(cannot("a limit of the spindle speed")),

@@ -26,6 +26,15 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         }
         let tried = match (row.means, row.role) {
             (Some(meaning), _) => meant(bench, row, meaning),
+            // Written corner by corner.
+            (None, Some(NameRole::RoundCorners)) => {
+                let said = corner("ROUND_CORNER");
+                let put = |text: String| {
+                    text.replace("RND=", &format!("{}=", row.name))
+                        .replace(" Y40", &format!(" Y40 {}=0", row.name))
+                };
+                must_show(bench.reads(&said, &said.say, put), &row.name).read_only()
+            }
             (None, Some(role)) => must_show(bench.both_ways(&address(role)), &row.name),
             (None, None) => continue,
         };
@@ -119,6 +128,18 @@ fn address(role: NameRole) -> Said {
         }
         NameRole::SpindleLimit => "LIMIT_SPINDLE_SPEED(2500)",
         NameRole::SpindleAngle => "ORIENT_SPINDLE(45deg)",
+        NameRole::RoundCorner => return corner("ROUND_CORNER"),
+        NameRole::ChamferCorner => return corner("CHAMFER_CORNER"),
+        NameRole::ChamferCornerByLength => return corner("CHAMFER_CORNER_BY_LENGTH"),
+        NameRole::RoundCorners => return corner("ROUND_CORNER"),
         NameRole::PlaneAngle => "SET_FRAME(rotate, XY, 12.5deg)",
     })
+}
+
+/// A move with a corner behind it, and the next one.
+pub(super) fn corner(function: &str) -> Said {
+    Said {
+        after: "said STRAIGHT_FEED(Y 40mm)".to_owned(),
+        ..Said::new(format!("SET_FEED_RATE(123mm) & {function}(2.5mm) & said STRAIGHT_FEED(X 50mm)"))
+    }
 }

@@ -1,6 +1,7 @@
 //! Address letters: a statement for what each is, and its refusal where it is nothing by itself.
 
 use ncc_dialects::{Address, Dialect, Family, PatternRow, Quantity, Role};
+use ncc_ir::canon::CornerShape;
 
 use super::Row;
 use super::codes::arc;
@@ -8,6 +9,23 @@ use super::proof::{Bench, Said, Tried, refusal};
 
 /// The rows of the address letters.
 pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
+    for (shape, word) in bench.dialect.corner.words() {
+        let function = match shape {
+            CornerShape::Round => "ROUND_CORNER",
+            CornerShape::Leg => "CHAMFER_CORNER",
+            CornerShape::Length => "CHAMFER_CORNER_BY_LENGTH",
+        };
+        let mut tried = bench.both_ways(&super::names::corner(function));
+        let comma = if word.comma { "," } else { "" };
+        let sign = if word.negative { "-" } else { "" };
+        let text = format!("{comma}{}{sign}", word.letter);
+        if tried.failed.is_none() && !tried.written.iter().any(|line| line.contains(&text)) {
+            tried.failed = Some(format!("{text} is not written"));
+        }
+        let row = bench.dialect.address_row(word.letter as u8);
+        let sure = word.comma || row.is_none_or(|row| row.sure);
+        rows.push(tried.row("corner", format!("{text} {function}"), sure));
+    }
     for row in &bench.dialect.address {
         let letter = row.letter.to_string();
         for said in said(bench.dialect, row) {

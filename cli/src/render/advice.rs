@@ -67,6 +67,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NoArc => {
             own("check the angle (more than 0, less than 360), and that the points do not lie on a line")
         }
+        Fault::NoCorner { .. } => {
+            own("check the size of the corner, and that a line or an arc of the same plane follows it")
+        }
         Fault::ArcRadiusNoWay => own("write a full circle with its centre (I, J, K)"),
         Fault::PositionUnknown { axis } => vec![
             format!("say the position: an absolute {axis} word before this block"),
@@ -146,6 +149,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::Rounded { .. }
         | Fault::PatternExpanded { .. }
         | Fault::PolarExpanded
+        | Fault::CornerExpanded
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
         | Fault::RepeatExpanded { .. }

@@ -208,6 +208,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CompensationExpanded { radius } => {
             format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))
         }
+        Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
         Fault::FramesExpanded => "frames into the coordinates".to_owned(),
@@ -260,6 +261,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::ArcEndOffCircle { .. }
         | Fault::ArcRadiusTooSmall
         | Fault::NoArc
+        | Fault::NoCorner { .. }
         | Fault::ArcRadiusNoWay
         | Fault::PositionUnknown { .. }
         | Fault::CallUnknown { .. }

@@ -113,6 +113,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "less than half the distance from start to end".into(),
         ),
         Fault::NoArc => ("no arc fits these words".into(), "this arc".into()),
+        Fault::NoCorner { what } => (format!("this corner cannot be made: {what}"), "this corner".into()),
         Fault::ArcRadiusNoWay => (
             "arc by radius, with its end where the tool stands".into(),
             "any number of circles would fit".into(),
@@ -262,6 +263,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::PolarExpanded => (
             "point by radius and angle written by its coordinates".into(),
             format!("{to} does not say it so"),
+        ),
+        Fault::CornerExpanded => (
+            "corner written out as an arc or a line".into(),
+            format!("{to} has no word for it, or none for this one"),
         ),
         Fault::CycleExpanded { kind } => {
             (format!("{} cycle written out as moves", plain(kind)), format!("{to} has no word for it"))

@@ -310,6 +310,10 @@ impl Run<'_> {
     }
 
     fn end(mut self) -> Course {
+        let open = self.controls.iter().find_map(|control| control.exec.no_open_corner().err());
+        if let Some(refusal) = open.filter(|_| self.errors == 0 && !self.broken_off) {
+            self.take_diagnostic(refusal);
+        }
         self.course.refused = self.errors > 0;
         self.course.assumed = self.batch.assumed;
         if self.errors == 0 && !self.broken_off {

@@ -186,6 +186,7 @@ impl State {
             | Op::StopSpindleTurning
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
+            | Op::Corner { .. }
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
             | Op::LimitSpindleSpeed(_)

@@ -61,6 +61,9 @@ pub(crate) enum Valued {
     SelectTool,
     UseToolLengthOffset,
     Dwell,
+    RoundCorner,
+    ChamferCorner,
+    ChamferCornerByLength,
 }
 
 /// A function with a text as its argument.
@@ -177,6 +180,9 @@ pub(crate) enum Token {
     #[token("SELECT_TOOL", |_| Valued::SelectTool)]
     #[token("USE_TOOL_LENGTH_OFFSET", |_| Valued::UseToolLengthOffset)]
     #[token("DWELL", |_| Valued::Dwell)]
+    #[token("ROUND_CORNER", |_| Valued::RoundCorner)]
+    #[token("CHAMFER_CORNER", |_| Valued::ChamferCorner)]
+    #[token("CHAMFER_CORNER_BY_LENGTH", |_| Valued::ChamferCornerByLength)]
     Valued(Valued),
     #[token("COMMENT", |_| Worded::Comment)]
     #[token("NO_EFFECT", |_| Worded::NoEffect)]

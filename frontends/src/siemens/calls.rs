@@ -366,6 +366,7 @@ impl Lower {
         self.moved = None;
         self.cycled = false;
         (self.recall, self.idle_tap) = (false, false);
+        self.rounding = None;
         self.ended = false;
         self.refresh();
     }

@@ -132,6 +132,7 @@ impl Lower {
             coded.clone().find(|(_, m)| matches!(m, Meaning::UseMachineCoordinates { .. })).map(|(c, _)| *c);
         let moves = words.has_point();
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
+        self.modal_rounding(words, src, out);
         let chuck = coded.clone().find(|(_, m)| *m == Meaning::SynchronisedFeed(Thread::Chuck));
         match chuck {
             Some((code, _)) => {

@@ -56,6 +56,8 @@ pub(super) struct Lower {
     /// Whether the modal tap in force has put its own speed in force and made no hole yet: until it does,
     /// the control has the speed that was said before.
     pub(super) idle_tap: bool,
+    /// The radius by which every corner is rounded.
+    pub(super) rounding: Option<ncc_ir::num::Num>,
     /// Rows, options and patterns that have been reported.
     pub(super) reported: HashSet<Box<str>>,
     /// The subprogram that is being read; `None` in the main program.
@@ -150,6 +152,7 @@ impl Lower {
             words: Words::default(),
             stretch: None,
             tilt: Met::default(),
+            rounding: None,
         }
     }
 
@@ -213,6 +216,7 @@ impl Lower {
             || state.cycle != InForce::None
             || self.ended
             || !self.again.is_empty()
+            || self.rounding.is_some()
             // The block after skipped ones ends their stretch.
             || self.stretch.is_some()
         {
@@ -457,6 +461,7 @@ impl Lower {
 
     /// Adds a statement to the block.
     pub(super) fn push(&mut self, span: Span, op: Op, out: &mut Batch) {
+        self.check_rounding(&op, span, out);
         let number = if self.now.pushed { None } else { self.now.number };
         let joined = std::mem::replace(&mut self.now.pushed, true);
         let skip = self.now.skip;

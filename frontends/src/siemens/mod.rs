@@ -14,6 +14,7 @@
 mod again;
 mod build;
 mod calls;
+mod corner;
 mod cycles;
 mod facts;
 mod frames;

@@ -178,6 +178,7 @@ impl Lower {
             Some(line @ (Motion::Traverse | Motion::Feed)) => {
                 if line == Motion::Feed {
                     self.rely_on_feed(block, out);
+                    self.corner(words, block, src, out);
                 }
                 let polar = self.polar_words(words, src, out).ok()?;
                 let to = self.point(false, machine, words, src, out);
@@ -199,6 +200,7 @@ impl Lower {
                     self.not_supported(code.name, "arc in machine coordinates", code.span, out);
                 }
                 self.rely_on_feed(block, out);
+                self.corner(words, block, src, out);
                 match arc {
                     Motion::Through => self.through(said, block, words, src, out),
                     Motion::Arc(turn) => self.arc(turn, said, block, words, src, out),

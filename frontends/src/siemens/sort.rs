@@ -51,7 +51,7 @@ pub(super) struct Words {
 }
 
 /// Number of roles of named addresses.
-const NAMED: usize = 13;
+const NAMED: usize = 17;
 
 impl Words {
     /// Nothing, with the memory of what was.

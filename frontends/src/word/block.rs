@@ -60,7 +60,7 @@ pub(crate) enum Value {
 /// A word: a letter and what follows it. Its span is in the source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Word {
-    /// A capital, or `:`.
+    /// A capital, `:`, or a small letter where it stands behind a comma.
     pub(crate) letter: u8,
     pub(crate) value: Value,
     pub(crate) span: Span,
@@ -154,14 +154,9 @@ impl Sink<'_> {
         self.block.words.push(Word { letter, value, span });
     }
 
-    pub(crate) fn comma_word(&mut self, start: usize, end: usize, letter: u8) {
-        let name = match letter {
-            b'R' => "corner rounding",
-            b'C' => "chamfer",
-            _ => "comma word",
-        };
-        let code = self.text(start, end);
-        self.fault(Fault::NotSupported { code, name: name.into() }, start, end);
+    /// A word behind a comma: its letter is kept as a small one.
+    pub(crate) fn comma_word(&mut self, start: usize, end: usize, letter: u8, read: Read) {
+        self.word(start, end, letter.to_ascii_lowercase(), Some(read));
     }
 
     /// A part of the macro language: refused by name, the whole piece as its text.

@@ -110,6 +110,8 @@ pub(super) struct Now {
     pub(super) message: bool,
     /// Whether a code has no statement of its own.
     pub(super) silent: bool,
+    /// The word of a corner that stands behind a comma, until a move takes it.
+    pub(super) corner: Option<super::block::Word>,
 }
 
 impl Lower {
@@ -278,6 +280,7 @@ impl Lower {
     }
 
     fn check_unused(&mut self, words: &Words, src: Source, out: &mut Batch) {
+        self.check_corner(src, out);
         let mut left = words.left;
         while left != 0 {
             let place = left.trailing_zeros() as usize;

@@ -14,6 +14,7 @@
 pub(crate) mod block;
 mod call;
 mod compensation;
+mod corner;
 mod cycle;
 mod data;
 pub(crate) mod facts;

@@ -116,11 +116,13 @@ impl Lower {
             }
             Ok(Some(Motion::Feed)) => {
                 self.rely_on_feed(block, out);
+                self.corner(words, src, out);
                 let to = self.point(None, block, words, src, out);
                 self.push_move(block, Op::StraightFeed(Move { to, said }), out);
             }
             Ok(Some(Motion::Arc(turn))) => {
                 self.rely_on_feed(block, out);
+                self.corner(words, src, out);
                 self.arc(turn, said, block, words, src, out);
             }
         }

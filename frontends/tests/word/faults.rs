@@ -80,13 +80,10 @@ fn codes_that_are_refused() {
         ["NotSupported { code: 'G12.1', name: 'polar interpolation' } at 'G12.1'"]
     );
     assert_eq!(
-        faults("fanuc", "G1 X5. ,R2.\n"),
-        ["NotSupported { code: ',R2.', name: 'corner rounding' } at ',R2.'"]
+        faults("fanuc", "G1 X5. ,A45.\n"),
+        ["NotSupported { code: ',A45.', name: 'line by its angle' } at ',A45.'"]
     );
-    assert_eq!(
-        faults("fanuc", "G1 X5. ,C2.\n"),
-        ["NotSupported { code: ',C2.', name: 'chamfer' } at ',C2.'"]
-    );
+    assert_eq!(faults("fanuc", "G0 X5. ,R2.\n"), ["WordUnused { word: ',R2.' } at ',R2.'"]);
     assert_eq!(
         faults("fanuc", "M98 <PART>\n"),
         ["Syntax { found: '<PART>', expected: 'a word' } at '<PART>'"]
@@ -99,6 +96,11 @@ fn codes_that_are_refused() {
 
 #[test]
 fn codes_that_do_not_stand_together() {
+    assert_eq!(
+        faults("fanuc", "G1 F9. X5. ,C2. ,R1.\n"),
+        ["CodesExclude { first: ',C2.', second: ',R1.' } at ',R1.'"]
+    );
+    assert_eq!(faults("fanuc", "G1 F9. X5. ,C0.\n"), ["OutOfRange { word: ',C0.' } at ',C0.'"]);
     assert_eq!(faults("fanuc", "G0 G1 X1.\n"), ["CodesExclude { first: 'G0', second: 'G1' } at 'G1'"]);
     assert_eq!(faults("mach9", "G90G0X1.\n"), ["TooManyCodes { letter: 'G', limit: 1 } at 'G0'"]);
     assert_eq!(faults("fanuc", "M3 M8\n"), ["TooManyCodes { letter: 'M', limit: 1 } at 'M8'"]);
@@ -113,7 +115,7 @@ fn words_that_are_too_many_or_too_few() {
         ["WordUnused { word: 'H3' } at 'H3'", "WordUnused { word: 'R2.' } at 'R2.'"]
     );
     assert_eq!(
-        faults("mach9", "G1X60.Q10.\n"),
+        faults("mach9", "G0X60.Q10.\n"),
         ["NotSupported { code: 'Q10.', name: 'corner rounding or chamfer' } at 'Q10.'"]
     );
     assert_eq!(faults("mach9", "H90E240L25\n").len(), 3);

@@ -1,7 +1,9 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
-use ncc_ir::canon::{AdviceKind, PathMode, ReturnLevel, Side, Turn};
-use ncc_ir::caps::{Caps, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm};
+use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, Side, Turn};
+use ncc_ir::caps::{
+    Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
+};
 use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
 
 use crate::meaning::{Meaning, Thread};
@@ -283,6 +285,18 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             PolarForm::Pole
         } else {
             PolarForm::None
+        },
+        corners: if everything {
+            Corners::ALL
+        } else {
+            let says =
+                |shape, role| dialect.corner.word(shape).is_some() || dialect.name_with(role).is_some();
+            Corners {
+                round: says(CornerShape::Round, NameRole::RoundCorner),
+                leg: says(CornerShape::Leg, NameRole::ChamferCorner),
+                length: says(CornerShape::Length, NameRole::ChamferCornerByLength),
+                arcs: dialect.corner.arcs,
+            }
         },
         messages: everything
             || dialect.can.flat

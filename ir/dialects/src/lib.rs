@@ -9,6 +9,7 @@
 
 mod caps;
 mod check;
+mod corners;
 mod fault;
 mod load;
 mod meaning;
@@ -19,6 +20,7 @@ mod schema;
 mod settings;
 mod stored;
 
+pub use corners::{CornerRules, CornerWord};
 pub use fault::{DialectError, DialectFault, Place, Text};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};

@@ -173,6 +173,14 @@ pub enum NameRole {
     SpindleLimit,
     /// Angle at which the spindle is stopped.
     SpindleAngle,
+    /// Radius that rounds the corner behind the block's move.
+    RoundCorner,
+    /// The same for every move from here on; 0 ends it.
+    RoundCorners,
+    /// How far before the corner behind the block's move its chamfer begins.
+    ChamferCorner,
+    /// Length of that chamfer.
+    ChamferCornerByLength,
 }
 
 /// A cycle or a pattern that is called by name with arguments.
@@ -365,6 +373,23 @@ impl CallRow {
     /// Place of the parameter with a role, from 0.
     pub fn place(&self, role: ParameterRole) -> Option<usize> {
         self.parameters.iter().position(|p| p.role == Some(role))
+    }
+}
+
+impl crate::schema::Dialect {
+    /// The word of several letters that is written for a meaning.
+    pub fn name_for(&self, meaning: NameMeaning) -> Option<&NameRow> {
+        self.name.iter().find(|row| row.write && row.means == Some(meaning))
+    }
+
+    /// The address of several letters that has a role.
+    pub fn name_with(&self, role: NameRole) -> Option<&NameRow> {
+        self.name.iter().find(|row| row.write && row.role == Some(role))
+    }
+
+    /// The call that is written for a cycle or a pattern.
+    pub fn call_for(&self, kind: CallKind) -> Option<&CallRow> {
+        self.call.iter().find(|row| row.kind == kind)
     }
 }
 

@@ -8,8 +8,9 @@ use std::collections::BTreeMap;
 use ncc_ir::caps::Caps;
 use serde::Deserialize;
 
+use crate::corners::CornerRules;
 use crate::meaning::Meaning;
-use crate::names::{CallKind, CallRow, NameMeaning, NameRole, NameRow};
+use crate::names::{CallRow, NameRow};
 use crate::power_on::{ApproachName, PathName, PowerOn, ReturnLevelName, SafeStart};
 use crate::stored::DataRow;
 
@@ -50,6 +51,9 @@ pub struct Dialect {
     /// Arcs.
     #[serde(default)]
     pub arc: ArcRules,
+    /// Rounded and chamfered corners, of a control that has letters for them.
+    #[serde(default)]
+    pub corner: CornerRules,
     /// What all canned cycles share.
     #[serde(default)]
     pub cycles: CycleRules,
@@ -679,20 +683,5 @@ impl Dialect {
     /// The row of a call, whose name must be in capitals.
     pub fn call_row(&self, name: &str) -> Option<&CallRow> {
         self.call.iter().find(|row| row.name == name)
-    }
-
-    /// The word of several letters that is written for a meaning.
-    pub fn name_for(&self, meaning: NameMeaning) -> Option<&NameRow> {
-        self.name.iter().find(|row| row.write && row.means == Some(meaning))
-    }
-
-    /// The address of several letters that has a role.
-    pub fn name_with(&self, role: NameRole) -> Option<&NameRow> {
-        self.name.iter().find(|row| row.write && row.role == Some(role))
-    }
-
-    /// The call that is written for a cycle or a pattern.
-    pub fn call_for(&self, kind: CallKind) -> Option<&CallRow> {
-        self.call.iter().find(|row| row.kind == kind)
     }
 }

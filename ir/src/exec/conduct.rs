@@ -129,6 +129,8 @@ impl Exec {
             && self.feed == other.feed
             && self.selected == other.selected
             && self.state == other.state
+            && self.corner.is_none()
+            && other.corner.is_none()
             && self.cycle.is_none()
             && other.cycle.is_none()
             && self.ended == other.ended

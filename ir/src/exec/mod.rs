@@ -9,6 +9,7 @@ mod ask;
 mod centre_path;
 mod compensation;
 mod conduct;
+mod corner;
 mod data;
 mod entry;
 mod event;
@@ -79,6 +80,8 @@ pub struct Exec {
     contour: Contour,
     /// The path of the tool's centre beside it, where that is computed.
     centre_path: Option<Box<CentrePath>>,
+    /// A corner that is to be made.
+    corner: Option<Box<corner::Corner>>,
     feed: Nanos,
     selected: i64,
     state: State,
@@ -162,6 +165,7 @@ impl Exec {
             waiting: None,
             contour: Contour::default(),
             centre_path: None,
+            corner: None,
             feed: 0,
             selected: -1,
             state: State {
@@ -441,6 +445,14 @@ impl Exec {
         if self.state.tip || self.state.tilted {
             self.check_tilted(stmt)?;
         }
+        if self.corner.is_some() {
+            return self.step_at_corner(stmt, out);
+        }
+        self.step_on_way(stmt, out)
+    }
+
+    #[inline]
+    fn step_on_way(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         if self.contour.watched {
             return self.step_on_contour(stmt, out);
         }
@@ -547,6 +559,7 @@ impl Exec {
                 }
                 self.said |= FEED_MODE;
             }
+            Op::Corner { shape, size } => self.ask_corner(*shape, size, span)?,
             Op::SetMotionControlMode(_)
             | Op::ExactStop
             | Op::Advise(_)

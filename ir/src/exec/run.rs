@@ -74,6 +74,7 @@ impl<'p> Runner<'p> {
                 return Ok(None);
             }
             let Some(level) = self.stack.last_mut() else {
+                exec.no_open_corner()?;
                 return Ok(None);
             };
             let Some(stmt) = level.body.get(level.next) else {
@@ -92,6 +93,9 @@ impl<'p> Runner<'p> {
             }
             if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
                 continue;
+            }
+            if matches!(stmt.op, Op::Call(_) | Op::Return | Op::RepeatBlocks(_) | Op::Control(_)) {
+                exec.no_open_corner()?;
             }
             match &stmt.op {
                 Op::Call(call) => {

@@ -116,6 +116,8 @@ impl Converter<'_> {
                 }
             }
             Op::SetFeedRate(feed) => self.loose(feed)?,
+            // Where the corner ends follows from it.
+            Op::Corner { size, .. } => self.whole(size)?,
             Op::StartCutterRadiusCompensation { radius: CutterRadius::Diameter(diameter), .. } => {
                 self.whole(diameter)?;
             }
@@ -213,7 +215,7 @@ impl Converter<'_> {
         match (before, value.literal().and_then(|n| n.nanos(false))) {
             (Some(a), Some(b)) if a == b => Ok(()),
             _ => {
-                let what = "a pitch, a peck or a shift that is not exact in inches".into();
+                let what = "a pitch, a peck, a shift or a corner that is not exact in inches".into();
                 Err(Fault::CannotSay { what })
             }
         }

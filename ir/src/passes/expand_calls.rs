@@ -319,10 +319,14 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::Message(_)
         | Op::Assign(..)
         | miscellaneous!()
-        | conduct!()
         | modes!()
         | tooling!()
         | flow!() => {}
+        conduct!() => {
+            if let Op::Corner { size, .. } = op {
+                settle_expr(size, here);
+            }
+        }
     }
 }
 

@@ -7,16 +7,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::needs::{
-    ARC, CALL, CONTROL, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE, PATH, PATTERN,
-    POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
+    ARC, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE, PATH,
+    PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use super::walk::Walk;
+use super::write::EXACT;
 use super::{
-    Target, absolute_holes, approach, arc_form, cutter_radius, expand_calls, expand_cycles, expand_frames,
-    expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names,
-    offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, return_plane,
-    skip_levels, specialise_procedures, state_clearance, taps, threads, tool_axis, tool_change, tool_edge,
-    work_offset,
+    Target, absolute_holes, approach, arc_form, cutter_radius, expand_calls, expand_corners, expand_cycles,
+    expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves,
+    number_names, offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words,
+    return_plane, skip_levels, specialise_procedures, state_clearance, taps, threads, tool_axis, tool_change,
+    tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -44,6 +45,7 @@ pub struct Legaliser {
     shift: origin_shift::State,
     path: path_control::State,
     polar: polar_words::State,
+    corners: expand_corners::State,
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
@@ -85,7 +87,8 @@ impl Legaliser {
                     | FRAME
                     | MACHINE
                     | POLAR
-                    | TOOL_AXIS)
+                    | TOOL_AXIS
+                    | CORNER)
                 != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
@@ -95,6 +98,7 @@ impl Legaliser {
             shift: origin_shift::State::default(),
             path: path_control::State::default(),
             polar: polar_words::State::default(),
+            corners: expand_corners::State::default(),
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
@@ -234,6 +238,9 @@ impl Legaliser {
         {
             needs &= !FRAME;
         }
+        if self.corners.is_busy() {
+            needs |= CORNER;
+        }
         if self.machine.is_busy() {
             needs |= MACHINE;
         }
@@ -262,7 +269,10 @@ impl Legaliser {
             match self.with_polar_words(stmts, needs, start, assumed) {
                 Some(mut found) => return diags.append(&mut found),
                 None => {
-                    polar_words::over(stmts, &mut start.clone(), &mut self.polar, &self.target, false, diags);
+                    // Corners are worked out from exact points.
+                    let exact = Target { decimals: EXACT - 1, ..self.target.clone() };
+                    let target = if needs & CORNER != 0 { &exact } else { &self.target };
+                    polar_words::over(stmts, &mut start.clone(), &mut self.polar, target, false, diags);
                 }
             }
         }
@@ -278,7 +288,8 @@ impl Legaliser {
         start: &Walk,
         assumed: &Modes,
     ) -> Option<Vec<Diagnostic>> {
-        let looks_into = needs & (FRAME | EVERY) != 0 || self.cycles.is_busy() || self.taps.is_busy();
+        let looks_into =
+            needs & (FRAME | EVERY | CORNER) != 0 || self.cycles.is_busy() || self.taps.is_busy();
         if self.target.caps.polar == PolarForm::None || looks_into {
             return None;
         }
@@ -318,6 +329,7 @@ impl Legaliser {
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);
         }
+        let needs = needs | self.mend_corners(stmts, needs, start, diags);
         if needs & FRAME != 0 {
             expand_frames::over(stmts, &mut start.clone(), &mut self.frames, &self.target, diags);
         }
@@ -345,7 +357,7 @@ impl Legaliser {
             arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
         }
         // Computed words are from zero, others may not be.
-        let computed = self.measures && needs & (ARC | FRAME) != 0;
+        let computed = self.measures && needs & (ARC | FRAME | CORNER) != 0;
         let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
         let mut needs = if mixed { needs | MEASURE } else { needs };
         if needs & MEASURE != 0 && self.target.caps.feed_again {
@@ -409,6 +421,25 @@ impl Legaliser {
         if needs & EVERY != 0 {
             flatten_facts::over(stmts, &mut start.clone(), diags);
         }
+    }
+
+    /// Writes corners out, and says what is needed because of it: they are arcs, which their moves need
+    /// not be, and their words are measured from zero.
+    fn mend_corners(
+        &mut self,
+        stmts: &mut Vec<Stmt>,
+        needs: u32,
+        start: &Walk,
+        diags: &mut Vec<Diagnostic>,
+    ) -> u32 {
+        if needs & CORNER == 0 {
+            return 0;
+        }
+        let (found, whole) = (diags.len(), needs & FRAME != 0);
+        let keep = if whole { expand_corners::Keep::None } else { expand_corners::Keep::Sayable };
+        expand_corners::over(stmts, &mut start.clone(), &mut self.corners, &self.target, keep, diags);
+        let written = diags[found..].iter().any(|d| matches!(d.fault, Fault::CornerExpanded));
+        if written { self.lacks & ARC } else { 0 }
     }
 
     /// Brings a program that is kept whole within the target's capabilities: the rest of the main
@@ -492,6 +523,7 @@ impl Legaliser {
             self.path.start_over();
             self.one = one_move::State::default();
             self.polar = polar_words::State::default();
+            self.corners = expand_corners::State::default();
             self.arcs = arc_form::State::default();
             self.frames.start_over();
             self.machine = machine_moves::State::default();
@@ -503,6 +535,7 @@ impl Legaliser {
 
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        self.corners.flush(stmts, diags);
         self.length.flush(stmts, diags);
         self.one.flush(stmts);
         self.threads.finish(stmts, diags);

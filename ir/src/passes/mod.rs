@@ -16,6 +16,7 @@ pub mod cutter_radius;
 pub mod drop_redundant;
 pub mod expand_calls;
 pub mod expand_compensation;
+mod expand_corners;
 pub mod expand_cycles;
 pub mod expand_frames;
 pub mod expand_patterns;
@@ -186,6 +187,11 @@ pub const PASSES: &[Pass] = &[
         name: "polar-words",
         about: "says points by radius and angle in the target's form, or by coordinates",
         run: polar_words::run,
+    },
+    Pass {
+        name: "expand-corners",
+        about: "writes rounded and chamfered corners as arcs and lines",
+        run: expand_corners::run,
     },
     Pass {
         name: "expand-frames",

@@ -3,7 +3,7 @@
 //! Not here: what is done about it.
 
 use crate::canon::ReturnLevel;
-use crate::caps::{Caps, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
+use crate::caps::{Caps, Corners, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
 use crate::exec::Seen;
 use crate::kinds::{conduct, miscellaneous};
 use crate::program::{FrameSlot, Op, Slot, Stmt};
@@ -31,6 +31,7 @@ pub(super) const POLAR: u32 = 1 << 18;
 pub(super) const RADIUS: u32 = 1 << 19;
 pub(super) const THREAD: u32 = 1 << 20;
 pub(super) const TOOL_AXIS: u32 = 1 << 24;
+pub(super) const CORNER: u32 = 1 << 25;
 
 /// What a target lacks.
 pub(super) fn lacks(caps: &Caps) -> u32 {
@@ -92,6 +93,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(MACHINE, caps.machine_coordinates && caps.machine_length.is_none() && data && points);
     needs(THREAD, caps.threads.any);
     needs(POLAR, caps.polar == PolarForm::Any);
+    needs(CORNER, caps.corners == Corners::ALL);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
 }
@@ -124,6 +126,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
         Op::Message(_) => MESSAGE,
+        conduct!() if matches!(op, Op::Corner { .. }) => CORNER | MOVE,
         conduct!() => PATH | MOVE,
         Op::SetFeedMode(_) => MOVE,
         miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => RADIUS,

@@ -1,7 +1,7 @@
 //! `one-move`: what is said for one move stands in that move's block.
 //!
-//! An exact stop of one move, and the feed of a move that is given by its time, hold for the move that
-//! comes next. A control whose programs are blocks takes them from the block of the move alone: in a
+//! An exact stop of one move, the corner behind one, and the feed of a move that is given by its time, hold
+//! for the move that comes next. A control whose programs are blocks takes them from the block of the move alone: in a
 //! block of their own they say nothing, or are an error.
 //!
 //! It does not follow a program where that branches, repeats or calls: what waits there stays in a block
@@ -21,8 +21,8 @@ use crate::track::Tracker;
 pub(super) struct State {
     /// The feed is the time of a move.
     by_time: bool,
-    /// What waits for its move: a stop, then a feed.
-    held: [Option<Stmt>; 2],
+    /// What waits for its move: a stop, a corner, then a feed.
+    held: [Option<Stmt>; 3],
 }
 
 impl State {
@@ -40,8 +40,8 @@ impl State {
                 if let Op::SetFeedMode(mode) = &stmt.op {
                     by_time = *mode == FeedMode::InverseTime;
                 }
-                let waits =
-                    matches!(stmt.op, Op::ExactStop) || by_time && matches!(stmt.op, Op::SetFeedRate(_));
+                let waits = matches!(stmt.op, Op::ExactStop | Op::Corner { .. })
+                    || by_time && matches!(stmt.op, Op::SetFeedRate(_));
                 let block = stmts[at + 1..].iter().take_while(|s| s.joined);
                 waits && !block.into_iter().any(|s| matches!(s.op, Op::Position(_) | moves!()))
             })
@@ -92,23 +92,24 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
                 continue;
             }
             Op::ExactStop => 0,
-            Op::SetFeedRate(_) if state.by_time => 1,
+            Op::Corner { .. } => 1,
+            Op::SetFeedRate(_) if state.by_time => 2,
             Op::StraightFeed(_)
             | Op::ArcFeed(_)
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)
             | Op::Polar(_)
             | Op::Position(_) => {
-                take_up(stmt, state, 2, &mut made);
+                take_up(stmt, state, 3, &mut made);
                 continue;
             }
             // A rapid needs no feed.
             Op::StraightTraverse(_) | Op::Hole(_) | Op::Pattern(_) => {
-                take_up(stmt, state, 1, &mut made);
+                take_up(stmt, state, 2, &mut made);
                 continue;
             }
             flow!() | Op::ProgramEnd => {
-                take_up(stmt, state, 2, &mut made);
+                take_up(stmt, state, 3, &mut made);
                 continue;
             }
             Op::SetFeedRate(_)
@@ -137,7 +138,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
     *body = made.out;
 }
 
-/// Puts what waits, the stop or both, into the block of the statement that takes it up.
+/// Puts what waits, with the feed or without, into the block of the statement that takes it up.
 fn take_up(mut stmt: Stmt, state: &mut State, most: usize, made: &mut Rebuild) {
     let leads_away = matches!(stmt.op, flow!() | Op::ProgramEnd);
     for held in &mut state.held[..most] {

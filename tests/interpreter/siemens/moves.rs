@@ -75,7 +75,7 @@ impl<'a> Control<'a> {
         }
         let straight = matches!(motion, Motion::Rapid | Motion::Straight);
         let extra = w.letters.iter().any(|l| "IJK".contains(l.0))
-            || w.named.iter().any(|n| !matches!(n.0, "AP" | "RP"));
+            || w.named.iter().any(|n| super::CENTRE.contains(&n.0));
         if (straight || polar) && extra {
             return self.m.halt("a centre or radius without an arc");
         }

@@ -17,8 +17,13 @@ const FLATTEN: [&str; 2] = ["expand-patterns", "expand-cycles"];
 const STOPPED: &str = "no statement of the spindle is read as part of a hole: what it turns after the last \
     hole is the program's business too, and one stop more or less of it is another program";
 
+/// Why a cycle in a tilted plane does not come back.
+const TILTED: &str = "nothing is folded in a tilted plane";
+
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 13] = [
+const LOST: [(&str, &str, &str); 15] = [
+    ("fanuc/five-axes.nc", "cycle drill of 3", TILTED),
+    ("siemens/five-axes.mpf", "cycle drill of 2", TILTED),
     ("fanuc/g86.nc", "cycle bore-stop of 1", STOPPED),
     ("fanuc/g86.nc", "cycle bore-stop of 2", STOPPED),
     ("siemens/boring-stop.mpf", "cycle bore-stop of 1", STOPPED),

@@ -415,6 +415,7 @@ fn simple() -> BoxedStrategy<Op> {
         expr().prop_map(Op::SelectTool),
         expr().prop_map(Op::UseToolLengthOffset),
         expr().prop_map(Op::Dwell),
+        (select(CornerShape::ALL.to_vec()), expr()).prop_map(|(shape, size)| Op::Corner { shape, size }),
     ];
     let motion = prop_oneof![
         moves().prop_map(Op::StraightTraverse),

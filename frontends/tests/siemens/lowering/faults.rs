@@ -48,7 +48,7 @@ fn words_that_are_known_and_not_translated() {
         assert_eq!(one(line), format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'"));
     };
     refused("G147 X1", "G147", "soft approach", "G147");
-    refused("G1 X1 RND=2", "RND", "rounding of a corner", "RND=2");
+    refused("G1 X1 FRC=2", "FRC", "feed of a chamfer or rounding", "FRC=2");
     refused("G1 RP=IC(5)", "RP=IC(5)", "increment of a polar radius", "RP=IC(5)");
     refused("X1=5", "X1", "axis by its number", "X1=5");
     refused("S2=500", "S2", "spindle by its number", "S2=500");

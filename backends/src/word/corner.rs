@@ -1,0 +1,49 @@
+//! The word that rounds or chamfers the corner behind a move. It stands in the block of that move.
+
+use ncc_ir::canon::CornerShape;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::num::Num;
+use ncc_ir::source::Span;
+
+use super::block::Part;
+use super::codes::Letter;
+use super::modes::cannot;
+use super::{Sink, Writer, number};
+
+impl Writer {
+    /// Makes the word; the move that follows takes it into its block.
+    pub(crate) fn ask_corner(
+        &mut self,
+        shape: CornerShape,
+        size: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let none = || cannot("a rounded or chamfered corner");
+        let word = self.dialect.corner.word(shape).ok_or_else(none)?;
+        let axis = self.codes.axes[0].ok_or_else(none)?;
+        let n = size.literal().ok_or_else(|| cannot("a computed value"))?;
+        let sign = if word.negative { -1 } else { 1 };
+        let n = Num { mantissa: n.mantissa * sign, ..n };
+        let letter = Letter { letter: word.letter as u8, format: axis.format };
+        let value = self.value(&letter, &Expr::Num(n), span, sink)?;
+        let mut text = Vec::new();
+        number::append(&mut text, value);
+        let comma = if word.comma { "," } else { "" };
+        self.corner = Some(format!("{comma}{}{}", word.letter, String::from_utf8_lossy(&text)));
+        let unsure = self.dialect.address_row(word.letter as u8).is_some_and(|row| !row.sure && !word.comma);
+        if unsure && !std::mem::replace(&mut self.told_corner, true) {
+            let (code, meaning) = (word.letter.to_string().into(), "corner rounding or chamfer".into());
+            sink.report(Fault::AssumedRow { code, meaning }, span);
+        }
+        Ok(())
+    }
+
+    /// Puts it into the block of the move.
+    pub(crate) fn put_corner(&mut self) {
+        if let Some(corner) = self.corner.take() {
+            self.block.text(Part::Corner, &corner);
+        }
+    }
+}
