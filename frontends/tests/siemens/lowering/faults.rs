@@ -68,8 +68,8 @@ fn words_that_are_known_and_not_translated() {
     refused("FA[X]=100", "FA", "feed of an axis", "FA[X]=100");
     refused("SPOSA=90", "SPOSA", "spindle positioning", "SPOSA=90");
     assert_eq!(faults("SPOS=90\n"), [] as [&str; 0]);
-    refused("TRAORI(1)", "TRAORI", "transformation of axes", "TRAORI(1)");
-    refused("CYCLE800()", "CYCLE800", "swivelled plane", "CYCLE800()");
+    refused("TRAORI(2)", "TRAORI", "transformation with parameters", "TRAORI(2)");
+    refused("TRACYL(40)", "TRACYL", "transformation of axes", "TRACYL(40)");
     refused("ID=1 WHEN $A DO M8", "ID=1 WHEN $A DO M8", "synchronised action", "ID=1 WHEN $A DO M8");
     refused("NAME(1,2)", "NAME", "call with arguments", "NAME(1,2)");
     refused("EXTCALL \"A\"", "EXTCALL", "call by path", "EXTCALL 'A'");
