@@ -433,6 +433,10 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
                 && near(sweep, s, slack)
         }
         (Happening::Dwell(x), Happening::Dwell(y)) => near(x, y, 0.0006),
+        // A pitch by feed and speed has no end of digits; where it is a word, it has six.
+        (Happening::Thread { pitch: x, chuck: c }, Happening::Thread { pitch: y, chuck: d }) => {
+            c == d && near(x, y, 0.000_000_6)
+        }
         (Happening::Data(a, n, x), Happening::Data(b, m, y)) => {
             a == b && n == m && x.iter().zip(y).all(|(x, y)| near(*x, y, within.place))
         }

@@ -21,6 +21,8 @@ const MOST_PECKS: i64 = 100_000;
 pub(super) struct InForce {
     plane: Plane,
     initial: Nanos,
+    /// The work offset in which the initial level was found.
+    initial_in: u16,
     retract: Nanos,
     depth: Nanos,
     return_level: Option<ReturnLevel>,
@@ -131,6 +133,7 @@ impl Exec {
         let plane = self.plane_of(cycle.plane);
         let normal = plane.axes().2 as usize;
         let initial = self.cycle.as_ref().map_or(self.position[normal], |c| c.initial);
+        let initial_in = self.cycle.as_ref().map_or(self.modes.work_offset, |c| c.initial_in);
         let retract = self.target(&cycle.retract, initial, span)?;
         let depth = self.target(&cycle.depth, retract, span)?;
         if depth > retract {
@@ -192,6 +195,7 @@ impl Exec {
         self.cycle = Some(InForce {
             plane,
             initial,
+            initial_in,
             retract,
             depth,
             return_level: cycle.return_level.known(),
@@ -309,6 +313,14 @@ impl Exec {
             ReturnLevel::Retract => cycle.retract,
             ReturnLevel::Initial => cycle.approach.initial(cycle.initial, cycle.retract),
         };
+        if cycle.return_plane.is_none()
+            && level != cycle.retract
+            && cycle.initial_in != self.modes.work_offset
+        {
+            // Whether it is a level of the work or of the machine, no source tells.
+            let what = "a return to the initial level of another work offset".into();
+            return self.fault(Fault::NotExecuted { what }, span);
+        }
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
         if leg == Leg::Level {
