@@ -379,6 +379,14 @@ impl Control {
             self.m.go_beside(left, reversed, Some(entry))?;
         }
 
+        let tap = matches!(motion_last, Some(74 | 80 | 84));
+        if self.rigid && self.cycle.is_none() && !tap && !dwell && m != Some(29) {
+            let moves = self.axis_words(&words).iter().any(Option::is_some);
+            if moves || number(&words, 'S').is_some() {
+                return self.m.halt("a move or a speed between M29 and its tap");
+            }
+        }
+
         match motion_last {
             Some(80) => self.end_cycle(),
             Some(cycle @ (73 | 74 | 76 | 81..=89)) => {

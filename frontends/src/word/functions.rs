@@ -37,6 +37,7 @@ impl Lower {
         let motion_end = rest.partition_point(|c| self.rank(c.meaning) < RANK_AFTER);
         let (motion, after) = rest.split_at(motion_end);
 
+        self.nothing_before_the_tap(codes, block.span, words, out);
         if self.settings.dialect.block.feed_before_units {
             // The feed's own mode comes first, then the feed, in the units of the blocks before.
             for code in settings.iter().filter(|c| matches!(c.meaning, Meaning::SetFeedMode(_))) {
@@ -271,6 +272,18 @@ impl Lower {
             if let Some(num) = self.entry(&word, src, out) {
                 self.push(word.span, Op::SelectTool(Expr::Num(num)), out);
             }
+        }
+    }
+
+    /// Between the code for rigid tapping and its cycle no axis moves and no speed is said: a control alarms.
+    fn nothing_before_the_tap(&mut self, codes: &[Code], block: Span, words: &Words, out: &mut Batch) {
+        let waits = self.state.rigid && self.state.cycle == InForce::None;
+        let settled =
+            |c: &Code| matches!(c.meaning, Meaning::StartCycle | Meaning::EndCycle | Meaning::Dwell);
+        let words = || self.has_axis_word(words) || words.get(self.roles.speed).is_some();
+        if waits && !codes.iter().any(settled) && words() {
+            let name = "between the code for rigid tapping and its cycle".into();
+            self.fault(Fault::NotSupported { code: "a move or a speed".into(), name }, block, out);
         }
     }
 
