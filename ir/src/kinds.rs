@@ -6,12 +6,13 @@
 //!
 //! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
 
-/// Beside the way: remarks, spindle, coolant, functions of the machine, pauses, on which side of the
+/// Beside the way: remarks and messages, spindle, coolant, functions of the machine, pauses, on which side of the
 /// contour the tool goes. Without axis words, lengths or a feed; what the words of the moves that
 /// follow mean, where the axes stand and which tool is meant stay as they are.
 macro_rules! miscellaneous {
     () => {
         $crate::program::Op::Comment(_)
+            | $crate::program::Op::Message(_)
             | $crate::program::Op::NoEffect(_)
             | $crate::program::Op::Blank
             | $crate::program::Op::StartCutterRadiusCompensation { .. }
@@ -102,6 +103,14 @@ macro_rules! moves {
     };
 }
 
+/// A cycle is called up, executed where its statement stands, or at the places of a pattern. Behind a
+/// pattern or a hole the tool stands where the cycle left it, which is not in their words alone.
+macro_rules! drilling {
+    () => {
+        $crate::program::Op::StartCycle(_) | $crate::program::Op::Hole(_) | $crate::program::Op::Pattern(_)
+    };
+}
+
 /// Where the program goes another way than straight on: nothing that was known before need hold
 /// behind it.
 macro_rules! flow {
@@ -114,6 +123,7 @@ macro_rules! flow {
             | $crate::program::Op::Label(_)
     };
 }
+
 /// Points by radius and angle, and the pole that they are about. A polar move does what its own
 /// operation does, to a point that is not in its words.
 macro_rules! polar {
@@ -121,4 +131,4 @@ macro_rules! polar {
         $crate::program::Op::SetPole(_) | $crate::program::Op::Polar(_)
     };
 }
-pub(crate) use {conduct, flow, frames, machine, miscellaneous, modes, moves, polar, tooling};
+pub(crate) use {conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar, tooling};

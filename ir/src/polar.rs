@@ -189,7 +189,6 @@ pub fn leaves_points(op: &Op, plane: Option<Plane>) -> bool {
         | Op::UseToolLengthOffset(_)
         | Op::StartCycle(_)
         | Op::EndCycle
-        | Op::Message(_)
         | miscellaneous!()
         | conduct!() => false,
         _ => true,

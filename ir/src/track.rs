@@ -464,7 +464,7 @@ impl Tracker {
                 Op::StopCutterRadiusCompensation => self.compensated = false,
                 _ => {}
             },
-            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Message(_) | Op::Assign(..) | conduct!() => {}
+            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Assign(..) | conduct!() => {}
         }
     }
 

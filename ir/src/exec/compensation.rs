@@ -8,7 +8,7 @@
 use super::{Event, Exec, Length};
 use crate::canon::{Axis, Plane, Side};
 use crate::diag::{Diagnostic, Fault};
-use crate::kinds::{conduct, flow, miscellaneous};
+use crate::kinds::{conduct, drilling, flow, miscellaneous};
 use crate::num::{Nanos, ONE};
 use crate::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use crate::source::Span;
@@ -275,9 +275,7 @@ impl Exec {
         let length = self.waiting.unwrap_or(self.modes.length);
         Ok(match op {
             Op::Polar(polar) => return self.refused_on_contour(&polar.op, span),
-            Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) => {
-                Some("a cycle under cutter radius compensation")
-            }
+            drilling!() => Some("a cycle under cutter radius compensation"),
             Op::SelectPlane(other) if Some(*other) != plane => {
                 Some("another plane under cutter radius compensation")
             }
@@ -351,7 +349,6 @@ impl Exec {
             | Op::SetPole(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | flow!() => None,
         })

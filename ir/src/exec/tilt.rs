@@ -11,7 +11,7 @@ use super::{Event, Exec, Kind};
 use crate::canon::{Axis, Units};
 use crate::diag::Diagnostic;
 use crate::geometry;
-use crate::kinds::{conduct, flow, miscellaneous, modes, moves, polar, tooling};
+use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, tooling};
 use crate::num::Nanos;
 use crate::program::{Data, FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use crate::source::Span;
@@ -215,12 +215,9 @@ impl Exec {
             | Op::GoToReference(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
-            | Op::StartCycle(_)
-            | Op::Hole(_)
-            | Op::Pattern(_)
+            | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | conduct!()
@@ -240,9 +237,7 @@ impl Exec {
             moves!() if matches!(op, Op::ArcFeed(_) | Op::ArcForm(_)) => {
                 Some("an arc under tool centre point control")
             }
-            Op::StartCycle(_) | Op::Hole(_) | Op::Pattern(_) => {
-                Some("a cycle under tool centre point control")
-            }
+            drilling!() => Some("a cycle under tool centre point control"),
             moves!() if matches!(op, Op::SynchronisedFeed(_)) => {
                 Some("a thread under tool centre point control")
             }
@@ -273,7 +268,6 @@ impl Exec {
             | Op::SetPole(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | conduct!()

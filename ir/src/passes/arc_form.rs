@@ -131,7 +131,6 @@ fn keeps(op: &Op) -> bool {
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
-            | Op::Message(_)
             | miscellaneous!()
             | conduct!()
     )

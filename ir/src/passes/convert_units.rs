@@ -167,7 +167,6 @@ impl Converter<'_> {
             | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | tooling!()

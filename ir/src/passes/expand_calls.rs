@@ -316,7 +316,6 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd
-        | Op::Message(_)
         | Op::Assign(..)
         | miscellaneous!()
         | modes!()

@@ -11,7 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{conduct, miscellaneous, modes, moves, polar};
+use crate::kinds::{conduct, drilling, miscellaneous, modes, moves, polar};
 use crate::maps::{Maps, Numbered};
 use crate::program::{Control, CutterRadius, Data, Op, Program, ProgramName, Stmt, Text};
 use crate::source::Span;
@@ -36,12 +36,9 @@ macro_rules! unnumbered {
             | Op::SetFeedRate(_)
             | Op::Position(_)
             | polar!()
-            | Op::StartCycle(_)
-            | Op::Hole(_)
-            | Op::Pattern(_)
+            | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Return
             | Op::RepeatBlocks(_)
             | Op::Assign(..)

@@ -125,7 +125,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,
         Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
         Op::Call(_) | Op::Return => CALL,
-        Op::Message(_) => MESSAGE,
+        miscellaneous!() if matches!(op, Op::Message(_)) => MESSAGE,
         conduct!() if matches!(op, Op::Corner { .. }) => CORNER | MOVE,
         conduct!() => PATH | MOVE,
         Op::SetFeedMode(_) => MOVE,

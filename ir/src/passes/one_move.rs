@@ -122,7 +122,6 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
             | Op::SetReturnLevel(_)
             | Op::StartCycle(_)
             | Op::EndCycle
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | tooling!()

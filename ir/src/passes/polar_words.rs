@@ -248,7 +248,6 @@ fn stays(op: &Op, walk: &Walk) -> bool {
         | Op::SetReturnLevel(_)
         | Op::StartCycle(_)
         | Op::EndCycle
-        | Op::Message(_)
         | miscellaneous!()
         | conduct!() => true,
         _ => false,

@@ -16,7 +16,7 @@ use crate::caps::Threads;
 use crate::cycle::{Approach, Cycle, CycleKind, Tap};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::flow;
+use crate::kinds::{drilling, flow};
 use crate::num::{Nanos, Num};
 use crate::program::{Move, Op, Pitch, Program, Stmt, Synchronised};
 use crate::track::Tracker;
@@ -214,9 +214,7 @@ fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(
         | Op::ArcFeed(_)
         | Op::ArcForm(_)
         | Op::Position(_)
-        | Op::StartCycle(_)
-        | Op::Hole(_)
-        | Op::Pattern(_)
+        | drilling!()
         | Op::SetFeedRate(_)
         | flow!() => {
             if stmt.skip.is_some() {

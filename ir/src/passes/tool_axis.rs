@@ -13,7 +13,7 @@ use crate::canon::Axis;
 use crate::caps::{TiltForm, TipForm};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, miscellaneous, modes, moves, polar};
+use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar};
 use crate::num::{Nanos, Num, ONE, Unit};
 use crate::program::{FrameSlot, Op, Program, Slot, Stmt, Tilt};
 use crate::track::Tracker;
@@ -249,12 +249,9 @@ pub(super) fn over(
             | Op::SetData(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
-            | Op::StartCycle(_)
-            | Op::Hole(_)
-            | Op::Pattern(_)
+            | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | conduct!()

@@ -175,7 +175,6 @@ impl Walk {
             | Op::StartCycle(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | conduct!()

@@ -7,7 +7,7 @@ use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
-use crate::kinds::{conduct, flow, machine, miscellaneous, modes, polar, tooling};
+use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, polar, tooling};
 use crate::program::{Op, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
@@ -64,8 +64,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | Op::ClearFrame(_)
         | Op::SetFeedRate(_)
         | Op::EndCycle
-        | Op::ProgramEnd
-        | Op::Message(_) => false,
+        | Op::ProgramEnd => false,
         Op::UseToolCentrePoint(_)
         | Op::SetFrame(_)
         | Op::SetSlot(_)
@@ -74,9 +73,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | Op::ArcFeed(_)
         | Op::ArcForm(_)
         | Op::Position(_)
-        | Op::StartCycle(_)
-        | Op::Hole(_)
-        | Op::Pattern(_)
+        | drilling!()
         | Op::Assign(..)
         | machine!()
         | polar!()

@@ -528,7 +528,6 @@ impl Frames<'_> {
             | Op::SetFeedRate(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Message(_)
             | Op::Assign(..)
             | miscellaneous!()
             | conduct!()

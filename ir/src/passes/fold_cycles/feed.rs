@@ -2,7 +2,7 @@
 
 use crate::cycle::CycleKind;
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, polar, tooling};
+use crate::kinds::{conduct, drilling, flow, frames, machine, miscellaneous, moves, polar, tooling};
 use crate::num::Num;
 use crate::program::{Op, Stmt};
 
@@ -36,7 +36,6 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
         | Op::Pattern(_)
         | Op::EndCycle
         | Op::ProgramEnd
-        | Op::Message(_)
         | Op::Assign(..)
         | miscellaneous!()
         | conduct!()
@@ -59,10 +58,8 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | Op::ArcFeed(_)
             | Op::ArcForm(_)
             | Op::Position(_)
-            | Op::Hole(_)
             | polar!()
-            | Op::Pattern(_)
-            | Op::StartCycle(_)
+            | drilling!()
             | Op::UseLengthUnits(_)
             | Op::SetFeedMode(_)
             | Op::Assign(..)
@@ -74,7 +71,6 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | Op::SetReturnLevel(_)
             | Op::StraightTraverse(_)
             | Op::EndCycle
-            | Op::Message(_)
             | miscellaneous!()
             | conduct!()
             | tooling!()
