@@ -4,6 +4,7 @@ use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
 use crate::expr::Expr;
+use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, moves, polar, tooling};
 use crate::num::Num;
 use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, ReferencePoint, Slot};
@@ -442,7 +443,24 @@ impl Caps {
             Op::ClearFrame(FrameSlot::Scale) => self.scale,
             Op::ClearFrame(FrameSlot::Mirror) => self.mirror,
             Op::ClearFrame(FrameSlot::Tilt) => self.tilt != TiltForm::None,
-            _ => true,
+            Op::ClearFrame(FrameSlot::Polar)
+            | Op::SetOriginOffsets(_)
+            | Op::UseToolCentrePoint(_)
+            | Op::UseMachineCoordinates { .. }
+            | Op::SetFeedRate(_)
+            | Op::Position(_)
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::Assign(..)
+            | machine!()
+            | miscellaneous!()
+            | conduct!()
+            | modes!()
+            | tooling!()
+            | moves!()
+            | drilling!()
+            | polar!()
+            | flow!() => true,
         }
     }
 

@@ -15,7 +15,7 @@ use crate::caps::{CycleCap, CycleForm};
 use crate::cycle::{Cycle, CycleKind, Tap};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
-use crate::kinds::{flow, moves};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, polar, tooling};
 use crate::num::{Nanos, Num, ONE, Unit};
 use crate::program::{Op, Pitch, Program, Stmt};
 use crate::track::Tracker;
@@ -65,7 +65,6 @@ impl Said {
         let literal = |value: &Expr| value.literal().filter(|_| stmt.skip.is_none());
         match &stmt.op {
             Op::SetFeedRate(feed) => self.feed = literal(feed),
-            Op::SetSpindleSpeed(speed) => self.speed = literal(speed),
             Op::StartCycle(cycle) => {
                 if let Some(feed) = &cycle.feed {
                     self.feed = literal(feed);
@@ -75,9 +74,27 @@ impl Said {
                 }
             }
             Op::UseLengthUnits(_) | Op::SetFeedMode(_) => self.feed = None,
-            Op::SetSpindleMode(_) => self.speed = None,
+            miscellaneous!() => match &stmt.op {
+                Op::SetSpindleSpeed(speed) => self.speed = literal(speed),
+                Op::SetSpindleMode(_) => self.speed = None,
+                _ => {}
+            },
             flow!() => (self.feed, self.speed) = (None, None),
-            _ => {}
+            Op::SetDistanceMode(_)
+            | Op::SelectPlane(_)
+            | Op::SetReturnLevel(_)
+            | Op::Position(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::Assign(..)
+            | machine!()
+            | frames!()
+            | conduct!()
+            | tooling!()
+            | moves!()
+            | polar!() => {}
         }
     }
 }

@@ -16,7 +16,7 @@ use crate::caps::Threads;
 use crate::cycle::{Approach, Cycle, CycleKind, Tap};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{drilling, flow};
+use crate::kinds::{conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar};
 use crate::num::{Nanos, Num};
 use crate::program::{Move, Op, Pitch, Program, Stmt, Synchronised};
 use crate::track::Tracker;
@@ -52,19 +52,31 @@ impl State {
     #[inline]
     pub(super) fn note(&mut self, stmt: &Stmt) {
         match &stmt.op {
-            Op::OrientSpindle(_) => self.held = stmt.skip.is_none(),
-            Op::SynchronisedFeed(m) if m.turn.is_some() => {}
-            Op::StartSpindleClockwise
-            | Op::StartSpindleCounterclockwise
-            | Op::StopSpindleTurning
-            | Op::ChangeTool
-            | Op::StartCycle(_)
-            | Op::Call(_)
-            | Op::Return
-            | Op::Label(_)
-            | Op::Control(_)
-            | Op::RepeatBlocks(_) => self.held = false,
-            _ => {}
+            miscellaneous!() => match &stmt.op {
+                Op::OrientSpindle(_) => self.held = stmt.skip.is_none(),
+                Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise | Op::StopSpindleTurning => {
+                    self.held = false
+                }
+                _ => {}
+            },
+            Op::ChangeTool | Op::StartCycle(_) | flow!() => self.held = false,
+            Op::SelectTool(_)
+            | Op::SelectToolByName(_)
+            | Op::UseToolLengthOffset(_)
+            | Op::UseToolEdge { .. }
+            | Op::SetFeedRate(_)
+            | Op::Position(_)
+            | Op::Hole(_)
+            | Op::Pattern(_)
+            | Op::EndCycle
+            | Op::ProgramEnd
+            | Op::Assign(..)
+            | machine!()
+            | frames!()
+            | conduct!()
+            | modes!()
+            | moves!()
+            | polar!() => {}
         }
     }
 }
