@@ -323,12 +323,13 @@ impl Exec {
         }
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
+        let by_height = matches!(cycle.approach, Approach::RaiseFirst | Approach::ClearFirst);
+        if by_height && normal == super::Z && self.waiting.is_some() {
+            // Which way comes first depends on where the tool stands by the length that is taken up on it.
+            let what = "a first hole on whose way a length is taken up".into();
+            return self.fault(Fault::NotExecuted { what }, span);
+        }
         if leg == Leg::Level {
-            if normal == super::Z && self.waiting.is_some() && cycle.approach != Approach::RetractFirst {
-                // Below the retract plane by the length before, not by the one that is taken up now.
-                let what = "a way up to R on which a length is taken up".into();
-                return self.fault(Fault::NotExecuted { what }, span);
-            }
             self.go_to_level(normal, cycle.retract, false, span, out)?;
         }
         let level = if leg == Leg::Slant { out_to } else { self.position[normal] };
