@@ -533,7 +533,9 @@ impl<'a> Control<'a> {
             self.m.round_all = Some(radius.number * self.unit()).filter(|r| *r > 0.0);
         }
         if moves {
-            self.hold_spindle();
+            if !axes.contains(&self.m.axes().2) {
+                self.hold_spindle();
+            }
             self.ask_corner(w);
             self.go(w, &axes)?;
             if let Some(cycle) = self.modal {

@@ -266,7 +266,8 @@ impl Control<'_> {
         Ok(Kind::Deep { stroke, at_start, last_dwell, clear, step })
     }
 
-    /// Whether the spindle turns on the way to a rigid tap is not looked at: it stands.
+    /// Whether the spindle turns on the way in the plane to a rigid tap is not looked at: it stands. A way
+    /// along the drilling axis is a block's own, before the cycle.
     pub(super) fn hold_spindle(&mut self) {
         if let Some(Cycle { kind: Kind::Rigid { .. }, .. }) = self.modal {
             self.m.turn(Spindle::Stopped);
