@@ -58,6 +58,11 @@ impl Writer {
             before: None,
             feed: None,
         };
+        let with_hole = self.dialect.cycles.hole_on_definition;
+        let holds_another = |before: &Held| !before.in_text && before.skip != stmt.skip;
+        if with_hole && stmt.skip.is_some() && self.held.as_ref().is_some_and(holds_another) {
+            return Err(cannot("a skippable cycle behind one without a hole"));
+        }
         match self.held.take() {
             Some(before) if before.in_text && self.force.motion == Some(Motion::Cycle) => {
                 held.feed = before.feed;
@@ -70,7 +75,7 @@ impl Writer {
             }
             Some(_) | None => {}
         }
-        if !self.dialect.cycles.hole_on_definition {
+        if !with_hole {
             return self.call_up(held, None, true, stmt, sink);
         }
         // A cycle without a row is a fault here, not at its first hole.

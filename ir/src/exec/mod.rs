@@ -337,6 +337,11 @@ impl Exec {
         }
     }
 
+    /// Whether the next command of Z takes up a length other than the one in force.
+    fn another_length_waits(&self) -> bool {
+        self.waiting.is_some_and(|length| self.length_of(length) != self.length_of(self.modes.length))
+    }
+
     fn fault<T>(&self, fault: Fault, span: Span) -> Result<T, Diagnostic> {
         Err(Diagnostic::new(fault, span))
     }
@@ -387,7 +392,11 @@ impl Exec {
                 next[axis] = self.target(word, self.position[axis], span)?;
             }
         }
-        if to.axes[Z].is_some() {
+        if let Some(word) = &to.axes[Z] {
+            if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {
+                // Whether the way grows by the difference is a setting on some controls, told on none.
+                return self.not_executed("an incremental way along Z on which a length is taken up", span);
+            }
             self.take_up_length();
         }
         self.position = next;

@@ -26,6 +26,10 @@ impl Exec {
         if !m.chuck && m.turn.is_none() && turns == Spindle::Stopped {
             return self.not_executed("a thread with a spindle that stands", span);
         }
+        if self.waiting.is_some() && m.to.axes[super::Z].is_some() {
+            // From where it goes by the length before, to where it goes by the one that is taken up on it.
+            return self.not_executed("a thread on which a length is taken up", span);
+        }
         self.set_axes(&m.to, span)?;
         self.heading = super::Heading::None;
         // Bare axis words after it are no plain feed: without a cycle in force they are an error.

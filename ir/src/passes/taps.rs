@@ -125,15 +125,8 @@ pub(super) fn over(
             let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
-        let turned = state.clockwise
-            && match stmt.op {
-                Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_) => true,
-                Op::StartCycle(_) | Op::EndCycle => stmt.skip.is_some(),
-                _ => false,
-            };
-        if turned {
-            let what = "a spindle that turns another way while a boring cycle is in force".into();
-            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        if let Some(what) = turned(&stmt, state) {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
         state.clockwise &= !ends;
         let mut after = Vec::new();
@@ -189,6 +182,23 @@ pub(super) fn over(
             made.push(one);
         }
     });
+}
+
+/// What cannot be said of a spindle that is switched while a cycle is in force whose end has to say what
+/// the spindle does.
+fn turned(stmt: &Stmt, state: &State) -> Option<&'static str> {
+    let stops = matches!(
+        stmt.op,
+        Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_)
+    );
+    let may_end = stmt.skip.is_some() && matches!(stmt.op, Op::StartCycle(_) | Op::EndCycle);
+    if state.clockwise && (stops || may_end) {
+        return Some("a spindle that turns another way while a boring cycle is in force");
+    }
+    let switches = stops || matches!(stmt.op, Op::StartSpindleClockwise | Op::ChangeTool);
+    let owed = |op: &Op| !matches!(op, Op::SetFeedRate(_));
+    (switches && state.owed.iter().any(owed))
+        .then_some("a spindle that is switched while a tapping cycle is in force")
 }
 
 const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
