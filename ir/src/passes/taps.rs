@@ -187,10 +187,8 @@ pub(super) fn over(
 /// What cannot be said of a spindle that is switched while a cycle is in force whose end has to say what
 /// the spindle does.
 fn turned(stmt: &Stmt, state: &State) -> Option<&'static str> {
-    let stops = matches!(
-        stmt.op,
-        Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_)
-    );
+    let stops =
+        matches!(stmt.op, Op::StartSpindleCounterclockwise | Op::StopSpindleTurning | Op::OrientSpindle(_));
     let may_end = stmt.skip.is_some() && matches!(stmt.op, Op::StartCycle(_) | Op::EndCycle);
     if state.clockwise && (stops || may_end) {
         return Some("a spindle that turns another way while a boring cycle is in force");
