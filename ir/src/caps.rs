@@ -113,6 +113,12 @@ pub struct Caps {
     pub repeat_blocks: bool,
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
+    /// A length offset counts as soon as it is read: the tool stands at another Z.
+    pub length_at_once: bool,
+    /// Such a program begins with words for no length.
+    pub starts_without_length: bool,
+    /// Behind the end of a cycle no motion is in force.
+    pub cycle_ends_motion: bool,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.

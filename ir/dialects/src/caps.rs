@@ -8,6 +8,7 @@ use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
 
 use crate::meaning::{Meaning, Thread};
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
+use crate::power_on::SafeStart;
 use crate::schema::{CycleRow, Dialect, Family, PatternRow};
 use crate::stored::DataKind;
 
@@ -220,6 +221,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.power_on.no_origin_shift.as_ref().is_some_and(|f| f.always && f.value)
             || says(Meaning::ClearFrame(ncc_ir::program::FrameSlot::Shift)),
         offset_with_z: dialect.can.offset_with_z,
+        length_at_once: dialect.can.length_at_once,
+        starts_without_length: dialect.can.length_at_once
+            && dialect.safe_start.contains(&SafeStart::NoLengthOffset),
+        cycle_ends_motion: dialect.cycles.ends_motion,
         cycles_measured_anew: dialect.cycles.measured_anew,
         change_stops_spindle: dialect.can.change_stops_spindle,
         arc_radius: everything

@@ -7,17 +7,17 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::needs::{
-    ARC, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE, PATH,
-    PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
+    ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE,
+    PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
 };
 use super::walk::Walk;
 use super::write::EXACT;
 use super::{
-    Target, absolute_holes, approach, arc_form, cutter_radius, expand_calls, expand_corners, expand_cycles,
-    expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves,
-    number_names, offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words,
-    return_plane, skip_levels, specialise_procedures, state_clearance, taps, threads, tool_axis, tool_change,
-    tool_edge, work_offset,
+    Target, absolute_holes, approach, arc_form, at_once, cutter_radius, expand_calls, expand_corners,
+    expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts,
+    machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
+    polar_words, return_plane, skip_levels, specialise_procedures, state_clearance, taps, threads, tool_axis,
+    tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -57,6 +57,7 @@ pub struct Legaliser {
     threads: threads::State,
     machine: machine_moves::State,
     change: tool_change::State,
+    at_once: at_once::State,
 }
 
 impl Legaliser {
@@ -88,7 +89,8 @@ impl Legaliser {
                     | MACHINE
                     | POLAR
                     | TOOL_AXIS
-                    | CORNER)
+                    | CORNER
+                    | AT_ONCE)
                 != 0,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
@@ -110,6 +112,7 @@ impl Legaliser {
             threads: threads::State::default(),
             machine: machine_moves::State::default(),
             change: tool_change::State::default(),
+            at_once: at_once::State::new(caps),
         }
     }
 
@@ -243,6 +246,9 @@ impl Legaliser {
         }
         if self.machine.is_busy() {
             needs |= MACHINE;
+        }
+        if self.at_once.is_busy() {
+            needs |= AT_ONCE;
         }
         if self.edge.is_busy() {
             needs |= self.lacks & (EDGE | TABLE);
@@ -421,6 +427,10 @@ impl Legaliser {
         if needs & EVERY != 0 {
             flatten_facts::over(stmts, &mut start.clone(), diags);
         }
+        // What is left as it is now is what is written.
+        if needs & AT_ONCE != 0 {
+            at_once::over(stmts, &mut start.clone(), &mut self.at_once, &self.target, diags);
+        }
     }
 
     /// Writes corners out, and says what is needed because of it: they are arcs, which their moves need
@@ -528,8 +538,10 @@ impl Legaliser {
             self.frames.start_over();
             self.machine = machine_moves::State::default();
             self.change.start_over();
+            self.at_once = at_once::State::default();
             self.run(&mut procedure.body, &Modes::default(), diags);
             self.finish(&mut procedure.body, diags);
+            self.at_once.end_of_sub(&procedure.body, diags);
         }
     }
 

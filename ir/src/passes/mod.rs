@@ -8,6 +8,7 @@
 pub mod absolute_holes;
 pub mod approach;
 pub mod arc_form;
+mod at_once;
 pub mod convert_arcs;
 pub mod convert_circles;
 pub mod convert_distance;

@@ -32,6 +32,7 @@ pub(super) const RADIUS: u32 = 1 << 19;
 pub(super) const THREAD: u32 = 1 << 20;
 pub(super) const TOOL_AXIS: u32 = 1 << 24;
 pub(super) const CORNER: u32 = 1 << 25;
+pub(super) const AT_ONCE: u32 = 1 << 26;
 
 /// What a target lacks.
 pub(super) fn lacks(caps: &Caps) -> u32 {
@@ -94,6 +95,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(THREAD, caps.threads.any);
     needs(POLAR, caps.polar == PolarForm::Any);
     needs(CORNER, caps.corners == Corners::ALL);
+    needs(AT_ONCE, !caps.length_at_once && !caps.cycle_ends_motion);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
     lacks
 }
@@ -110,12 +112,13 @@ fn interest_of(op: &Op) -> u32 {
         Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::SetFeedRate(_) => 0,
         Op::ArcFeed(_) | Op::ArcForm(_) => ARC,
         Op::SynchronisedFeed(_) => THREAD,
-        Op::StartCycle(_) | Op::Hole(_) | Op::EndCycle | Op::Position(_) => CYCLE,
+        Op::StartCycle(_) | Op::Hole(_) | Op::Position(_) => CYCLE,
+        Op::EndCycle => CYCLE | AT_ONCE,
         Op::SetPole(_) => POLAR,
         Op::Polar(polar) => POLAR | interest_of(&polar.op),
         Op::Pattern(_) => PATTERN | CYCLE,
-        Op::UseToolLengthOffset(_) => LENGTH | TABLE,
-        Op::UseToolEdge { .. } => LENGTH | EDGE,
+        Op::UseToolLengthOffset(_) => LENGTH | TABLE | AT_ONCE,
+        Op::UseToolEdge { .. } => LENGTH | EDGE | AT_ONCE,
         Op::ChangeTool => TABLE,
         Op::UseMachineCoordinates { .. } | Op::GoToReference(_) | Op::SetData(_) => MACHINE,
         Op::SetOriginOffsets(_) => WORK,

@@ -1,15 +1,19 @@
 //! `--style rs274`: the calls of a program as LinuxCNC's stand-alone interpreter prints them.
 //!
-//! A listing to be held beside that interpreter's, no program: no control reads it, and nothing reads it
-//! back. Its judge is the interpreter itself, whose own test programs are printed as it prints them.
-//! Compensated contours are listed by the path of the tool's centre.
+//! A listing to be held beside that interpreter's, no program: no control reads it. It is read back all the
+//! same (`read_back`), and leaves the house only if it does what the program does, or unverified if that is
+//! asked for, which is told: there is no place for a mark in the interpreter's form. Another judge is the
+//! interpreter itself, whose own test programs are printed as it prints them. Compensated contours are listed
+//! by the path of the tool's centre.
+
+mod read_back;
 
 use std::io::{Read, Seek, SeekFrom};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::canon::rs274;
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::diag::Gravity;
+use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::{Procedure, Program};
 
 use crate::args::{Format, Style, Translate};
@@ -74,10 +78,14 @@ pub(crate) fn run(
         let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
         let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
         match rs274::print(&program, &text, &job.compensating().radii) {
-            Ok(text) => listing = Some(text),
+            Ok(text) => match if job.verify { read_back::verify(job, &program, &text) } else { Ok(()) } {
+                Ok(()) => listing = Some(text),
+                Err(why) => found.push(why),
+            },
             Err(why) => found.push(why),
         }
     }
+    let failed = found.iter().any(|d| matches!(d.fault, Fault::NotTheSame { .. }));
     // What the interpreter starts with is known: nothing is taken for granted of it.
     found.retain(|d| d.fault.gravity() == Gravity::Error || job.refuses(d));
     let mut about = About { job, name: &source.shown, source: &mut source.file };
@@ -87,7 +95,12 @@ pub(crate) fn run(
         Format::Json => json::print(&mut crate::problem::as_write(err), &mut about, &found, loudness),
         Format::Human => human::print(err, &mut about, &found, loudness),
     };
-    let Some(listing) = listing else { return Ok(Exit::Refused) };
+    let Some(listing) = listing else {
+        return Ok(if failed { Exit::VerificationFailed } else { Exit::Refused });
+    };
+    if !job.verify && args.format == Format::Human {
+        let _ = writeln!(err, "{}: listed, NOT VERIFIED", source.shown);
+    }
     match destination {
         Destination::Stdout => files::to_stdout(&mut |out| out.write_all(listing.as_bytes()))?,
         Destination::File(path) => files::to_file(path, &mut |out| out.write_all(listing.as_bytes()))?,

@@ -1,0 +1,267 @@
+//! A listing of calls read back: what the machine does by it, held against what it does by the program.
+//!
+//! The listing's numbers are those of a control whose tables are zero and which stands at zero, so the program
+//! is executed so too. How corners are taken is not compared: the interpreter's own cycles set it for their
+//! moves, which no other control's do.
+//!
+//! Not here: how calls are printed. Nothing is shared with the printer but the form that
+//! `docs/rs274-listing.md` and the interpreter itself define.
+
+use ncc_ir::canon::{AXES, Axis, Modes, Plane, Spindle, Turn};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner, Seen, State};
+use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::program::Program;
+use ncc_ir::source::Span;
+use ncc_ir::verify::{Comparison, Resolution};
+use ncc_ir::world::World;
+
+use crate::difference;
+use crate::job::Job;
+use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+
+/// Digits after the point of every number but whole ones.
+const DIGITS: u8 = 4;
+
+/// Executes a program and reads its listing back; the first difference, if there is one.
+///
+/// # Errors
+/// The listing is not that of the program, or no listing; or the program cannot be executed.
+pub(super) fn verify(job: &Job, program: &Program, listing: &str) -> Result<(), Diagnostic> {
+    let mut source = executed(job, program)?;
+    let last = source.last().map_or(Span::default(), |event| event.span);
+    let differs = |what: String, at: Span| Diagnostic::new(Fault::NotTheSame { difference: what.into() }, at);
+    let mut read = match Listed::default().events(listing) {
+        Ok(events) => events,
+        Err(line) => {
+            return Err(differs(format!("the listing has a line that is no call of it: {line}"), last));
+        }
+    };
+    let resolution = Resolution {
+        mm: DIGITS,
+        inch: DIGITS,
+        degree: DIGITS,
+        feed: DIGITS,
+        feed_inch: DIGITS,
+        second: DIGITS,
+    };
+    let mut comparison = Comparison::new(resolution, [0; AXES]);
+    comparison.see(Seen { modes: 0, in_rapids: false, path: false, advice: 0 });
+    comparison.advance(&mut source, &mut read, true).map_err(|found| {
+        let at = found.source.as_ref().map_or(last, |event| event.span);
+        differs(difference::describe(&found), at)
+    })
+}
+
+/// The events of a program on a control with empty tables, from zero.
+fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
+    let mut world = World::generate(0, &Modes { work_offset: Some(1), ..program.assumed });
+    world.start = [0; AXES];
+    world.tables.radii = job.compensating().radii;
+    let nanos = |option| parameter(job, option).and_then(|n| n.nanos(false)).unwrap_or(0);
+    (world.peck_clearance, world.break_lift) = (nanos(PECK_CLEARANCE), nanos(BREAK_LIFT));
+    let mut exec = Exec::new(&world, 0);
+    exec.compute_compensation(job.compensating().rules);
+    let (mut runner, mut events) = (Runner::new(program), Vec::new());
+    while runner.run(&mut exec, usize::MAX, &mut events)? == Progress::More {}
+    exec.end_of_text(&mut events);
+    Ok(events)
+}
+
+/// What the calls have said so far.
+#[derive(Default)]
+struct Listed {
+    state: State,
+    at: [Nanos; AXES],
+    inch: bool,
+    plane: Option<Plane>,
+    /// Feed in force, nanos of a millimetre a minute.
+    feed: Nanos,
+    /// Whether feeds are those of a tap, which the spindle's speed goes with.
+    tapping: bool,
+    /// The spindle before it was stopped by the line before.
+    turned: Option<Spindle>,
+    events: Vec<Event>,
+}
+
+impl Listed {
+    /// The events of a listing.
+    ///
+    /// # Errors
+    /// A line that is no call of one.
+    fn events(mut self, listing: &str) -> Result<Vec<Event>, String> {
+        let lines: Vec<&str> = listing.lines().collect();
+        let end = lines.iter().rposition(|line| *line == "PROGRAM_END()");
+        // What belongs to the end begins where the first work offset is taken again.
+        let tail = end.and_then(|end| lines[..end].iter().rposition(|l| l.starts_with("SET_G5X_OFFSET(1,")));
+        for (at, line) in lines.iter().enumerate() {
+            if Some(at) == tail {
+                self.event(Kind::ProgramEnd, 0);
+                break;
+            }
+            self.line(line, lines.get(at + 1).copied()).ok_or_else(|| (*line).to_owned())?;
+        }
+        Ok(self.events)
+    }
+
+    fn event(&mut self, kind: Kind, rate: Nanos) {
+        let (end, state, inch) = (self.at, self.state, self.inch);
+        self.events.push(Event { kind, end, rate, state, inch, span: Span::default() });
+    }
+
+    fn line(&mut self, line: &str, next: Option<&str>) -> Option<()> {
+        let (name, rest) = line.split_once('(')?;
+        let inside = rest.strip_suffix(')')?;
+        let stopped = self.turned.take();
+        match name {
+            "COMMENT"
+            | "ON_RESET"
+            | "SET_FEED_REFERENCE"
+            | "SET_NAIVECAM_TOLERANCE"
+            | "SET_MOTION_CONTROL_MODE" => {}
+            // All tables are zero.
+            "SET_G5X_OFFSET" | "SET_G92_OFFSET" | "SET_XY_ROTATION" | "USE_TOOL_LENGTH_OFFSET" => {
+                let mut numbers = inside.split([',', ' ']).filter(|n| !n.is_empty());
+                if name == "SET_G5X_OFFSET" {
+                    numbers.next()?;
+                }
+                numbers.all(|n| number(n) == Some(0)).then_some(())?;
+            }
+            "MESSAGE" => self.event(Kind::Message(inside.strip_prefix('"')?.strip_suffix('"')?.into()), 0),
+            "USE_LENGTH_UNITS" => self.inch = inside == "CANON_UNITS_INCHES",
+            "SELECT_PLANE" => {
+                let plane = match inside {
+                    "CANON_PLANE_XY" => Plane::Xy,
+                    "CANON_PLANE_XZ" => Plane::Zx,
+                    "CANON_PLANE_YZ" => Plane::Yz,
+                    _ => return None,
+                };
+                self.plane = Some(plane);
+            }
+            "SET_FEED_MODE" => (inside == "0, 0").then_some(())?,
+            "SET_FEED_RATE" => self.feed = self.length(inside)?,
+            "SET_SPINDLE_SPEED" => self.state.speed = number(inside.strip_prefix("0, ")?)?,
+            "START_SPINDLE_CLOCKWISE" => self.state.spindle = Spindle::Clockwise,
+            "START_SPINDLE_COUNTERCLOCKWISE" => self.state.spindle = Spindle::Counterclockwise,
+            "STOP_SPINDLE_TURNING" => {
+                let before = std::mem::replace(&mut self.state.spindle, Spindle::Stopped);
+                self.turned = next.is_some_and(|next| next.starts_with("CHANGE_TOOL(")).then_some(before);
+            }
+            "SELECT_TOOL" => {}
+            "CHANGE_TOOL" => {
+                // The stop belongs to the change, which comes first.
+                self.state.tool = inside.parse().ok()?;
+                let now = std::mem::replace(&mut self.state.spindle, stopped?);
+                self.event(Kind::ToolChange, 0);
+                self.state.spindle = now;
+            }
+            "FLOOD_ON" => self.coolant(true, self.state.mist, false),
+            "MIST_ON" => self.coolant(self.state.flood, true, false),
+            // One word switches both off.
+            "MIST_OFF" => self.coolant(self.state.flood, false, next == Some("FLOOD_OFF()")),
+            "FLOOD_OFF" => self.coolant(false, self.state.mist, false),
+            // A tap without a dwell has one of no seconds.
+            "DWELL" if self.tapping && number(inside) == Some(0) => {}
+            "DWELL" => self.event(Kind::Dwell(number(inside)?), 0),
+            "DISABLE_FEED_OVERRIDE" => self.tapping = true,
+            "ENABLE_FEED_OVERRIDE" => self.tapping = false,
+            "DISABLE_SPEED_OVERRIDE" | "ENABLE_SPEED_OVERRIDE" => {}
+            "STRAIGHT_TRAVERSE" => {
+                self.at = self.point(&inside.split(", ").collect::<Vec<_>>())?;
+                self.event(Kind::Traverse, 0);
+            }
+            "STRAIGHT_FEED" => {
+                self.at = self.point(&inside.split(", ").collect::<Vec<_>>())?;
+                let (kind, rate) = match self.tapping {
+                    false => (Kind::Feed, self.feed),
+                    true => (Kind::Synchronised { pitch: self.of_a_turn()?, chuck: true }, self.feed),
+                };
+                self.event(kind, rate);
+            }
+            "ARC_FEED" => self.arc(&inside.split(", ").collect::<Vec<_>>())?,
+            "PROGRAM_STOP" => self.event(Kind::ProgramStop, 0),
+            "OPTIONAL_PROGRAM_STOP" => self.event(Kind::OptionalProgramStop, 0),
+            "FINISH" => self.event(Kind::TextEnd, 0),
+            _ => return None,
+        }
+        Some(())
+    }
+
+    /// Switches coolant; where the next call switches the rest, that makes the event.
+    fn coolant(&mut self, flood: bool, mist: bool, more: bool) {
+        (self.state.flood, self.state.mist) = (flood, mist);
+        if !more {
+            self.event(Kind::Coolant, 0);
+        }
+    }
+
+    fn length(&self, text: &str) -> Option<Nanos> {
+        let n = number(text)?;
+        Some(if self.inch { n / 10 * 254 } else { n })
+    }
+
+    fn point(&self, words: &[&str]) -> Option<[Nanos; AXES]> {
+        let mut point = [0; AXES];
+        for axis in Axis::ALL {
+            let word = words.get(axis as usize)?;
+            point[axis as usize] = if axis.is_rotary() { number(word)? } else { self.length(word)? };
+        }
+        (words.len() == AXES).then_some(point)
+    }
+
+    /// How far the feed in force goes in a turn of the spindle.
+    fn of_a_turn(&self) -> Option<Nanos> {
+        let turn = i128::from(self.feed) * i128::from(ONE) / i128::from(self.state.speed).max(1);
+        Nanos::try_from(turn).ok()
+    }
+
+    fn arc(&mut self, words: &[&str]) -> Option<()> {
+        let [e1, e2, c1, c2, turns, normal, a, b, c] = words else { return None };
+        let plane = self.plane.unwrap_or(Plane::Xy);
+        let (first, second, third) = plane.axes();
+        let mut end = self.at;
+        for (axis, word) in [(first, e1), (second, e2), (third, normal)] {
+            end[axis as usize] = self.length(word)?;
+        }
+        for (axis, word) in [(Axis::A, a), (Axis::B, b), (Axis::C, c)] {
+            end[axis as usize] = number(word)?;
+        }
+        let turns: i64 = turns.parse().ok().filter(|turns| *turns != 0)?;
+        let turn = if turns > 0 { Turn::Counterclockwise } else { Turn::Clockwise };
+        let centre = [self.length(c1)?, self.length(c2)?];
+        let from = self.at;
+        let (f, s) = (first as usize, second as usize);
+        let closed = from[f] == end[f] && from[s] == end[s];
+        let angle = |p: &[Nanos; AXES]| ((p[s] - centre[1]) as f64).atan2((p[f] - centre[0]) as f64);
+        let whole = std::f64::consts::TAU;
+        let ahead = (angle(&end) - angle(&from)) * turns.signum() as f64;
+        let part = if closed { whole } else { ahead.rem_euclid(whole) };
+        let sweep = part + whole * (turns.abs() - 1) as f64;
+        // Each whole turn is a move of its own, the other axes going with the angle.
+        for k in 1..turns.abs() {
+            let share = whole * k as f64 / sweep;
+            for axis in 0..AXES {
+                self.at[axis] = from[axis] + ((end[axis] - from[axis]) as f64 * share).round() as Nanos;
+            }
+            (self.at[f], self.at[s]) = (from[f], from[s]);
+            self.event(Kind::Arc { plane, turn, full: true, centre }, self.feed);
+        }
+        self.at = end;
+        self.event(Kind::Arc { plane, turn, full: closed, centre }, self.feed);
+        Some(())
+    }
+}
+
+/// A number with at most nine digits after the point, in billionths.
+fn number(text: &str) -> Option<Nanos> {
+    let (minus, text) = text.strip_prefix('-').map_or((false, text), |rest| (true, rest));
+    let (whole, part) = text.split_once('.').unwrap_or((text, ""));
+    if whole.is_empty() || part.len() > 9 || !whole.bytes().chain(part.bytes()).all(|b| b.is_ascii_digit()) {
+        return None;
+    }
+    let n: Nanos = format!("{whole}{part:0<9}").parse().ok()?;
+    Some(if minus { -n } else { n })
+}
+
+#[cfg(test)]
+mod tests;
