@@ -108,6 +108,8 @@ pub(crate) struct Block {
     pub unsure: Vec<Code>,
     /// Whether the motion is a cycle's call.
     pub calls_up: bool,
+    /// Whether a tool is changed.
+    changes: bool,
     blanks: bool,
     most_g: u8,
     most_m: u8,
@@ -129,6 +131,7 @@ impl Block {
             skip: None,
             unsure: Vec::new(),
             calls_up: false,
+            changes: false,
             blanks,
             most_g,
             most_m,
@@ -163,9 +166,12 @@ impl Block {
         let dwell = rank == Rank::Dwell && (Rank::Offset..=Rank::Motion).contains(&need.rank);
         // A call's words stand alone with their code.
         let call = need.rank == Rank::Call && self.letters != 0;
+        // Whether the machine does what another M code says before, with or after the change is its builder's.
+        let change = self.changes && need.m > 0;
         ordered
             && !dwell
             && !call
+            && !change
             && self.groups & need.groups == 0
             && self.letters & need.letters == 0
             && (self.most_g == 0 || self.g + need.g <= self.most_g || need.g == 0)
@@ -207,6 +213,7 @@ impl Block {
     /// Notes what a statement takes.
     pub(crate) fn take(&mut self, need: &Need) {
         self.rank = Some(need.rank);
+        self.changes |= need.rank == Rank::ToolChange;
         self.g += need.g;
         self.m += need.m;
         self.groups |= need.groups;
@@ -289,6 +296,7 @@ impl Block {
         }
         self.number = None;
         self.calls_up = false;
+        self.changes = false;
         (self.g, self.m, self.groups, self.letters, self.rank) = (0, 0, 0, 0, None);
     }
 }
