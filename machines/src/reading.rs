@@ -133,6 +133,9 @@ const LENGTH_CONST: &str = "SD-42940-TOOL_LENGTH_CONST";
 /// Machine data that say which spindle words without a number mean.
 const MASTER_SPINDLE: &str = "MD-20090-SPIND_DEF_MASTER_SPIND";
 
+/// That a machine has one record of its kinematics, whatever a program calls it.
+const SWIVEL_RECORD: &str = "only-swivel-data-record";
+
 /// The fact that an assumption rests on, or that is missing where an M code is refused; `None` for
 /// anything else.
 pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Option<(Side, Place)> {
@@ -252,7 +255,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         TIP,
         TILT,
     ];
-    if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE].contains(&key) {
+    if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE, SWIVEL_RECORD].contains(&key) {
         return true;
     }
     let call = |name: &str| dialect.call_row(name).is_some();

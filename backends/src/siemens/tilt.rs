@@ -1,14 +1,15 @@
 //! Tilted working planes: one call says the plane, and whether and which way the tool is turned onto it.
 //!
-//! Nothing is retracted by the call, and no record of the machine's kinematics is named: the only one, or the
-//! first, counts. Where the program does not say the way, the one towards minus is written.
+//! What retracts to the machine's zero in its block is said by the call, where it turns the tool. No record of
+//! the machine's kinematics is named: the only one, or the first, counts. Where the program does not say the way, the one towards minus is written.
 
 use ncc_dialects::{Meaning, NameMeaning, Quantity};
 use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Op, Slot, Stmt, Tilt, Toward};
+use ncc_ir::passes::retract;
+use ncc_ir::program::{FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
@@ -17,6 +18,10 @@ use crate::word::modes::cannot;
 /// A plane, and how the tool is turned onto it in the same block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Swivel<'s> {
+    /// The end of the plane before it, which a plane set anew brings by itself.
+    ends: usize,
+    /// Moves to the machine's zero before it: along Z, and then X and Y.
+    retracts: usize,
     tilt: &'s Tilt,
     /// `None` is not at all.
     turned: Option<Option<Toward>>,
@@ -25,26 +30,35 @@ pub(super) struct Swivel<'s> {
 impl Swivel<'_> {
     /// How many statements it is.
     pub(super) fn said(self) -> usize {
-        1 + usize::from(self.turned.is_some())
+        self.ends + self.retracts + 1 + usize::from(self.turned.is_some())
     }
 }
 
 /// The plane that the statements begin with.
 pub(super) fn of(rest: &[Stmt]) -> Option<Swivel<'_>> {
-    let (first, behind) = rest.split_first()?;
+    let ends = usize::from(matches!(rest.first()?.op, Op::ClearFrame(FrameSlot::Tilt)));
+    let retracts = rest.get(ends..).and_then(retract).unwrap_or(0);
+    let parts = rest.get(..=ends + retracts)?;
+    if parts.iter().skip(1).any(|part| !part.joined || part.skip != parts[0].skip) {
+        return None;
+    }
+    let (first, behind) = rest.get(ends + retracts..)?.split_first()?;
     let Op::SetSlot(slot) = &first.op else { return None };
     let Slot::Tilt(tilt) = &**slot else { return None };
     let turned = behind.first().filter(|next| next.joined && next.skip == first.skip).and_then(|next| {
         let Op::OrientToolAxis(toward) = next.op else { return None };
         Some(toward)
     });
-    Some(Swivel { tilt, turned })
+    if retracts > 0 && turned.is_none() {
+        return None;
+    }
+    Some(Swivel { ends, retracts, tilt, turned })
 }
 
 impl Writer {
     /// `CYCLE800(0,"",0,57,x,y,z,a,b,c,0,0,0,-1)`
     pub(super) fn tilt(&mut self, swivel: Swivel, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        let Swivel { tilt, turned } = swivel;
+        let Swivel { retracts, tilt, turned, .. } = swivel;
         if self.words.preamble.is_some() {
             self.words.start(sink);
         }
@@ -61,12 +75,18 @@ impl Writer {
         for word in &tilt.angles {
             words.push(self.value(&angle, word, span, sink)?);
         }
+        if retracts > 0 {
+            self.words.rely("swivel_retract", span, sink);
+        }
         let direction = match turned {
             None => 0,
             Some(Some(Toward::Plus)) => 1,
             Some(None | Some(Toward::Minus)) => -1,
         };
-        self.alone(&format!("{}(0,\"\",0,{mode},{},0,0,0,{direction})", row.name, words.join(",")), sink)
+        self.alone(
+            &format!("{}({retracts},\"\",0,{mode},{},0,0,0,{direction})", row.name, words.join(",")),
+            sink,
+        )
     }
 }
 

@@ -1,14 +1,16 @@
 //! Lowering of the transformation that keeps the tool's tip where it is, and of swivelled planes.
 //!
-//! A plane is read where its call only sets it anew, by turns about three different axes one after the other,
-//! and turns the tool towards a stated side or not at all. Refused by name: further transformations and their
-//! parameters, planes that are added, other ways of stating angles, a second shift, and retracting first.
+//! A plane is read where its call sets it anew, by turns about three different axes one after the other, and
+//! turns the tool towards a stated side or not at all. Before it turns the tool it may retract along Z, or along
+//! Z and then along X and Y: to where is data of the machine, which is taken to be its zero (an option, told).
+//! Refused by name: further transformations and their parameters, planes that are added, other ways of stating
+//! angles, a second shift, and retracting along the tool, whose way follows from the limits of the axes.
 
 use ncc_dialects::Quantity;
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr as Value;
-use ncc_ir::program::{FrameSlot, Op, Slot, Tilt, Toward};
+use ncc_ir::program::{FrameSlot, Op, Point, Reference, ReferencePoint, Slot, Tilt, Toward};
 use ncc_ir::source::Span;
 
 use super::facts::InForce;
@@ -33,7 +35,6 @@ const ZERO: [usize; 3] = [4, 5, 6];
 const ANGLES: [usize; 3] = [7, 8, 9];
 const SECOND_SHIFT: [usize; 3] = [10, 11, 12];
 const DIRECTION: usize = 13;
-const RETRACT_BY: usize = 14;
 const PLANE: usize = 15;
 
 impl Lower {
@@ -91,6 +92,18 @@ impl Lower {
                 return self.not_supported(name, "swivelled plane without a stated direction", span, out);
             }
         };
+        let retracts: &[&[Axis]] = match number(arguments.get(RETRACT)) {
+            None => &[],
+            Some(0) => &[],
+            Some(1) => &[&[Axis::Z]],
+            Some(2) => &[&[Axis::Z], &[Axis::X, Axis::Y]],
+            Some(_) => {
+                return self.not_supported(name, "swivelled plane that retracts along the tool", span, out);
+            }
+        };
+        if !retracts.is_empty() && toward.is_none() {
+            return self.not_supported(name, "swivelled plane that retracts and turns no axis", span, out);
+        }
         let origin = ZERO.map(|place| self.swivel_value(arguments, place, Quantity::Length, src, out));
         let angles = ANGLES.map(|place| self.swivel_value(arguments, place, Quantity::Angle, src, out));
         let ([Some(x), Some(y), Some(z)], [Some(a), Some(b), Some(c)]) = (origin, angles) else { return };
@@ -101,6 +114,17 @@ impl Lower {
             return self.not_supported(name, "swivelled plane where one may be in force already", span, out);
         }
         self.state.tilt = Know::Said(true);
+        if !retracts.is_empty() && self.option("swivel_retract", span, out) == "elsewhere" {
+            let what = "swivelled plane that retracts to another place than the machine's zero";
+            return self.not_supported(name, what, span, out);
+        }
+        for axes in retracts {
+            let mut goes = [false; AXES];
+            axes.iter().for_each(|axis| goes[*axis as usize] = true);
+            let (point, via) = (ReferencePoint::Home, Point::default());
+            let to = Reference { point, axes: goes, via, keeps_length: true };
+            self.push(span, Op::GoToReference(Box::new(to)), out);
+        }
         let tilt = Tilt { origin: [Some(x), Some(y), Some(z)], about, angles: [a, b, c] };
         self.push(span, Op::SetSlot(Box::new(Slot::Tilt(Box::new(tilt)))), out);
         if toward.is_some() {
@@ -159,8 +183,9 @@ fn refused(arguments: &[Option<Expr>]) -> Option<&'static str> {
     let plane = matches!(number(arguments.get(PLANE)), Some(0 | 1)) || is_zero(PLANE);
     match () {
         () if arguments.len() > PLANE + 1 || !plane => Some("swivelled plane of another working plane"),
-        () if !is_zero(RETRACT) => Some("swivelled plane that retracts first"),
-        () if !is_zero(RETRACT_BY) => Some("swivelled plane that retracts first"),
+        () if !matches!(arguments.get(RETRACT), None | Some(None | Some(Expr::Number(..)))) => {
+            Some("swivelled plane that retracts by a computed value")
+        }
         () if !is_zero(ADDED) => Some("swivelled plane that is added, or tracks the tool's tip"),
         () if !SECOND_SHIFT.iter().all(|place| is_zero(*place)) => {
             Some("swivelled plane with a shift behind its turns")

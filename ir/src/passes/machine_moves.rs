@@ -13,11 +13,12 @@ use super::walk::Walk;
 use super::write::{Rebuild, unit_of};
 use super::{Target, each_body};
 use crate::canon::{Axis, Distance, Fact};
+use crate::caps::{Caps, TiltForm};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::flow;
 use crate::num::Num;
-use crate::program::{Coord, Move, Op, Point, Program, Reference, ReferencePoint, Stmt};
+use crate::program::{Coord, Move, Op, Point, Program, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -53,9 +54,15 @@ pub(super) fn over(
     diags: &mut Vec<Diagnostic>,
 ) {
     let input = std::mem::take(body);
+    let with_plane = retracts_with_plane(&input, &target.caps);
     let mut made = Rebuild::new(input.len() + 4);
-    for stmt in input {
+    for (place, stmt) in input.into_iter().enumerate() {
         walk.enter(stmt.skip);
+        if with_plane.get(place) == Some(&true) {
+            walk.step(&stmt);
+            made.push(stmt);
+            continue;
+        }
         take(stmt, walk, state, target, &mut made, diags);
     }
     *body = made.out;
@@ -96,6 +103,13 @@ fn take(
                 return by_machine_zero(stmt.clone(), reference, walk, state, target, made, diags);
             }
             let keeps = caps.reference_keeps_length.unwrap_or(reference.keeps_length);
+            if reference.keeps_length && !keeps && reference.axes[Axis::Z as usize] {
+                match walk.at.modes.length_offset {
+                    Some(0) => {}
+                    Some(entry) => state.put_off = Some(entry),
+                    None => state.lost = state.lost.or(Some(stmt.span)),
+                }
+            }
             let reference = Reference { keeps_length: keeps, ..(**reference).clone() };
             walk.step(&stmt);
             return made.push(Stmt { op: Op::GoToReference(Box::new(reference)), ..stmt });
@@ -126,6 +140,40 @@ fn take(
     }
     walk.step(&stmt);
     made.push(stmt);
+}
+
+/// Which moves to the machine's zero the target says with the word that sets a tilted plane in their block: along
+/// Z, or along Z and then in its plane, and then the tool is turned.
+fn retracts_with_plane(body: &[Stmt], caps: &Caps) -> Vec<bool> {
+    let is_plane = |op: &Op| matches!(op, Op::SetSlot(slot) if matches!(**slot, Slot::Tilt(_)));
+    if caps.tilt != TiltForm::AxisByAxis || !body.iter().any(|stmt| is_plane(&stmt.op)) {
+        return Vec::new();
+    }
+    let mut with_plane = vec![false; body.len()];
+    for place in 0..body.len() {
+        let Some(said) = retract(&body[place..]) else { continue };
+        let behind = &body[place + said..];
+        let joined = |at: usize| behind.get(at).filter(|s| s.joined && s.skip == body[place].skip);
+        let turned = joined(1).is_some_and(|s| matches!(s.op, Op::OrientToolAxis(_)));
+        if turned && joined(0).is_some_and(|s| is_plane(&s.op)) {
+            with_plane[place..place + said].fill(true);
+        }
+    }
+    with_plane
+}
+
+/// How many statements at the start are a retraction along Z, or along Z and then X and Y, in one block.
+pub fn retract(stmts: &[Stmt]) -> Option<usize> {
+    let along = |stmt: &Stmt| match &stmt.op {
+        Op::GoToReference(to) if to.point == ReferencePoint::Home && to.via.is_empty() => Some(to.axes),
+        _ => None,
+    };
+    let first = stmts.first()?;
+    if along(first)? != [false, false, true, false, false, false] {
+        return None;
+    }
+    let second = stmts.get(1).filter(|stmt| stmt.joined && stmt.skip == first.skip).and_then(along);
+    Some(if second == Some([true, true, false, false, false, false]) { 2 } else { 1 })
 }
 
 /// The statement of machine coordinates in the other form; the move follows.

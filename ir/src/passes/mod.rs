@@ -57,6 +57,7 @@ mod write;
 
 pub use expand_compensation::Compensating;
 pub use legalise::Legaliser;
+pub use machine_moves::retract;
 pub use path_control::seen_advice;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -2,8 +2,8 @@
 //!
 //! Some controls take up the tool's length with the word that switches control of its tip on, and drop both
 //! with one word; others say the two apart. A plane's turns are said about Z, X and Z, or about three
-//! different axes: the same plane is found where its angles need no arithmetic but sums with quarter and
-//! half turns, otherwise it is refused. What the kinematics of the two machines have to agree about is told
+//! different axes: the same plane is found by sums with quarter and half turns where they do, otherwise from the
+//! directions of its axes, to a billionth of a degree, which the target's digits round. What the kinematics of the two machines have to agree about is told
 //! once.
 
 use super::walk::Walk;
@@ -12,6 +12,7 @@ use super::{Target, each_body};
 use crate::canon::Axis;
 use crate::caps::{TiltForm, TipForm};
 use crate::diag::{Diagnostic, Fault};
+use crate::exec::TiltedPlane;
 use crate::expr::Expr;
 use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar};
 use crate::num::{Nanos, Num, ONE, Unit};
@@ -393,7 +394,7 @@ fn said_as(tilt: &Tilt, form: TiltForm) -> Result<Tilt, &'static str> {
         TiltForm::AxisByAxis => axis_by_axis(&turns),
         TiltForm::None | TiltForm::Any => None,
     };
-    let (about, angles) = found.ok_or("a tilted plane by these angles")?;
+    let (about, angles) = found.unwrap_or_else(|| by_directions(&turns, form));
     let angles = angles.map(|angle| Expr::Num(Num::from_nanos(angle, 9, Unit::Degree)));
     Ok(Tilt { origin: tilt.origin.clone(), about, angles })
 }
@@ -470,10 +471,41 @@ fn axis_by_axis(turns: &[(Axis, Nanos)]) -> Option<([Axis; 3], [Nanos; 3])> {
     ways.iter().find_map(|turns| ORDERS.iter().find_map(|order| Some((*order, laid_out(turns, *order)?))))
 }
 
+/// The turns about Z, X and Z, or about X, Y and Z, that lead to the same directions. Where the first and the
+/// last turn are about one line, the one that stands for both is the last of the former, the first of the latter.
+fn by_directions(turns: &[(Axis, Nanos)], form: TiltForm) -> ([Axis; 3], [Nanos; 3]) {
+    let mut three = [(Axis::Z, 0); 3];
+    for (turn, given) in three.iter_mut().zip(turns) {
+        *turn = *given;
+    }
+    let [x, y, z] = TiltedPlane::turned([0; 3], three).axes;
+    // Below this the line of nodes is lost in the directions' last digits.
+    const NONE: f64 = 1e-9;
+    let (about, angles) = match form {
+        TiltForm::Euler => {
+            let lean = x[2].hypot(y[2]);
+            let angles = match lean < NONE {
+                true => [0.0, if z[2] < 0.0 { std::f64::consts::PI } else { 0.0 }, (-x[1]).atan2(x[0])],
+                false => [x[2].atan2(-y[2]), lean.atan2(z[2]), z[0].atan2(z[1])],
+            };
+            ([Axis::Z, Axis::X, Axis::Z], angles)
+        }
+        TiltForm::AxisByAxis | TiltForm::None | TiltForm::Any => {
+            let level = x[0].hypot(x[1]);
+            let lean = x[2].atan2(level);
+            let angles = match level < NONE {
+                true => [z[1].atan2(y[1]), lean, 0.0],
+                false => [(-y[2]).atan2(z[2]), lean, (-x[1]).atan2(x[0])],
+            };
+            ([Axis::X, Axis::Y, Axis::Z], angles)
+        }
+    };
+    (about, angles.map(|angle: f64| (angle.to_degrees() * ONE as f64).round() as Nanos))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exec::TiltedPlane;
 
     fn plane(about: [Axis; 3], angles: [Nanos; 3]) -> TiltedPlane {
         let mut turns = [(Axis::X, 0); 3];
@@ -489,12 +521,21 @@ mod tests {
         let orders = [[X, Y, Z], [Z, Y, X], [Z, X, Y], [X, Z, Y], [Y, X, Z], [Y, Z, X]];
         let angles = [-180, -137, -90, -30, 0, 12, 45, 90, 118, 180];
         let (mut to_euler, mut to_axes) = (0, 0);
+        let by_directions = |about: [Axis; 3], angles: [Nanos; 3]| {
+            let turns: Turns = about.into_iter().zip(angles).collect();
+            for form in [TiltForm::Euler, TiltForm::AxisByAxis] {
+                let (other, found) = by_directions(&turns, form);
+                let same = plane(about, angles).is_same(&plane(other, found), 0, 1);
+                assert!(same, "{about:?} {angles:?} as {other:?} {found:?}");
+            }
+        };
         for i in angles {
             for j in angles {
                 for k in angles {
                     let angles = [i * ONE, j * ONE, k * ONE];
                     let turns = |about: [Axis; 3]| std::array::from_fn::<_, 3, _>(|n| (about[n], angles[n]));
                     for about in orders {
+                        by_directions(about, angles);
                         if let Some((other, found)) = about_z_x_z(&turns(about)) {
                             to_euler += 1;
                             let same = plane(about, angles).is_same(&plane(other, found), 0, 1);
@@ -502,6 +543,7 @@ mod tests {
                         }
                     }
                     let about = [Z, X, Z];
+                    by_directions(about, angles);
                     if let Some((other, found)) = axis_by_axis(&turns(about)) {
                         to_axes += 1;
                         let same = plane(about, angles).is_same(&plane(other, found), 0, 1);

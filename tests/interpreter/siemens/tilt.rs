@@ -1,4 +1,5 @@
-//! TRAORI and TRAFOOF, and CYCLE800 where it only sets a plane by turns about three axes and turns the tool.
+//! TRAORI and TRAFOOF, and CYCLE800 where it sets a plane by turns about three axes and turns the tool; before that
+//! it may retract to the machine's zero, along Z or along Z and then X and Y.
 
 use super::super::Halt;
 use super::text::Argument;
@@ -38,7 +39,7 @@ impl Control<'_> {
                 _ => return self.m.halt("another argument of CYCLE800"),
             }
         }
-        let nothing = [0, 2, 10, 11, 12, 14].iter().all(|place| values[*place] == 0.0);
+        let nothing = [2, 10, 11, 12].iter().all(|place| values[*place] == 0.0);
         if !nothing || arguments.len() < 14 || ![0.0, 1.0].contains(&values[15]) {
             return self.m.halt("CYCLE800 that does more than set a plane");
         }
@@ -48,7 +49,21 @@ impl Control<'_> {
         if mode > 63 || axes.contains(&0) || axes[0] + axes[1] + axes[2] != 6 || axes == [2; 3] {
             return self.m.halt("CYCLE800 in another way of stating angles");
         }
+        let retracts: &[&[usize]] = match values[0] {
+            0.0 => &[],
+            1.0 if values[13] != 0.0 => &[&[2]],
+            2.0 if values[13] != 0.0 => &[&[2], &[0, 1]],
+            _ => return self.m.halt("CYCLE800 that retracts along the tool, or turns no axis"),
+        };
         self.m.leave_plane()?;
+        for axes in retracts {
+            let mut to = self.m.at;
+            for &axis in *axes {
+                to[axis] = 0.0;
+                self.m.settled[axis] = false;
+            }
+            self.m.traverse(to);
+        }
         let unit = self.unit();
         let zero = [values[4] * unit, values[5] * unit, values[6] * unit];
         let turns = std::array::from_fn(|k| (axes[k] - 1, values[7 + k]));
