@@ -113,6 +113,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         words: String::new(),
         blocks: String::new(),
         feed_stays: false,
+        feed_mode: None,
         other_machine: false,
         own_tool: false,
         dwell: Vec::new(),

@@ -95,6 +95,7 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let unit = if m.per == Per::Move { 1.0 } else { unit };
             m.feed = Some(only(m, a)? * unit);
         }
+        ("SET_SPINDLE_MODE", ["CANON_TURNS_PER_MINUTE"]) => m.surface = false,
         ("SET_SPINDLE_SPEED", _) => m.speed = Some(only(m, a)?),
         ("SELECT_TOOL", _) => m.selected = Some(only(m, a)? as u32),
         ("CHANGE_TOOL", []) => m.change_tool()?,

@@ -409,6 +409,9 @@ impl Control {
             "SET_OFFSET_DATA" => self.offset_data(a)?,
             "SET_TOOL_DATA" => self.tool_data(a)?,
             "SET_FEED_RATE" => self.m.feed = Some(self.first(a)?),
+            "SET_SPINDLE_MODE" if matches!(a, [Token::Text(mode)] if mode == "turns") => {
+                self.m.surface = false
+            }
             "SET_SPINDLE_SPEED" => self.m.speed = Some(self.first(a)?),
             "SELECT_TOOL" => self.m.selected = Some(self.first(a)? as u32),
             "SELECT_TOOL_BY_NAME" => {

@@ -132,7 +132,7 @@ const GROUPS: [&[u32]; 13] = [
     &[901, 911],
     &[930, 940, 950],
     &[980, 990],
-    &[],
+    &[960, 970],
 ];
 
 /// Modal groups of M codes; switches of the operator's overrides change no move of their own.
@@ -250,6 +250,12 @@ impl Control {
         }
         if m.len() > 4 {
             return self.m.halt("more than four M codes");
+        }
+
+        match of(GROUPS[12]) {
+            Some(970) => self.m.surface = false,
+            Some(_) => return self.m.halt("G96"),
+            None => {}
         }
 
         // Feed, speed and tool; F is in the unit that was in force before the block.

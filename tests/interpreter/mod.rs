@@ -198,6 +198,8 @@ pub struct Machine {
     pub stop_once: bool,
     /// rev/min.
     pub speed: Option<f64>,
+    /// The speed is a surface's, in metres a minute.
+    pub surface: bool,
     /// Spindle.
     pub spindle: Spindle,
     /// In the spindle.
@@ -248,6 +250,7 @@ impl Machine {
             corners: Corner::Unsaid,
             stop_once: false,
             speed: None,
+            surface: false,
             spindle: Spindle::Stopped,
             tool: None,
             selected: None,

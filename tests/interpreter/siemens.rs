@@ -613,6 +613,12 @@ impl<'a> Control<'a> {
                     self.m.count_feed([Per::Move, Per::Minute, Per::Turn][code as usize - 93]);
                     group(15)
                 }
+                // The speed in turns, and the feed's mode with it.
+                97 | 971 => {
+                    self.m.count_feed(if code == 97 { Per::Turn } else { Per::Minute });
+                    self.m.surface = false;
+                    group(15)
+                }
                 9 => {
                     self.m.stop_once = true;
                     group(11)

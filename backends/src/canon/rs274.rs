@@ -16,7 +16,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use ncc_ir::beside::Rules;
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{
+    AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units,
+};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
@@ -323,6 +325,7 @@ impl Printer<'_> {
                 let feed = literal(feed)?;
                 self.feed(feed);
             }
+            Op::SetSpindleMode(SpindleMode::Turns) => self.call("SET_SPINDLE_MODE(0 0.0000)"),
             Op::SetSpindleSpeed(speed) => {
                 let _ = writeln!(self.out, "SET_SPINDLE_SPEED(0, {:.4})", literal(speed)?);
             }
@@ -401,7 +404,7 @@ impl Printer<'_> {
             | Op::ExactStop
             | Op::Corner { .. }
             | Op::Advise(_)
-            | Op::SetSpindleMode(_)
+            | Op::SetSpindleMode(SpindleMode::Surface)
             | Op::LimitSpindleSpeed(_)
             | Op::SelectToolByName(_)
             | Op::UseToolLengthOffset(_)

@@ -13,6 +13,7 @@ mod motion;
 mod names;
 mod pattern;
 mod polar;
+mod spindle;
 mod statement;
 mod tilt;
 mod tool;
@@ -229,11 +230,17 @@ impl Writer {
         let opened = self.words.open(stmt, sink);
         let before = self.standing;
         let tilt = tilt::of(rest);
-        let said = tilt.map_or_else(|| cycle::called_here(rest), |tilt| tilt.said());
-        let written = match (&opened, tilt) {
-            (Err(fault), _) => Err(fault.clone()),
-            (Ok(_), Some(tilt)) => self.tilt(tilt, stmt.span, sink),
-            (Ok(_), None) => self.statement(stmt, said, sink),
+        let both = self.speed_and_feed(rest);
+        let said = match (tilt, both) {
+            (Some(tilt), _) => tilt.said(),
+            (None, Some(_)) => 2,
+            (None, None) => cycle::called_here(rest),
+        };
+        let written = match (&opened, tilt, both) {
+            (Err(fault), ..) => Err(fault.clone()),
+            (Ok(_), Some(tilt), _) => self.tilt(tilt, stmt.span, sink),
+            (Ok(_), None, Some(both)) => self.write_both(both, sink),
+            (Ok(_), None, None) => self.statement(stmt, said, sink),
         };
         self.words.close(stmt, opened.ok(), written, sink);
         for further in &rest[1..said] {

@@ -4,7 +4,9 @@
 //! its meaning and checked by its number. Not here: when a word is written.
 
 use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role, Thread};
-use ncc_ir::canon::{AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, Turn, Units};
+use ncc_ir::canon::{
+    AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
+};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint, ToolValue};
 
@@ -157,6 +159,8 @@ pub(crate) struct Codes {
     pub distance: [Option<Code>; 2],
     pub plane: [Option<Code>; 3],
     pub feed_mode: [Option<Code>; 3],
+    /// What a speed counts, and what a feed counts by the same code, where it says that as well.
+    pub spindle_modes: Vec<(SpindleMode, Option<FeedMode>, Code)>,
     pub level: [Option<Code>; 2],
     /// By number of the work offset, less one.
     pub origins: Vec<Option<Code>>,
@@ -378,6 +382,15 @@ impl Finder {
         .collect()
     }
 
+    fn spindle_modes(&self) -> Vec<(SpindleMode, Option<FeedMode>, Code)> {
+        let rows = self.dialect.code.iter();
+        rows.filter_map(|row| {
+            let Some(meaning @ Meaning::SetSpindleMode(mode)) = row.means else { return None };
+            Some((mode, row.feed_mode.map(FeedMode::from), self.row(&row.code, meaning)?))
+        })
+        .collect()
+    }
+
     fn frames(&self) -> FrameCodes {
         let words = |meaning| {
             let row = self.dialect.code_for(meaning);
@@ -478,6 +491,7 @@ impl Codes {
             plane: [Plane::Xy, Plane::Zx, Plane::Yz].map(|p| code(Meaning::SelectPlane(p))),
             feed_mode: [FeedMode::PerMinute, FeedMode::PerRevolution, FeedMode::InverseTime]
                 .map(|f| code(Meaning::SetFeedMode(f))),
+            spindle_modes: find.spindle_modes(),
             level: [ReturnLevel::Initial, ReturnLevel::Retract].map(|l| code(Meaning::SetReturnLevel(l))),
             origins: (1..=last).map(|n| find.origin(n)).collect(),
             no_origin: code(Meaning::SetOriginOffsets(0)),
@@ -578,6 +592,19 @@ impl Codes {
             entry: find.role(Role::LengthEntry),
             corrector: find.role(Role::Corrector),
         }
+    }
+
+    /// The code by which a speed counts this, where a feed counts that.
+    pub(crate) fn spindle_mode(&self, mode: SpindleMode, feed: Option<FeedMode>) -> Option<Code> {
+        let fits = |(of, with, _): &&(SpindleMode, Option<FeedMode>, Code)| {
+            *of == mode && (with.is_none() || *with == feed)
+        };
+        self.spindle_modes.iter().find(fits).map(|(.., code)| *code)
+    }
+
+    /// Whether codes of what a speed counts say what a feed counts.
+    pub(crate) fn spindle_with_feed(&self) -> bool {
+        self.spindle_modes.iter().any(|(_, feed, _)| feed.is_some())
     }
 
     /// The row of a cycle: of its kind, with a word for the dwell if and only if there is one.

@@ -1,7 +1,7 @@
 //! Settings: units, plane, distance, feed mode, return level, work offset, and what is switched
 //! off. Written where the source says them, also if redundant.
 
-use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, Units};
+use ncc_ir::canon::{Distance, Fact, FeedMode, Modes, Plane, ReturnLevel, SpindleMode, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, FrameSlot, Op};
@@ -29,6 +29,8 @@ pub(crate) enum Setting {
     NoCompensation,
     NoLength,
     NoCycle,
+    /// The speed counts turns a minute.
+    Turns,
 }
 
 impl Setting {
@@ -45,6 +47,7 @@ impl Setting {
             Op::StopCutterRadiusCompensation => Setting::NoCompensation,
             Op::UseToolLengthOffset(e) if e.literal().is_some_and(Num::is_zero) => Setting::NoLength,
             Op::EndCycle => Setting::NoCycle,
+            Op::SetSpindleMode(SpindleMode::Turns) => Setting::Turns,
             Op::ClearFrame(_)
             | Op::UseToolLengthOffset(_)
             | Op::Comment(_)
@@ -159,7 +162,16 @@ impl Writer {
             Setting::NoCompensation => Ok(codes.no_compensation),
             Setting::NoLength => Ok(codes.no_length),
             Setting::NoCycle => Ok(codes.end_cycle),
+            Setting::Turns => Ok(self.turns_code()),
         }
+    }
+
+    /// The code by which a speed counts turns a minute. None is needed where a control has no other way, and
+    /// where a code of the feed says so: both are of one group there, and it is in force already.
+    fn turns_code(&self) -> Option<Code> {
+        let code = self.codes.spindle_mode(SpindleMode::Turns, self.force.feed_mode)?;
+        let said = self.codes.spindle_with_feed() && self.block.says(code.group);
+        (!said).then_some(code)
     }
 
     /// The feed mode of a control that has only one.
@@ -199,7 +211,11 @@ impl Writer {
             }
             // The code of a cycle's end leaves the motion to be said again.
             Setting::NoCycle => self.force.motion = None,
-            Setting::Origin(_) | Setting::NoShift | Setting::NoCompensation | Setting::NoLength => {}
+            Setting::Origin(_)
+            | Setting::NoShift
+            | Setting::NoCompensation
+            | Setting::NoLength
+            | Setting::Turns => {}
         }
     }
 

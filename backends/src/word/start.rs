@@ -60,7 +60,11 @@ impl Writer {
             Setting::FeedMode(f) => p.said.feed_mode = Some(f),
             Setting::Origin(n) => p.said.work_offset = Some(n),
             Setting::Level(l) => p.said.return_level = Some(l),
-            Setting::NoShift | Setting::NoCompensation | Setting::NoLength | Setting::NoCycle => {}
+            Setting::NoShift
+            | Setting::NoCompensation
+            | Setting::NoLength
+            | Setting::NoCycle
+            | Setting::Turns => {}
         }
         let row = row_of(setting);
         p.any = true;
@@ -153,7 +157,7 @@ impl Writer {
             Setting::Level(l) => stated.return_level = Some(l),
             Setting::NoLength => stated.length_offset = Some(0),
             Setting::NoShift => stated.no_origin_shift = Some(true),
-            Setting::NoCompensation | Setting::NoCycle => {}
+            Setting::NoCompensation | Setting::NoCycle | Setting::Turns => {}
         }
     }
 
@@ -202,6 +206,6 @@ fn row_of(setting: Setting) -> Option<SafeStart> {
         Setting::NoCompensation => Some(SafeStart::NoCompensation),
         Setting::NoLength => Some(SafeStart::NoLengthOffset),
         Setting::NoCycle => Some(SafeStart::NoCycle),
-        Setting::Level(_) | Setting::NoShift => None,
+        Setting::Level(_) | Setting::NoShift | Setting::Turns => None,
     }
 }

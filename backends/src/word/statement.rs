@@ -1,7 +1,7 @@
 //! One statement: which words say it, and where they stand in the block.
 
 use ncc_dialects::Meaning;
-use ncc_ir::canon::{PathMode, Side};
+use ncc_ir::canon::{PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, Stmt};
@@ -55,6 +55,7 @@ impl Writer {
             | Op::SetReturnLevel(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
+            | Op::SetSpindleMode(SpindleMode::Turns)
             | Op::StopCutterRadiusCompensation => match Setting::of(&stmt.op) {
                 Some(setting) => self.write_setting(setting, sink),
                 None => Err(cannot("clearing this frame")),
@@ -71,7 +72,7 @@ impl Writer {
             }
             Op::Corner { shape, size } => self.ask_corner(*shape, size, span, sink),
             Op::Advise(advice) => self.advise(advice, sink),
-            Op::SetSpindleMode(_) => Err(cannot("a constant surface speed")),
+            Op::SetSpindleMode(SpindleMode::Surface) => Err(cannot("a constant surface speed")),
             Op::LimitSpindleSpeed(_) => Err(cannot("a limit of the spindle speed")),
             Op::SelectToolByName(name) => Err(cannot(format!("a tool called {name}"))),
             Op::SetFrame(_) => Err(cannot("a frame")),

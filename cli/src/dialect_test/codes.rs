@@ -4,7 +4,7 @@ use ncc_dialects::{
     CodeRow, CycleRow, DataKind, DataRow, Dialect, Family, Hand, Meaning, NameMeaning, PatternRow, Quantity,
     Thread, ValueName, ValueWord,
 };
-use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, Turn, Units};
+use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units};
 use ncc_ir::cycle::Approach;
 use ncc_ir::program::{CentreFrom, PoleFrom};
 
@@ -36,6 +36,9 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
                 rows.push(must_show(bench.both_ways(&said), &row.code).row("code", &row.code, row.sure));
             }
             Meaning::SetOriginOffsets(first) if row.count.is_some() => counted(bench, row, first, rows),
+            Meaning::SetSpindleMode(mode) if row.feed_mode.is_some() => {
+                rows.push(speed_and_feed(bench, row, mode).row("code", row.code.clone(), row.sure));
+            }
             Meaning::Overrides(_) => {
                 for said in said(d, meaning, &row.code) {
                     rows.push(overrides(bench, row, &said).row("code", row.code.clone(), row.sure));
@@ -127,7 +130,33 @@ fn code(bench: &Bench, row: &CodeRow, meaning: Meaning, said: &Said) -> Tried {
             let put = |text: String| in_place(&text, other, &row.code).unwrap_or(text);
             must_show(bench.reads(said, &said.say, put), &row.code).read_only()
         }
+        None if meaning == Meaning::SetSpindleMode(SpindleMode::Turns) => {
+            // Where there is no other way, nothing needs to be written.
+            let (speed, code) = ("SET_SPINDLE_SPEED(1234)", &row.code);
+            let put = |text: String| text.replace("S1234", &format!("{code} S1234"));
+            let meant = format!("SET_SPINDLE_MODE(\"turns\") & {speed}");
+            must_show(bench.reads(&Said::new(speed), &meant, put), code).read_only()
+        }
         None => Tried::failure("no row is written for this meaning: none has `write`"),
+    }
+}
+
+/// A code that says what a speed counts, and what a feed counts.
+fn speed_and_feed(bench: &Bench, row: &CodeRow, mode: SpindleMode) -> Tried {
+    let feed = row.feed_mode.map(FeedMode::from).map_or("", feed_mode);
+    let mode = match mode {
+        SpindleMode::Turns => "turns",
+        SpindleMode::Surface => "surface",
+    };
+    let said = Said::new(format!("SET_FEED_MODE({feed}) & SET_SPINDLE_MODE(\"{mode}\")"));
+    must_show(bench.both_ways(&said), &row.code)
+}
+
+fn feed_mode(mode: FeedMode) -> &'static str {
+    match mode {
+        FeedMode::PerMinute => "per-minute",
+        FeedMode::PerRevolution => "per-revolution",
+        FeedMode::InverseTime => "inverse-time",
     }
 }
 
@@ -209,11 +238,7 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             Plane::Zx => Said::new("SELECT_PLANE(ZX)"),
             Plane::Yz => Said::new("SELECT_PLANE(YZ)"),
         }],
-        Meaning::SetFeedMode(mode) => one(match mode {
-            FeedMode::PerMinute => "SET_FEED_MODE(per-minute)",
-            FeedMode::PerRevolution => "SET_FEED_MODE(per-revolution)",
-            FeedMode::InverseTime => "SET_FEED_MODE(inverse-time)",
-        }),
+        Meaning::SetFeedMode(mode) => one(&format!("SET_FEED_MODE({})", feed_mode(mode))),
         Meaning::SetReturnLevel(level) => one(match level {
             ReturnLevel::Initial => "SET_RETURN_LEVEL(initial)",
             ReturnLevel::Retract => "SET_RETURN_LEVEL(retract)",

@@ -176,13 +176,8 @@ impl Lower {
                 self.state.distance = Know::Said(distance);
                 self.again.say(DISTANCE);
             }
-            Meaning::SetFeedMode(mode) => {
-                // A feed that was said before does not count any more.
-                if self.state.feed_mode.value().is_some_and(|before| before != mode) {
-                    self.state.feed = Know::Unsaid;
-                }
-                self.state.feed_mode = Know::Said(mode);
-            }
+            Meaning::SetFeedMode(mode) => self.count_feed(mode),
+            Meaning::SetSpindleMode(_) => code.feed_mode.into_iter().for_each(|mode| self.count_feed(mode)),
             Meaning::SetOriginOffsets(offset) => {
                 self.state.work_offset = Know::Said(offset);
                 self.state.pole.lose();
@@ -190,6 +185,14 @@ impl Lower {
             }
             _ => {}
         }
+    }
+
+    fn count_feed(&mut self, mode: FeedMode) {
+        // A feed that was said before does not count any more.
+        if self.state.feed_mode.value().is_some_and(|before| before != mode) {
+            self.state.feed = Know::Unsaid;
+        }
+        self.state.feed_mode = Know::Said(mode);
     }
 
     fn set_units(&mut self, code: Code, units: Units, out: &mut Batch) {
@@ -227,6 +230,9 @@ impl Lower {
         self.set_mode(*code, out);
         if matches!(meaning, Meaning::SelectPlane(_)) {
             self.length_along_z(out, code.span);
+        }
+        if let (Meaning::SetSpindleMode(_), Some(mode)) = (meaning, code.feed_mode) {
+            self.push(code.span, Op::SetFeedMode(mode), out);
         }
         let op = match meaning {
             Meaning::NoEffect => {

@@ -5,7 +5,7 @@
 //! do.
 
 use ncc_dialects::{NameMeaning, NameRole, Quantity, Role};
-use ncc_ir::canon::Distance;
+use ncc_ir::canon::{Distance, FeedMode};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
@@ -28,6 +28,8 @@ pub(super) struct Code {
     group: &'static str,
     /// Whether units leave the feed in the machine's basic system.
     pub(super) feed_stays: bool,
+    /// What a feed counts, where a code of the spindle's speed says that as well.
+    pub(super) feed_mode: Option<FeedMode>,
     pub(super) span: Span,
 }
 
@@ -210,6 +212,7 @@ impl Lower {
             meaning: NameMeaning::Code(meaning),
             group: &row.group,
             feed_stays: row.feed_stays,
+            feed_mode: row.feed_mode.map(FeedMode::from),
             span: given.span,
         };
         self.add_code(code, row.sure, words, src, out);
@@ -339,7 +342,7 @@ impl Lower {
         match (row.means, row.refuse.as_deref(), &called.arguments) {
             (Some(meaning), _, None) => {
                 let (group, span) = (&*row.group, called.span);
-                let code = Code { name: &row.name, meaning, group, feed_stays: false, span };
+                let code = Code { name: &row.name, meaning, group, feed_stays: false, feed_mode: None, span };
                 self.add_code(code, row.sure, words, src, out);
             }
             (_, Some(refuse), _) => self.not_supported(&row.name, refuse, called.span, out),

@@ -448,6 +448,7 @@ pub(crate) fn setting(meaning: Meaning) -> Option<Op> {
         Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
         Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
         Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
+        Meaning::SetSpindleMode(mode) => Op::SetSpindleMode(mode),
         Meaning::SetMotionControlMode(mode) => Op::SetMotionControlMode(Box::new(PathControl::plain(mode))),
         Meaning::Advise(kind, Some(value)) => Op::Advise(Box::new(Advice { kind, value, amount: None })),
         Meaning::StopCutterRadiusCompensation => Op::StopCutterRadiusCompensation,

@@ -114,6 +114,9 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
             return Err(wrong("needs either `means` or `refuse`"));
         }
         let offsets = matches!(row.means, Some(Meaning::SetOriginOffsets(1..)));
+        if row.feed_mode.is_some() && !matches!(row.means, Some(Meaning::SetSpindleMode(_))) {
+            return Err(wrong("says what a feed counts, and not what a speed does"));
+        }
         if row.count.is_some() && (row.words.is_empty() || !offsets) {
             return Err(wrong("has `count`, and is no code of work offsets with a word of its own"));
         }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use crate::corners::CornerRules;
 use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow};
-use crate::power_on::{ApproachName, PathName, PowerOn, ReturnLevelName, SafeStart};
+use crate::power_on::{ApproachName, FeedModeName, PathName, PowerOn, ReturnLevelName, SafeStart};
 use crate::stored::DataRow;
 
 /// A dialect's dictionary.
@@ -549,6 +549,10 @@ pub struct CodeRow {
     /// Whether a code of units leaves the feed in the machine's basic system.
     #[serde(default)]
     pub feed_stays: bool,
+    /// What a feed counts from here on, where a code of the spindle's speed says that as well; such codes and
+    /// those of the feed are of one group, and each of either ends the other.
+    #[serde(default)]
+    pub feed_mode: Option<FeedModeName>,
     /// Letter and unit of a dwell, the first one for writing.
     #[serde(default)]
     pub dwell: Vec<DwellWord>,
