@@ -111,6 +111,10 @@ pub struct Caps {
     pub arc_forms: bool,
     /// Repetition of blocks between labels.
     pub repeat_blocks: bool,
+    /// It names both ends by their block numbers, and none stands within another.
+    pub repeat_by_numbers: bool,
+    /// Centres of arcs are said from program zero alone.
+    pub centres_from_zero: bool,
     /// A length offset must stand in a block with a Z word.
     pub offset_with_z: bool,
     /// A length offset counts as soon as it is read: the tool stands at another Z.

@@ -8,9 +8,25 @@ use super::{Cut, Halt, Hole, Machine, Setup, Spindle, What, characters};
 /// The program is wrong, out of scope, or says something that the notes leave open.
 pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
     let mut control = Control { m: Machine::new(setup), motion: None, cycle: None };
-    for (index, line) in characters(text).split('\n').enumerate() {
+    let text = characters(text);
+    let lines: Vec<&str> = text.split('\n').collect();
+    for (index, line) in lines.iter().enumerate() {
         control.m.line = index + 1;
-        if control.block(line)? {
+        if let Some([first, last, times]) = control.again(line)? {
+            let place = |number: u32| lines[..index].iter().rposition(|line| numbered(line) == Some(number));
+            let (Some(first), Some(last)) = (place(first), place(last)) else {
+                return control.m.halt("a repetition of blocks that do not stand before it");
+            };
+            // The notes say: run the blocks so many times. They have been run once on the way here.
+            for _ in 0..times {
+                for (index, line) in lines.iter().enumerate().take(last + 1).skip(first) {
+                    control.m.line = index + 1;
+                    if control.again(line)?.is_some() || control.block(line)? {
+                        return control.m.halt("a repetition, or the end, in repeated blocks");
+                    }
+                }
+            }
+        } else if control.block(line)? {
             return control.m.with_corners();
         }
     }
@@ -34,7 +50,28 @@ fn value(words: &Words, letter: char) -> Option<f64> {
     words.iter().find(|(l, _)| *l == letter).map(|(_, v)| *v)
 }
 
+/// The number of a line's block.
+fn numbered(line: &str) -> Option<u32> {
+    let digits = line.trim_start().trim_start_matches('/').trim_start().strip_prefix('N')?;
+    let end = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+    digits[..end].parse().ok()
+}
+
 impl Control {
+    /// First block, last block and count of `H90 E240 L25`.
+    fn again(&self, line: &str) -> Result<Option<[u32; 3]>, Halt> {
+        let Some(words) = self.words(line)? else { return Ok(None) };
+        if !has(&words, 'H') {
+            return Ok(None);
+        }
+        match (value(&words, 'H'), value(&words, 'E'), value(&words, 'L')) {
+            (Some(first), Some(last), Some(times)) if words.len() == 3 => {
+                Ok(Some([first as u32, last as u32, times as u32]))
+            }
+            _ => self.m.halt("H with other words than E and L"),
+        }
+    }
+
     /// Runs a block; true at the end of the program.
     fn block(&mut self, line: &str) -> Result<bool, Halt> {
         let words = match self.words(line)? {

@@ -23,6 +23,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[[address]]`", "Address", "[[address]]\nletter = \"E\"\n@"),
     ("`[arc]`", "ArcRules", "[arc]\n@"),
     ("`[corner]`", "CornerRules", "[corner]\n@"),
+    ("`[repeat]`", "RepeatRules", "[repeat]\n@"),
     ("`[cycles]`", "CycleRules", "[cycles]\n@"),
     ("`[[cycle]]`", "CycleRow", "[[cycle]]\ncode = \"G84\"\n@"),
     ("`dwell` of a cycle, `dwell` of a code", "DwellWord", "[[code]]\ncode = \"G04\"\ndwell = [{ @ }]"),
@@ -62,7 +63,7 @@ struct Entry {
 }
 
 fn sources() -> String {
-    ["schema.rs", "corners.rs", "names.rs", "power_on.rs", "stored.rs"]
+    ["schema.rs", "corners.rs", "repeats.rs", "names.rs", "power_on.rs", "stored.rs"]
         .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
         .join("\n")
 }

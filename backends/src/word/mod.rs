@@ -20,6 +20,7 @@ pub(crate) mod motion;
 pub(crate) mod number;
 mod plain;
 mod polar;
+mod repeat;
 mod start;
 pub(crate) mod statement;
 mod thread;
@@ -113,6 +114,8 @@ pub struct Writer {
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     told_corner: bool,
+    /// Blocks that others repeat.
+    pub(crate) labels: repeat::Labels,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
     /// Whether lengths are taken up with control of the tool's tip.
@@ -186,6 +189,7 @@ impl Writer {
             machine: None,
             corner: None,
             told_corner: false,
+            labels: repeat::Labels::default(),
             polar: false,
             tip: false,
             units_stated: [false; 2],
@@ -204,6 +208,7 @@ impl Writer {
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let mut sink = Sink { out, diags };
         self.take_for_granted(assumed);
+        self.number_labels(stmts);
         self.body(stmts, &mut sink);
     }
 
@@ -325,6 +330,7 @@ impl Writer {
 
     /// Ends a block of the source.
     pub(crate) fn close_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        self.label_ends();
         self.flush(false, sink);
         if let (true, Some(first)) = (self.split, stmts.first()) {
             let span = stmts.iter().fold(first.span, |span, s| span.to(s.span));
@@ -436,7 +442,10 @@ impl Writer {
         {
             sink.report(modes::cannot("a length offset in a block without Z"), span);
         }
+        let label = if empty { None } else { self.labels.waiting.take() };
+        self.labels.lines += u32::from(!empty);
         let number = match self.numbering {
+            Numbering::Off | Numbering::Keep | Numbering::Every { .. } if label.is_some() => label,
             Numbering::Off => None,
             Numbering::Keep => self.block.number,
             Numbering::Every { .. } if empty => None,

@@ -100,7 +100,7 @@ impl Writer {
             Op::OrientSpindle(None) => {
                 self.m_code(Rank::SpindleOn, codes.orient, "a spindle stopped at an angle", sink)
             }
-            Op::RepeatBlocks(_) => Err(cannot("a repetition of blocks")),
+            Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
             // The mode of polar words is about program zero alone; a pass has seen to it.
             Op::SetPole(_) if codes.polar[1].is_some() => Ok(()),
             Op::SetPole(_) => Err(cannot("a pole")),
@@ -154,7 +154,7 @@ impl Writer {
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
             Op::Control(_) => Err(cannot("control of the program's flow")),
             Op::Goto(_) => Err(cannot("a jump")),
-            Op::Label(_) => Err(cannot("a label")),
+            Op::Label(name) => self.label(name, sink),
         }
     }
 

@@ -136,7 +136,8 @@ pub fn table(dialect: &Dialect, rows: &[Row], all: bool) -> String {
         }
     }
     let count = |table: &str| rows.iter().filter(|r| r.table == table).count();
-    let tables = ["form", "number", "address", "code", "corner", "cycle", "pattern", "data", "name", "call"];
+    let tables =
+        ["form", "number", "address", "code", "corner", "repeat", "cycle", "pattern", "data", "name", "call"];
     let counts: Vec<String> = tables
         .iter()
         .map(|t| (t, count(t)))

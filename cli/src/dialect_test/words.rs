@@ -26,6 +26,17 @@ pub(super) fn rows(bench: &Bench, rows: &mut Vec<Row>) {
         let sure = word.comma || row.is_none_or(|row| row.sure);
         rows.push(tried.row("corner", format!("{text} {function}"), sure));
     }
+    if let Some([first, last, times]) = bench.dialect.repeat.letters().map(|l| l.map(char::from)) {
+        let said = Said::new("REPEAT_BLOCKS(\"BLOCK10\" to \"BLOCK20\", times 4)").after(
+            "N10 LABEL(\"BLOCK10\") & said STRAIGHT_TRAVERSE(X 1mm)\nN20 LABEL(\"BLOCK20\") & said STRAIGHT_TRAVERSE(X 2mm)",
+        );
+        let mut tried = bench.both_ways(&said);
+        let text = format!("{first}10{last}20{times}");
+        if tried.failed.is_none() && !tried.written.iter().any(|line| line.replace(' ', "").contains(&text)) {
+            tried.failed = Some(format!("{text} is not written"));
+        }
+        rows.push(tried.row("repeat", format!("{first} {last} {times} REPEAT_BLOCKS"), true));
+    }
     for row in &bench.dialect.address {
         let letter = row.letter.to_string();
         for said in said(bench.dialect, row) {
@@ -139,6 +150,9 @@ fn users(d: &Dialect, letter: char) -> Vec<String> {
         if of {
             users.push(row.code().to_owned());
         }
+    }
+    if d.repeat.letters().is_some_and(|letters| letters.contains(&(letter as u8))) {
+        users.push("repetition of blocks".to_owned());
     }
     if d.cycles.repeat == Some(letter) {
         users.push("cycles (repetition)".to_owned());

@@ -112,6 +112,8 @@ pub(super) struct Now {
     pub(super) silent: bool,
     /// The word of a corner that stands behind a comma, until a move takes it.
     pub(super) corner: Option<super::block::Word>,
+    /// The repetition that the block asks for.
+    pub(super) again: Option<super::again::Asked>,
 }
 
 impl Lower {
@@ -187,7 +189,9 @@ impl Lower {
         }
         if !self.now.refused {
             self.message(block, src, out);
-            self.functions(block, &codes, &mut words, level, src, out);
+            if !self.repetition(block, &codes, &mut words, src, out) {
+                self.functions(block, &codes, &mut words, level, src, out);
+            }
             if !self.now.failed {
                 self.check_unused(&words, src, out);
             }

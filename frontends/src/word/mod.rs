@@ -11,6 +11,7 @@
 //!
 //! Not here: what execution makes of a program, and everything about files.
 
+mod again;
 pub(crate) mod block;
 mod call;
 mod compensation;
@@ -82,6 +83,8 @@ pub struct Reader {
     block: Block,
     /// Longest block, in bytes.
     longest: usize,
+    /// Text of blocks that may be executed again.
+    kept: again::Kept,
 }
 
 impl Reader {
@@ -98,6 +101,7 @@ impl Reader {
             },
             lower: Lower::new(settings, assume),
             block: Block::default(),
+            kept: again::Kept::default(),
         }
     }
 
@@ -115,6 +119,13 @@ impl Reader {
             let at = base + at as u32;
             return self.not_text(Span::new(at, at + 1), out);
         }
+        self.keep(text, base);
+        let from = self.lower.target(out).len();
+        self.lines(text, base, out);
+        self.kept(from, out);
+    }
+
+    fn lines(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
@@ -262,6 +273,7 @@ impl Reader {
         self.frame.blocks |= !self.block.words.is_empty() || self.block.skip != 0;
         self.frame.faulty |= !self.block.faults.is_empty();
         self.lower.block(&self.block, src, out);
+        self.repeat(out);
         self.frame.faulty |= self.lower.now.failed;
     }
 }

@@ -118,7 +118,8 @@ fn words_that_are_too_many_or_too_few() {
         faults("mach9", "G0X60.Q10.\n"),
         ["NotSupported { code: 'Q10.', name: 'corner rounding or chamfer' } at 'Q10.'"]
     );
-    assert_eq!(faults("mach9", "H90E240L25\n").len(), 3);
+    assert_eq!(faults("mach9", "H90E240\n").len(), 2);
+    assert_eq!(faults("mach9", "H90E240L25\n"), ["LabelUnknown { name: 'N90' } at 'H90'"]);
 }
 
 #[test]

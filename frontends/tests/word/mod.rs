@@ -3,6 +3,7 @@
 //! Statements are compared in a short rendering of their own, so that a test reads like a page of
 //! a manual; diagnostics with the very text that they point at.
 
+mod again;
 mod cycles;
 mod facts;
 mod faults;

@@ -199,7 +199,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
         feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
         call_digits: if says(Meaning::Call) { dialect.program.number_digits as u32 } else { 0 },
-        repeat_blocks: everything || names(NameMeaning::RepeatBlocks),
+        repeat_blocks: everything || names(NameMeaning::RepeatBlocks) || dialect.repeat.letters().is_some(),
+        centres_from_zero: !everything && dialect.arc.centre_absolute,
+        repeat_by_numbers: !everything && dialect.repeat.letters().is_some(),
         circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
         incremental_cycles: everything || dialect.cycles.incremental,
         calls: everything

@@ -12,6 +12,7 @@ use crate::corners::CornerRules;
 use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow};
 use crate::power_on::{ApproachName, FeedModeName, PathName, PowerOn, ReturnLevelName, SafeStart};
+use crate::repeats::RepeatRules;
 use crate::stored::DataRow;
 
 /// A dialect's dictionary.
@@ -54,6 +55,9 @@ pub struct Dialect {
     /// Rounded and chamfered corners, of a control that has letters for them.
     #[serde(default)]
     pub corner: CornerRules,
+    /// Blocks that are executed again, of a control that has letters for that.
+    #[serde(default)]
+    pub repeat: RepeatRules,
     /// What all canned cycles share.
     #[serde(default)]
     pub cycles: CycleRules,

@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use super::write::{Rebuild, rebuild};
-use super::{MOST_STATEMENTS, Target};
+use super::{MOST_STATEMENTS, Target, repeat_ends};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::again;
 use crate::expr::Expr;
@@ -39,11 +39,18 @@ pub(super) fn over(body: &mut Vec<Stmt>, target: &Target, diags: &mut Vec<Diagno
     if !caps.repeat_blocks && (has_blocks(body) || body.iter().any(nowhere)) {
         blocks(body, caps.repeats, diags);
     }
+    if caps.repeat_by_numbers && has_blocks(body) {
+        if repeat_ends::nested(body) {
+            return blocks(body, false, diags);
+        }
+        repeat_ends::name(body, &labels(body));
+    }
 }
 
-/// Writes repetitions of blocks out in subprograms, before these are written out themselves.
-pub(super) fn in_procedures(program: &mut Program, diags: &mut Vec<Diagnostic>) {
-    for procedure in &mut program.procedures {
+/// Writes repetitions of blocks out, before subprograms are written out themselves; `but_main` leaves those of
+/// the main program.
+pub(super) fn in_procedures(program: &mut Program, but_main: bool, diags: &mut Vec<Diagnostic>) {
+    for procedure in program.procedures.iter_mut().skip(usize::from(but_main)) {
         if has_blocks(&procedure.body) {
             blocks(&mut procedure.body, false, diags);
         }

@@ -16,15 +16,15 @@ use super::{
     Target, absolute_holes, approach, arc_form, at_once, cutter_radius, expand_calls, expand_corners,
     expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts,
     machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
-    polar_words, return_plane, skip_levels, specialise_procedures, state_clearance, taps, threads, tool_axis,
-    tool_change, tool_edge, work_offset,
+    polar_words, repeat_ends, return_plane, skip_levels, specialise_procedures, state_clearance, taps,
+    threads, tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
-use crate::program::{Arc, Data, Op, Program, Stmt};
+use crate::program::{Arc, Data, Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
 
 /// Brings a program within a target's capabilities.
@@ -512,7 +512,7 @@ impl Legaliser {
                 specialise_procedures::over(rest, &self.walk, inherits, diags);
             }
             Subprograms::Expand => {
-                expand_repeats::in_procedures(rest, diags);
+                expand_repeats::in_procedures(rest, self.target.caps.repeat_blocks, diags);
                 // The walk is needed again for the other passes.
                 expand_calls::over(rest, &mut self.walk.clone(), diags);
             }
@@ -559,8 +559,17 @@ impl Legaliser {
         if self.lacks == 0 || !self.target.caps.repeat_blocks || !expand_repeats::repeats_blocks(program) {
             return false;
         }
+        let caps = &self.target.caps;
+        let moved = |p: &Procedure| {
+            caps.centres_from_zero && repeat_ends::moves_arcs(&p.body)
+                || !caps.repeat_by_numbers && repeat_ends::under_another_cycle(&p.body)
+        };
+        if program.procedures.iter().any(moved) {
+            return true;
+        }
         let (mut own, mut trial, mut found) = (self.clone(), program.clone(), Vec::new());
-        own.run_whole(&mut trial, Subprograms::Keep, &mut found);
+        let way = if self.lacks & CALL != 0 { Subprograms::Expand } else { Subprograms::Keep };
+        own.run_whole(&mut trial, way, &mut found);
         let written_out = |d: &Diagnostic| {
             matches!(d.fault, Fault::CycleExpanded { .. }) || d.fault.gravity() == Gravity::Error
         };

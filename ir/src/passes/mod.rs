@@ -41,6 +41,7 @@ pub mod origin_shift;
 mod path_control;
 mod pattern_forms;
 mod polar_words;
+mod repeat_ends;
 pub mod return_plane;
 pub mod skip_levels;
 pub mod specialise_procedures;

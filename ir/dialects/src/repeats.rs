@@ -1,0 +1,30 @@
+//! Words that execute blocks again, by their block numbers.
+
+use serde::Deserialize;
+
+/// Repetition of blocks by a block of its own, whose words name the first block and the last one and say
+/// how often: `H90 E240 L25`. Whether the count includes the first time is asked of the option
+/// `repeat_count`: `again`, or `total`.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RepeatRules {
+    /// Letter of the number of the first block; `None` if there is no such repetition.
+    pub first: Option<char>,
+    /// Letter of the number of the last block.
+    pub last: Option<char>,
+    /// Letter of the count.
+    pub times: Option<char>,
+    /// Who says so.
+    pub source: String,
+}
+
+/// Option of a dialect: whether the count of a repetition includes the first time.
+pub const REPEAT_COUNT: &str = "repeat_count";
+
+impl RepeatRules {
+    /// The letters of first block, last block and count, of a control that has them.
+    pub fn letters(&self) -> Option<[u8; 3]> {
+        let letter = |c: Option<char>| c.filter(char::is_ascii_uppercase).map(|c| c as u8);
+        Some([letter(self.first)?, letter(self.last)?, letter(self.times)?])
+    }
+}
