@@ -149,6 +149,8 @@ pub struct Caps {
     pub threads: Threads,
     /// How points by radius and angle are said.
     pub polar: PolarForm,
+    /// Lines by their angle and one coordinate.
+    pub line_angles: bool,
     /// Rounded and chamfered corners.
     pub corners: Corners,
     /// Messages to the operator.

@@ -1,4 +1,4 @@
-//! Where points by radius and angle are.
+//! Where points by radius and angle are, and ends of lines by their angle.
 //!
 //! One definition for execution, which knows where everything is, and for passes, which know it as
 //! far as the program says it. Points pass through floats, and are rounded to a nano.
@@ -114,6 +114,10 @@ pub fn pole<A: About>(set: &SetPole, plane: Plane, about: &A) -> Result<Pole, A:
 /// # Errors
 /// What it depends on is not known, or it is nowhere.
 pub fn point<A: About>(polar: &Polar, plane: Plane, about: &A) -> Result<([Nanos; 2], Pole), A::Unknown> {
+    if polar.along {
+        // Which pole and which words about it are in force does not matter, and stays as it is.
+        return Ok((on_line(polar, plane, about)?, about.pole().unwrap_or_default()));
+    }
     let before = about.pole()?;
     if !before.is_of(plane) {
         return Err(about.missing("pole of this plane"));
@@ -140,6 +144,45 @@ pub fn point<A: About>(polar: &Polar, plane: Plane, about: &A) -> Result<([Nanos
     let by = geometry::polar(radius, angle);
     let at = [before.at[0].wrapping_add(by[0]), before.at[1].wrapping_add(by[1])];
     Ok((at, Pole { plane: Some(plane), radius: Some(radius), angle: Some(angle), ..before }))
+}
+
+/// A line that is said by its angle and lies nearer than this to square with the axis of its word ends
+/// anywhere.
+const LEAST_SLOPE: f64 = 1e-4;
+
+/// Where a line by its angle ends.
+fn on_line<A: About>(polar: &Polar, plane: Plane, about: &A) -> Result<[Nanos; 2], A::Unknown> {
+    let (first, second, _) = plane.axes();
+    let angle = polar.angle.as_ref().ok_or_else(|| about.missing("angle of a line"))?;
+    if about.is_increment(angle.distance)? {
+        return Err(about.missing("angle of a line from an axis"));
+    }
+    let (sin, cos) = geometry::sin_cos(about.value(&angle.value)?);
+    let to = end_of(&polar.op).ok_or_else(|| about.missing("point of a line"))?;
+    let here = [about.here(first)?, about.here(second)?];
+    let (own, word, way, slope) = match (to.get(first), to.get(second)) {
+        (Some(word), None) => (0, word, cos, sin),
+        (None, Some(word)) => (1, word, sin, cos),
+        (Some(_), Some(_)) | (None, None) => {
+            return Err(about.missing("one word of the plane beside an angle"));
+        }
+    };
+    let value = about.value(&word.value)?;
+    let by = match about.is_increment(word.distance)? {
+        true => value,
+        false => value.wrapping_sub(here[own]),
+    };
+    if way.abs() < LEAST_SLOPE || (by as f64) * way < 0.0 {
+        return Err(about.out_of_range("angle of a line that does not lead to its end point"));
+    }
+    let across = by as f64 / way * slope;
+    if across.abs() > LONGEST as f64 || by.unsigned_abs() > LONGEST as u64 {
+        return Err(about.out_of_range("end of a line by its angle"));
+    }
+    let mut at = here;
+    at[own] = at[own].wrapping_add(by);
+    at[1 - own] = at[1 - own].wrapping_add(across.round() as Nanos);
+    Ok(at)
 }
 
 /// The move of a polar point with the words of the plane in their place: `make` says them, by side.

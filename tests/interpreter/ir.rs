@@ -32,6 +32,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         tangent: None,
         pole: moves::Pole::default(),
         polar: None,
+        along: None,
         procedures: HashMap::new(),
         depth: 0,
     };
@@ -96,6 +97,8 @@ struct Control {
     pole: moves::Pole,
     /// Where a polar point puts the axes of the move that follows.
     polar: Option<[(usize, f64); 2]>,
+    /// A line by its angle: its plane and the angle.
+    along: Option<([usize; 2], f64)>,
     procedures: HashMap<String, Vec<Line>>,
     depth: u32,
 }

@@ -127,7 +127,7 @@ const SUPPRESS: [u32; 2] = [53, 153];
 /// Words of an arc.
 const CENTRE: [&str; 6] = ["CR", "AR", "TURN", "I1", "J1", "K1"];
 /// Polar words.
-const POLAR: [&str; 2] = ["AP", "RP"];
+const POLAR: [&str; 3] = ["AP", "RP", "ANG"];
 /// How far from a corner rounding begins; the limit of a speed, and the angle at which the spindle stops; the
 /// corner behind a move.
 const ROUNDING: [&str; 8] = ["ADIS", "ADISPOS", "LIMS", "SPOS", "RND", "RNDM", "CHF", "CHR"];

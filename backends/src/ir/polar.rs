@@ -32,7 +32,8 @@ pub(super) fn pole(set: &SetPole, out: &mut Vec<u8>) {
 pub(super) fn polar_move(polar: &Polar, out: &mut Vec<u8>) {
     put("POLAR(", out);
     put(polar.plane.known().map_or("entry", plane), out);
-    for (name, word) in [(", radius ", &polar.radius), (", angle ", &polar.angle)] {
+    let angle = if polar.along { ", along " } else { ", angle " };
+    for (name, word) in [(", radius ", &polar.radius), (angle, &polar.angle)] {
         if let Some(word) = word {
             put(name, out);
             coord(word, out);

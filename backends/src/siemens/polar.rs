@@ -65,7 +65,8 @@ impl Writer {
         self.words.need_distance(to.axes.iter().flatten(), &mut inserted)?;
         self.words.need_plane(polar.plane, &mut inserted)?;
         let mut words = Vec::new();
-        for (role, word) in [(NameRole::PolarAngle, &polar.angle), (NameRole::PolarRadius, &polar.radius)] {
+        let angle = if polar.along { NameRole::LineAngle } else { NameRole::PolarAngle };
+        for (role, word) in [(angle, &polar.angle), (NameRole::PolarRadius, &polar.radius)] {
             if let Some(word) = word {
                 words.push(self.polar_word(role, word, span, sink)?);
             }
@@ -106,10 +107,13 @@ impl Writer {
         let distance = word.distance.known().or(self.words.force.distance);
         let qualifier = match (role, distance, self.words.force.distance) {
             (NameRole::PolarAngle, Some(Distance::Incremental), _) => Some("IC"),
+            (NameRole::LineAngle, Some(Distance::Incremental), _) => {
+                return Err(cannot("an increment of a line's angle"));
+            }
             (NameRole::PolarRadius, Some(Distance::Incremental), _) | (_, None, _) => {
                 return Err(cannot("an increment of a polar radius"));
             }
-            (NameRole::PolarRadius, ..) | (_, _, Some(Distance::Absolute)) => None,
+            (NameRole::PolarRadius | NameRole::LineAngle, ..) | (_, _, Some(Distance::Absolute)) => None,
             (_, _, Some(Distance::Incremental) | None) => Some("AC"),
         };
         let row = self.dialect.name_with(role).ok_or_else(|| cannot("a polar word"))?;

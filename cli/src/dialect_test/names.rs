@@ -126,6 +126,7 @@ fn address(role: NameRole) -> Said {
         NameRole::PolarRadius | NameRole::PolarAngle => {
             "POLAR(XY, radius 12.5mm, angle 30.25deg) said STRAIGHT_FEED()"
         }
+        NameRole::LineAngle => "POLAR(XY, along 30.25deg) said STRAIGHT_FEED(X 50mm)",
         NameRole::SpindleLimit => "LIMIT_SPINDLE_SPEED(2500)",
         NameRole::SpindleAngle => "ORIENT_SPINDLE(45deg)",
         NameRole::RoundCorner => return corner("ROUND_CORNER"),

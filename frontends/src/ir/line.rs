@@ -231,6 +231,14 @@ pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
     }
 }
 
+/// A move that can be said by its angle.
+pub(crate) fn straight(op: Op, l: usize, r: usize) -> Parsed<Op> {
+    match op {
+        Op::StraightTraverse(_) | Op::StraightFeed(_) => Ok(op),
+        _ => refuse(l, r, Fault::Syntax { found: op.name().into(), expected: "a straight move".into() }),
+    }
+}
+
 /// The number of a point of the machine.
 pub(crate) fn point_number(n: u32, least: u8, most: u8, l: usize, r: usize) -> Parsed<u8> {
     match u8::try_from(n) {

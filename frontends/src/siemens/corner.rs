@@ -58,7 +58,7 @@ impl Lower {
         let Some(num) = self.rounding.filter(|_| first.is_none()) else { return };
         let Some(plane) = self.known_plane(block, out) else { return };
         let in_plane = |axis: Axis| plane.axes().0 == axis || plane.axes().1 == axis;
-        let polar = [NameRole::PolarRadius, NameRole::PolarAngle];
+        let polar = [NameRole::PolarRadius, NameRole::PolarAngle, NameRole::LineAngle];
         let goes = polar.into_iter().any(|role| words.named(role).is_some())
             || Axis::ALL.into_iter().any(|axis| in_plane(axis) && words.get(axis.letter()).is_some());
         let leaves = Axis::ALL.into_iter().any(|axis| !in_plane(axis) && words.get(axis.letter()).is_some());

@@ -52,13 +52,15 @@ impl Pole {
 pub(super) struct PolarWords {
     radius: Option<Coord>,
     angle: Option<Coord>,
+    /// A line by its angle.
+    along: bool,
     span: Span,
 }
 
 impl Words {
     /// Whether a polar word is left.
     pub(super) fn has_polar(&self) -> bool {
-        ROLES.iter().any(|role| self.named(*role).is_some())
+        ROLES.iter().chain(&[NameRole::LineAngle]).any(|role| self.named(*role).is_some())
     }
 
     /// Whether words of axes or polar words are left.
@@ -131,6 +133,9 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Result<Option<PolarWords>, ()> {
+        if let Some(given) = words.take_named(NameRole::LineAngle) {
+            return self.line_angle(given, words, src, out).map(Some);
+        }
         let [radius, angle] = ROLES.map(|role| words.take_named(role));
         let Some(span) = radius.or(angle).map(|given| given.span) else {
             return Ok(None);
@@ -169,18 +174,43 @@ impl Lower {
         };
         let radius = radius.and_then(|given| coord(self, given, Quantity::Length, Distance::Absolute));
         let angle = angle.and_then(|given| coord(self, given, Quantity::Angle, distance));
-        Ok(Some(PolarWords { radius, angle, span }))
+        Ok(Some(PolarWords { radius, angle, along: false, span }))
+    }
+
+    /// The angle of a line, from the first axis of the plane.
+    fn line_angle(
+        &mut self,
+        given: Given,
+        words: &Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Result<PolarWords, ()> {
+        let span = given.span;
+        let name = match () {
+            () if words.has_polar() => "angle of a line beside polar words",
+            () if given.distance.is_some() => "AC or IC of a line's angle",
+            () => {
+                let num = self.number(given, Quantity::Angle, src, out).ok_or(())?;
+                let angle = Coord { value: Expr::Num(num), distance: Fact::Known(Distance::Absolute) };
+                return Ok(PolarWords { radius: None, angle: Some(angle), along: true, span });
+            }
+        };
+        self.not_supported(&src.text(span), name, span, out);
+        Err(())
     }
 
     /// Adds a move, to the polar point of the block's words if it has any.
     pub(super) fn push_to(&mut self, polar: Option<PolarWords>, block: Span, mut op: Op, out: &mut Batch) {
-        let Some(PolarWords { radius, angle, span }) = polar else {
+        let Some(PolarWords { radius, angle, along, span }) = polar else {
             return self.push(block, op, out);
         };
         let Some(plane) = self.known_plane(block, out) else { return };
         let (first, second, _) = plane.axes();
         let names = |to: &Point| to.get(first).is_some() || to.get(second).is_some();
         let text = "AP RP";
+        if along {
+            return self.push_along(angle, plane, span, block, op, out);
+        }
         match ncc_ir::polar::end(&mut op) {
             None => return self.not_supported(text, "polar words of this function", span, out),
             Some(to) if names(to) => {
@@ -199,12 +229,45 @@ impl Lower {
         }
         self.rely_on_frames(false, block, out);
         self.stand.forget();
-        let polar = Polar { plane: Fact::Known(plane), radius, angle, op };
+        let polar = Polar { plane: Fact::Known(plane), radius, angle, along: false, op };
         self.push(block, Op::Polar(Box::new(polar)), out);
+    }
+
+    /// A line by its angle, to the one word of the plane that its block has.
+    fn push_along(
+        &mut self,
+        angle: Option<Coord>,
+        plane: Plane,
+        span: Span,
+        block: Span,
+        op: Op,
+        out: &mut Batch,
+    ) {
+        let (first, second, _) = plane.axes();
+        let to = match &op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) => &m.to,
+            _ => return self.not_supported("ANG", "angle of anything but a line", span, out),
+        };
+        let name = match (to.get(first), to.get(second)) {
+            (None, None) => "line by its angle that the next block ends",
+            (Some(_), Some(_)) => "line by its angle with both of its coordinates",
+            (Some(_), None) | (None, Some(_)) => {
+                self.rely_on_frames(false, block, out);
+                self.stand.forget();
+                let plane = Fact::Known(plane);
+                let polar = Polar { plane, radius: None, angle, along: true, op };
+                return self.push(block, Op::Polar(Box::new(polar)), out);
+            }
+        };
+        self.not_supported("ANG", name, span, out);
     }
 
     /// The centre of an arc about the pole, if the text says where that is.
     pub(super) fn about_pole(&mut self, polar: &PolarWords, block: Span, out: &mut Batch) -> Option<Centre> {
+        if polar.along {
+            self.not_supported("ANG", "angle of anything but a line", polar.span, out);
+            return None;
+        }
         let plane = self.known_plane(block, out)?;
         let at = match self.state.pole {
             Pole::Unsaid => Some([Num::int(0, Unit::Mm); 2]),

@@ -53,7 +53,7 @@ pub(super) struct Words {
 }
 
 /// Number of roles of named addresses.
-const NAMED: usize = 17;
+const NAMED: usize = NameRole::ChamferCornerByLength as usize + 1;
 
 impl Words {
     /// Nothing, with the memory of what was.
@@ -287,6 +287,7 @@ impl Lower {
                         | NameRole::ThroughZ
                         | NameRole::PolarRadius
                         | NameRole::PolarAngle
+                        | NameRole::LineAngle
                 );
                 if given.distance.is_some() && !through {
                     let name = "AC or IC of a word that is no coordinate";

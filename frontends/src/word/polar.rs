@@ -147,7 +147,7 @@ impl Lower {
             _ => {}
         }
         self.state.words = Words::Polar { plane, follows: true };
-        let polar = Polar { plane: Fact::Known(plane), radius, angle, op };
+        let polar = Polar { plane: Fact::Known(plane), radius, angle, along: false, op };
         self.push(span, Op::Polar(Box::new(polar)), out);
     }
 }

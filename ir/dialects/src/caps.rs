@@ -284,6 +284,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
             .filter(|(kind, value)| everything || says_advice(dialect, *kind, *value))
             .collect(),
+        line_angles: everything || dialect.name_with(NameRole::LineAngle).is_some(),
         polar: if everything {
             PolarForm::Any
         } else if says(Meaning::PolarWords(true)) && says(Meaning::PolarWords(false)) {

@@ -169,6 +169,8 @@ pub enum NameRole {
     PolarRadius,
     /// Angle about the pole.
     PolarAngle,
+    /// The angle of a line, of which one coordinate of the plane says where it ends.
+    LineAngle,
     /// Highest speed of the spindle.
     SpindleLimit,
     /// Angle at which the spindle is stopped.

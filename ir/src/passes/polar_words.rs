@@ -1,4 +1,5 @@
-//! `polar-words`: points by radius and angle, and their poles, in the target's form or by coordinates.
+//! `polar-words`: points by radius and angle, their poles, and lines by their angle, in the target's form or by
+//! coordinates.
 //!
 //! A computed coordinate is rounded to the target's digits. A point whose place is not known from the
 //! program alone is refused.
@@ -133,6 +134,13 @@ fn pole(set: &SetPole, walk: &Walk, state: &mut State, target: &Target, form: Po
 fn kept(polar: &Polar, walk: &Walk, state: &mut State, target: &Target, form: PolarForm) -> Option<Op> {
     if form == PolarForm::Any {
         return Some(Op::Polar(Box::new(polar.clone())));
+    }
+    if polar.along {
+        let angle = polar.angle.as_ref()?;
+        let fine = |word: &Coord| is_fine(&word.value, walk, target);
+        let says = target.caps.line_angles && form != PolarForm::None;
+        let points = polar::end_of(&polar.op)?.axes.iter().flatten().all(fine);
+        return (says && points && fine(angle)).then(|| Op::Polar(Box::new(polar.clone())));
     }
     if form == PolarForm::None {
         return None;

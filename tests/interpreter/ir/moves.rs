@@ -58,6 +58,10 @@ impl Control {
             let (absolute, rest) = self.distance(rest);
             let [Token::Number(v, u)] = rest else { return self.m.halt("a polar word without a number") };
             let value = self.base(*v, u);
+            if name == "along" {
+                self.along = Some((axes, value));
+                return Ok(());
+            }
             let word = if name == "radius" { &mut self.pole.radius } else { &mut self.pole.angle };
             *word = if absolute { Some(value) } else { word.map(|last| last + value) };
         }
@@ -103,6 +107,24 @@ impl Control {
             }
             named[axis] = true;
             rest = after;
+        }
+        if let Some((axes, angle)) = self.along.take() {
+            let way = [angle.to_radians().cos(), angle.to_radians().sin()];
+            let own = match axes.map(|axis| named[axis]) {
+                [true, false] => 0,
+                [false, true] => 1,
+                _ => return self.m.halt("a line by its angle without one coordinate"),
+            };
+            let (known, sought) = (axes[own], axes[1 - own]);
+            if way[own].abs() < 1e-12 || !self.m.settled[sought] {
+                return self.m.halt("a line by its angle that leads nowhere");
+            }
+            let length = (to[known] - from[known]) / way[own];
+            if length < 0.0 {
+                return self.m.halt("a line by its angle away from its end");
+            }
+            to[sought] = from[sought] + length * way[1 - own];
+            named[sought] = true;
         }
         Ok((to, named))
     }

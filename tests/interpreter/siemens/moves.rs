@@ -70,6 +70,9 @@ impl<'a> Control<'a> {
             (to[first], to[second]) = self.polar_point(w)?;
             (self.m.settled[first], self.m.settled[second]) = (true, true);
         }
+        if let Some(angle) = w.named("ANG") {
+            self.by_angle(angle.number, &motion, axes, from, &mut to)?;
+        }
         if let Motion::Thread(turns) = motion {
             return self.thread(turns, w, axes, to);
         }
@@ -150,6 +153,36 @@ impl<'a> Control<'a> {
             }
             _ => self.m.halt("polar words of which one is missing"),
         }
+    }
+
+    /// ANG=: one coordinate of the plane is given, the other follows from the line's angle.
+    fn by_angle(
+        &mut self,
+        angle: f64,
+        motion: &Motion,
+        axes: &[usize],
+        from: Place,
+        to: &mut Place,
+    ) -> Result<(), Halt> {
+        let (first, second, _) = self.m.axes();
+        let given: Vec<usize> = axes.iter().copied().filter(|a| *a == first || *a == second).collect();
+        let ([own], Motion::Rapid | Motion::Straight, false) = (&given[..], motion, self.suppressed) else {
+            return self.m.halt("ANG without a line, or without one coordinate of the plane");
+        };
+        let other = if *own == first { second } else { first };
+        if !self.m.settled[other] {
+            return self.m.halt("ANG from a place that is not known");
+        }
+        let way = |axis: usize| {
+            let part = if axis == first { angle.to_radians().cos() } else { angle.to_radians().sin() };
+            if part.abs() < 1e-12 { 0.0 } else { part }
+        };
+        let length = (to[*own] - from[*own]) / way(*own);
+        if !length.is_finite() || length < 0.0 {
+            return self.m.halt("ANG that does not lead to the coordinate");
+        }
+        to[other] = from[other] + length * way(other);
+        Ok(())
     }
 
     fn straight(&mut self, from: Place, to: Place) -> Result<(), Halt> {

@@ -429,10 +429,14 @@ fn simple() -> BoxedStrategy<Op> {
                     2 => Op::Hole(to),
                     _ => Op::Position(to),
                 };
-                Op::Polar(Box::new(Polar { plane, radius, angle, op }))
+                Op::Polar(Box::new(Polar { plane, radius, angle, along: false, op }))
             }
         ),
         pole(),
+        (fact(planes()), coord(), moves(), any::<bool>()).prop_map(|(plane, angle, to, cuts)| {
+            let op = if cuts { Op::StraightFeed(to) } else { Op::StraightTraverse(to) };
+            Op::Polar(Box::new(Polar { plane, radius: None, angle: Some(angle), along: true, op }))
+        }),
         (point(), pitch(), any::<bool>(), of(turn()), any::<bool>()).prop_map(
             |(to, pitch, chuck, turn, back)| Op::SynchronisedFeed(Box::new(Synchronised {
                 to,
