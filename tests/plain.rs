@@ -59,6 +59,8 @@ pub enum Happening {
         pitch: f64,
         chuck: bool,
     },
+    /// How far at most, away from a contact, and whether finding nothing is an error.
+    Probe([f64; 6], bool, bool),
     /// The spindle stopped at an angle, degrees.
     Orient(f64),
     Dwell(f64),
@@ -149,6 +151,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         break_lift: mm(world.break_lift),
         reference: Box::new(move |point| points.reference(ReferencePoint::Further(point as u8)).map(mm)),
         stored: Box::new(move |point| stored.reference(ReferencePoint::Stored(point as u8)).map(mm)),
+        touched: mm(world.touched()),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         orientation: mm(world.orientation),
         kinematics: Kinematics {
@@ -208,6 +211,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 Happening::Arc { normal, centre, sweep, radius }
             }
             What::Thread(pitch, chuck) => Happening::Thread { pitch, chuck },
+            What::Probe(to, away, error) => Happening::Probe(to, away, error),
             What::Orient(angle) => Happening::Orient(angle),
             What::Gear(0) => Happening::MachineFunction(hash_of("automatic spindle gear")),
             What::Gear(number) => Happening::MachineFunction(hash_of(&format!("spindle gear {number}"))),
@@ -226,7 +230,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Spindle(_) => continue,
         };
         from = event.machine;
-        let cutting = matches!(what, Happening::Feed | Happening::Arc { .. });
+        let cutting = matches!(what, Happening::Feed | Happening::Probe(..) | Happening::Arc { .. });
         let moves = cutting || matches!(what, Happening::Traverse | Happening::Thread { .. });
         let speed = event.speed.unwrap_or(0.0);
         push(
@@ -290,6 +294,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 Happening::Arc { normal, centre, sweep, radius }
             }
             Kind::Synchronised { pitch, chuck } => Happening::Thread { pitch: mm(*pitch), chuck: *chuck },
+            Kind::Probe { to, probe } => Happening::Probe(to.map(mm), probe.away, probe.error),
             Kind::Orient(angle) => Happening::Orient(mm(*angle)),
             Kind::Dwell(seconds) => Happening::Dwell(mm(*seconds)),
             Kind::ToolChange => Happening::ToolChange,
@@ -326,7 +331,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::Attribute(_) => continue,
         };
         from = at;
-        let cutting = matches!(what, Happening::Feed | Happening::Arc { .. });
+        let cutting = matches!(what, Happening::Feed | Happening::Probe(..) | Happening::Arc { .. });
         let moves = cutting || matches!(what, Happening::Traverse | Happening::Thread { .. });
         let corner = match event.state.path {
             None => Corner::Unsaid,
@@ -431,6 +436,9 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
                 && near(centre[0], c[0], within.place * 2.0)
                 && near(centre[1], c[1], within.place * 2.0)
                 && near(sweep, s, slack)
+        }
+        (Happening::Probe(x, away, error), Happening::Probe(y, off, or_error)) => {
+            (away, error) == (off, or_error) && x.iter().zip(y).all(|(x, y)| near(*x, y, within.place))
         }
         (Happening::Dwell(x), Happening::Dwell(y)) => near(x, y, 0.0006),
         // A pitch by feed and speed has no end of digits; where it is a word, it has six.

@@ -268,6 +268,8 @@ impl Checker {
                 feed::cut(self, event, self.last);
                 self.moved(step, event);
             }
+            // It touches, and cuts nothing.
+            Kind::Probe { .. } => self.moved(step, event),
             Kind::Synchronised { .. } => {
                 spindle::cut(self, event, self.last);
                 self.moved(step, event);

@@ -18,6 +18,14 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
     let mut text = match &event.kind {
         Kind::Traverse => "a rapid".to_owned(),
         Kind::Feed => "a feed move".to_owned(),
+        Kind::Probe { to, probe } => format!(
+            "a probing move {} on the way to X{} Y{} Z{}{}",
+            if probe.away { "off a contact" } else { "into a contact" },
+            number(to[0]),
+            number(to[1]),
+            number(to[2]),
+            if probe.error { ", or an error" } else { "" },
+        ),
         Kind::Arc { plane, turn, full, centre } => {
             let (first, second, _) = plane.axes();
             format!(

@@ -7,7 +7,7 @@ use crate::expr::Expr;
 use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, moves, polar, tooling};
 use crate::num::Num;
 use crate::passes::seen_advice;
-use crate::program::{FrameSlot, Op, Pitch, ReferencePoint, Slot};
+use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot};
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -73,6 +73,8 @@ pub struct Caps {
     pub machine_length: Option<bool>,
     /// Whether a move in machine coordinates is always rapid.
     pub machine_rapid: bool,
+    /// Probing moves, by [`Caps::probe`].
+    pub probes: [bool; 4],
     /// Points of the machine that have a word.
     pub references: References,
     /// Whether a rapid move to such a point can go by another point first.
@@ -421,6 +423,11 @@ impl CycleCap {
 }
 
 impl Caps {
+    /// Place of a kind of probing move in [`Caps::probes`].
+    pub fn probe(probe: Probe) -> usize {
+        usize::from(probe.away) * 2 + usize::from(probe.error)
+    }
+
     /// Whether a mode of taking corners can be written.
     pub fn says_path(&self, mode: PathMode) -> bool {
         self.path_modes >> mode as u16 & 1 == 1
@@ -472,7 +479,8 @@ impl Caps {
             | moves!()
             | drilling!()
             | polar!()
-            | flow!() => true,
+            | flow!()
+            | Op::Probe(_) => true,
         }
     }
 

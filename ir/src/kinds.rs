@@ -68,7 +68,7 @@ macro_rules! tooling {
     };
 }
 
-/// From where, and turned how, the coordinates that follow are counted.
+/// From where, and turned how, the coordinates that follow are counted; how far the next move goes.
 macro_rules! frames {
     () => {
         $crate::program::Op::SetOriginOffsets(_)
@@ -78,6 +78,7 @@ macro_rules! frames {
             | $crate::program::Op::SetPosition(_)
             | $crate::program::Op::UseToolCentrePoint(_)
             | $crate::program::Op::UseMachineCoordinates { .. }
+            | $crate::program::Op::Probe(_)
     };
 }
 

@@ -47,6 +47,8 @@ pub struct Tracker {
     pub raw: bool,
     /// Whether that move is measured with the tool's length.
     pub raw_length: bool,
+    /// Whether the next straight move at feed is a probing one.
+    pub probing: bool,
     /// The pole of polar words.
     pub pole: Pole,
     /// Whether it is not known.
@@ -304,6 +306,7 @@ impl Tracker {
         self.turned |= other.turned;
         self.local_lost |= other.local_lost || self.local != other.local;
         self.raw |= other.raw;
+        self.probing |= other.probing;
         self.pole_lost |= other.pole_lost || self.pole != other.pole;
         self.compensated |= other.compensated;
         self.tilted |= other.tilted;
@@ -414,6 +417,7 @@ impl Tracker {
                 self.tilted = *on;
             }
             Op::OrientToolAxis(_) => self.position = [None; AXES],
+            Op::Probe(_) => self.probing = true,
             Op::UseMachineCoordinates { length } => {
                 self.raw = true;
                 self.raw_length = *length;
@@ -587,6 +591,9 @@ impl Tracker {
             self.lose(&std::array::from_fn(|axis| to.axes[axis].is_some()));
         } else {
             self.position = self.target(to);
+        }
+        if std::mem::take(&mut self.probing) {
+            self.lose(&std::array::from_fn(|axis| to.axes[axis].is_some()));
         }
         self.modes.motion = Some(motion);
         self.cycle = None;

@@ -488,6 +488,11 @@ impl Comparison {
                     return Some(Aspect::Arc);
                 }
             }
+            (Kind::Probe { to, probe }, Kind::Probe { to: other, probe: sought }) => {
+                if probe != sought || self.end(to, other, b.inch).is_some() {
+                    return Some(Aspect::Kind);
+                }
+            }
             (Kind::Dwell(x), Kind::Dwell(y)) => {
                 if !near(*x, *y, Resolution::half(self.resolution.second, false)) {
                     return Some(Aspect::Kind);

@@ -235,6 +235,11 @@ impl World {
         }
     }
 
+    /// How much of a probing move's way is gone when the probe says so, in billionths; in the plain world, all.
+    pub fn touched(&self) -> Nanos {
+        if self.seed == 0 { ONE } else { ONE / 2 + self.odd(130_000, 100) / 400 }
+    }
+
     /// What a return to the reference point leaves of a tool's length.
     pub fn left_length(&self) -> Nanos {
         if self.seed == 0 { 0 } else { self.odd(90_000, 35) }

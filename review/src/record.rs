@@ -326,8 +326,14 @@ impl Recorder {
                 self.texts += 1;
                 self.batch.texts.push(text.into());
             }
-            Kind::Tilt(_) | Kind::OrientToolAxis(_) => {
+            Kind::Tilt(_) | Kind::OrientToolAxis(_) | Kind::Probe { .. } => {
                 let text = match &event.kind {
+                    Kind::Probe { to, probe } => {
+                        let [x, y, z] = [0, 1, 2].map(|axis| to[axis] as f64 / ncc_ir::num::ONE as f64);
+                        let until = if probe.away { "off a contact" } else { "into a contact" };
+                        let error = if probe.error { ", or an error" } else { "" };
+                        format!("probing {until} on the way to X{x} Y{y} Z{z}{error}")
+                    }
                     Kind::Tilt(Some(plane)) => plane.to_string(),
                     Kind::Tilt(None) => "the tilted plane taken back".to_owned(),
                     _ => "the tool turned onto the tilted plane".to_owned(),
@@ -378,6 +384,8 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::Dwell(_) => What::Dwell,
         Kind::ToolChange => What::ToolChange,
         Kind::MachineFunction(_) | Kind::Data(_) | Kind::Tilt(_) | Kind::OrientToolAxis(_) => What::Function,
+        // Where it ends is another place in each world.
+        Kind::Probe { .. } => What::Function,
         Kind::ProgramStop => What::Stop,
         Kind::OptionalProgramStop => What::OptionalStop,
         Kind::ProgramEnd => What::End,

@@ -279,7 +279,7 @@ impl Control {
                 95 => self.m.count_feed(Per::Turn),
                 97 => self.m.surface = false,
                 g @ (43 | 49) => length = Some(g),
-                g @ (28 | 30) => machine = Some(g),
+                g @ (28 | 30 | 31) => machine = Some(g),
                 53 => machine = Some(53),
                 g @ 54..=59 => self.m.use_offset(g - 53),
                 g @ 110..=129 if self.haas => self.m.use_offset(g - 103),

@@ -28,6 +28,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         frame: Frame::NONE,
         edge: None,
         machine_once: false,
+        probing: None,
         without_length: false,
         tangent: None,
         pole: moves::Pole::default(),
@@ -89,6 +90,8 @@ struct Control {
     edge: Option<(Option<u32>, u32)>,
     /// The move that follows in the block is in machine coordinates.
     machine_once: bool,
+    /// The next straight move at feed probes: away from a contact, and whether finding nothing is an error.
+    probing: Option<(bool, bool)>,
     /// Whether that is without the tool's length.
     without_length: bool,
     /// Direction in which the last move at feed ended, in program coordinates.
@@ -370,6 +373,10 @@ impl Control {
             "USE_MACHINE_COORDINATES" => {
                 self.machine_once = true;
                 self.without_length = !a.is_empty();
+            }
+            "PROBE" => {
+                let says = |word: &str| a.iter().any(|t| matches!(t, Token::Name(n) if n == word));
+                self.probing = Some((says("no-contact"), says("or-error")));
             }
             "GO_TO_REFERENCE" => self.reference(a)?,
             "USE_TOOL_EDGE" => {

@@ -120,7 +120,7 @@ impl Words {
 
 /// Modal groups of G codes; codes of none stand alone.
 const GROUPS: [&[u32]; 13] = [
-    &[0, 10, 20, 30, 330, 331, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
+    &[0, 10, 20, 30, 330, 331, 382, 383, 384, 385, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
     &[40, 100, 280, 300, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
@@ -136,8 +136,16 @@ const GROUPS: [&[u32]; 13] = [
 ];
 
 /// Modal groups of M codes; switches of the operator's overrides change no move of their own.
-const M_GROUPS: [&[u32]; 8] =
-    [&[0, 10, 20, 300, 980, 990], &[60], &[30, 40, 50], &[70, 80, 90], &[480, 490], &[500], &[510], &[530]];
+const M_GROUPS: [&[u32]; 8] = [
+    &[0, 10, 20, 300, 600, 980, 990],
+    &[60],
+    &[30, 40, 50],
+    &[70, 80, 90],
+    &[480, 490],
+    &[500],
+    &[510],
+    &[530],
+];
 
 fn cycle(code: u32) -> bool {
     matches!(code, 730 | 740 | 810 | 820 | 830 | 840 | 850 | 860 | 890)
@@ -340,7 +348,8 @@ impl Control {
         self.act(&words, of(GROUPS[0]), once)?;
 
         match m.iter().find(|code| M_GROUPS[0].contains(code)) {
-            Some(0) => self.m.record(What::Stop),
+            // What the pallets do is no matter of the axes.
+            Some(0 | 600) => self.m.record(What::Stop),
             Some(10) => self.m.record(What::OptionalStop),
             Some(20 | 300) => {
                 self.m.record(What::End);
@@ -435,6 +444,11 @@ impl Control {
                             330 => self.m.cut_thread(to, lead * self.unit())?,
                             _ => self.m.tap_and_back(to, lead * self.unit())?,
                         }
+                    }
+                    // It stays in force: bare axis words probe again.
+                    Some(code @ 382..=385) if once.is_none() && any => {
+                        let to = self.target(axes);
+                        self.m.probe(to, code > 383, code % 2 == 0)?;
                     }
                     Some(_) => return self.m.halt("G53 without a straight move"),
                     None => return self.m.halt("axis words and no motion code"),

@@ -87,6 +87,9 @@ pub enum What {
     /// In step with the spindle to the event's place: millimetres a turn, and whether a chuck makes good
     /// the rest.
     Thread(f64, bool),
+    /// Straight at feed until the probe says so, which is the event's place: how far it goes at most, whether
+    /// it looks for the end of a contact, and whether it is an error to find nothing.
+    Probe(Place, bool, bool),
     /// The spindle was stopped at an angle, degrees.
     Orient(f64),
     /// A gear of the spindle; 0 is the control's own choice.
@@ -417,6 +420,17 @@ impl Machine {
         self.lead_straight(to);
         self.at = to;
         self.record(What::Feed);
+        Ok(())
+    }
+
+    /// Straight at feed until the probe says so.
+    pub fn probe(&mut self, to: Place, away: bool, error: bool) -> Result<(), Halt> {
+        if self.feed.is_none() || self.beside.is_some() || to == self.at {
+            return self.halt("probing without F or a way, or under compensation");
+        }
+        let (from, part) = (self.at, self.setup.touched);
+        self.at = std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * part);
+        self.record(What::Probe(to, away, error));
         Ok(())
     }
 

@@ -27,6 +27,8 @@ pub struct Setup {
     pub reference: Box<dyn Fn(u32) -> Place>,
     /// The positions that a LinuxCNC goes to by G28 (1) and G30 (2), in machine coordinates.
     pub stored: Box<dyn Fn(u32) -> Place>,
+    /// How much of a probing move's way is gone when the probe says so.
+    pub touched: f64,
     /// Where a Fanuc shifts a tool off the wall of a bore: which axis of the plane, and its sign.
     pub bore_shift: (usize, f64),
     /// Where M19 stops the spindle, degrees.
@@ -91,6 +93,7 @@ impl Setup {
             break_lift: 1.0,
             reference: Box::new(|_| [0.0; 6]),
             stored: Box::new(|_| [0.0; 6]),
+            touched: 1.0,
             bore_shift: (0, 1.0),
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },

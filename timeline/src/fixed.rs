@@ -42,7 +42,7 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
     let by_speed = |to: f64| machine.spindle_acceleration.map(|rate| (to - before).abs() / rate);
     let after = turning(&act.event.state, machine);
     match &act.event.kind {
-        Kind::Synchronised { .. } => stop(0.0),
+        Kind::Synchronised { .. } | Kind::Probe { .. } => stop(0.0),
         Kind::Orient(_) => stop(by_speed(0.0).unwrap_or(known(machine.spindle_stop)) + m),
         Kind::Traverse | Kind::Feed | Kind::Arc { .. } | Kind::Message(_) | Kind::TextEnd => on_the_fly(0.0),
         // How far the rotary axes go, no program says.

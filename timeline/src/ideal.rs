@@ -24,7 +24,7 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
             let linear = path.change[..3].iter().any(|change| *change != 0.0);
             rapid(if linear { path.length } else { 0.0 }, &path.change, machine)
         }
-        Kind::Feed | Kind::Synchronised { .. } | Kind::Arc { .. } => {
+        Kind::Feed | Kind::Probe { .. } | Kind::Synchronised { .. } | Kind::Arc { .. } => {
             let rate = units(act.event.rate);
             match path(&act.event, &act.from).length {
                 0.0 => 0.0,

@@ -355,6 +355,7 @@ impl Writer {
             | Op::SetSlot(_)
             | Op::SetPosition(_)
             | Op::UseMachineCoordinates { .. }
+            | Op::Probe(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::UseToolEdge { .. }

@@ -164,6 +164,7 @@ fn rank(op: &Op) -> u8 {
         | Op::UseToolCentrePoint(_)
         | Op::OrientToolAxis(_)
         | Op::UseMachineCoordinates { .. }
+        | Op::Probe(_)
         | Op::GoToReference(_)
         | Op::SetData(_)
         | Op::SetPole(_)
@@ -385,7 +386,13 @@ impl Printer<'_> {
                 };
                 self.path_control();
             }
-            Op::ProgramStop => self.call("PROGRAM_STOP()"),
+            Op::ProgramStop => {
+                let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
+                if code.is_some_and(|code| code.eq_ignore_ascii_case(b"M60")) {
+                    self.call("PALLET_SHUTTLE()");
+                }
+                self.call("PROGRAM_STOP()");
+            }
             Op::OptionalProgramStop => self.call("OPTIONAL_PROGRAM_STOP()"),
             Op::ProgramEnd => {
                 let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
@@ -397,6 +404,7 @@ impl Printer<'_> {
             | Op::SetPosition(_)
             | Op::ClearFrame(_)
             | Op::UseMachineCoordinates { .. }
+            | Op::Probe(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::GoToReference(_)

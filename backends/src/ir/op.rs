@@ -41,6 +41,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetSlot(_)
         | Op::SetPosition(_)
         | Op::UseMachineCoordinates { .. }
+        | Op::Probe(_)
         | Op::GoToReference(_)
         | Op::SetData(_)
         | Op::SetPole(_)
@@ -161,6 +162,10 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             whole(u64::from(r.times), out);
         }
         Op::UseMachineCoordinates { length } => put(if *length { "" } else { "no-length" }, out),
+        Op::Probe(probe) => {
+            put(if probe.away { "no-contact" } else { "contact" }, out);
+            put(if probe.error { ", or-error" } else { "" }, out);
+        }
         Op::GoToReference(r) => machine::reference(r, out),
         Op::SetData(d) => machine::data(d, out),
         Op::SetPole(set) => pole(set, out),

@@ -146,6 +146,7 @@ impl Writer {
             Op::UseMachineCoordinates { length: false } => {
                 Err(cannot("machine coordinates without the tool's length"))
             }
+            Op::Probe(_) => Err(cannot("a probing move")),
             Op::GoToReference(_) => Err(cannot("a move to the reference point")),
             Op::SetData(_) => Err(cannot("values of tables")),
             Op::SetFeedRate(feed) => {

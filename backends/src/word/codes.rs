@@ -8,7 +8,7 @@ use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
 use ncc_ir::caps::CycleForm;
-use ncc_ir::program::{CentreFrom, FrameSlot, ReferencePoint, ToolValue};
+use ncc_ir::program::{CentreFrom, FrameSlot, Probe, ReferencePoint, ToolValue};
 
 use super::number::Format;
 
@@ -184,6 +184,8 @@ pub(crate) struct Codes {
     pub machine: [Option<Code>; 2],
     /// To points of the machine, with the letter that names a further one.
     pub references: Vec<(ReferencePoint, Code, Option<Letter>)>,
+    /// Probing moves, each with whether its code stays in force as a motion's does.
+    pub probes: Vec<(Probe, Code, bool)>,
     /// Tables that values are put into.
     pub tables: Vec<DataCode>,
     pub length: Option<Code>,
@@ -520,6 +522,16 @@ impl Codes {
                     let letter = row.words.chars().next();
                     let letter = letter.and_then(|l| find.letter(l, Quantity::Integer));
                     Some((point, find.row(&row.code, meaning)?, letter))
+                })
+                .collect(),
+            probes: dialect
+                .code
+                .iter()
+                .filter_map(|row| {
+                    let Some(meaning @ Meaning::StraightProbe(probe)) = row.means else { return None };
+                    let feed = dialect.code_for(Meaning::StraightFeed);
+                    let stays = feed.is_some_and(|feed| feed.group == row.group);
+                    Some((probe, find.row(&row.code, meaning)?, stays))
                 })
                 .collect(),
             tables: find.tables(),

@@ -59,6 +59,7 @@ impl Setting {
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }
+            | Op::Probe(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::StartCutterRadiusCompensation { .. }

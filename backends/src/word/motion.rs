@@ -35,10 +35,12 @@ impl Writer {
             false => (Motion::Feed, self.codes.feed),
         };
         let code = code.ok_or_else(|| cannot("a straight move"))?;
+        let probe = self.probe.take().filter(|_| !rapid);
+        let code = probe.map_or(code, |(code, _)| code);
         let mut inserted = Inserted::default();
         self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
         let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
-        let says = to.said || self.force.motion != Some(motion);
+        let says = to.said || probe.is_some() || self.force.motion != Some(motion);
         let need = if says { need.code(Some(code)) } else { need };
         let machine = self.machine.take();
         let need = if machine.is_some() { need.code(machine) } else { need };
@@ -49,9 +51,21 @@ impl Writer {
         if says {
             self.block.code(Part::Motion, &code);
         }
-        self.force.motion = Some(motion);
+        match probe {
+            None => self.force.motion = Some(motion),
+            Some((_, true)) => self.force.motion = None,
+            Some((_, false)) => {}
+        }
         self.point(&to.to, span, sink)?;
         self.put_corner();
+        if probe.is_some() {
+            // Where these axes are now, nothing that rounding has left is known of.
+            for (residue, word) in self.residue.iter_mut().zip(&to.to.axes) {
+                if word.is_some() {
+                    *residue = 0;
+                }
+            }
+        }
         Ok(())
     }
 

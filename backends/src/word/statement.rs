@@ -83,6 +83,12 @@ impl Writer {
                 self.machine = Some(code.ok_or_else(|| cannot("machine coordinates"))?);
                 Ok(())
             }
+            Op::Probe(probe) => {
+                let found = codes.probes.iter().find(|(own, ..)| own == probe);
+                let (_, code, stays) = *found.ok_or_else(|| cannot("a probing move"))?;
+                self.probe = Some((code, stays));
+                Ok(())
+            }
             // It is said with the length that follows.
             Op::UseToolCentrePoint(on) if codes.tip.is_some() || !on => {
                 self.tip = *on;

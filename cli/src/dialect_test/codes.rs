@@ -303,6 +303,11 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         Meaning::UseMachineCoordinates { length: false, .. } => {
             one("USE_MACHINE_COORDINATES(no-length) & said STRAIGHT_TRAVERSE(Z 0mm)")
         }
+        Meaning::StraightProbe(probe) => {
+            let sought = if probe.away { "no-contact" } else { "contact" };
+            let error = if probe.error { ", or-error" } else { "" };
+            one(&format!("PROBE({sought}{error}) & said STRAIGHT_FEED(X 12.345mm, Z -6.7mm)"))
+        }
         Meaning::GoToReference { point, keeps_length } => {
             let keeps = if keeps_length { ", keeps-length" } else { "" };
             let points = match point {

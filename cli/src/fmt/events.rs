@@ -101,6 +101,7 @@ fn take(event: &Event, into: &mut DefaultHasher) {
     match kind {
         Kind::Arc { plane, turn, full, centre } => (plane, turn, full, centre).hash(into),
         Kind::Synchronised { pitch, chuck } => (pitch, chuck).hash(into),
+        Kind::Probe { to, probe } => (to, probe).hash(into),
         Kind::Dwell(value) | Kind::Orient(value) => value.hash(into),
         Kind::MachineFunction(text) | Kind::Message(text) => text.hash(into),
         Kind::Data(stored) => stored.hash(into),

@@ -147,7 +147,8 @@ impl Listed {
                 let before = std::mem::replace(&mut self.state.spindle, Spindle::Stopped);
                 self.turned = next.is_some_and(|next| next.starts_with("CHANGE_TOOL(")).then_some(before);
             }
-            "SELECT_TOOL" => {}
+            // The exchange of pallets belongs to the stop, or the end, behind it.
+            "SELECT_TOOL" | "PALLET_SHUTTLE" => {}
             "CHANGE_TOOL" => {
                 // The stop belongs to the change, which comes first.
                 self.state.tool = inside.parse().ok()?;

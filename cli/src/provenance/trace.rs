@@ -39,7 +39,7 @@ const MOST_STRETCHES: usize = 1000;
 const MOST_PLACES: usize = 1000;
 
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
-pub const KINDS: [&str; 17] = [
+pub const KINDS: [&str; 18] = [
     "STRAIGHT_TRAVERSE",
     "STRAIGHT_FEED",
     "ARC_FEED",
@@ -57,6 +57,7 @@ pub const KINDS: [&str; 17] = [
     "SET_DATA",
     "SET_TILT",
     "ORIENT_TOOL_AXIS",
+    "STRAIGHT_PROBE",
 ];
 
 /// A kind's place in [`KINDS`]; `None` is no event of a comparison.
@@ -79,6 +80,7 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::Data(_) => 14,
         Kind::Tilt(_) => 15,
         Kind::OrientToolAxis(_) => 16,
+        Kind::Probe { .. } => 17,
         Kind::Attribute(_) => return None,
     })
 }

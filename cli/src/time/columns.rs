@@ -51,6 +51,7 @@ impl Columns {
                 "STRAIGHT_TRAVERSE"
             }
             Kind::Feed => "STRAIGHT_FEED",
+            Kind::Probe { .. } => "STRAIGHT_PROBE",
             Kind::Synchronised { .. } => "SYNCHRONISED_FEED",
             Kind::Arc { .. } => "ARC_FEED",
             Kind::Dwell(_) => "DWELL",

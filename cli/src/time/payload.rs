@@ -181,6 +181,7 @@ impl<W: Write> Sink for Payload<'_, W> {
             Kind::Message(text) => parameters::one("text", (&**text).into()),
             Kind::Traverse
             | Kind::Feed
+            | Kind::Probe { .. }
             | Kind::Synchronised { .. }
             | Kind::ToolChange
             | Kind::Coolant

@@ -286,7 +286,7 @@ impl Step {
         let act = &timed.act;
         let event = &act.event;
         let kind = match &event.kind {
-            Kind::Feed | Kind::Synchronised { .. } | Kind::Arc { .. } => Sort::Cutting,
+            Kind::Feed | Kind::Probe { .. } | Kind::Synchronised { .. } | Kind::Arc { .. } => Sort::Cutting,
             Kind::Orient(_) => Sort::Spindle,
             Kind::Traverse => Sort::Rapid,
             Kind::Dwell(_) => Sort::Dwell,

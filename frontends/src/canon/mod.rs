@@ -158,6 +158,7 @@ impl State {
             | Op::SetSlot(_)
             | Op::SetPosition(_)
             | Op::UseMachineCoordinates { .. }
+            | Op::Probe(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::UseToolEdge { .. }

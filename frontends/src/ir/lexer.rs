@@ -264,6 +264,14 @@ pub(crate) enum Token {
     UseMachineCoordinates,
     #[token("GO_TO_REFERENCE")]
     GoToReference,
+    #[token("PROBE")]
+    Probe,
+    #[token("contact")]
+    Contact,
+    #[token("no-contact")]
+    NoContact,
+    #[token("or-error")]
+    OrError,
     #[token("SET_OFFSET_DATA")]
     SetOffsetData,
     #[token("SET_TOOL_DATA")]

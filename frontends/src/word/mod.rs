@@ -32,6 +32,7 @@ mod pattern;
 pub(crate) mod pieces;
 pub(crate) mod plain;
 mod polar;
+mod probe;
 pub(crate) mod sort;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]

@@ -86,6 +86,13 @@ impl Lower {
             }
             return self.machine_move(code, motion.is_some(), block, words, src, out);
         }
+        if let Some(code) = find(|m| matches!(m, Meaning::StraightProbe(_))) {
+            if let Some(other) = cycle.or(pattern) {
+                let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
+                return self.fault(fault, other.span, out);
+            }
+            return self.probe(code, block, words, src, out);
+        }
         match (cycle, pattern) {
             (Some(code), _) => self.start_cycle(code, dwell, block, words, src, out),
             (None, Some(code)) => self.pattern(code, block, words, src, out),

@@ -85,6 +85,7 @@ impl Lower {
             | Meaning::SetOriginOffsets(_)
             | Meaning::UseMachineCoordinates { .. }
             | Meaning::GoToReference { .. }
+            | Meaning::StraightProbe(_)
             | Meaning::Pattern
             | Meaning::Call
             | Meaning::Return => true,

@@ -268,6 +268,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::EndCycle => RANK_MOTION,
         Meaning::UseMachineCoordinates { .. }
         | Meaning::GoToReference { .. }
+        | Meaning::StraightProbe(_)
         | Meaning::StraightTraverse
         | Meaning::StraightFeed
         | Meaning::SynchronisedFeed(_)

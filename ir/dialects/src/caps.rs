@@ -4,7 +4,7 @@ use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, Side, Turn};
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
-use ncc_ir::program::{FrameSlot, PoleFrom, ReferencePoint};
+use ncc_ir::program::{FrameSlot, PoleFrom, Probe, ReferencePoint};
 
 use crate::meaning::{Meaning, Thread};
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
@@ -143,6 +143,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             (true, _, _) | (false, true, true) => None,
             (false, length, _) => Some(length),
         },
+        probes: std::array::from_fn(|at| {
+            let meaning = Meaning::StraightProbe(Probe { away: at / 2 == 1, error: at % 2 == 1 });
+            everything || says(meaning) || names(NameMeaning::Code(meaning))
+        }),
         references: if everything {
             References::ALL
         } else {

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use ncc_ir::canon::{
     AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
-use ncc_ir::program::{CentreFrom, FrameSlot, PoleFrom, ReferencePoint};
+use ncc_ir::program::{CentreFrom, FrameSlot, PoleFrom, Probe, ReferencePoint};
 use serde::{Deserialize, Deserializer};
 
 /// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
@@ -56,6 +56,9 @@ pub enum Meaning {
         /// Whether the move is rapid whatever motion is in force.
         rapid: bool,
     },
+    /// A straight move at feed that ends where the probe says so. As a code of the group of motions it stays in
+    /// force, and bare axis words behind it are refused.
+    StraightProbe(Probe),
     /// To a point of the machine; [`ReferencePoint::Further`] 0 is the one that a word of the block names.
     GoToReference {
         point: ReferencePoint,
@@ -178,6 +181,10 @@ impl fmt::Display for Meaning {
             Meaning::UseToolCentrePoint(false) => "USE_TOOL_CENTRE_POINT off",
             Meaning::SetTilt => "SET_TILT",
             Meaning::OrientToolAxis => "ORIENT_TOOL_AXIS",
+            Meaning::StraightProbe(Probe { away: false, error: false }) => "STRAIGHT_PROBE",
+            Meaning::StraightProbe(Probe { away: false, error: true }) => "STRAIGHT_PROBE or-error",
+            Meaning::StraightProbe(Probe { away: true, error: false }) => "STRAIGHT_PROBE away",
+            Meaning::StraightProbe(Probe { away: true, error: true }) => "STRAIGHT_PROBE away or-error",
             Meaning::UseMachineCoordinates { length: true, rapid: false } => "USE_MACHINE_COORDINATES",
             Meaning::UseMachineCoordinates { length: true, rapid: true } => "USE_MACHINE_COORDINATES rapid",
             Meaning::UseMachineCoordinates { length: false, rapid: false } => {
@@ -299,6 +306,10 @@ impl FromStr for Meaning {
             ("USE_TOOL_CENTRE_POINT", "off") => Meaning::UseToolCentrePoint(false),
             ("SET_TILT", "") => Meaning::SetTilt,
             ("ORIENT_TOOL_AXIS", "") => Meaning::OrientToolAxis,
+            ("STRAIGHT_PROBE", "") => Meaning::StraightProbe(Probe { away: false, error: false }),
+            ("STRAIGHT_PROBE", "or-error") => Meaning::StraightProbe(Probe { away: false, error: true }),
+            ("STRAIGHT_PROBE", "away") => Meaning::StraightProbe(Probe { away: true, error: false }),
+            ("STRAIGHT_PROBE", "away or-error") => Meaning::StraightProbe(Probe { away: true, error: true }),
             ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates { length: true, rapid: false },
             ("USE_MACHINE_COORDINATES", "no-length") => {
                 Meaning::UseMachineCoordinates { length: false, rapid: false }

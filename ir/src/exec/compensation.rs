@@ -309,6 +309,7 @@ impl Exec {
             Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
                 Some("a point of the machine under cutter radius compensation")
             }
+            Op::Probe(_) => Some("probing under cutter radius compensation"),
             Op::SynchronisedFeed(_) => Some("a thread under cutter radius compensation"),
             Op::ChangeTool => Some("a tool change under cutter radius compensation"),
             Op::UseToolLengthOffset(entry) => {

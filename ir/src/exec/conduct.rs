@@ -120,6 +120,7 @@ impl Exec {
             && self.last == other.last
             && self.heading == other.heading
             && self.raw == other.raw
+            && self.probing == other.probing
             && self.pole == other.pole
             && self.after_stop == other.after_stop
             && self.waiting == other.waiting
@@ -147,6 +148,7 @@ impl Exec {
         self.last = other.last;
         self.heading = other.heading;
         self.raw = other.raw;
+        self.probing = other.probing;
         self.pole = other.pole;
         self.after_stop = other.after_stop;
         self.waiting = other.waiting;

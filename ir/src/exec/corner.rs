@@ -150,6 +150,9 @@ impl Exec {
         if self.raw.is_some() {
             return not_told("a move in machine coordinates at a corner", span);
         }
+        if self.probing.is_some() {
+            return not_told("a probing move at a corner", span);
+        }
         if self.centre_path.is_some() && self.contour.watched {
             return not_told("a corner of a contour whose compensation is worked out", span);
         }

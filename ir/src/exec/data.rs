@@ -1,13 +1,15 @@
 //! Points of the machine, and values that a program puts into the control's tables.
 //!
 //! A point of the machine is where the world has it; axes go there by a rapid move like any other.
+//! Where a probe says so on the way, the world has, too.
 //! What is put into a table counts from then on, and is an event: a value that this program does not
 //! use may be another's.
 
 use super::{Exec, Kind, Length, Stored, Z};
+use crate::canon::same_point;
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
-use crate::num::Nanos;
+use crate::num::{Nanos, ONE};
 use crate::program::{Data, DataMode, Reference, ToolValue};
 use crate::source::Span;
 
@@ -41,6 +43,26 @@ impl Exec {
             self.waiting = Some(Length::Left);
         }
         Ok(())
+    }
+
+    /// A straight move at feed to the present position, which ends where the probe says so.
+    #[cold]
+    pub(super) fn probe(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let Some(probe) = self.probing.take() else { return Ok(()) };
+        if !feed || self.raw.is_some() {
+            return self.not_executed("probing by rapid", span);
+        }
+        let (from, to) = (self.last, self.machine());
+        if same_point(&from, &to) {
+            return self.not_executed("probing that goes nowhere", span);
+        }
+        let share = i128::from(self.world.touched());
+        self.last = std::array::from_fn(|axis| {
+            let way = i128::from(to[axis]) - i128::from(from[axis]);
+            from[axis].wrapping_add((way * share / i128::from(ONE)) as Nanos)
+        });
+        self.position = self.unplace(&self.last);
+        self.emit(Kind::Probe { to: Box::new(to), probe }, span, out)
     }
 
     #[cold]

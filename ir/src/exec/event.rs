@@ -3,7 +3,7 @@
 use super::{Compensation, TiltedPlane};
 use crate::canon::{AXES, AdviceKind, FeedMode, PathMode, Plane, Spindle, SpindleMode, Turn};
 use crate::num::Nanos;
-use crate::program::{Text, ToolValue, Toward};
+use crate::program::{Probe, Text, ToolValue, Toward};
 use crate::source::Span;
 
 /// One thing that the machine does.
@@ -37,6 +37,13 @@ pub enum Kind {
         pitch: Nanos,
         /// Whether a compensating chuck makes good what feed and spindle are apart.
         chuck: bool,
+    },
+    /// Straight at feed, until the probe says so; the event ends where that is.
+    Probe {
+        /// How far it goes at most, machine coordinates.
+        to: Box<[Nanos; AXES]>,
+        /// What it looks for.
+        probe: Probe,
     },
     /// Arc or helix at feed.
     Arc {
@@ -141,7 +148,7 @@ impl Kind {
     pub fn moves(&self) -> Option<Movement> {
         match self {
             Kind::Traverse => Some(Movement::Rapid),
-            Kind::Feed | Kind::Synchronised { .. } => Some(Movement::Feed),
+            Kind::Feed | Kind::Synchronised { .. } | Kind::Probe { .. } => Some(Movement::Feed),
             Kind::Arc { plane, turn, full, centre } => {
                 Some(Movement::Arc { plane: *plane, turn: *turn, full: *full, centre: *centre })
             }

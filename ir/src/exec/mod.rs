@@ -37,7 +37,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
-use crate::program::{Coord, FrameSlot, Op, Point, Slot, Stmt};
+use crate::program::{Coord, FrameSlot, Op, Point, Probe, Slot, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
 use arcs::Heading;
@@ -72,6 +72,8 @@ pub struct Exec {
     after_stop: Option<Option<PathMode>>,
     /// The next straight move is in machine coordinates, with the tool's length or without.
     raw: Option<bool>,
+    /// The next straight move at feed ends where the probe says so.
+    probing: Option<Probe>,
     /// About which polar points are.
     pole: Pole,
     /// The length that the next Z takes up.
@@ -161,6 +163,7 @@ impl Exec {
             heading: Heading::None,
             after_stop: None,
             raw: None,
+            probing: None,
             pole: Pole::ZERO,
             waiting: None,
             contour: Contour::default(),
@@ -418,7 +421,7 @@ impl Exec {
 
     #[inline]
     fn emit(&mut self, kind: Kind, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        let cutting = matches!(kind, Kind::Feed | Kind::Arc { .. });
+        let cutting = matches!(kind, Kind::Feed | Kind::Probe { .. } | Kind::Arc { .. });
         if cutting && self.feed == 0 {
             return self.fault(Fault::NoFeed, span);
         }
@@ -517,6 +520,9 @@ impl Exec {
         self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
         self.said |= MOTION;
         self.cycle = None;
+        if self.probing.is_some() {
+            return self.probe(feed, span, out);
+        }
         if self.narrating && !(feed && self.feed == 0) && same_point(&self.machine(), &self.last) {
             return self.emit(if feed { Kind::Feed } else { Kind::Traverse }, span, out);
         }
@@ -595,6 +601,7 @@ impl Exec {
             Op::OrientToolAxis(toward) => self.orient_tool_axis(*toward, span, out)?,
             Op::SetPosition(axes) => self.set_position(axes, span)?,
             Op::UseMachineCoordinates { length } => self.raw = Some(*length),
+            Op::Probe(probe) => self.probing = Some(*probe),
             Op::GoToReference(reference) => self.go_to_reference(reference, span, out)?,
             Op::SetData(data) => self.set_data(data, span, out)?,
             Op::SetPole(set) => self.set_pole(set, span)?,

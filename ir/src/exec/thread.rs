@@ -18,8 +18,8 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if self.raw.take().is_some() {
-            return self.not_executed("a thread in machine coordinates", span);
+        if self.raw.take().is_some() || self.probing.take().is_some() {
+            return self.not_executed("a thread in machine coordinates, or as a probing move", span);
         }
         let stated = self.stated_pitch(&m.pitch, span)?;
         let (began, turns) = (self.position, self.state.spindle);

@@ -212,6 +212,7 @@ impl Exec {
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }
+            | Op::Probe(_)
             | Op::GoToReference(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
@@ -247,6 +248,7 @@ impl Exec {
             Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => {
                 Some("a point of the machine under tool centre point control")
             }
+            Op::Probe(_) => Some("probing under tool centre point control"),
             Op::ChangeTool => Some("a tool change under tool centre point control"),
             Op::UseLengthUnits(units) if (*units == Units::Inch) != self.modes.inch => {
                 Some("other units under tool centre point control")

@@ -118,6 +118,7 @@ fn over_one(
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::UseToolCentrePoint(_)
+        | Op::Probe(_)
         | Op::UseMachineCoordinates { .. }
         | Op::OrientToolAxis(_)
         | Op::SetPole(_)

@@ -164,6 +164,7 @@ impl Converter<'_> {
             | Op::ClearFrame(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
+            | Op::Probe(_)
             | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd

@@ -95,7 +95,7 @@ fn stands(walk: &Walk, m: &Move, axis: Axis) -> bool {
 fn shorten(walk: &Walk, stmt: &mut Stmt) {
     let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = &mut stmt.op else { return };
     // Under compensation a control looks at what the words name.
-    if walk.at.raw || walk.at.compensated {
+    if walk.at.raw || walk.at.probing || walk.at.compensated {
         return;
     }
     let needed = |axis: &Axis| *axis == Axis::Z && walk.waiting;

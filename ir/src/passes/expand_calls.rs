@@ -313,6 +313,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::ClearFrame(_)
         | Op::UseToolCentrePoint(_)
         | Op::OrientToolAxis(_)
+        | Op::Probe(_)
         | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd

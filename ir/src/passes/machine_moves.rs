@@ -5,7 +5,7 @@
 //! the other form, where no length is in force. A move to the machine's zero is one in machine
 //! coordinates, by way of the point that it names.
 //!
-//! Refused by name: a move that is measured with a length where the target's is not, unless there is
+//! Refused by name: a probing move of a kind that the target has not; a move that is measured with a length where the target's is not, unless there is
 //! none; other points of the machine without a word for them; and Z after a return to a point of the
 //! machine whose length nobody has said anew, where the target keeps it for certain.
 
@@ -18,7 +18,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::flow;
 use crate::num::Num;
-use crate::program::{Coord, Move, Op, Point, Program, Reference, ReferencePoint, Slot, Stmt};
+use crate::program::{Coord, Move, Op, Point, Probe, Program, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -82,6 +82,17 @@ fn take(
         diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
     }
     match &stmt.op {
+        Op::Probe(probe) if !caps.probes[Caps::probe(*probe)] => {
+            let what = match (probe.away, probe.error) {
+                _ if caps.probes == [false; 4] => "a probing move",
+                (_, true) if caps.probes[Caps::probe(Probe { error: false, ..*probe })] => {
+                    "a probing move with an error at the end of its way"
+                }
+                (true, _) => "a probing move away from a contact",
+                (false, _) => "a probing move of this kind",
+            };
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        }
         Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|own| own != *length) => {
             walk.step(&stmt);
             state.machine = Some(stmt);

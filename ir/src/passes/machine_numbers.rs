@@ -29,6 +29,7 @@ macro_rules! unnumbered {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::Probe(_)
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::UseToolCentrePoint(_)

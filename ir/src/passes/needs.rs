@@ -91,7 +91,14 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
     let points =
         caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
-    needs(MACHINE, caps.machine_coordinates && caps.machine_length.is_none() && data && points);
+    needs(
+        MACHINE,
+        caps.probes == [true; 4]
+            && caps.machine_coordinates
+            && caps.machine_length.is_none()
+            && data
+            && points,
+    );
     needs(THREAD, caps.threads.any);
     needs(POLAR, caps.polar == PolarForm::Any);
     needs(CORNER, caps.corners == Corners::ALL);
@@ -120,7 +127,8 @@ fn interest_of(op: &Op) -> u32 {
         Op::UseToolLengthOffset(_) => LENGTH | TABLE | AT_ONCE,
         Op::UseToolEdge { .. } => LENGTH | EDGE | AT_ONCE,
         Op::ChangeTool => TABLE,
-        Op::UseMachineCoordinates { .. } | Op::GoToReference(_) | Op::SetData(_) => MACHINE,
+        Op::UseMachineCoordinates { .. } | Op::Probe(_) => MACHINE,
+        Op::GoToReference(_) | Op::SetData(_) => MACHINE,
         Op::SetOriginOffsets(_) => WORK,
         Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
         Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) | Op::ClearFrame(FrameSlot::Tilt) => TOOL_AXIS,

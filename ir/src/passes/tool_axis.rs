@@ -245,6 +245,7 @@ pub(super) fn over(
             | Op::ClearFrame(_)
             | Op::SetFrame(_)
             | Op::SetPosition(_)
+            | Op::Probe(_)
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::SetData(_)

@@ -102,6 +102,7 @@ impl Walk {
                 }
             };
             let plain = stmt.skip.is_none() && self.skipped.is_none() && !self.waiting && !self.at.raw;
+            let plain = plain && !self.at.probing;
             if !(plain && last.note(to, motion)) {
                 self.take(&mut last);
                 self.step(stmt);

@@ -61,6 +61,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | modes!()
         | tooling!()
         | Op::SetOriginOffsets(_)
+        | Op::Probe(_)
         | Op::ClearFrame(_)
         | Op::SetFeedRate(_)
         | Op::EndCycle

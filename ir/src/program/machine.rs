@@ -34,6 +34,15 @@ pub struct Reference {
     pub keeps_length: bool,
 }
 
+/// What a probing move looks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Probe {
+    /// It ends where contact is lost; else where contact is made.
+    pub away: bool,
+    /// The control stops with an error where that does not happen on the way; else it goes on at the end of it.
+    pub error: bool,
+}
+
 /// How a program sets a value of the control's tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DataMode {

@@ -10,6 +10,11 @@ impl Control {
             return self.m.halt("a move of the machine within a cycle");
         }
         let named = self.axis_words(words);
+        if code == 31 {
+            // A skip signal ends the block, which is the only one that it is for.
+            let to = self.m.target(named)?;
+            return self.m.probe(to, false, false);
+        }
         let mut to = self.m.at;
         if code == 53 {
             if !self.m.absolute {

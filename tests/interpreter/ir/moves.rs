@@ -151,6 +151,11 @@ impl Control {
                 self.m.traverse(machine);
                 self.tangent = None;
             }
+            1 if self.probing.is_some() => {
+                let (away, error) = self.probing.take().unwrap_or_default();
+                self.m.probe(machine, away, error)?;
+                self.tangent = None;
+            }
             1 => {
                 self.m.straight(machine)?;
                 self.remember(from, to, in_machine);

@@ -497,6 +497,9 @@ impl Frames<'_> {
             Op::ArcForm(_) => return Ok(Vec::new()),
             Op::StartCycle(cycle) => Op::StartCycle(Box::new(self.cycle(cycle)?)),
             Op::Pattern(pattern) => return self.pattern(pattern),
+            Op::Probe(_) if self.set.chain != Chain::NONE => {
+                return Err(cannot("probing in a frame that is worked in"));
+            }
             polar!() if self.set.chain != Chain::NONE => {
                 return Err(cannot("a point by radius and angle in a frame that is worked in"));
             }

@@ -1,0 +1,64 @@
+//! Lowering of probing moves: straight at feed, until the probe says so.
+//!
+//! What the control measures there, programs read from variables, which are not translated; the move is.
+//!
+//! Refused by name: under a cycle or cutter radius compensation, and bare axis words behind a code that stays in
+//! force, which would probe again.
+
+use ncc_dialects::Meaning;
+use ncc_ir::diag::Fault;
+use ncc_ir::program::{Move, Op};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::facts::{InForce, Know};
+use super::lower::Lower;
+use super::sort::{Code, Words};
+use crate::Batch;
+
+impl Lower {
+    /// A block with the code of a probing move.
+    pub(super) fn probe(
+        &mut self,
+        code: &Code,
+        block: Span,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let Meaning::StraightProbe(probe) = code.meaning else { return };
+        let text = || code.row.code.as_str().into();
+        let why = match () {
+            () if !matches!(self.state.cycle, InForce::None) => Some("probing while a cycle is in force"),
+            () if self.state.compensated.value() == Some(true) => {
+                Some("probing under cutter radius compensation")
+            }
+            () if self.state.thread.is_some() => Some("probing while a thread's code is in force"),
+            () => None,
+        };
+        if let Some(name) = why {
+            self.fault(Fault::NotSupported { code: text(), name: name.into() }, code.span, out);
+        }
+        self.rely_on_feed(block, out);
+        let to = self.point(None, block, words, src, out);
+        if to.is_empty() {
+            let word = "X".into();
+            return self.fault(Fault::WordMissing { code: text(), word }, code.span, out);
+        }
+        self.push(code.span, Op::Probe(probe), out);
+        self.push(block, Op::StraightFeed(Move { to, said: true }), out);
+        let stays = self
+            .settings
+            .dialect
+            .code
+            .iter()
+            .any(|row| row.means == Some(Meaning::StraightFeed) && row.group == code.row.group);
+        if stays {
+            // Bare axis words would probe again.
+            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        } else if self.state.motion.value().is_none() {
+            // They go on as the caller moves, which no statement behind this one can say.
+            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
+        }
+    }
+}
