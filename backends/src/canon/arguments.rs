@@ -202,7 +202,8 @@ impl Writer {
         };
         let n = n.trimmed();
         // The digit that stands after every point is one of the 18 that can be read back.
-        if n.scale == 0 && n.mantissa.unsigned_abs() >= POW10[17] as u64 {
+        let most = POW10[if n.scale == 0 { 17 } else { 18 }];
+        if n.mantissa.unsigned_abs() >= most as u64 {
             return Err(Fault::TargetRange { word: word.into() });
         }
         if in_force == n.unit && n.scale <= decimals {

@@ -220,6 +220,9 @@ fn what_the_stream_cannot_say_is_refused() {
     let (text, diags) = write(&[feed(&[(Axis::X, long)])], millimetres());
     assert_eq!(text, "STRAIGHT_FEED(1.234568, _, _)\n");
     assert_eq!(diags[0].fault, Fault::Rounded { word: "X".into(), written: "1.234568".into() });
+    let nineteen_digits = mm(-1_000_000_000_000_000_201, 1);
+    let (text, diags) = write(&[feed(&[(Axis::X, nineteen_digits)])], millimetres());
+    assert_eq!((text.as_str(), &diags[0].fault), ("", &Fault::TargetRange { word: "X".into() }));
 }
 
 #[test]
