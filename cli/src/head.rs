@@ -89,6 +89,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
         Fault::AssumedContourPath => "compensation worked out as RS274/NGC has it".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
+        Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),
         Fault::AssumedEdge { .. } => "edge 1 of a tool = the length entry of its number".to_owned(),
         _ => return None,
     })

@@ -265,6 +265,9 @@ faults! {
 
     /// The tool goes onto a compensated contour, and leaves it, in the same way on both controls.
     AssumedContourEnds = 312, verdict(Verdict::Assumed);
+    /// One control has radii in a table by entries of their own, the other with the tool or its length: the
+    /// entry of that number was taken.
+    AssumedRadius { entry: u32 } = 313, verdict(Verdict::Assumed);
 
     /// Rotary axes, and the zero that points of the tool's tip count from, are the same on both controls.
     AssumedTip = 320, verdict(Verdict::Assumed);

@@ -99,6 +99,9 @@ pub const BARE_NUMBERS: &str = "numbers-without-point";
 /// Key of the reading that edge 1 of a tool is the length entry of its number.
 pub const EDGE_IS_ENTRY: &str = "edge-1-is-length-entry";
 
+/// Key of the reading that a radius entry has the radius of the tool, edge or length entry of its number.
+pub const RADIUS_IS_ENTRY: &str = "radius-entry-is-tool";
+
 /// Key of the reading that positions under a cycle are reached in rapid, and that the motion before a
 /// cycle is in force again after it.
 pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
@@ -180,6 +183,10 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
         Fault::AssumedContourPath => (Side::From, Place::Confirmed(CONTOUR_PATH.to_owned())),
         Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
+        Fault::AssumedRadius { .. } => {
+            let side = if to.caps.radii.entry { Side::To } else { Side::From };
+            (side, Place::Confirmed(RADIUS_IS_ENTRY.to_owned()))
+        }
         Fault::AssumedEdge { .. } => {
             let side = if edges(to) { Side::To } else { Side::From };
             (side, Place::Confirmed(EDGE_IS_ENTRY.to_owned()))
@@ -252,6 +259,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         CORNERS,
         EDGE_IS_ENTRY,
         MOTION_AT_CYCLES,
+        RADIUS_IS_ENTRY,
         TIP,
         TILT,
     ];

@@ -163,10 +163,13 @@ impl Machine {
                     (p.0 - d.1 * r * left, p.1 + d.0 * r * left)
                 };
                 let missing = |by: f64| b.left(middle(by)) * left - r;
-                let (mut near, mut far) = (0.0, a.length(a.from, a.to));
-                if missing(far) < -1e-6 {
+                // Beside an arc it may fit near the corner and not further back: the first place counts.
+                let step = a.length(a.from, a.to) / 10_000.0;
+                let first = (1..=10_000).map(|k| f64::from(k) * step).find(|by| missing(*by) >= -1e-6);
+                let Some(mut far) = first else {
                     return Err("a rounding that does not fit".to_owned());
-                }
+                };
+                let mut near = far - step;
                 for _ in 0..200 {
                     let half = (near + far) / 2.0;
                     if missing(half) < 0.0 {

@@ -98,6 +98,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         ),
         Fault::ContourUnreachable { .. } => own("take a smaller tool, or change the contour at this place"),
         Fault::CompensationExpanded { .. } => Vec::new(),
+        Fault::AssumedRadius { .. } => own("give the radius entry of that number the radius of the tool"),
         Fault::AssumedEdge { .. } => {
             own("give the length-table entry of that number the length of the tool's edge 1")
         }

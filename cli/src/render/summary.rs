@@ -196,6 +196,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedTilt
         | Fault::AssumedContourPath
         | Fault::AssumedEdge { .. }
+        | Fault::AssumedRadius { .. }
         | Fault::AssumedPath { .. }
         | Fault::AssumedParameter { .. } => {
             assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)

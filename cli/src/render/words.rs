@@ -197,6 +197,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "compensated contour written as the path of the tool's centre".into(),
             format!("by the radius {} mm", millimetres(*radius)),
         ),
+        Fault::AssumedRadius { entry } => (
+            format!("radius entry {entry} = the radius with the tool or length {entry} assumed"),
+            "one control has radii in entries of their own, the other with the tool".into(),
+        ),
         Fault::AssumedEdge { tool } => (
             format!("edge 1 of tool {tool} = entry {tool} of the length table assumed"),
             "one control has lengths by edge, the other by entry".into(),

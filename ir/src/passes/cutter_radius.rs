@@ -20,6 +20,8 @@ use crate::track::Tracker;
 pub(super) struct State {
     /// Whether entry and exit were told.
     told: bool,
+    /// Entries of the tables that were told.
+    entries: Vec<u32>,
 }
 
 /// Names radii as the target does.
@@ -41,7 +43,15 @@ pub(super) fn over(
         let span = stmt.span;
         if let Op::StartCutterRadiusCompensation { radius, .. } = &mut stmt.op {
             match named(radius, &target.caps.radii, &walk.at) {
-                Ok(own) => *radius = own,
+                Ok((own, entry)) => {
+                    *radius = own;
+                    if let Some(entry) = entry.filter(|_| target.other_control)
+                        && !state.entries.contains(&entry)
+                    {
+                        state.entries.push(entry);
+                        diags.push(Diagnostic::new(Fault::AssumedRadius { entry }, span));
+                    }
+                }
                 Err(fault) => diags.push(Diagnostic::new(fault, span)),
             }
             if target.other_control && !std::mem::replace(&mut state.told, true) {
@@ -57,8 +67,8 @@ fn number(n: i64) -> Option<u32> {
     u32::try_from(n).ok().filter(|n| *n > 0)
 }
 
-/// A radius as the target names it.
-fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<CutterRadius, Fault> {
+/// A radius as the target names it, and the entry that it is taken for where that is another way.
+fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<(CutterRadius, Option<u32>), Fault> {
     let cannot = |what: String| Err(Fault::CannotSay { what: what.into() });
     if *radii == Radii::default() {
         return cannot("cutter radius compensation".into());
@@ -79,7 +89,7 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<CutterRad
         CutterRadius::InForce => at.modes.length_offset == Some(0),
     };
     if can || none {
-        return Ok(radius.clone());
+        return Ok((radius.clone(), None));
     }
     let Some(entry) = entry else {
         return cannot(match radius {
@@ -89,13 +99,16 @@ fn named(radius: &CutterRadius, radii: &Radii, at: &Tracker) -> Result<CutterRad
             CutterRadius::Diameter(_) => "compensation by a diameter that the program states".into(),
         });
     };
-    match () {
-        () if radii.entry => Ok(CutterRadius::Entry(Expr::int(i64::from(entry)))),
-        () if radii.in_force && length == Some(entry) => Ok(CutterRadius::InForce),
-        () if radii.tool && tool == Some(entry) => Ok(CutterRadius::Tool),
-        () => match length {
-            Some(length) => cannot(format!("the radius of entry {entry} with the length of entry {length}")),
-            None => cannot(format!("the radius of entry {entry} with a length that is not known")),
-        },
-    }
+    let own = match () {
+        () if radii.entry => CutterRadius::Entry(Expr::int(i64::from(entry))),
+        () if radii.in_force && length == Some(entry) => CutterRadius::InForce,
+        () if radii.tool && tool == Some(entry) => CutterRadius::Tool,
+        () => {
+            return cannot(match length {
+                Some(length) => format!("the radius of entry {entry} with the length of entry {length}"),
+                None => format!("the radius of entry {entry} with a length that is not known"),
+            });
+        }
+    };
+    Ok((own, Some(entry)))
 }
