@@ -233,6 +233,30 @@ impl Control {
             return Ok(());
         }
         let arc = has(words, 'I') || has(words, 'J') || has(words, 'K');
+        if has(words, 'R') && has(words, 'C') && !any {
+            // R length, C angle, I and J the centre; as the centre of an arc, from program zero.
+            let (first, second, _) = self.m.axes();
+            let letter = |axis: usize| ['I', 'J', 'K'][axis];
+            let (Some(a), Some(b)) = (value(words, letter(first)), value(words, letter(second))) else {
+                return self.m.halt("a polar point without its centre");
+            };
+            if !self.m.absolute {
+                return self.m.halt("a polar point in G91");
+            }
+            let (r, c) = (value(words, 'R').unwrap_or(0.0), value(words, 'C').unwrap_or(0.0).to_radians());
+            let mut axes = [None; 6];
+            axes[first] = Some((a + r * c.cos()) * unit);
+            axes[second] = Some((b + r * c.sin()) * unit);
+            let to = self.m.target(axes)?;
+            return match self.motion {
+                Some(0) => {
+                    self.m.traverse(to);
+                    Ok(())
+                }
+                Some(1) => self.m.straight(to),
+                _ => self.m.halt("a polar point of no straight move"),
+            };
+        }
         if !any && !arc {
             return Ok(());
         }

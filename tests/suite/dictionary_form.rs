@@ -24,6 +24,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[arc]`", "ArcRules", "[arc]\n@"),
     ("`[corner]`", "CornerRules", "[corner]\n@"),
     ("`[repeat]`", "RepeatRules", "[repeat]\n@"),
+    ("`[polar]`", "PolarRules", "[polar]\n@"),
     ("`[cycles]`", "CycleRules", "[cycles]\n@"),
     ("`[[cycle]]`", "CycleRow", "[[cycle]]\ncode = \"G84\"\n@"),
     ("`dwell` of a cycle, `dwell` of a code", "DwellWord", "[[code]]\ncode = \"G04\"\ndwell = [{ @ }]"),

@@ -107,6 +107,9 @@ impl Lower {
 
     /// Axis words outside cycles.
     fn plain_motion(&mut self, said: bool, block: Span, words: &mut Words, src: Source, out: &mut Batch) {
+        if self.polar_line(said, block, words, src, out) {
+            return;
+        }
         let arc_now = matches!(self.state.motion.value(), Some(Motion::Arc(_)));
         if !(self.has_axis_word(words) || arc_now && self.has_arc_word(words)) {
             return;

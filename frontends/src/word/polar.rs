@@ -6,12 +6,14 @@
 //! than a polar point has moved the plane's axes last: it would count from where the tool stands.
 
 use ncc_dialects::{Meaning, Quantity};
-use ncc_ir::canon::{Axis, Distance, Fact, Plane};
+use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
 use ncc_ir::polar;
-use ncc_ir::program::{Centre, Op, Polar, PoleFrom, PoleWords, SetPole};
+use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
+use super::Source;
 use super::lower::Lower;
 use super::sort::Code;
 use crate::Batch;
@@ -62,6 +64,65 @@ impl Lower {
         let at = PoleWords::Along(Box::default());
         let set = SetPole { plane: Fact::Known(plane), from: PoleFrom::Zero, at };
         self.push(code.span, Op::SetPole(Box::new(set)), out);
+    }
+
+    /// A straight move whose block has radius, angle and centre of its end; `false` if it has not.
+    pub(super) fn polar_line(
+        &mut self,
+        said: bool,
+        block: Span,
+        words: &mut super::sort::Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> bool {
+        let Some([radius, angle]) = self.settings.dialect.polar.letters() else { return false };
+        let motion = self.state.motion.value();
+        if words.get(radius).is_none() || words.get(angle).is_none() {
+            return false;
+        }
+        if !matches!(motion, Some(Motion::Traverse | Motion::Feed)) || self.has_axis_word(words) {
+            return false;
+        }
+        let Fact::Known(plane) = self.plane(block, out) else { return false };
+        let (first, second, _) = plane.axes();
+        let centre = [first, second].map(|axis| self.roles.centre[axis as usize]);
+        if centre.iter().any(|letter| words.get(*letter).is_none()) {
+            return false;
+        }
+        if self.distance(block, out) != Fact::Known(Distance::Absolute) {
+            let code = char::from(radius).to_string().into();
+            let name = "polar words under incremental words".into();
+            self.fault(Fault::NotSupported { code, name }, block, out);
+            [radius, angle].into_iter().chain(centre).for_each(|letter| _ = words.take(letter));
+            return true;
+        }
+        if motion == Some(Motion::Feed) {
+            self.rely_on_feed(block, out);
+        }
+        let mut value = |letter: u8, quantity: Quantity| {
+            let word = words.take(letter)?;
+            let num = self.number(&word, quantity, src, out)?;
+            if letter == radius && num.mantissa < 0 {
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            }
+            Some(Expr::Num(num))
+        };
+        let mut along: [Option<Expr>; 3] = Default::default();
+        for (axis, letter) in [first, second].into_iter().zip(centre) {
+            along[axis as usize] = value(letter, Quantity::Length);
+        }
+        let (length, turned) = (value(radius, Quantity::Length), value(angle, Quantity::Angle));
+        let (Some(length), Some(turned)) = (length, turned) else { return true };
+        self.rely_on_frames(false, block, out);
+        let plane = Fact::Known(plane);
+        let at = PoleWords::Along(Box::new(along));
+        self.push(block, Op::SetPole(Box::new(SetPole { plane, from: PoleFrom::Zero, at })), out);
+        let word = |value| Some(Coord { value, distance: Fact::Known(Distance::Absolute) });
+        let to = Move { said, ..Move::default() };
+        let op = if motion == Some(Motion::Feed) { Op::StraightFeed(to) } else { Op::StraightTraverse(to) };
+        let polar = Polar { plane, radius: word(length), angle: word(turned), along: false, op };
+        self.push(block, Op::Polar(Box::new(polar)), out);
+        true
     }
 
     fn no_polar(&mut self, code: &str, why: &str, at: Span, out: &mut Batch) {

@@ -27,7 +27,7 @@ pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew}
 pub use meaning::{Meaning, Thread};
 pub use names::*;
 pub use power_on::*;
-pub use repeats::{REPEAT_COUNT, RepeatRules};
+pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
 pub use settings::{CYCLE_APPROACH, SettingError, Settings, TAPPING};
 pub use stored::{DataKind, DataRow, RADIUS_DATA, ValueName, ValueWord};

@@ -1,4 +1,4 @@
-//! Words that execute blocks again, by their block numbers.
+//! Words that execute blocks again, by their block numbers, and words of points by radius and angle.
 
 use serde::Deserialize;
 
@@ -26,5 +26,27 @@ impl RepeatRules {
     pub fn letters(&self) -> Option<[u8; 3]> {
         let letter = |c: Option<char>| c.filter(char::is_ascii_uppercase).map(|c| c as u8);
         Some([letter(self.first)?, letter(self.last)?, letter(self.times)?])
+    }
+}
+
+/// Ends of straight moves by radius and angle, about a centre in the same block: `G1 R30. C45. I0. J0.`. The
+/// centre's words are those of arcs, and count from program zero; all four words stand in the block. Read
+/// alone: what is written are coordinates.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PolarRules {
+    /// Letter of the radius; `None` if there are no such points.
+    pub radius: Option<char>,
+    /// Letter of the angle, counter-clockwise from the first axis of the plane.
+    pub angle: Option<char>,
+    /// Who says so.
+    pub source: String,
+}
+
+impl PolarRules {
+    /// The letters of radius and angle, of a control that has them.
+    pub fn letters(&self) -> Option<[u8; 2]> {
+        let letter = |c: Option<char>| c.filter(char::is_ascii_uppercase).map(|c| c as u8);
+        Some([letter(self.radius)?, letter(self.angle)?])
     }
 }

@@ -12,7 +12,7 @@ use crate::corners::CornerRules;
 use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow};
 use crate::power_on::{ApproachName, FeedModeName, PathName, PowerOn, ReturnLevelName, SafeStart};
-use crate::repeats::RepeatRules;
+use crate::repeats::{PolarRules, RepeatRules};
 use crate::stored::DataRow;
 
 /// A dialect's dictionary.
@@ -58,6 +58,9 @@ pub struct Dialect {
     /// Blocks that are executed again, of a control that has letters for that.
     #[serde(default)]
     pub repeat: RepeatRules,
+    /// Points by radius and angle, of a control that has letters for them.
+    #[serde(default)]
+    pub polar: PolarRules,
     /// What all canned cycles share.
     #[serde(default)]
     pub cycles: CycleRules,
