@@ -338,7 +338,11 @@ impl Recorder {
                     Kind::Tilt(None) => "the tilted plane taken back".to_owned(),
                     _ => "the tool turned onto the tilted plane".to_owned(),
                 };
-                more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
+                let told = match &event.kind {
+                    Kind::Tilt(Some(plane)) => format!("{:?}", plane.rounded()),
+                    _ => text.clone(),
+                };
+                more = [hash(told.as_bytes()) as i64, i64::from(self.texts), 0];
                 self.texts += 1;
                 self.batch.texts.push(text.into());
             }

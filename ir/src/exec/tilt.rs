@@ -43,6 +43,12 @@ impl TiltedPlane {
         TiltedPlane { origin, axes }
     }
 
+    /// What planes have in common that are the same but for rounded angles, except where a direction happens to
+    /// lie between two of a thousandth.
+    pub fn rounded(&self) -> ([Nanos; 3], [[i16; 3]; 3]) {
+        (self.origin, self.axes.map(|row| row.map(|part| (part * 1000.0).round() as i16)))
+    }
+
     /// Whether it is the same plane: its zero to within `half`, its directions to within `angle` (degrees
     /// in nanos).
     pub fn is_same(&self, other: &TiltedPlane, half: Nanos, angle: Nanos) -> bool {
