@@ -85,6 +85,9 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
             if s.tilted {
                 text += ", in a tilted plane";
             }
+            if s.turned != 0 {
+                text += ", a rotary axis the other way round";
+            }
         }
         Aspect::Feed => text += &format!(" at F{}", number(event.rate)),
         Aspect::Kind | Aspect::End(_) | Aspect::Arc | Aspect::Length => {

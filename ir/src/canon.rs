@@ -302,6 +302,55 @@ pub enum Turn {
     Counterclockwise,
 }
 
+/// Which way round a rotary axis goes to where it is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RotaryWay {
+    /// No more than half a turn.
+    Shortest,
+    /// Towards greater angles, less than a turn.
+    Positive,
+    /// Towards smaller ones.
+    Negative,
+}
+
+impl RotaryWay {
+    /// All ways with their names in text.
+    pub const ALL: [(RotaryWay, &'static str); 3] = [
+        (RotaryWay::Shortest, "shortest"),
+        (RotaryWay::Positive, "positive"),
+        (RotaryWay::Negative, "negative"),
+    ];
+
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        RotaryWay::ALL[self as usize].1
+    }
+
+    /// The way of a name.
+    pub fn named(name: &str) -> Option<RotaryWay> {
+        RotaryWay::ALL.iter().find(|(_, n)| *n == name).map(|(way, _)| *way)
+    }
+
+    /// How far it turns from one angle to another, in nanos of a degree; `None` where both senses are as
+    /// short.
+    pub fn turn(self, from: i64, to: i64) -> Option<i64> {
+        const WHOLE: i64 = 360_000_000_000;
+        let ahead = to.wrapping_sub(from).rem_euclid(WHOLE);
+        match self {
+            RotaryWay::Shortest if ahead == WHOLE / 2 => None,
+            RotaryWay::Shortest if ahead > WHOLE / 2 => Some(ahead - WHOLE),
+            RotaryWay::Shortest | RotaryWay::Positive => Some(ahead),
+            RotaryWay::Negative if ahead == 0 => Some(0),
+            RotaryWay::Negative => Some(ahead - WHOLE),
+        }
+    }
+
+    /// Whether that is the way along the numbers: what a plain word says.
+    pub fn is_direct(self, from: i64, to: i64) -> bool {
+        self.turn(from, to) == Some(to.wrapping_sub(from))
+    }
+}
+
 /// What is put into a corner between two moves, and by which length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CornerShape {

@@ -151,6 +151,8 @@ pub struct Caps {
     pub threads: Threads,
     /// How points by radius and angle are said.
     pub polar: PolarForm,
+    /// Which way round a rotary axis goes.
+    pub rotary_ways: bool,
     /// Lines by their angle and one coordinate.
     pub line_angles: bool,
     /// Rounded and chamfered corners.

@@ -34,13 +34,14 @@ macro_rules! miscellaneous {
     };
 }
 
-/// How the control conducts its moves: corners, and advice; what is put into the corner behind the next
+/// How the control conducts its moves: corners, which way round axes turn, and advice; what is put into the corner behind the next
 /// one. What the words of the moves that follow
 /// mean, where the axes stand and which tool is meant stay as they are. Lengths may belong to it.
 macro_rules! conduct {
     () => {
         $crate::program::Op::SetMotionControlMode(_)
             | $crate::program::Op::ExactStop
+            | $crate::program::Op::TurnRotaryAxes(_)
             | $crate::program::Op::Corner { .. }
             | $crate::program::Op::Advise(_)
     };

@@ -21,8 +21,8 @@ pub use machine::{CutterRadius, Data, DataMode, Probe, Reference, ReferencePoint
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use crate::canon::{
-    AXES, AdviceKind, Axis, CornerShape, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel, Side,
-    SpindleMode, Turn, Units,
+    AXES, AdviceKind, Axis, CornerShape, Distance, Fact, FeedMode, Modes, PathMode, Plane, ReturnLevel,
+    RotaryWay, Side, SpindleMode, Turn, Units,
 };
 use crate::cycle::{Cycle, Pattern};
 use crate::expr::{Expr, Var};
@@ -274,6 +274,9 @@ pub enum Op {
     SetMotionControlMode(Box<PathControl>),
     /// `EXACT_STOP`: the move that follows in this block ends in an exact stop.
     ExactStop,
+    /// `TURN_ROTARY_AXES`: which way round A, B and C go in the straight move that follows in this block, whose
+    /// words say angles of one turn for them. Where the axis then stands is that angle.
+    TurnRotaryAxes([Option<RotaryWay>; 3]),
     /// `ROUND_CORNER`, `CHAMFER_CORNER` or `CHAMFER_CORNER_BY_LENGTH`: the corner between the move that follows
     /// in this block and the next one of the plane is rounded or chamfered. Both are programmed to the
     /// corner itself.
@@ -436,6 +439,7 @@ impl Op {
             Op::StopCutterRadiusCompensation => "STOP_CUTTER_RADIUS_COMPENSATION",
             Op::SetMotionControlMode(_) => "SET_MOTION_CONTROL_MODE",
             Op::ExactStop => "EXACT_STOP",
+            Op::TurnRotaryAxes(_) => "TURN_ROTARY_AXES",
             Op::Corner { shape, .. } => match shape {
                 CornerShape::Round => "ROUND_CORNER",
                 CornerShape::Leg => "CHAMFER_CORNER",

@@ -124,7 +124,7 @@ impl Measure {
             | bit(s.tool != t.tool, bits::TOOL)
             | bit((s.flood, s.mist) != (t.flood, t.mist), bits::COOLANT)
             | bit(s.compensation != t.compensation, bits::COMPENSATION)
-            | bit(frame || turned || (s.tip, s.tilted) != (t.tip, t.tilted), bits::FRAME)
+            | bit(frame || turned || (s.tip, s.tilted, s.turned) != (t.tip, t.tilted, t.turned), bits::FRAME)
     }
 }
 

@@ -146,14 +146,15 @@ pub struct Still {
     pub compensation: Compensation,
     pub tip: bool,
     pub tilted: bool,
+    pub turned: u8,
 }
 
 impl From<State> for Still {
     fn from(s: State) -> Still {
         // How blocks stand between moves is a matter of the text.
         let compensation = Compensation { gap: false, ..s.compensation };
-        let State { tool, speed, spindle, flood, mist, tip, tilted, .. } = s;
-        Still { tool, speed, spindle, flood, mist, compensation, tip, tilted }
+        let State { tool, speed, spindle, flood, mist, tip, tilted, turned, .. } = s;
+        Still { tool, speed, spindle, flood, mist, compensation, tip, tilted, turned }
     }
 }
 

@@ -390,6 +390,8 @@ impl Control {
                 _ => return self.m.halt("another feed mode"),
             },
             "EXACT_STOP" => self.m.stop_once = true,
+            // Which way round leads to the same angle.
+            "TURN_ROTARY_AXES" => {}
             "ROUND_CORNER" => self.m.asked = Some(Cut::Round(self.first(a)?)),
             "CHAMFER_CORNER" => self.m.asked = Some(Cut::Leg(self.first(a)?)),
             "CHAMFER_CORNER_BY_LENGTH" => self.m.asked = Some(Cut::Long(self.first(a)?)),

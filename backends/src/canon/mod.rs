@@ -366,6 +366,7 @@ impl Writer {
             | Op::Hole(_)
             | Op::SetPole(_)
             | Op::Polar(_)
+            | Op::TurnRotaryAxes(_)
             | Op::Pattern(_)
             | Op::Call(_)
             | Op::Return

@@ -169,6 +169,7 @@ fn rank(op: &Op) -> u8 {
         | Op::SetData(_)
         | Op::SetPole(_)
         | Op::Corner { .. }
+        | Op::TurnRotaryAxes(_)
         | Op::ExactStop => 19,
         Op::EndCycle => 20,
         Op::StraightTraverse(_)
@@ -410,6 +411,7 @@ impl Printer<'_> {
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::ExactStop
+            | Op::TurnRotaryAxes(_)
             | Op::Corner { .. }
             | Op::Advise(_)
             | Op::SetSpindleMode(SpindleMode::Surface)

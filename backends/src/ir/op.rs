@@ -10,7 +10,7 @@ use super::cycle::{cycle, further_turn, pattern, pitch};
 use super::expr::{expr, var};
 use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
-use super::polar::{polar_move, pole};
+use super::polar::{polar_move, pole, rotary_ways};
 use crate::canon::text::{quote, whole};
 
 /// Writes what a statement does; of a control statement what stands before its body.
@@ -52,6 +52,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::OrientToolAxis(_)
         | Op::SetMotionControlMode(_)
         | Op::ExactStop
+        | Op::TurnRotaryAxes(_)
         | Op::Corner { .. }
         | Op::Advise(_)
         | Op::SetFeedRate(_)
@@ -169,6 +170,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::GoToReference(r) => machine::reference(r, out),
         Op::SetData(d) => machine::data(d, out),
         Op::SetPole(set) => pole(set, out),
+        Op::TurnRotaryAxes(ways) => rotary_ways(ways, out),
         Op::Polar(_)
         | Op::Blank
         | Op::ExactStop

@@ -1,5 +1,6 @@
-//! Points by radius and angle, as the `ir` text has them.
+//! Points by radius and angle, and which way round axes turn, as the `ir` text has them.
 
+use ncc_ir::canon::RotaryWay;
 use ncc_ir::program::{Polar, PoleFrom, PoleWords, SetPole};
 
 use super::expr::expr;
@@ -41,4 +42,14 @@ pub(super) fn polar_move(polar: &Polar, out: &mut Vec<u8>) {
     }
     put(") ", out);
     op(&polar.op, out);
+}
+
+/// Which way round rotary axes go.
+pub(super) fn rotary_ways(ways: &[Option<RotaryWay>; 3], out: &mut Vec<u8>) {
+    let named = ["A ", "B ", "C "].into_iter().zip(ways).filter_map(|(axis, way)| Some((axis, (*way)?)));
+    for (place, (axis, way)) in named.enumerate() {
+        put(if place > 0 { ", " } else { "" }, out);
+        put(axis, out);
+        put(way.name(), out);
+    }
 }

@@ -56,6 +56,10 @@ impl Writer {
             | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Return => self.words.statement(stmt, sink),
+            Op::TurnRotaryAxes(ways) => {
+                self.words.ways = *ways;
+                Ok(())
+            }
             Op::SynchronisedFeed(m) => {
                 if std::mem::replace(&mut self.raw, false) {
                     return Err(cannot("a thread in machine coordinates"));

@@ -26,7 +26,7 @@ pub(crate) mod statement;
 mod thread;
 
 use ncc_dialects::{Dialect, Settings};
-use ncc_ir::canon::{AXES, Axis, Modes, Turn, Units};
+use ncc_ir::canon::{AXES, Axis, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Op, Stmt};
@@ -89,6 +89,8 @@ pub struct Writer {
     pub(crate) tracker: Tracker,
     /// What the written position lags behind the program's, by rounding; nanos per axis.
     pub(crate) residue: [Nanos; AXES],
+    /// Which way round A, B and C go in the next move.
+    pub(crate) ways: [Option<RotaryWay>; 3],
     /// Whether any residue is not zero.
     pub(crate) residual: bool,
     held: Option<Held>,
@@ -175,6 +177,7 @@ impl Writer {
             force: InForce::default(),
             tracker: Tracker::default(),
             residue: [0; AXES],
+            ways: [None; 3],
             residual: false,
             held: None,
             preamble: (!dialect.safe_start.is_empty()).then(Preamble::default),

@@ -71,6 +71,7 @@ impl Setting {
             | Op::Polar(_)
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
+            | Op::TurnRotaryAxes(_)
             | Op::Corner { .. }
             | Op::Advise(_)
             | Op::SetFeedRate(_)

@@ -3,6 +3,7 @@
 //! Axis words are exactly those of the statement. An arc's centre is written in the dialect's own
 //! form, computed where it has to be from where the written text itself puts the tool.
 
+use ncc_dialects::NameMeaning;
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -157,7 +158,7 @@ impl Writer {
         };
         self.check_unit(n, span)?;
         let shaped = self.coordinate(axis, &letter, n, coord.distance, span, sink)?;
-        match self.qualifier(coord.distance) {
+        match self.way_round(axis).or(self.qualifier(coord.distance)) {
             None => self.block.word(Part::Axes, letter.letter, shaped),
             Some(qualifier) => {
                 let text = number::qualified(letter.letter as char, qualifier, shaped);
@@ -165,6 +166,14 @@ impl Writer {
             }
         }
         Ok(())
+    }
+
+    /// The qualifier of an axis that was told which way round it goes.
+    fn way_round(&mut self, axis: Axis) -> Option<&'static str> {
+        let place = (axis as usize).checked_sub(Axis::A as usize)?;
+        let way = self.ways[place].take()?;
+        let row = self.dialect.name_for(NameMeaning::TurnRotaryAxis(way))?;
+        Some(&row.name)
     }
 
     /// A coordinate in the control's digits. What rounding leaves behind is kept, so that the errors

@@ -64,6 +64,7 @@ impl Writer {
                 self.compensation(*side, radius, span, sink)
             }
             Op::SetMotionControlMode(control) => self.path_control(control, span, sink),
+            Op::TurnRotaryAxes(_) => Err(cannot("which way round a rotary axis goes")),
             Op::ExactStop => {
                 let code = codes.exact_stop.ok_or_else(|| cannot("an exact stop of one move"))?;
                 self.admit(&Need::new(Rank::ExactStop).code(Some(code)), sink)?;

@@ -48,6 +48,9 @@ fn meant(bench: &Bench, row: &NameRow, meaning: NameMeaning) -> Tried {
         NameMeaning::Code(meaning) => said(d, meaning, &row.name).into_iter().next().unwrap_or_default(),
         NameMeaning::SetFrame(word) => Said::new(format!("SET_FRAME({})", step(word))),
         NameMeaning::AddFrame(word) => Said::new(format!("ADD_FRAME({})", step(word))),
+        NameMeaning::TurnRotaryAxis(way) => {
+            Said::new(format!("TURN_ROTARY_AXES(C {}) & said STRAIGHT_TRAVERSE(C 90.5deg)", way.name()))
+        }
         NameMeaning::ArcThrough => Said::new("said ARC_THROUGH(XY, X 19mm, Y 12mm, through(X 9mm, Y 2mm))"),
         NameMeaning::ArcTangent => {
             Said::new("said ARC_TANGENT(XY, X 19mm, Y 12mm, tangent)").after("said STRAIGHT_FEED(X 9mm)")

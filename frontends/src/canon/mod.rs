@@ -187,6 +187,7 @@ impl State {
             | Op::StopSpindleTurning
             | Op::SetMotionControlMode(_)
             | Op::ExactStop
+            | Op::TurnRotaryAxes(_)
             | Op::Corner { .. }
             | Op::Advise(_)
             | Op::SetSpindleMode(_)

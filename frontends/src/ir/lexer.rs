@@ -4,6 +4,7 @@
 //! it. Not here: what the words mean together.
 
 use logos::{Lexer, Logos};
+use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Op, Text, ToolValue};
@@ -230,6 +231,13 @@ pub(crate) enum Token {
     SetPole,
     #[token("POLAR")]
     PolarMove,
+    #[token("TURN_ROTARY_AXES")]
+    TurnRotaryAxes,
+    #[token("shortest", |_| RotaryWay::Shortest)]
+    #[token("positive", |_| RotaryWay::Positive)]
+    #[token("negative", |_| RotaryWay::Negative)]
+    /// Which way round.
+    RotaryWay(RotaryWay),
     #[token("pole")]
     Pole,
     #[token("SET_TILT")]

@@ -2,7 +2,7 @@
 //!
 //! Not here: how lines nest.
 
-use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, SpindleMode};
+use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, RotaryWay, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::Num;
@@ -229,6 +229,31 @@ pub(crate) fn polar(op: Op, l: usize, r: usize) -> Parsed<Op> {
             Fault::Syntax { found: op.name().into(), expected: "a move to a point of the plane".into() },
         ),
     }
+}
+
+/// Which way round rotary axes go, each at most once.
+pub(crate) fn rotary_ways(
+    first: (Axis, RotaryWay),
+    rest: Vec<(Axis, RotaryWay)>,
+    l: usize,
+    r: usize,
+) -> Parsed<Op> {
+    let mut ways = [None; 3];
+    for (axis, way) in std::iter::once(first).chain(rest) {
+        let place = match axis {
+            Axis::A => 0,
+            Axis::B => 1,
+            Axis::C => 2,
+            Axis::X | Axis::Y | Axis::Z => {
+                let found = char::from(axis.letter()).to_string().into();
+                return refuse(l, r, Fault::Syntax { found, expected: "a rotary axis".into() });
+            }
+        };
+        if ways[place].replace(way).is_some() {
+            return refuse(l, r, Fault::WordTwice { letter: axis.letter() as char });
+        }
+    }
+    Ok(Op::TurnRotaryAxes(ways))
 }
 
 /// A move that can be said by its angle.

@@ -84,7 +84,7 @@ impl Lower {
                         let name = format!("{}: {refuse}", parameter.name);
                         self.not_supported(&row.name, &name, *span, out);
                     }
-                    Some(Given { digits: *digits, distance: None, span: *span })
+                    Some(Given { digits: *digits, distance: None, way: None, span: *span })
                 }
                 Some(other) => {
                     let span = other.span();

@@ -180,6 +180,7 @@ impl Lower {
                     self.rely_on_feed(block, out);
                     self.corner(words, block, src, out);
                 }
+                self.rotary_ways(machine, words, src, out);
                 let polar = self.polar_words(words, src, out).ok()?;
                 let to = self.point(false, machine, words, src, out);
                 if let (Some(code), true) = (machine, polar.is_some()) {
@@ -254,8 +255,35 @@ impl Lower {
         to
     }
 
+    /// Which way round rotary axes go in a line.
+    fn rotary_ways(&mut self, machine: Option<Code>, words: &mut Words, src: Source, out: &mut Batch) {
+        let mut ways = [None; 3];
+        let mut at: Option<Span> = None;
+        for (way, letter) in ways.iter_mut().zip(b"ABC") {
+            let Some((said, span)) = words.take_way(*letter) else { continue };
+            let angle = words.get(*letter).map(|given| given.digits);
+            if machine.is_some() || words.has_polar() {
+                let name = "way of a turning axis in machine coordinates, or beside polar words";
+                return self.not_supported(&src.text(span), name, span, out);
+            }
+            if angle.is_some_and(|n| n.mantissa < 0) {
+                return self.fault(Fault::OutOfRange { word: src.text(span) }, span, out);
+            }
+            *way = Some(said);
+            at = Some(at.map_or(span, |at| at.to(span)));
+        }
+        if let Some(at) = at {
+            self.push(at, Op::TurnRotaryAxes(ways), out);
+        }
+    }
+
     /// A coordinate.
     fn coord(&mut self, given: Given, quantity: Quantity, src: Source, out: &mut Batch) -> Option<Coord> {
+        if given.way.is_some() {
+            let name = "way of a turning axis in anything but a line";
+            self.not_supported(&src.text(given.span), name, given.span, out);
+            return None;
+        }
         let distance = match given.distance {
             Some(distance) => Fact::Known(distance),
             None => self.distance(given.span, out),

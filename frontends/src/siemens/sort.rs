@@ -5,7 +5,7 @@
 //! do.
 
 use ncc_dialects::{NameMeaning, NameRole, Quantity, Role};
-use ncc_ir::canon::{Distance, FeedMode};
+use ncc_ir::canon::{Distance, FeedMode, RotaryWay};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
@@ -39,6 +39,8 @@ pub(super) struct Given {
     pub(super) digits: Digits,
     /// What `AC` or `IC` says of it.
     pub(super) distance: Option<Distance>,
+    /// What `DC`, `ACP` or `ACN` says of it.
+    pub(super) way: Option<RotaryWay>,
     pub(super) span: Span,
 }
 
@@ -56,6 +58,12 @@ pub(super) struct Words {
 const NAMED: usize = NameRole::ChamferCornerByLength as usize + 1;
 
 impl Words {
+    /// Takes out which way round an axis goes, if a word of it says so.
+    pub(super) fn take_way(&mut self, letter: u8) -> Option<(RotaryWay, Span)> {
+        let given = self.letters[usize::from(letter - b'A')].as_mut()?;
+        given.way.take().map(|way| (way, given.span))
+    }
+
     /// Nothing, with the memory of what was.
     pub(super) fn clear(&mut self) {
         self.codes.clear();
@@ -123,6 +131,7 @@ fn order(meaning: NameMeaning) -> u8 {
         | NameMeaning::Message
         | NameMeaning::RepeatBlocks
         | NameMeaning::RepeatBlock
+        | NameMeaning::TurnRotaryAxis(_)
         | NameMeaning::EndOfRepeat => u8::MAX,
     }
 }
@@ -152,7 +161,7 @@ impl Lower {
         let Number::Number(digits) = word.value else {
             return;
         };
-        let given = Given { digits, distance: None, span: word.span };
+        let given = Given { digits, distance: None, way: None, span: word.span };
         self.letter(word.letter, given, words, src, out);
     }
 
@@ -170,6 +179,11 @@ impl Lower {
             return self.fault(Fault::UnknownCode { code: src.text(given.span) }, given.span, out);
         };
         let measured = matches!(row.role, Role::Axis | Role::CentreX | Role::CentreY | Role::CentreZ);
+        if given.way.is_some() && !b"ABC".contains(&letter) {
+            let name = "way of a turning axis in a word of another kind".into();
+            let code = src.text(given.span);
+            return self.fault(Fault::NotSupported { code, name }, given.span, out);
+        }
         if given.distance.is_some() && !measured {
             let name = "AC or IC of a word that is no coordinate".into();
             let code = src.text(given.span);
@@ -289,6 +303,10 @@ impl Lower {
                         | NameRole::PolarAngle
                         | NameRole::LineAngle
                 );
+                if given.way.is_some() {
+                    let name = "way of a turning axis in a word of another kind";
+                    return self.not_supported(&src.text(span), name, span, out);
+                }
                 if given.distance.is_some() && !through {
                     let name = "AC or IC of a word that is no coordinate";
                     return self.not_supported(&src.text(span), name, span, out);
@@ -358,15 +376,27 @@ impl Lower {
 
     /// The constant behind `=`; everything else is refused.
     fn constant(&mut self, value: &Value, span: Span, src: Source, out: &mut Batch) -> Option<Given> {
+        let mut way = None;
         let (distance, expr) = match value {
             Value::Expr(expr) => (None, expr),
+            Value::Qualified(Qualifier::Direct, expr) => {
+                way = Some(RotaryWay::Shortest);
+                (Some(Distance::Absolute), expr)
+            }
+            Value::Qualified(Qualifier::Positive, expr) => {
+                way = Some(RotaryWay::Positive);
+                (Some(Distance::Absolute), expr)
+            }
+            Value::Qualified(Qualifier::Negative, expr) => {
+                way = Some(RotaryWay::Negative);
+                (Some(Distance::Absolute), expr)
+            }
             Value::Qualified(Qualifier::Absolute, expr) => (Some(Distance::Absolute), expr),
             Value::Qualified(Qualifier::Incremental, expr) => (Some(Distance::Incremental), expr),
             Value::Qualified(qualifier, _) => {
                 let name = match qualifier {
                     Qualifier::Quick => "auxiliary function that is not waited for",
-                    Qualifier::Coded => "coded position",
-                    _ => "way of a turning axis",
+                    _ => "coded position",
                 };
                 self.not_supported(&src.text(span), name, span, out);
                 return None;
@@ -376,7 +406,7 @@ impl Lower {
             }
         };
         match expr {
-            Expr::Number(digits, _) => Some(Given { digits: *digits, distance, span }),
+            Expr::Number(digits, _) => Some(Given { digits: *digits, distance, way, span }),
             Expr::Text(_) => {
                 self.not_supported(&src.text(span), "name as a value", span, out);
                 None

@@ -1,6 +1,6 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
-use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, Side, Turn};
+use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, Side, Turn};
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
@@ -288,6 +288,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
             .filter(|(kind, value)| everything || says_advice(dialect, *kind, *value))
             .collect(),
+        rotary_ways: everything
+            || dialect.name_for(NameMeaning::TurnRotaryAxis(RotaryWay::Shortest)).is_some(),
         line_angles: everything || dialect.name_with(NameRole::LineAngle).is_some(),
         polar: if everything {
             PolarForm::Any

@@ -6,6 +6,7 @@
 use std::fmt;
 use std::str::FromStr;
 
+use ncc_ir::canon::RotaryWay;
 use serde::Deserialize;
 
 use crate::meaning::Meaning;
@@ -66,6 +67,8 @@ pub enum NameMeaning {
     RepeatBlocks,
     /// `REPEAT_BLOCKS one`: of one block alone.
     RepeatBlock,
+    /// `TURN_ROTARY_AXES`: before the parentheses of an angle, which way round its axis goes there.
+    TurnRotaryAxis(RotaryWay),
     /// `END_OF_REPEAT`: a label up to which blocks are repeated that no label is named for.
     EndOfRepeat,
 }
@@ -118,6 +121,9 @@ impl fmt::Display for NameMeaning {
             NameMeaning::Message => f.write_str("MESSAGE"),
             NameMeaning::RepeatBlocks => f.write_str("REPEAT_BLOCKS"),
             NameMeaning::RepeatBlock => f.write_str("REPEAT_BLOCKS one"),
+            NameMeaning::TurnRotaryAxis(RotaryWay::Shortest) => f.write_str("TURN_ROTARY_AXES shortest"),
+            NameMeaning::TurnRotaryAxis(RotaryWay::Positive) => f.write_str("TURN_ROTARY_AXES positive"),
+            NameMeaning::TurnRotaryAxis(RotaryWay::Negative) => f.write_str("TURN_ROTARY_AXES negative"),
             NameMeaning::EndOfRepeat => f.write_str("END_OF_REPEAT"),
         }
     }
@@ -137,6 +143,9 @@ impl FromStr for NameMeaning {
             ("MESSAGE", "") => NameMeaning::Message,
             ("REPEAT_BLOCKS", "") => NameMeaning::RepeatBlocks,
             ("REPEAT_BLOCKS", "one") => NameMeaning::RepeatBlock,
+            ("TURN_ROTARY_AXES", "shortest") => NameMeaning::TurnRotaryAxis(RotaryWay::Shortest),
+            ("TURN_ROTARY_AXES", "positive") => NameMeaning::TurnRotaryAxis(RotaryWay::Positive),
+            ("TURN_ROTARY_AXES", "negative") => NameMeaning::TurnRotaryAxis(RotaryWay::Negative),
             ("END_OF_REPEAT", "") => NameMeaning::EndOfRepeat,
             _ => NameMeaning::Code(text.parse()?),
         })

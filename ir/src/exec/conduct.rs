@@ -4,9 +4,10 @@
 //! Not here: moves themselves.
 
 use super::{Attribute, Event, Exec, Kind};
-use crate::canon::{PathMode, Spindle};
+use crate::canon::{Axis, Distance, PathMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
+use crate::kinds::{moves, polar};
 use crate::num::ONE;
 use crate::program::{Op, Stmt};
 use crate::source::Span;
@@ -28,6 +29,7 @@ impl Exec {
                 self.after_stop = Some(self.state.path);
                 self.state.path = Some(PathMode::ExactStop);
             }
+            Op::TurnRotaryAxes(ways) => self.ways = Some(*ways),
             Op::Advise(advice) => {
                 let bits = advice.kind.bits();
                 self.state.advice &= !(15 << bits);
@@ -50,6 +52,50 @@ impl Exec {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Executes a statement; if it is a straight move, its rotary axes go the way that was said before it.
+    #[cold]
+    pub(super) fn step_turning(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let (Op::StraightFeed(m) | Op::StraightTraverse(m)) = &stmt.op else {
+            let moves =
+                matches!(stmt.op, moves!() | polar!() | Op::Position(_) | Op::Hole(_) | Op::Pattern(_));
+            if moves || matches!(stmt.op, Op::UseMachineCoordinates { .. } | Op::GoToReference(_)) {
+                return self.not_executed("a way round of a rotary axis in anything but a line", stmt.span);
+            }
+            return self.step_by_stop(stmt, out);
+        };
+        let to = &m.to;
+        let Some(ways) = self.ways.take() else { return self.step_by_stop(stmt, out) };
+        for (place, (axis, way)) in [Axis::A, Axis::B, Axis::C].into_iter().zip(ways).enumerate() {
+            let Some(way) = way else { continue };
+            let Some(word) = to.get(axis) else {
+                return self.not_executed("a way round of an axis that does not move", stmt.span);
+            };
+            if word.distance.or(self.modes.distance) != Distance::Absolute {
+                return self.not_executed("a way round to an angle from where the axis stands", stmt.span);
+            }
+            let (from, to) = (self.position[axis as usize], self.value(&word.value, stmt.span)?);
+            if !(0..360 * ONE).contains(&to) {
+                return self.fault(Fault::OutOfRange { word: "angle of one turn".into() }, stmt.span);
+            }
+            let sense = match way.turn(from, to) {
+                None => return self.not_executed("the shortest way of half a turn", stmt.span),
+                Some(_) if way.is_direct(from, to) => 0,
+                Some(turn) => 1 + u8::from(turn < 0),
+            };
+            self.state.turned |= sense << (2 * place);
+        }
+        let done = self.step_by_stop(stmt, out);
+        self.state.turned = 0;
+        done
+    }
+
+    fn step_by_stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        match self.after_stop {
+            Some(_) => self.step_and_stop(stmt, out),
+            None => self.do_step(stmt, out),
+        }
     }
 
     /// Executes a statement; if it moves, it ends in an exact stop.
@@ -123,6 +169,7 @@ impl Exec {
             && self.probing == other.probing
             && self.pole == other.pole
             && self.after_stop == other.after_stop
+            && self.ways == other.ways
             && self.waiting == other.waiting
             && self.contour == other.contour
             && self.centre_path.is_none()
@@ -151,6 +198,7 @@ impl Exec {
         self.probing = other.probing;
         self.pole = other.pole;
         self.after_stop = other.after_stop;
+        self.ways = other.ways;
         self.waiting = other.waiting;
         self.contour = other.contour;
         self.feed = other.feed;

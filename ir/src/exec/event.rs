@@ -218,6 +218,9 @@ pub struct State {
     pub tip: bool,
     /// Whether points are those of a tilted plane: the one of the last [`Kind::Tilt`].
     pub tilted: bool,
+    /// Which of A, B and C turn the other way round than their angles say, two bits each: 1 towards greater
+    /// ones, 2 towards smaller ones.
+    pub turned: u8,
     /// Flood coolant.
     pub flood: bool,
     /// Mist coolant.
@@ -237,6 +240,7 @@ impl Default for State {
             spindle_mode: SpindleMode::Turns,
             feed_mode: FeedMode::PerMinute,
             path: None,
+            turned: 0,
             tip: false,
             tilted: false,
             flood: false,

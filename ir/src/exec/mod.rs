@@ -31,7 +31,8 @@ pub(crate) use slots::{Frames, Present, Rotation, Scale};
 pub use tilt::TiltedPlane;
 
 use crate::canon::{
-    AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, Spindle, Units, same_point,
+    AXES, Axis, Distance, Fact, FeedMode, Motion, PathMode, Plane, ReturnLevel, RotaryWay, Spindle, Units,
+    same_point,
 };
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -70,6 +71,8 @@ pub struct Exec {
     heading: Heading,
     /// How corners are taken after the next move, which ends in an exact stop.
     after_stop: Option<Option<PathMode>>,
+    /// Which way round A, B and C go in the next move.
+    ways: Option<[Option<RotaryWay>; 3]>,
     /// The next straight move is in machine coordinates, with the tool's length or without.
     raw: Option<bool>,
     /// The next straight move at feed ends where the probe says so.
@@ -162,6 +165,7 @@ impl Exec {
             last: world.start,
             heading: Heading::None,
             after_stop: None,
+            ways: None,
             raw: None,
             probing: None,
             pole: Pole::ZERO,
@@ -473,6 +477,9 @@ impl Exec {
 
     #[inline]
     fn step_plainly(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.ways.is_some() {
+            return self.step_turning(stmt, out);
+        }
         if self.after_stop.is_some() {
             return self.step_and_stop(stmt, out);
         }
@@ -577,6 +584,7 @@ impl Exec {
             Op::Corner { shape, size } => self.ask_corner(*shape, size, span)?,
             Op::SetMotionControlMode(_)
             | Op::ExactStop
+            | Op::TurnRotaryAxes(_)
             | Op::Advise(_)
             | Op::SetSpindleMode(_)
             | Op::LimitSpindleSpeed(_) => self.conduct(&stmt.op, span)?,

@@ -156,6 +156,7 @@ impl Converter<'_> {
                 axes.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
             }
             Op::ExactStop
+            | Op::TurnRotaryAxes(_)
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)

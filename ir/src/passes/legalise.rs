@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE,
-    PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, WORK, interest, lacks,
+    PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
 };
 use super::walk::Walk;
 use super::write::EXACT;
@@ -16,8 +16,8 @@ use super::{
     Target, absolute_holes, approach, arc_form, at_once, cutter_radius, expand_calls, expand_corners,
     expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts,
     machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
-    polar_words, repeat_ends, return_plane, skip_levels, specialise_procedures, state_clearance, taps,
-    threads, tool_axis, tool_change, tool_edge, work_offset,
+    polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures, state_clearance,
+    taps, threads, tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -331,6 +331,9 @@ impl Legaliser {
         }
         if needs & PATH != 0 {
             path_control::over(stmts, &mut self.path, &self.target, diags);
+        }
+        if needs & TURN != 0 {
+            rotary_ways::over(stmts, &mut start.clone(), &self.target, diags);
         }
         if needs & SKIP != 0 {
             skip_levels::over(stmts, &mut self.skip, &self.target, diags);

@@ -43,6 +43,7 @@ mod pattern_forms;
 mod polar_words;
 mod repeat_ends;
 pub mod return_plane;
+mod rotary_ways;
 pub mod skip_levels;
 pub mod specialise_procedures;
 mod spindle_holes;
@@ -161,6 +162,11 @@ pub const PASSES: &[Pass] = &[
         name: "path-control",
         about: "says how corners are taken, and advice to the control, in the target's words",
         run: path_control::run,
+    },
+    Pass {
+        name: "rotary-ways",
+        about: "says by plain words which way round rotary axes go",
+        run: rotary_ways::run,
     },
     Pass { name: "feed-unit", about: "writes feeds in the unit of length in force", run: feed_unit::run },
     Pass { name: "one-distance", about: "measures the words of a block in one way", run: one_distance::run },

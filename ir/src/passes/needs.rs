@@ -33,6 +33,7 @@ pub(super) const THREAD: u32 = 1 << 20;
 pub(super) const TOOL_AXIS: u32 = 1 << 24;
 pub(super) const CORNER: u32 = 1 << 25;
 pub(super) const AT_ONCE: u32 = 1 << 26;
+pub(super) const TURN: u32 = 1 << 29;
 
 /// What a target lacks.
 pub(super) fn lacks(caps: &Caps) -> u32 {
@@ -101,6 +102,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     );
     needs(THREAD, caps.threads.any);
     needs(POLAR, caps.polar == PolarForm::Any);
+    needs(TURN, caps.rotary_ways);
     needs(CORNER, caps.corners == Corners::ALL);
     needs(AT_ONCE, !caps.length_at_once && !caps.cycle_ends_motion);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
@@ -138,6 +140,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::Call(_) | Op::Return => CALL,
         miscellaneous!() if matches!(op, Op::Message(_)) => MESSAGE,
         conduct!() if matches!(op, Op::Corner { .. }) => CORNER | MOVE,
+        conduct!() if matches!(op, Op::TurnRotaryAxes(_)) => TURN,
         conduct!() => PATH | MOVE,
         Op::SetFeedMode(_) => MOVE,
         miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => RADIUS,

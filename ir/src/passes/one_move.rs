@@ -40,7 +40,7 @@ impl State {
                 if let Op::SetFeedMode(mode) = &stmt.op {
                     by_time = *mode == FeedMode::InverseTime;
                 }
-                let waits = matches!(stmt.op, Op::ExactStop | Op::Corner { .. })
+                let waits = matches!(stmt.op, Op::ExactStop | Op::TurnRotaryAxes(_) | Op::Corner { .. })
                     || by_time && matches!(stmt.op, Op::SetFeedRate(_));
                 let block = stmts[at + 1..].iter().take_while(|s| s.joined);
                 waits && !block.into_iter().any(|s| matches!(s.op, Op::Position(_) | moves!()))
@@ -91,7 +91,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
                 made.push(stmt);
                 continue;
             }
-            Op::ExactStop => 0,
+            Op::ExactStop | Op::TurnRotaryAxes(_) => 0,
             Op::Corner { .. } => 1,
             Op::SetFeedRate(_) if state.by_time => 2,
             Op::StraightFeed(_)

@@ -302,7 +302,8 @@ impl Reader {
         self.blanks();
         let mark = match self.name().as_deref() {
             None => return Ok(Value { number: self.number()?, mark: Mark::None }),
-            Some("AC") => Mark::Absolute,
+            // Which way round an axis goes leads to the same angle.
+            Some("AC" | "DC" | "ACP" | "ACN") => Mark::Absolute,
             Some("IC") => Mark::Incremental,
             Some(other) => return Err(format!("an expression: {other}")),
         };

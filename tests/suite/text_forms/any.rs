@@ -373,6 +373,8 @@ fn simple() -> BoxedStrategy<Op> {
         Op::ProgramEnd,
         Op::Return,
         Op::ExactStop,
+        Op::TurnRotaryAxes([Some(RotaryWay::Shortest), None, Some(RotaryWay::Negative)]),
+        Op::TurnRotaryAxes([None, Some(RotaryWay::Positive), None]),
         Op::SetSpindleMode(SpindleMode::Turns),
         Op::SetSpindleMode(SpindleMode::Surface),
         Op::UseMachineCoordinates { length: true },
