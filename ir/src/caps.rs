@@ -115,6 +115,8 @@ pub struct Caps {
     pub repeat_blocks: bool,
     /// It names both ends by their block numbers, and none stands within another.
     pub repeat_by_numbers: bool,
+    /// Whether such a count includes the first pass is known of the machine.
+    pub repeat_count_known: bool,
     /// Centres of arcs are said from program zero alone.
     pub centres_from_zero: bool,
     /// A length offset must stand in a block with a Z word.

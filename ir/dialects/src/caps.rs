@@ -206,6 +206,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         repeat_blocks: everything || names(NameMeaning::RepeatBlocks) || dialect.repeat.letters().is_some(),
         centres_from_zero: !everything && dialect.arc.centre_absolute,
         repeat_by_numbers: !everything && dialect.repeat.letters().is_some(),
+        repeat_count_known: false,
         circle_centre_at_zero_only: dialect.can.circle_centre_at_zero_only,
         incremental_cycles: everything || dialect.cycles.incremental,
         calls: everything

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
 
+use crate::repeats::REPEAT_COUNT;
 use crate::schema::Dialect;
 
 /// Option of a dictionary: the way of the tool to the holes of a cycle. Its value `retract` is
@@ -83,6 +84,7 @@ impl Settings {
         if let Some(approach) = &mut caps.approach {
             *approach = self.approach();
         }
+        caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps
     }
 

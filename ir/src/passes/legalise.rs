@@ -135,6 +135,12 @@ impl Legaliser {
     /// The source is the program of another kind of control.
     pub fn between_controls(&mut self) {
         self.target.other_control = true;
+        let caps = &mut self.target.caps;
+        if caps.repeat_by_numbers && !caps.repeat_count_known {
+            // A pass more or less cuts another part: written out, it is the same on every machine.
+            (caps.repeat_blocks, caps.repeat_by_numbers) = (false, false);
+            self.lacks |= CONTROL;
+        }
         self.lacks |= RADIUS | TOOL_AXIS;
     }
 
