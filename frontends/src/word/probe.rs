@@ -53,11 +53,9 @@ impl Lower {
             .code
             .iter()
             .any(|row| row.means == Some(Meaning::StraightFeed) && row.group == code.row.group);
-        if stays {
-            // Bare axis words would probe again.
-            (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
-        } else if self.state.motion.value().is_none() {
-            // They go on as the caller moves, which no statement behind this one can say.
+        // Bare axis words would probe again, or go on as the caller moves, which no statement behind this
+        // one can say.
+        if stays || self.state.motion.value().is_none() {
             (self.state.motion, self.state.no_motion) = (Know::Unsaid, true);
         }
     }

@@ -63,12 +63,9 @@ impl Lower {
         out: &mut Batch,
     ) {
         let code: Box<str> = row.code.as_str().into();
-        let refused = match () {
-            () if self.state.words != polar::Words::Cartesian => Some("thread in polar coordinates"),
-            () => None,
-        };
-        if let Some(name) = refused {
-            return self.fault(Fault::NotSupported { code, name: name.into() }, block, out);
+        if self.state.words != polar::Words::Cartesian {
+            let name = "thread in polar coordinates".into();
+            return self.fault(Fault::NotSupported { code, name }, block, out);
         }
         let letter = row.words.bytes().next().unwrap_or(self.roles.feed);
         let lead = match words.take(letter) {
