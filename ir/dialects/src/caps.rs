@@ -6,10 +6,11 @@ use ncc_ir::caps::{
 };
 use ncc_ir::program::{FrameSlot, PoleFrom, Probe, ReferencePoint};
 
+use crate::cycles::{CycleRow, PatternRow};
 use crate::meaning::{Meaning, Thread};
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
 use crate::power_on::SafeStart;
-use crate::schema::{CycleRow, Dialect, Family, PatternRow};
+use crate::schema::{Dialect, Family};
 use crate::stored::DataKind;
 
 /// The capabilities that follow from a dictionary's rows.

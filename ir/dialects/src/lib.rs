@@ -10,6 +10,7 @@
 mod caps;
 mod check;
 mod corners;
+mod cycles;
 mod fault;
 mod load;
 mod meaning;
@@ -22,6 +23,7 @@ mod settings;
 mod stored;
 
 pub use corners::{CornerRules, CornerWord};
+pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, Text};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};

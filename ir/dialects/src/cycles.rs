@@ -1,0 +1,147 @@
+//! Rows of canned cycles and of patterns of positions.
+
+use serde::Deserialize;
+
+use crate::power_on::{ApproachName, ReturnLevelName};
+use crate::schema::{Quantity, yes};
+
+/// What all canned cycles of a dialect share.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CycleRules {
+    /// Whether the block that calls a cycle up makes a hole (if it has an axis word or its own).
+    pub hole_on_definition: bool,
+    /// Where the tool goes, if that is fixed; else the modal return level decides.
+    pub return_level: Option<ReturnLevelName>,
+    /// The way to a hole; the option `cycle_approach` of a dictionary may choose another one.
+    pub approach: ApproachName,
+    /// Whether Z and R stay in force from one cycle code to the next.
+    pub retained: bool,
+    /// Whether they stay so only as long as it is the same code.
+    pub retained_by_code: bool,
+    /// Whether words that stay in force are measured as the distance mode of each further block has it, not
+    /// as they were when they were said.
+    pub measured_anew: bool,
+    /// Whether a cycle works along the normal of any plane, with that axis's letter for the depth.
+    pub any_plane: bool,
+    /// Whether words of rotary axes can stand in a cycle's block.
+    pub no_rotary: bool,
+    /// Whether no motion is in force after the code that ends a cycle: axis words alone are an error.
+    pub ends_motion: bool,
+    /// Letter of the number of repetitions in a cycle's block: 0 stores the data and makes no hole.
+    pub repeat: Option<char>,
+    /// Whether 0 is no such number.
+    pub repeat_once: bool,
+    /// Whether the dwell that any cycle has said stays in force for a later cycle that can go without one.
+    pub dwell_left: bool,
+    /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
+    /// needs one.
+    pub peck_clearance: Option<f64>,
+    /// Whether the rows are confirmed for incremental mode.
+    pub incremental: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// A canned cycle.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CycleRow {
+    /// Its code.
+    pub code: String,
+    /// Its kind: `drill`, `drill-dwell`, `drill-peck`, `drill-break`, `bore`, `tap`, `tap-rigid`,
+    /// `bore-fine`, `bore-stop`.
+    pub kind: String,
+    /// Letter of the bottom.
+    pub depth: char,
+    /// Letter of the retract plane.
+    pub retract: char,
+    /// Letter and unit of the dwell, if it has one.
+    #[serde(default)]
+    pub dwell: Option<DwellWord>,
+    /// Letter of the peck.
+    #[serde(default)]
+    pub peck: Option<char>,
+    /// Whether the dwell must be said.
+    #[serde(default)]
+    pub dwell_needed: bool,
+    /// Whether it works along its own letter's axis alone, where other cycles work in any plane.
+    #[serde(default)]
+    pub one_plane: bool,
+    /// Whether the feed out of the hole goes on to the level where the tool is left.
+    #[serde(default)]
+    pub feed_to_level: bool,
+    /// Of tapping, the hand of the thread.
+    #[serde(default)]
+    pub hand: Option<Hand>,
+    /// Of tapping, whether the dwell is at the bottom alone, when the spindle has turned round; else it is at
+    /// both ends, before it does.
+    #[serde(default)]
+    pub dwells_turned: bool,
+    /// Of boring with a stop, whether the spindle then turns as it did before; else clockwise.
+    #[serde(default)]
+    pub turns_on: bool,
+    /// Of fine boring, the letter of the shift off the wall.
+    #[serde(default)]
+    pub shift: Option<char>,
+    /// Whether the row is confirmed.
+    #[serde(default = "yes")]
+    pub sure: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+impl CycleRow {
+    /// What the control does of itself in it.
+    pub fn own(&self) -> ncc_ir::caps::Own {
+        ncc_ir::caps::Own { dwells_turned: self.dwells_turned, turns_on: self.turns_on }
+    }
+}
+
+/// The hand of a thread.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum Hand {
+    /// Cut with the spindle turning clockwise.
+    Right,
+    /// Cut with the spindle turning counter-clockwise.
+    Left,
+}
+
+impl Hand {
+    /// The sense in which the spindle turns into the thread.
+    pub const fn turn(self) -> ncc_ir::canon::Turn {
+        match self {
+            Hand::Right => ncc_ir::canon::Turn::Clockwise,
+            Hand::Left => ncc_ir::canon::Turn::Counterclockwise,
+        }
+    }
+}
+
+/// A word that says how long to dwell.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct DwellWord {
+    /// Its letter.
+    pub letter: char,
+    /// Seconds or milliseconds.
+    pub quantity: Quantity,
+}
+
+/// A pattern of positions.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case", deny_unknown_fields)]
+#[allow(missing_docs)] // Letters of the words of `ncc_ir::cycle::Pattern`.
+pub enum PatternRow {
+    Circle { code: String, first: [char; 2], centre: [char; 2], step: char, count: char, source: String },
+    Grid { code: String, pitch: [char; 2], counts: [char; 2], serpentine: bool, source: String },
+}
+
+impl PatternRow {
+    /// Its code.
+    pub fn code(&self) -> &str {
+        match self {
+            PatternRow::Circle { code, .. } | PatternRow::Grid { code, .. } => code,
+        }
+    }
+}
