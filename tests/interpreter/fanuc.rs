@@ -642,7 +642,7 @@ impl Control {
         let hole = match (cycle, self.kept.q, self.kept.p) {
             (81, ..) => Hole::Drill,
             (82, _, Some(p)) => Hole::DrillDwell(p),
-            (73, Some(q), _) if q > 0.0 => Hole::Break(q),
+            (73, Some(q), p) if q > 0.0 => Hole::Break(q, p.filter(|_| self.haas).unwrap_or(0.0)),
             (83, Some(q), p) if q > 0.0 => Hole::Peck(q, p.filter(|_| self.haas).unwrap_or(0.0)),
             (85, ..) => Hole::Bore(0.0),
             (74 | 84, _, p) => {

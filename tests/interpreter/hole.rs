@@ -11,8 +11,8 @@ pub enum Hole {
     DrillDwell(f64),
     /// Pecks of so much, dwell behind the last one if not zero.
     Peck(f64, f64),
-    /// Pecks of so much, the tool staying in the hole.
-    Break(f64),
+    /// Pecks of so much, the tool staying in the hole; dwell behind the last one if not zero.
+    Break(f64, f64),
     /// Feed in, dwell if not zero, feed out to R.
     Bore(f64),
     /// In and out in step with the spindle, which turns this way first; rigid, or in a chuck; a dwell at
@@ -43,7 +43,7 @@ impl Machine {
                 self.straight(level(self.at, z))?;
                 self.record(What::Dwell(seconds));
             }
-            Hole::Peck(q, _) | Hole::Break(q) => {
+            Hole::Peck(q, _) | Hole::Break(q, _) => {
                 if q <= 0.0 || (r - z) / q > 10_000.0 {
                     return self.halt("a peck that leads nowhere");
                 }
@@ -54,7 +54,7 @@ impl Machine {
                         break;
                     }
                     self.straight(level(self.at, depth))?;
-                    if let Hole::Break(_) = hole {
+                    if let Hole::Break(..) = hole {
                         self.traverse(level(self.at, depth + self.setup.break_lift));
                     } else {
                         self.traverse(level(self.at, r));
@@ -62,7 +62,7 @@ impl Machine {
                     }
                 }
                 self.straight(level(self.at, z))?;
-                if let Hole::Peck(_, seconds) = hole {
+                if let Hole::Peck(_, seconds) | Hole::Break(_, seconds) = hole {
                     self.stay(seconds);
                 }
             }

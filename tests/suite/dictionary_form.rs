@@ -28,6 +28,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[cycles]`", "CycleRules", "[cycles]\n@"),
     ("`[[cycle]]`", "CycleRow", "[[cycle]]\ncode = \"G84\"\n@"),
     ("`dwell` of a cycle, `dwell` of a code", "DwellWord", "[[code]]\ncode = \"G04\"\ndwell = [{ @ }]"),
+    ("`dwell_by` of a cycle", "AskedDwell", "[[cycle]]\ncode = \"G83\"\ndwell_by = { @ }"),
     ("`[[code]]`", "CodeRow", "[[code]]\ncode = \"G04\"\n@"),
     ("`[[data]]`", "DataRow", "[[data]]\nname = \"G10 L2\"\n@"),
     ("`values` of a table", "ValueWord", "[[data]]\nname = \"G10 L2\"\nvalues = [{ @ }]"),

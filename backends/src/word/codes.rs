@@ -3,7 +3,7 @@
 //! A row counts only if its word reads back to the same meaning, so every code here was found by
 //! its meaning and checked by its number. Not here: when a word is written.
 
-use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role, Thread};
+use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role, Settings, Thread};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
@@ -67,6 +67,8 @@ pub(crate) struct CycleCode {
     pub depth: Letter,
     pub retract: Letter,
     pub dwell: Option<Dwell>,
+    /// The option that says whether there is that word.
+    pub asked: Option<&'static str>,
     pub peck: Option<Letter>,
     pub hand: Option<Turn>,
     /// What the control does of itself in it.
@@ -310,7 +312,7 @@ impl Finder {
         Some(Dwell { word: self.letter(word.letter, word.quantity)?, milliseconds })
     }
 
-    fn cycles(&self) -> Vec<CycleCode> {
+    fn cycles(&self, settings: &Settings) -> Vec<CycleCode> {
         let rows = self.dialect.cycle.iter();
         rows.filter_map(|row| {
             Some(CycleCode {
@@ -318,10 +320,11 @@ impl Finder {
                 code: self.row(&row.code, Meaning::StartCycle)?,
                 depth: self.letter(row.depth, Quantity::Length)?,
                 retract: self.letter(row.retract, Quantity::Length)?,
-                dwell: match row.dwell {
+                dwell: match settings.dwell(row) {
                     Some(word) => Some(self.dwell(word)?),
                     None => None,
                 },
+                asked: row.dwell_by.as_ref().map(|by| by.option.as_str()),
                 hand: row.hand.map(ncc_dialects::Hand::turn),
                 form: CycleForm::Control(row.own()),
                 to_level: row.feed_to_level,
@@ -468,7 +471,8 @@ impl Finder {
 }
 
 impl Codes {
-    pub(crate) fn new(dialect: &'static Dialect) -> Codes {
+    pub(crate) fn new(settings: &Settings) -> Codes {
+        let dialect = settings.dialect;
         let mut groups: Vec<&str> = dialect.code.iter().map(|row| row.group.as_str()).collect();
         groups.sort_unstable();
         groups.dedup();
@@ -592,7 +596,7 @@ impl Codes {
                 .filter(|row| row.means == Some(Meaning::NoEffect))
                 .filter_map(|row| Some((row.code.clone(), find.row(&row.code, Meaning::NoEffect)?)))
                 .collect(),
-            cycles: find.cycles(),
+            cycles: find.cycles(settings),
             circle: find.circle(),
             grid: find.grid(),
             axes: Axis::ALL.map(axis),

@@ -403,6 +403,9 @@ impl Writer {
         let left = self.dwell_left;
         let dwell = match (row.dwell, dwell.filter(|_| !same_kind)) {
             (Some(word), Some(dwell)) => {
+                if let Some(option) = row.asked {
+                    self.rely(option, span, sink);
+                }
                 Some((word.word.letter, self.dwell_value(&word, dwell, span, sink)?))
             }
             // Else an earlier one would hold.

@@ -170,7 +170,7 @@ impl Writer {
                 None => Numbering::Off,
             },
             eol: if layout.crlf { b"\r\n" } else { b"\n" },
-            codes: Codes::new(dialect),
+            codes: Codes::new(&settings),
             settings,
             comments: Comments::new(&dialect.comment),
             block: Block::new(rules.blanks, rules.g_codes, rules.m_codes),

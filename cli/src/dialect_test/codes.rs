@@ -551,12 +551,14 @@ fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
     let code = d.code.iter().find(|c| c.code == row.code);
     let sure = row.sure && code.is_some_and(|c| c.sure);
     let usual = Values::default();
+    // A word that an option may make its dwell is one where that is the working choice.
+    let said = CycleRow { dwell: bench.settings.dwell(row), ..row.clone() };
     let mut tries = vec![
         (row.code.clone(), usual.clone()),
         (format!("{} {}", row.code, row.depth), Values { depth: "-7.891", ..usual.clone() }),
         (format!("{} {}", row.code, row.retract), Values { retract: "-2.345", ..usual.clone() }),
     ];
-    if let Some(word) = row.dwell {
+    if let Some(word) = said.dwell {
         tries.push((format!("{} {}", row.code, word.letter), Values { dwell: "0.123", ..usual.clone() }));
     }
     if let Some(letter) = row.peck.or(row.shift) {
@@ -567,7 +569,7 @@ fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
         same && writes(d, c)
     });
     for (name, values) in tries {
-        let say = format!("{}\nHOLE(X 10mm, Y 20mm)", cycle_text(d, row, &values));
+        let say = format!("{}\nHOLE(X 10mm, Y 20mm)", cycle_text(d, &said, &values));
         let said = Said { after: "END_CYCLE()".to_owned(), ..Said::new(say) };
         let tried = match primary {
             Some(first) if first.code == row.code => must_show(bench.both_ways(&said), &row.code),
@@ -581,7 +583,7 @@ fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
     }
     if let (Some(letter), true) = (d.cycles.repeat, primary.is_some_and(|p| p.code == row.code)) {
         // Written with one hole, and read with the word behind it.
-        let start = cycle_text(d, row, &usual);
+        let start = cycle_text(d, &said, &usual);
         let hole = "\nHOLE(X 10mm, Y 20mm)";
         let one = Said { after: "END_CYCLE()".to_owned(), ..Said::new(format!("{start}{hole}")) };
         let least = usize::from(d.cycles.repeat_once);

@@ -60,7 +60,7 @@ struct Text {
 /// A dialect, and the beginning of a program that it can say.
 pub(super) struct Bench {
     pub(super) dialect: &'static Dialect,
-    settings: Settings,
+    pub(super) settings: Settings,
     begin: Vec<Stmt>,
     end: String,
 }

@@ -111,3 +111,26 @@ fn the_form_of_a_dictionary_is_printed() {
     let page = ncc(folder.path(), &["dialects", "schema"]).exits(0).out;
     assert!(page.starts_with("# Dictionaries\n") && page.contains("| `packed_call_digits`* |"));
 }
+
+/// A word that the manuals give no meaning, and some machines dwell by.
+const PECKS: &str = "%\nO0013\nG21 G90 G17 G98 G54\nS900 M3\nG0 X0. Y0.\nZ20.\nG83 X5. Y0. Z-9. R2. Q4. P500 F80.\nG80\nM5\nM30\n%\n";
+
+#[test]
+fn an_option_says_what_p_of_a_deep_hole_is() {
+    let folder = folder();
+    std::fs::write(folder.path().join("part.nc"), PECKS).unwrap();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    let ignored = run("fanuc to canon part.nc --no-head").exits(0).says("peck_dwell = ignored");
+    assert!(!ignored.out.contains("DWELL"), "{}", ignored.out);
+    let dwells = "fanuc to canon part.nc --no-head --from-option peck_dwell=dwell";
+    let done = run(dwells).exits(0).out;
+    assert_eq!(done.matches("DWELL(0.5)").count(), 1, "{done}");
+    let refused = "fanuc to canon part.nc --from-option peck_dwell=refused";
+    run(refused).exits(1).says("P as a dwell (option peck_dwell)");
+    // What the target has no word for is written out; what it has, is not.
+    let out = run("fanuc to fanuc part.nc --no-head --from-option peck_dwell=dwell").exits(0).out;
+    assert!(!out.contains("G83") && out.contains("G04 X0.500"), "{out}");
+    let both = "fanuc to fanuc part.nc --no-head --from-option peck_dwell=dwell --to-option peck_dwell=dwell";
+    let out = run(both).exits(0).out;
+    assert!(out.contains("G83 X5. Y0. Z-9. R2. Q4. P500 F80."), "{out}");
+}

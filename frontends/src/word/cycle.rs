@@ -2,7 +2,9 @@
 //!
 //! The moves of a hole are not made here: a cycle stays a cycle.
 
-use ncc_dialects::{Bare, CYCLE_APPROACH, CycleRow, Hand, Quantity, TAPPING};
+use ncc_dialects::{
+    AskedDwell, Bare, CYCLE_APPROACH, CycleRow, DWELL_REFUSED, DWELLS, Hand, Quantity, TAPPING,
+};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, ReturnLevel, Spindle};
 use ncc_ir::cycle::{BoreStop, Clearance, Cycle, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::diag::Fault;
@@ -144,7 +146,8 @@ impl Lower {
             self.missing(code, depth_letter, out);
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
-        let kind = self.kind(row, rigid, dwell, peck, code, out);
+        let bottom = self.dwells(row, dwell, code.span, out);
+        let kind = self.kind(row, rigid, bottom, peck, code, out);
         let feed = self.now.feed;
         if feed.is_some() {
             self.state.cycle_feed = feed;
@@ -195,7 +198,7 @@ impl Lower {
                 self.now.recall = true;
             }
             if dialect.cycles.retained {
-                self.change_cycle(row, depth_letter, distance, words, src, out);
+                self.change_cycle(row, depth_letter, distance, block, words, src, out);
             }
         }
         if self.now.recall {
@@ -207,11 +210,13 @@ impl Lower {
     }
 
     /// Words that change the cycle in force.
+    #[allow(clippy::too_many_arguments)] // All that a block says of its cycle.
     fn change_cycle(
         &mut self,
         row: &'static CycleRow,
         depth_letter: char,
         distance: Fact<Distance>,
+        block: Span,
         words: &mut Words,
         src: Source,
         out: &mut Batch,
@@ -235,7 +240,11 @@ impl Lower {
         active.dwell = given.dwell.or(active.dwell);
         active.peck = given.peck.or(active.peck);
         let rigid = active.kind.name() == "tap-rigid";
-        if let Ok(kind) = kind_of(row, rigid, active.dwell, active.peck) {
+        let (dwell, peck) = (active.dwell, active.peck);
+        let bottom = self.dwells(row, dwell, block, out);
+        if let (Ok(kind), InForce::Active(active)) =
+            (kind_of(row, rigid, bottom, peck), &mut self.state.cycle)
+        {
             active.kind = kind;
         }
         self.now.recall = true;
@@ -374,7 +383,7 @@ impl Lower {
         };
         let depth = level(self, depth_letter);
         let retract = level(self, row.retract);
-        let dwell = row.dwell.and_then(|d| {
+        let dwell = row.dwell.or(row.dwell_by.as_ref().map(AskedDwell::word)).and_then(|d| {
             let word = words.take(d.letter as u8)?;
             self.number(&word, d.quantity, src, out)
         });
@@ -391,6 +400,29 @@ impl Lower {
             Some(Num { mantissa: num.mantissa.abs(), ..num })
         });
         Given { depth, retract, dwell, peck }
+    }
+
+    /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
+    /// an option is asked.
+    fn dwells(
+        &mut self,
+        row: &'static CycleRow,
+        dwell: Option<Num>,
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let dwell = dwell.filter(|_| row.dwell.is_some() || row.dwell_by.is_some())?;
+        let Some(asked) = row.dwell_by.as_ref().filter(|_| !dwell.is_zero()) else {
+            return Some(dwell);
+        };
+        match self.option(&asked.option, at, out) {
+            DWELLS => Some(dwell),
+            DWELL_REFUSED => {
+                let name = format!("{} as a dwell (option {})", asked.letter, asked.option).into();
+                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
+            }
+            _ => None,
+        }
     }
 
     /// Whether a row's tapping is rigid: by its own kind, by a code before it, or as the machine is set.
@@ -450,7 +482,7 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -
     }
     // A dwell of no seconds is none, where a cycle can go without.
     let none = row.kind != "drill-dwell";
-    let is_one = |dwell: &Num| row.dwell.is_some() && !(none && dwell.is_zero());
+    let is_one = |dwell: &Num| !(none && dwell.is_zero());
     let bottom = dwell.filter(is_one).map(Expr::Num);
     Ok(match row.kind.as_str() {
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },

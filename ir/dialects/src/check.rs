@@ -145,6 +145,10 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         if (row.kind == "bore-fine") != row.shift.is_some() {
             return Err(wrong("needs `shift` if it is fine boring, and has none else"));
         }
+        let asked = |asked: &crate::cycles::AskedDwell| dialect.option.iter().any(|o| o.name == asked.option);
+        if row.dwell_by.as_ref().is_some_and(|by| row.dwell.is_some() || !asked(by)) {
+            return Err(wrong("has `dwell_by` beside `dwell`, or no such option"));
+        }
         if dialect.cycle.iter().take(at).any(|other| other.code == row.code) {
             return Err(wrong("stands twice"));
         }

@@ -59,6 +59,9 @@ pub struct CycleRow {
     /// Letter and unit of the dwell, if it has one.
     #[serde(default)]
     pub dwell: Option<DwellWord>,
+    /// A word that the sources do not agree on: an option says whether it is the dwell.
+    #[serde(default)]
+    pub dwell_by: Option<AskedDwell>,
     /// Letter of the peck.
     #[serde(default)]
     pub peck: Option<char>,
@@ -98,6 +101,13 @@ impl CycleRow {
     }
 }
 
+impl AskedDwell {
+    /// The word, where it is a dwell.
+    pub const fn word(&self) -> DwellWord {
+        DwellWord { letter: self.letter, quantity: self.quantity }
+    }
+}
+
 /// The hand of a thread.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
@@ -117,6 +127,25 @@ impl Hand {
         }
     }
 }
+
+/// A word that is a dwell on some machines and has no use on others. Where it is none, its value still stays
+/// in force for a cycle that has a use for it.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct AskedDwell {
+    /// Its letter.
+    pub letter: char,
+    /// Seconds or milliseconds.
+    pub quantity: Quantity,
+    /// The option that is asked: `dwell`, `ignored`, or `refused`.
+    pub option: String,
+}
+
+/// What an option says of an [`AskedDwell`]: the control dwells.
+pub const DWELLS: &str = "dwell";
+
+/// What an option says of an [`AskedDwell`]: a program with the word is not read.
+pub const DWELL_REFUSED: &str = "refused";
 
 /// A word that says how long to dwell.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
 
+use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::repeats::REPEAT_COUNT;
 use crate::schema::Dialect;
 
@@ -78,11 +79,22 @@ impl Settings {
         }
     }
 
+    /// The word of a cycle's dwell, if it has one as the options are.
+    pub fn dwell(&self, row: &CycleRow) -> Option<DwellWord> {
+        let asked = row.dwell_by.as_ref().filter(|asked| self.get(&asked.option) == DWELLS);
+        row.dwell.or_else(|| asked.map(AskedDwell::word))
+    }
+
     /// What the dialect can say, as its options are.
     pub fn caps(&self) -> Caps {
         let mut caps = self.dialect.caps.clone();
         if let Some(approach) = &mut caps.approach {
             *approach = self.approach();
+        }
+        let asked = |row: &&CycleRow| row.dwell.is_none() && self.dwell(row).is_some();
+        for row in self.dialect.cycle.iter().filter(asked) {
+            let same = caps.cycles.iter_mut().filter(|cap| cap.kind == row.kind);
+            same.for_each(|cap| cap.dwell = true);
         }
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps
