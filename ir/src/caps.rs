@@ -165,6 +165,8 @@ pub struct Caps {
     pub path_modes: u16,
     /// Whether the length of rounding can be another one in rapids.
     pub path_in_rapids: bool,
+    /// Whether moves that the control makes one have a length of their own.
+    pub path_merges: bool,
     /// Whether no other zero may be set while a rotation, factors or a mirror are in force.
     pub frames_shut: bool,
     /// How it always takes corners, where it has no word for that.
@@ -444,7 +446,13 @@ impl Caps {
 
     /// What of a machine's state its words tell apart.
     pub fn seen(&self) -> Seen {
-        Seen { modes: self.path_modes, in_rapids: self.path_in_rapids, path: true, advice: seen_advice(self) }
+        Seen {
+            modes: self.path_modes,
+            in_rapids: self.path_in_rapids,
+            merges: self.path_merges,
+            path: true,
+            advice: seen_advice(self),
+        }
     }
 
     /// Whether a statement that changes a frame can be written as it is. Anything else can.

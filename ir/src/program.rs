@@ -168,12 +168,15 @@ pub struct PathControl {
     pub within: Option<Expr>,
     /// The same for rapids, where it is another one.
     pub rapids: Option<Expr>,
+    /// How far from their common line straight moves at one feed may lie that the control makes one, where it
+    /// is another length than `within`; 0 is not at all.
+    pub merged: Option<Expr>,
 }
 
 impl PathControl {
     /// A mode without lengths of its own.
     pub fn plain(mode: PathMode) -> PathControl {
-        PathControl { mode, within: None, rapids: None }
+        PathControl { mode, within: None, rapids: None, merged: None }
     }
 }
 

@@ -199,7 +199,7 @@ impl Control {
         let mut words = Vec::new();
         let mut first = true;
         while let Some(letter) = rest.chars().next() {
-            if !"ABCDFGHIJKLMNPQRSTXYZ".contains(letter) || letter == 'N' && !first {
+            if !"ABCDFGHIJKLMNPQRSTXYZ@^".contains(letter) || letter == 'N' && !first {
                 return self.m.halt(format!("unexpected {letter}"));
             }
             rest = &rest[1..];
@@ -230,6 +230,37 @@ impl Control {
             *linear *= self.unit();
         }
         axes
+    }
+
+    /// Axis words with X and Y in place of @ and ^, distance and angle about the zero in force: as they are,
+    /// or added to those of where the tool stands. A missing one is as there.
+    fn with_polar(
+        &self,
+        words: &Words,
+        mut axes: [Option<f64>; 6],
+        machine: bool,
+    ) -> Result<[Option<f64>; 6], Halt> {
+        let (length, angle) = (words.get('@').map(|length| length * self.unit()), words.get('^'));
+        if length.is_none() && angle.is_none() {
+            return Ok(axes);
+        }
+        if self.m.plane != 17 || machine || axes[0].is_some() || axes[1].is_some() {
+            return self.m.halt("@ or ^ in another plane, with G53, or beside X or Y");
+        }
+        let (x, y) = (self.m.at[0] - self.m.shift(0), self.m.at[1] - self.m.shift(1));
+        let (now_length, now_angle) = (x.hypot(y), y.atan2(x).to_degrees());
+        if now_length < 1e-9 && (!self.m.absolute || length.is_none() || angle.is_none()) {
+            return self.m.halt("@ or ^ counted from the zero itself");
+        }
+        let (length, angle) = match self.m.absolute {
+            true => (length.unwrap_or(now_length), angle.unwrap_or(now_angle)),
+            false => (now_length + length.unwrap_or(0.0), now_angle + angle.unwrap_or(0.0)),
+        };
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let to = [length * cos, length * sin];
+        axes[0] = Some(if self.m.absolute { to[0] } else { to[0] - x });
+        axes[1] = Some(if self.m.absolute { to[1] } else { to[1] - y });
+        Ok(axes)
     }
 
     fn block(&mut self, line: &str, all: &[Program]) -> Result<Next, Halt> {
@@ -365,7 +396,7 @@ impl Control {
 
     /// What the axis words of a block are for.
     fn act(&mut self, words: &Words, code: Option<u32>, once: Option<u32>) -> Result<(), Halt> {
-        let axes = self.axis_words(words);
+        let axes = self.with_polar(words, self.axis_words(words), once == Some(530))?;
         let any = axes.iter().any(Option::is_some);
         if code.is_some_and(|code| !cycle(code)) || self.motion.is_some_and(|motion| !cycle(motion)) {
             self.initial = None;
@@ -465,6 +496,8 @@ impl Control {
         let (Some(table), Some(entry)) = (whole('L'), whole('P')) else {
             return self.m.halt("G10 without L or P");
         };
+        // P0 of L2 and L20 is the offset in force.
+        let entry = if entry == 0 && table != 1 { self.m.offset } else { entry };
         let radius = words.get('R').map(|r| r * self.unit());
         match table {
             // A rotation of the offset is out of scope.
@@ -507,7 +540,7 @@ impl Control {
                 'L' => control,
                 'Q' => path,
                 'D' => words.codes('G').iter().any(|code| matches!(code, 410 | 420)),
-                'R' | 'I' | 'J' | 'K' => false,
+                'R' | 'I' | 'J' | 'K' | '@' | '^' => false,
                 _ => true,
             };
             if !used {

@@ -72,6 +72,7 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
         beside: false,
         path: PathMode::Continuous,
         within: 0.0,
+        merged: 0.0,
         turning: Turning::Stopped,
         mist: false,
         flood: false,
@@ -112,9 +113,11 @@ struct Printer<'p> {
     feed: Option<f64>,
     /// Whether calls of moves wait in the interpreter's queue for what the next one is.
     beside: bool,
-    /// How corners are taken, and how far from the path, in the unit that was in force.
+    /// How corners are taken, how far from the path, and how far off moves made one may lie, in the unit that was
+    /// in force.
     path: PathMode,
     within: f64,
+    merged: f64,
     ended: bool,
 }
 
@@ -385,6 +388,7 @@ impl Printer<'_> {
                     Some(within) => literal(within)?,
                     None => 0.0,
                 };
+                self.merged = control.merged.as_ref().map_or(Ok(self.within), literal)?;
                 self.path_control();
             }
             Op::ProgramStop => {
@@ -449,7 +453,7 @@ impl Printer<'_> {
             }
         }
         if self.path != PathMode::ExactPath && self.path != PathMode::ExactStop {
-            let _ = writeln!(self.out, "SET_NAIVECAM_TOLERANCE({:.4})", self.within);
+            let _ = writeln!(self.out, "SET_NAIVECAM_TOLERANCE({:.4})", self.merged);
         }
     }
 

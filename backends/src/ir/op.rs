@@ -105,6 +105,10 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             text_argument(control.mode.name(), out);
             let lengths: Vec<Expr> = control.within.iter().chain(&control.rapids).cloned().collect();
             further(&lengths, out);
+            if let Some(merged) = &control.merged {
+                put(", merged ", out);
+                expr(merged, out);
+            }
         }
         Op::Advise(advice) => {
             text_argument(advice.kind.name(), out);

@@ -206,6 +206,8 @@ pub(crate) struct Codes {
     pub orient: Option<Code>,
     /// The code that rounds corners with a word that says how far from the path, and that word.
     pub path_within: Option<(Code, Letter)>,
+    /// The letter of its second word, within which moves are made one.
+    pub path_merged: Option<Letter>,
     /// Ways of taking corners, in the order of [`PathMode::ALL`].
     pub path: [Option<Code>; 9],
     pub exact_stop: Option<Code>,
@@ -556,6 +558,9 @@ impl Codes {
                     let code = code(Meaning::SetMotionControlMode(PathMode::Continuous))?;
                     Some((code, find.letter(letter, Quantity::Length)?))
                 }),
+            path_merged: dialect
+                .code_for(Meaning::SetMotionControlMode(PathMode::Continuous))
+                .and_then(|row| find.letter(row.words.chars().nth(1)?, Quantity::Length)),
             path: PathMode::ALL.map(|(mode, _)| code(Meaning::SetMotionControlMode(mode))),
             exact_stop: code(Meaning::ExactStop),
             polar: [false, true].map(|on| code(Meaning::PolarWords(on))),

@@ -232,13 +232,25 @@ impl Writer {
             (control.mode, &control.within, self.codes.path_within)
         {
             let value = self.value(&letter, within, span, sink)?;
-            self.admit(&Need::new(Rank::Setting).code(Some(code)).letter(letter.letter), sink)?;
+            let mut need = Need::new(Rank::Setting).code(Some(code)).letter(letter.letter);
+            let mut merged = None;
+            if let Some(length) = &control.merged {
+                let letter = self.codes.path_merged;
+                let letter = letter.ok_or_else(|| cannot("a tolerance for moves that are made one"))?;
+                need = need.letter(letter.letter);
+                merged = Some((letter, self.value(&letter, length, span, sink)?));
+            }
+            self.admit(&need, sink)?;
             self.block.code(Part::Mode, &code);
             self.block.word(Part::Mode, letter.letter, value);
+            if let Some((letter, value)) = merged {
+                self.block.word(Part::Mode, letter.letter, value);
+            }
             return Ok(());
         }
         let code = self.codes.path[control.mode as usize];
-        let code = code.filter(|_| control.within.is_none() && control.rapids.is_none());
+        let plain = (&control.within, &control.rapids, &control.merged) == (&None, &None, &None);
+        let code = code.filter(|_| plain);
         let code = code.ok_or_else(|| cannot(format!("corners by {}", control.mode.name())))?;
         self.admit(&Need::new(Rank::Setting).code(Some(code)), sink)?;
         self.block.code(Part::Mode, &code);

@@ -46,7 +46,7 @@ pub(super) fn verify(job: &Job, program: &Program, listing: &str) -> Result<(), 
         second: DIGITS,
     };
     let mut comparison = Comparison::new(resolution, [0; AXES]);
-    comparison.see(Seen { modes: 0, in_rapids: false, path: false, advice: 0 });
+    comparison.see(Seen { modes: 0, in_rapids: false, merges: false, path: false, advice: 0 });
     comparison.advance(&mut source, &mut read, true).map_err(|found| {
         let at = found.source.as_ref().map_or(last, |event| event.span);
         differs(difference::describe(&found), at)

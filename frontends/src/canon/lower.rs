@@ -178,7 +178,7 @@ pub(super) fn lower(call: Call, text: &str, state: &mut State, skipped: bool) ->
                 false => None,
             };
             let mode = if within.is_some() { PathMode::Tolerance } else { mode };
-            Op::SetMotionControlMode(Box::new(PathControl { mode, within, rapids: None }))
+            Op::SetMotionControlMode(Box::new(PathControl { mode, within, rapids: None, merged: None }))
         }
         "EXACT_STOP" => Op::ExactStop,
         "SET_SPINDLE_MODE" => Op::SetSpindleMode(args.one_of(

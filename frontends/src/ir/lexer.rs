@@ -432,6 +432,8 @@ pub(crate) enum Token {
     Translate,
     #[token("rotate")]
     Rotate,
+    #[token("merged")]
+    Merged,
     #[token("through")]
     Through,
     #[token("tangent")]

@@ -93,11 +93,17 @@ pub(crate) fn name(n: Literal, l: usize, r: usize) -> Parsed<Text> {
 }
 
 /// A way of taking corners by its name.
-pub(crate) fn path(name: &str, lengths: Vec<Expr>, l: usize, r: usize) -> Parsed<PathControl> {
+pub(crate) fn path(
+    name: &str,
+    lengths: Vec<Expr>,
+    merged: Option<Expr>,
+    l: usize,
+    r: usize,
+) -> Parsed<PathControl> {
     let names = PathMode::ALL.map(|(_, name)| name);
     let Some(mode) = PathMode::named(name) else { return no_name(name, &names, l, r) };
     let mut lengths = lengths.into_iter();
-    let control = PathControl { mode, within: lengths.next(), rapids: lengths.next() };
+    let control = PathControl { mode, within: lengths.next(), rapids: lengths.next(), merged };
     match lengths.next() {
         Some(_) => refuse(l, r, Fault::WordUnused { word: "a third length".into() }),
         None => Ok(control),

@@ -268,7 +268,7 @@ impl Lower {
             return self.not_supported(code.name, name, code.span, out);
         }
         let within = within.or_else(|| rapids.is_some().then(|| Expr::int(0)));
-        let control = PathControl { mode, within, rapids };
+        let control = PathControl { mode, within, rapids, merged: None };
         self.push(code.span, Op::SetMotionControlMode(Box::new(control)), out);
     }
 

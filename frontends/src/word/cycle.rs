@@ -291,7 +291,8 @@ impl Lower {
             if self.now.failed {
                 return;
             }
-            self.push_move(block, Op::Hole(Move { to: to.clone(), said: said && turn == 0 }), out);
+            let hole = Move { to: to.clone(), said: said && turn == 0 };
+            self.push_move(block, Op::Hole(hole), src, out);
             if turn > 0 {
                 self.separate(out);
             }

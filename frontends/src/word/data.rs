@@ -73,7 +73,17 @@ impl Lower {
             let word = row.entry.to_string().into();
             return self.fault(Fault::WordMissing { code: row_name(), word }, code.span, out);
         };
-        let Some(number) = self.whole(&entry, src, out) else { return };
+        let Some(mut number) = self.whole(&entry, src, out) else { return };
+        if number == 0 && row.zero_current {
+            self.rely_on_frames(false, code.span, out);
+            let own = self.state.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
+            let Some(own) = own.filter(|own| (1..=row.count).contains(own)) else {
+                let code = format!("{} {}", row.name, src.text(entry.span)).into();
+                let name = "data input for the offset in force where that is not known".into();
+                return self.fault(Fault::NotSupported { code, name }, entry.span, out);
+            };
+            number = u32::from(own);
+        }
         if !(1..=u32::from(row.count)).contains(&number) {
             let name = match number {
                 0 => "data input for what has no number of its own",

@@ -118,6 +118,8 @@ pub(super) struct State {
     pub(super) turned: u8,
     /// What the words of the plane's axes are.
     pub(super) words: Words,
+    /// Whether the last thing that moved X or Y was a point by signs of radius and angle, away from the zero.
+    pub(super) follows_polar: bool,
     /// Axes that the first move in a new rotation must name absolutely, a bit each.
     pub(super) unplaced: u8,
     /// Another length is in force, and no absolute Z was named since.
@@ -164,6 +166,7 @@ impl State {
             level_changed: false,
             turned: 0,
             words: Words::Cartesian,
+            follows_polar: false,
             unplaced: 0,
             level_open: false,
             cycle_feed: None,
@@ -200,6 +203,7 @@ impl State {
         self.turned |= before.turned;
         self.unplaced |= before.unplaced;
         self.words.join(before.words);
+        self.follows_polar &= before.follows_polar;
         self.level_open |= before.level_open;
         self.level_changed |= before.level_changed;
         if self.cycle != before.cycle {

@@ -83,6 +83,7 @@ impl Lower {
             || state.cycle != InForce::None
             || state.unplaced != 0
             || state.words != Words::Cartesian
+            || state.follows_polar
             || state.thread.is_some()
             || self.level_open()
             || self.ended

@@ -201,7 +201,7 @@ impl Lower {
 
     /// A way of taking corners whose first word says how far from the path; without it, as the control
     /// does. A second word says how far from their common line moves may lie that are made one; it is the
-    /// same where it is left out, and another value is refused.
+    /// same where it is left out.
     fn path_within(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let mut letters = code.row.words.bytes();
         let (first, second) = (letters.next().unwrap_or(0), letters.next().unwrap_or(0));
@@ -214,17 +214,18 @@ impl Lower {
             }
         };
         let within = length(self, first, out);
-        if let Some((merged, span)) = length(self, second, out)
-            && within.is_none_or(|(within, _)| within.trimmed() != merged.trimmed())
-        {
-            let name = "another tolerance for moves that are made one than for corners".into();
-            return self.fault(Fault::NotSupported { code: src.text(span), name }, span, out);
-        }
-        let control = match within {
-            Some((within, _)) => {
-                PathControl { mode: PathMode::Tolerance, within: Some(Expr::Num(within)), rapids: None }
+        let merged = length(self, second, out);
+        let control = match (within, merged) {
+            (Some((within, _)), merged) => PathControl {
+                merged: merged.filter(|m| m.0.trimmed() != within.trimmed()).map(|m| Expr::Num(m.0)),
+                within: Some(Expr::Num(within)),
+                ..PathControl::plain(PathMode::Tolerance)
+            },
+            (None, None) => PathControl::plain(PathMode::Continuous),
+            (None, Some((_, span))) => {
+                let name = "tolerance for moves that are made one without one for corners".into();
+                return self.fault(Fault::NotSupported { code: src.text(span), name }, span, out);
             }
-            None => PathControl::plain(PathMode::Continuous),
         };
         self.push(code.span, Op::SetMotionControlMode(Box::new(control)), out);
     }

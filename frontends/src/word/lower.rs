@@ -112,6 +112,8 @@ pub(super) struct Now {
     pub(super) silent: bool,
     /// The word of a corner that stands behind a comma, until a move takes it.
     pub(super) corner: Option<super::block::Word>,
+    /// Radius and angle of the block's end point by signs of their own, until a move takes them.
+    pub(super) polar: [Option<super::block::Word>; 2],
     /// The repetition that the block asks for.
     pub(super) again: Option<super::again::Asked>,
 }
@@ -285,6 +287,7 @@ impl Lower {
 
     fn check_unused(&mut self, words: &Words, src: Source, out: &mut Batch) {
         self.check_corner(src, out);
+        self.check_polar_signs(src, out);
         let mut left = words.left;
         while left != 0 {
             let place = left.trailing_zeros() as usize;
@@ -315,6 +318,9 @@ impl Lower {
         now.pushed = true;
         now.last_skip = now.skip;
         let skip = now.skip;
+        if self.state.follows_polar && ncc_ir::polar::leaves_points(&op, Some(ncc_ir::canon::Plane::Xy)) {
+            self.state.follows_polar = false;
+        }
         self.target(out).push(Stmt { span, number, skip, joined, comment: None, op });
     }
 

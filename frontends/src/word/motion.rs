@@ -122,13 +122,13 @@ impl Lower {
             Ok(None | Some(Motion::Cycle)) => self.position(block, words, src, out),
             Ok(Some(Motion::Traverse)) => {
                 let to = self.point(None, block, words, src, out);
-                self.push_move(block, Op::StraightTraverse(Move { to, said }), out);
+                self.push_move(block, Op::StraightTraverse(Move { to, said }), src, out);
             }
             Ok(Some(Motion::Feed)) => {
                 self.rely_on_feed(block, out);
                 self.corner(words, src, out);
                 let to = self.point(None, block, words, src, out);
-                self.push_move(block, Op::StraightFeed(Move { to, said }), out);
+                self.push_move(block, Op::StraightFeed(Move { to, said }), src, out);
             }
             Ok(Some(Motion::Arc(turn))) => {
                 self.rely_on_feed(block, out);
@@ -155,13 +155,13 @@ impl Lower {
                 self.fault(Fault::NotSupported { code: src.text(block), name }, block, out);
             }
             let to = self.point(None, block, words, src, out);
-            self.push_move(block, Op::Position(Move { to, said: false }), out);
+            self.push_move(block, Op::Position(Move { to, said: false }), src, out);
         }
     }
 
-    /// Whether an axis word is left.
+    /// Whether an axis word is left, or one for a point by radius and angle.
     pub(super) fn has_axis_word(&self, words: &Words) -> bool {
-        words.has_any(self.roles.axes)
+        words.has_any(self.roles.axes) || self.now.polar != [None; 2]
     }
 
     fn has_arc_word(&self, words: &Words) -> bool {
@@ -264,7 +264,7 @@ impl Lower {
                 return self.fault(Fault::ArcCentreAndRadius, word.span, out);
             }
             Some(word) => {
-                if no_way(plane, &to) {
+                if no_way(plane, &to) && self.now.polar == [None; 2] {
                     self.fault(Fault::ArcRadiusNoWay, block, out);
                 }
                 match self.number(&word, Quantity::Length, src, out) {
@@ -288,7 +288,8 @@ impl Lower {
             None if self.now.failed => return,
             None => return self.fault(Fault::ArcWithoutCentre, block, out),
         };
-        self.push_move(block, Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said })), out);
+        let arc = Arc { plane, turn, to, centre, turns, said };
+        self.push_move(block, Op::ArcFeed(Box::new(arc)), src, out);
     }
 
     /// Turns of an arc beyond the first, partial one.

@@ -9,11 +9,13 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::num::Num;
 use ncc_ir::polar;
 use ncc_ir::program::{Centre, Coord, Move, Op, Polar, PoleFrom, PoleWords, SetPole};
 use ncc_ir::source::Span;
 
 use super::Source;
+use super::block::Word;
 use super::lower::Lower;
 use super::sort::Code;
 use crate::Batch;
@@ -167,8 +169,9 @@ impl Lower {
     }
 
     /// Adds a move, to a polar point where its words are polar.
-    pub(super) fn push_move(&mut self, span: Span, op: Op, out: &mut Batch) {
+    pub(super) fn push_move(&mut self, span: Span, op: Op, src: Source, out: &mut Batch) {
         match self.state.words {
+            Words::Cartesian if self.now.polar != [None; 2] => self.push_signed(span, op, src, out),
             Words::Cartesian => self.push(span, op, out),
             Words::Polar { plane, follows } => self.push_polar(plane, follows, span, op, out),
         }
@@ -211,5 +214,78 @@ impl Lower {
         self.state.words = Words::Polar { plane, follows: true };
         let polar = Polar { plane: Fact::Known(plane), radius, angle, along: false, op };
         self.push(span, Op::Polar(Box::new(polar)), out);
+    }
+
+    /// A word of a sign for radius or angle.
+    pub(super) fn polar_sign(&mut self, word: &Word, out: &mut Batch) {
+        let own = self.settings.dialect.polar.signs().and_then(|s| s.iter().position(|s| *s == word.letter));
+        let Some(place) = own else { return };
+        if self.now.polar[place].replace(*word).is_some() {
+            self.fault(Fault::WordTwice { letter: char::from(word.letter) }, word.span, out);
+        }
+    }
+
+    /// Such words that no move has taken.
+    pub(super) fn check_polar_signs(&mut self, src: Source, out: &mut Batch) {
+        for word in std::mem::take(&mut self.now.polar).into_iter().flatten() {
+            self.fault(Fault::WordUnused { word: src.text(word.span) }, word.span, out);
+        }
+    }
+
+    /// Adds a move whose end is said by signs for radius and angle about program zero. A word that is missing
+    /// or an increment counts from where the tool stands: where that is a polar point, from its words.
+    #[cold]
+    fn push_signed(&mut self, span: Span, mut op: Op, src: Source, out: &mut Batch) {
+        let [radius, angle] = std::mem::take(&mut self.now.polar);
+        let Some(first) = radius.or(angle) else { return };
+        let refuse = |lower: &mut Lower, why: &str, out: &mut Batch| {
+            lower.no_polar(&src.text(first.span), why, first.span, out);
+        };
+        if self.plane(span, out) != Fact::Known(Plane::Xy) {
+            return refuse(self, "in another plane than XY, or in one that is not known", out);
+        }
+        let by_cycle = matches!(op, Op::Hole(_));
+        if matches!(op, Op::Position(_)) {
+            return refuse(self, "as a position of a caller's cycle", out);
+        }
+        let plain =
+            polar::end(&mut op).is_some_and(|to| to.get(Axis::X).is_none() && to.get(Axis::Y).is_none());
+        if !plain {
+            return refuse(self, "beside words of X or Y", out);
+        }
+        let Fact::Known(distance) = self.distance(span, out) else {
+            return refuse(self, "where it is not known whether they are increments", out);
+        };
+        let adds = distance == Distance::Incremental;
+        if adds && by_cycle {
+            return refuse(self, "as increments of a cycle", out);
+        }
+        if (adds || radius.is_none() || angle.is_none()) && !self.state.follows_polar {
+            return refuse(self, "that count from where the tool stands", out);
+        }
+        let mut value = |word: Option<Word>, quantity: Quantity| match word {
+            None => Some(None),
+            Some(word) => self.number(&word, quantity, src, out).map(Some),
+        };
+        let (Some(length), Some(turned)) = (value(radius, Quantity::Length), value(angle, Quantity::Angle))
+        else {
+            return;
+        };
+        if !adds && length.is_some_and(|length| length.mantissa < 0) {
+            return refuse(self, "with a negative radius", out);
+        }
+        let follows = match length {
+            None => self.state.follows_polar,
+            Some(length) => length.mantissa > 0,
+        };
+        let plane = Fact::Known(Plane::Xy);
+        if !self.state.follows_polar {
+            let at = PoleWords::Along(Box::default());
+            self.push(span, Op::SetPole(Box::new(SetPole { plane, from: PoleFrom::Zero, at })), out);
+        }
+        let word = |value: Num| Coord { value: Expr::Num(value), distance: Fact::Known(distance) };
+        let (radius, angle) = (length.map(word), turned.map(word));
+        self.push(span, Op::Polar(Box::new(Polar { plane, radius, angle, along: false, op })), out);
+        self.state.follows_polar = follows;
     }
 }

@@ -131,6 +131,7 @@ impl Lower {
                     self.code(at, word, codes, src, out);
                 }
                 b'a'..=b'z' => self.comma_word(word, src, out),
+                b'@' | b'^' => self.polar_sign(word, out),
                 letter if letter == number_letter => {
                     if at > 0 && dialect.block.number_first {
                         self.fault(Fault::WordUnused { word: src.text(word.span) }, word.span, out);

@@ -25,6 +25,8 @@ pub(super) struct Signs {
     skip: u8,
     /// Letter of the block number; 0 for none.
     pub(super) number: u8,
+    /// Signs that stand for the letters of radius and angle; 0 for none.
+    polar: [u8; 2],
     /// Whether variables and expressions are read (to be refused by name).
     macros: bool,
 }
@@ -39,6 +41,7 @@ impl Signs {
             end: first(&dialect.block.end),
             skip: first(&dialect.block.skip),
             number: dialect.block.number.map_or(0, |c| c as u8),
+            polar: dialect.polar.signs().unwrap_or_default(),
             macros: dialect.program.macros,
         }
     }
@@ -50,6 +53,8 @@ impl Signs {
 enum Raw {
     #[regex("[A-Za-z]")]
     Letter,
+    #[regex("[@^]")]
+    PolarSign,
     #[regex(r"[0-9]+\.?[0-9]*|\.[0-9]+")]
     Number,
     #[regex(r"[-+*/#=,:;()\[\]<]")]
@@ -323,6 +328,10 @@ impl Iterator for Tokens<'_> {
                     let token = keyword.unwrap_or(Token::Letter(byte.to_ascii_uppercase()));
                     return Some(Ok(self.spanned(token)));
                 }
+                Raw::PolarSign if self.signs.polar.contains(&byte) => {
+                    return Some(Ok(self.spanned(Token::Letter(byte))));
+                }
+                Raw::PolarSign => return self.unexpected(),
                 Raw::Number => {
                     return match Digits::parse(self.raw.slice()) {
                         Some(digits) => Some(Ok(self.spanned(Token::Number(digits)))),

@@ -281,6 +281,11 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 })
                 .fold(0, |bits, (mode, _)| bits | 1 << *mode as u16),
         },
+        path_merges: everything
+            || dialect.code.iter().any(|row| {
+                let rounded = row.means == Some(Meaning::SetMotionControlMode(PathMode::Continuous));
+                rounded && row.words.len() > 1
+            }),
         path_in_rapids: everything || dialect.name_with(NameRole::RoundingInRapids).is_some(),
         frames_shut: dialect.can.frames_shut,
         only_path: dialect.can.only_path.map(Into::into),

@@ -29,9 +29,11 @@ impl RepeatRules {
     }
 }
 
-/// Ends of straight moves by radius and angle, about a centre in the same block: `G1 R30. C45. I0. J0.`. The
-/// centre's words are those of arcs, and count from program zero; all four words stand in the block. Read
-/// alone: what is written are coordinates.
+/// Ends of moves by radius and angle. With letters, of straight moves about a centre in the same block:
+/// `G1 R30. C45. I0. J0.`; the centre's words are those of arcs, and count from program zero; all four words
+/// stand in the block. With the signs `@` and `^`, of any move about program zero in the XY plane:
+/// `G1 @30 ^45`; a word that is missing, or an increment, counts from where the tool stands. Read alone: what
+/// is written are coordinates.
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PolarRules {
@@ -48,5 +50,11 @@ impl PolarRules {
     pub fn letters(&self) -> Option<[u8; 2]> {
         let letter = |c: Option<char>| c.filter(char::is_ascii_uppercase).map(|c| c as u8);
         Some([letter(self.radius)?, letter(self.angle)?])
+    }
+
+    /// The signs of radius and angle, of a control that has signs for them.
+    pub fn signs(&self) -> Option<[u8; 2]> {
+        let sign = |c: Option<char>| c.filter(|c| matches!(c, '@' | '^')).map(|c| c as u8);
+        Some([sign(self.radius)?, sign(self.angle)?])
     }
 }

@@ -22,6 +22,9 @@ pub struct DataRow {
     pub first: u16,
     /// How many entries it has.
     pub count: u16,
+    /// Whether entry 0 is the work offset in force.
+    #[serde(default)]
+    pub zero_current: bool,
     /// Whether values are added to those that are there while incremental coordinates are in force.
     #[serde(default)]
     pub adds: bool,

@@ -20,6 +20,10 @@ impl Exec {
                 let within =
                     [self.length_within(&control.within, span)?, self.length_within(&control.rapids, span)?];
                 self.state.within[..2].copy_from_slice(&within);
+                self.state.within[3] = match &control.merged {
+                    None => within[0],
+                    merged => self.length_within(merged, span)?,
+                };
                 match &mut self.after_stop {
                     Some(after) => *after = Some(control.mode),
                     None => self.state.path = Some(control.mode),

@@ -202,8 +202,9 @@ pub struct State {
     pub advice: u64,
     /// Highest spindle speed in thousandths of a turn a minute; counts only while the spindle turns.
     pub limit: u32,
-    /// Lengths that belong to the path mode, to it in rapids, and to advice: tenths of a micrometre.
-    pub within: [i32; 3],
+    /// Lengths that belong to the path mode, to it in rapids, to advice, and to moves that are made one:
+    /// tenths of a micrometre.
+    pub within: [i32; 4],
     /// Cutter radius compensation.
     pub compensation: Compensation,
     /// Sense of the spindle.
@@ -234,7 +235,7 @@ impl Default for State {
             speed: 0,
             advice: 0,
             limit: u32::MAX,
-            within: [0; 3],
+            within: [0; 4],
             compensation: Compensation::default(),
             spindle: Spindle::Stopped,
             spindle_mode: SpindleMode::Turns,
@@ -276,6 +277,8 @@ pub struct Seen {
     pub modes: u16,
     /// Whether the length of rounding in rapids is told from that of cuts.
     pub in_rapids: bool,
+    /// Whether the length within which moves are made one is told from that of corners.
+    pub merges: bool,
     /// Whether an exact stop is told from rounding at all.
     pub path: bool,
     /// Kinds of advice, four bits each.
@@ -284,7 +287,7 @@ pub struct Seen {
 
 impl Default for Seen {
     fn default() -> Seen {
-        Seen { modes: u16::MAX, in_rapids: true, path: true, advice: u64::MAX }
+        Seen { modes: u16::MAX, in_rapids: true, merges: true, path: true, advice: u64::MAX }
     }
 }
 
@@ -294,6 +297,7 @@ impl Seen {
         Seen {
             modes: self.modes & other.modes,
             in_rapids: self.in_rapids && other.in_rapids,
+            merges: self.merges && other.merges,
             path: self.path && other.path,
             advice: self.advice & other.advice,
         }
@@ -316,6 +320,7 @@ impl Seen {
                 if lengths { state.within[0] } else { 0 },
                 if lengths && self.in_rapids { state.within[1] } else { 0 },
                 if self.advice >> tolerance & 15 == 15 { state.within[2] } else { 0 },
+                if lengths && self.merges { state.within[3] } else { 0 },
             ],
             ..*state
         }

@@ -7,7 +7,7 @@ use super::expand_cycles::level;
 use super::walk::Walk;
 use super::write::{at, is_absolute};
 use super::{Target, each_body};
-use crate::canon::{Axis, Distance, Plane};
+use crate::canon::{Axis, Distance, Fact, Plane};
 use crate::cycle::{First, Pattern};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::program::{Coord, Move, Op, Program, Stmt};
@@ -60,8 +60,9 @@ pub(super) fn alike(body: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnost
                 match of_cycle {
                     _ if !holes_own => Ok(()),
                     Some(Distance::Absolute) => absolute_point(m, &before),
-                    Some(Distance::Incremental) | None => {
-                        let what = "a hole placed from zero in a cycle with incremental planes";
+                    Some(Distance::Incremental) => incremental_point(m, &before),
+                    None => {
+                        let what = "a hole placed otherwise than the planes of its cycle";
                         Err(Fault::CannotSay { what: what.into() })
                     }
                 }
@@ -94,6 +95,20 @@ fn absolute_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
     Axis::ALL.into_iter().zip(&mut m.to.axes).try_for_each(|(axis, word)| match word {
         Some(coord) => make_absolute(coord, axis, before),
         None => Ok(()),
+    })
+}
+
+/// The words of a hole, from where the tool stands.
+fn incremental_point(m: &mut Move, before: &Walk) -> Result<(), Fault> {
+    Axis::ALL.into_iter().zip(&mut m.to.axes).try_for_each(|(axis, word)| {
+        let Some(coord) = word.as_mut().filter(|coord| is_absolute(coord, before.at.modes.distance)) else {
+            return Ok(());
+        };
+        let from = before.at.position[axis as usize];
+        let way = from.zip(before.at.resolve(coord, from)).and_then(|(from, to)| to.checked_sub(from));
+        let way = way.ok_or(Fault::PositionUnknown { axis: axis.letter() as char })?;
+        *coord = Coord { distance: Fact::Known(Distance::Incremental), ..at(way, axis, before.unit()) };
+        Ok(())
     })
 }
 

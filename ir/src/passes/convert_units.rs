@@ -94,7 +94,7 @@ impl Converter<'_> {
                 }
             }
             Op::SetMotionControlMode(control) => {
-                [&mut control.within, &mut control.rapids]
+                [&mut control.within, &mut control.rapids, &mut control.merged]
                     .into_iter()
                     .flatten()
                     .try_for_each(|length| self.loose(length))?;

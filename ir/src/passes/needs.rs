@@ -105,7 +105,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(TURN, caps.rotary_ways);
     needs(CORNER, caps.corners == Corners::ALL);
     needs(AT_ONCE, !caps.length_at_once && !caps.cycle_ends_motion);
-    needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.seen() == Seen::default());
+    needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.path_merges && caps.seen() == Seen::default());
     lacks
 }
 

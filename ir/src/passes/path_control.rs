@@ -133,7 +133,15 @@ fn sayable(
     if own.rapids.is_some() && !caps.path_in_rapids {
         own.rapids = None;
     }
-    if own != *control && state.first_time(40 + control.mode as u32) {
+    if let Some(merged) = own.merged.take_if(|_| !caps.path_merges)
+        && own.within.as_ref() != Some(&merged)
+        && state.first_time(33)
+    {
+        diags.push(Diagnostic::new(Fault::AdviceLeftOut { kind: "moves-made-one".into() }, at));
+    }
+    if (own.mode, &own.within, &own.rapids) != (control.mode, &control.within, &control.rapids)
+        && state.first_time(40 + control.mode as u32)
+    {
         let (from, to) = (control.mode.name().into(), own.mode.name().into());
         diags.push(Diagnostic::new(Fault::PathRelaxed { from, to }, at));
     }

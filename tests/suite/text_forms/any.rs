@@ -410,10 +410,12 @@ fn simple() -> BoxedStrategy<Op> {
         expr().prop_map(Op::SetFeedRate),
         expr().prop_map(Op::SetSpindleSpeed),
         expr().prop_map(Op::LimitSpindleSpeed),
-        (select(PathMode::ALL.to_vec()), of(expr()), of(expr())).prop_map(|((mode, _), within, rapids)| {
-            let rapids = rapids.filter(|_| within.is_some());
-            Op::SetMotionControlMode(Box::new(PathControl { mode, within, rapids }))
-        }),
+        (select(PathMode::ALL.to_vec()), of(expr()), of(expr()), of(expr())).prop_map(
+            |((mode, _), within, rapids, merged)| {
+                let rapids = rapids.filter(|_| within.is_some());
+                Op::SetMotionControlMode(Box::new(PathControl { mode, within, rapids, merged }))
+            }
+        ),
         (select(AdviceKind::ALL.to_vec()), 0u8..6, of(expr())).prop_map(|((kind, _), value, amount)| {
             let (value, amount) = (value % kind.values().len() as u8, amount.filter(|_| kind.has_amount()));
             Op::Advise(Box::new(Advice { kind, value, amount }))
