@@ -7,7 +7,8 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::rc::Rc;
 
 use ncc_ir::canon::{
-    Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, Turn, Units,
+    Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, SpindleMode,
+    Turn, Units,
 };
 use ncc_ir::exec::{Compensation, Event, Kind, Stored};
 use ncc_ir::num::{Nanos, ONE};
@@ -33,6 +34,8 @@ pub struct Plain {
     pub tool: Option<i64>,
     /// Speed of a turning spindle, negative counter-clockwise; 0 while it stands.
     pub speed: f64,
+    /// Of a turning spindle whose speed is a surface's: the machine's X of the middle, and the highest rev/min.
+    pub surface: Option<(f64, Option<f64>)>,
     /// Flood, mist.
     pub coolant: (bool, bool),
     /// Cutter radius compensation.
@@ -252,6 +255,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                     Spindle::Clockwise => speed,
                     Spindle::Counterclockwise => -speed,
                 },
+                surface: event.surface.filter(|_| event.spindle != Spindle::Stopped),
                 coolant: event.coolant,
                 beside: event.beside,
                 five: event.five,
@@ -364,6 +368,9 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                     Turning::Clockwise => speed,
                     Turning::Counterclockwise => -speed,
                 },
+                surface: (event.state.spindle != Turning::Stopped
+                    && event.state.spindle_mode == SpindleMode::Surface)
+                    .then(|| (mm(event.state.centre), limit(event.state.limit))),
                 coolant: (event.state.flood, event.state.mist),
                 beside: beside(&event.state.compensation),
                 five: [event.state.tip, event.state.tilted],
@@ -385,6 +392,11 @@ fn beside(compensation: &Compensation) -> Option<Beside> {
         entry: Some(compensation.radius).filter(|radius| radius >> 30 == 0),
         diameter: (compensation.radius >> 30 == 1).then_some(i64::from(compensation.radius & !(1 << 30))),
     })
+}
+
+/// The highest speed of the spindle, rev/min.
+fn limit(thousandths: u32) -> Option<f64> {
+    (thousandths != u32::MAX).then(|| f64::from(thousandths) / 1000.0)
 }
 
 /// Adds an event, unless it is a straight move that goes nowhere.
@@ -474,6 +486,10 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
     if a.tool != b.tool || a.coolant != b.coolant || !near(a.speed, b.speed, 1e-6) {
         return Some("another tool, spindle or coolant");
     }
+    let about = |of: &Plain| of.surface.map_or([f64::MAX; 2], |(x, most)| [x, most.unwrap_or(f64::MAX)]);
+    if !about(a).iter().zip(about(b)).all(|(x, y)| near(*x, y, within.place)) {
+        return Some("another surface speed: in turns, about another X, or with another limit");
+    }
     if a.beside != b.beside {
         return Some("another cutter radius compensation");
     }
@@ -487,8 +503,16 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
 pub fn show(event: &Plain) -> String {
     let at = event.at.map(|v| format!("{v:.4}")).join(" ");
     format!(
-        "{:?} at {at} F{} {:?} corner {:?} T{:?} S{} coolant {:?} {:?}",
-        event.what, event.feed, event.per, event.corner, event.tool, event.speed, event.coolant, event.beside
+        "{:?} at {at} F{} {:?} corner {:?} T{:?} S{} {:?} coolant {:?} {:?}",
+        event.what,
+        event.feed,
+        event.per,
+        event.corner,
+        event.tool,
+        event.speed,
+        event.surface,
+        event.coolant,
+        event.beside
     )
 }
 

@@ -1,7 +1,7 @@
 //! A difference of two canonical streams in words, for the diagnostic of a failed verification.
 
-use ncc_ir::canon::{Axis, Spindle, Turn};
-use ncc_ir::exec::{Event, Kind};
+use ncc_ir::canon::{Axis, Spindle, SpindleMode, Turn};
+use ncc_ir::exec::{Event, Kind, State};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::verify::{Aspect, Difference};
 
@@ -66,8 +66,8 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
             let s = &event.state;
             let spindle = match s.spindle {
                 Spindle::Stopped => "spindle stopped".to_owned(),
-                Spindle::Clockwise => format!("spindle clockwise at {}", number(s.speed)),
-                Spindle::Counterclockwise => format!("spindle counter-clockwise at {}", number(s.speed)),
+                Spindle::Clockwise => format!("spindle clockwise at {}", speed(s)),
+                Spindle::Counterclockwise => format!("spindle counter-clockwise at {}", speed(s)),
             };
             let coolant = match (s.flood, s.mist) {
                 (false, false) => "no coolant",
@@ -99,6 +99,21 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         }
     }
     text
+}
+
+/// A speed with what it counts, and the limit that is in force.
+fn speed(state: &State) -> String {
+    let counts = match state.spindle_mode {
+        SpindleMode::Turns => String::new(),
+        SpindleMode::Surface => {
+            format!(" m/min about X{} (machine coordinates of a test world)", number(state.centre))
+        }
+    };
+    let limit = match state.limit {
+        u32::MAX => String::new(),
+        limit => format!(", no more than {}", number(i64::from(limit) * 1_000_000)),
+    };
+    format!("{}{counts}{limit}", number(state.speed))
 }
 
 fn number(nanos: i64) -> String {

@@ -167,7 +167,8 @@ pub enum SpindleMode {
     /// Turns a minute.
     #[default]
     Turns,
-    /// Metres a minute (feet a minute in inches) at the tool's edge: constant surface speed.
+    /// Metres a minute (feet a minute in inches) at the distance of X from program zero: constant surface
+    /// speed.
     Surface,
 }
 

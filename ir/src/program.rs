@@ -296,11 +296,15 @@ pub enum Op {
     /// [`FeedMode::PerRevolution`], turns of the clock's minute (a pure number) under
     /// [`FeedMode::InverseTime`], and then for one move. A change of the feed mode takes the feed away.
     SetFeedRate(Expr),
-    /// `SET_SPINDLE_SPEED`: rev/min, or the surface speed under [`SpindleMode::Surface`].
+    /// `SET_SPINDLE_SPEED`: rev/min, or under [`SpindleMode::Surface`] the surface speed in m/min, in inches in
+    /// ft/min.
     SetSpindleSpeed(Expr),
-    /// `SET_SPINDLE_MODE`: what the speed counts.
+    /// `SET_SPINDLE_MODE`: what the speed counts. A change takes the speed away: what a control makes of the
+    /// one before differs, and a turning spindle needs another before anything moves.
     SetSpindleMode(SpindleMode),
-    /// `LIMIT_SPINDLE_SPEED`: no more than so many rev/min from here on.
+    /// `LIMIT_SPINDLE_SPEED`: no more than so many rev/min under a surface speed, from here on. Whether it
+    /// counts for a speed in turns as well differs (a Sinumerik's does under G97, those of a Fanuc and of
+    /// LinuxCNC do not), so a spindle that turns is given no speed above it.
     LimitSpindleSpeed(Expr),
     /// `SELECT_TOOL`
     SelectTool(Expr),

@@ -114,6 +114,8 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         blocks: String::new(),
         feed_stays: false,
         feed_mode: None,
+        limits_speed: false,
+        limit: None,
         other_machine: false,
         own_tool: false,
         dwell: Vec::new(),

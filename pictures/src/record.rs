@@ -301,7 +301,8 @@ impl Record {
     fn turns(&mut self, timed: &Timed, stroke: Stroke) {
         let since = if stroke == Stroke::Still { timed.end() } else { timed.start };
         let state = &timed.act.event.state;
-        let speed = if state.spindle == Spindle::Stopped { 0.0 } else { state.speed as f64 / ONE as f64 };
+        let turns = state.turns(timed.act.event.end[0]);
+        let speed = if state.spindle == Spindle::Stopped { 0.0 } else { turns as f64 / ONE as f64 };
         self.speed.push(since, speed);
         let same = self.tools.last().is_some_and(|last| last.tool == state.tool);
         if same || (self.tools.is_empty() && state.tool < 0) {

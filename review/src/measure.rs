@@ -117,9 +117,10 @@ impl Measure {
         let frame = a.apart != b.apart
             && a.apart.iter().zip(&b.apart).any(|(x, y)| (0..AXES).any(|i| x[i].abs_diff(y[i]) > apart(i)));
         let turned = (0..3).any(|i| a.turned[i].abs_diff(b.turned[i]) > self.degrees as u64);
+        let speed = |s: &Still| (s.speed, s.spindle_mode, s.limit);
         let bit = |is: bool, bit: u8| if is { bit } else { 0 };
         bit(feed, bits::FEED)
-            | bit(turning && s.speed != t.speed, bits::SPEED)
+            | bit(turning && speed(s) != speed(t), bits::SPEED)
             | bit(s.spindle != t.spindle, bits::SPINDLE)
             | bit(s.tool != t.tool, bits::TOOL)
             | bit((s.flood, s.mist) != (t.flood, t.mist), bits::COOLANT)

@@ -140,7 +140,9 @@ pub struct Style {
 pub struct Still {
     pub tool: i64,
     pub speed: Nanos,
+    pub limit: u32,
     pub spindle: ncc_ir::canon::Spindle,
+    pub spindle_mode: ncc_ir::canon::SpindleMode,
     pub flood: bool,
     pub mist: bool,
     pub compensation: Compensation,
@@ -153,8 +155,8 @@ impl From<State> for Still {
     fn from(s: State) -> Still {
         // How blocks stand between moves is a matter of the text.
         let compensation = Compensation { gap: false, ..s.compensation };
-        let State { tool, speed, spindle, flood, mist, tip, tilted, turned, .. } = s;
-        Still { tool, speed, spindle, flood, mist, compensation, tip, tilted, turned }
+        let State { tool, speed, limit, spindle, spindle_mode, flood, mist, tip, tilted, turned, .. } = s;
+        Still { tool, speed, limit, spindle, spindle_mode, flood, mist, compensation, tip, tilted, turned }
     }
 }
 

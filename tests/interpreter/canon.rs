@@ -95,8 +95,13 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             let unit = if m.per == Per::Move { 1.0 } else { unit };
             m.feed = Some(only(m, a)? * unit);
         }
-        ("SET_SPINDLE_MODE", ["CANON_TURNS_PER_MINUTE"]) => m.surface = false,
-        ("SET_SPINDLE_SPEED", _) => m.speed = Some(only(m, a)?),
+        ("SET_SPINDLE_MODE", ["CANON_TURNS_PER_MINUTE"]) => m.count_speed(false),
+        ("SET_SPINDLE_MODE", ["CANON_SURFACE_SPEED"]) => m.count_speed(true),
+        ("LIMIT_SPINDLE_SPEED", _) => m.fastest = Some(only(m, a)?),
+        ("SET_SPINDLE_SPEED", _) => {
+            let speed = only(m, a)?;
+            m.say_speed(speed);
+        }
         ("SELECT_TOOL", _) => m.selected = Some(only(m, a)? as u32),
         ("CHANGE_TOOL", []) => m.change_tool()?,
         ("CHANGE_TOOL", _) => {
@@ -146,7 +151,7 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
             m.arc_of_turns(to, centre, rotation < 0.0, rotation.abs() as u32 - 1)?;
             m.begin_block();
         }
-        ("LIMIT_SPINDLE_SPEED", [_]) | ("ADVISE", _) => {}
+        ("ADVISE", _) => {}
         ("MACHINE_FUNCTION", [name]) => {
             let Some(gear) = super::gear(name.trim_matches('"')) else { return m.halt("a function") };
             m.record(What::Gear(gear));

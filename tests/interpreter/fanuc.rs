@@ -277,7 +277,7 @@ impl Control {
                 93 => self.m.count_feed(Per::Move),
                 94 => self.m.count_feed(Per::Minute),
                 95 => self.m.count_feed(Per::Turn),
-                97 => self.m.surface = false,
+                g @ (96 | 97) if g == 97 || !self.haas => self.m.count_speed(g == 96),
                 g @ (43 | 49) => length = Some(g),
                 g @ (28 | 30 | 31) => machine = Some(g),
                 53 => machine = Some(53),
@@ -309,6 +309,7 @@ impl Control {
                 let axes = self.m.slots.rotation.take().map_or([0, 1], |(axes, ..)| axes);
                 self.m.use_slots(std::array::from_fn(|axis| axes.contains(&axis)));
             }
+            Some(920) if self.highest_speed(&words) => return Ok(Next::Block),
             Some(code) => {
                 self.fill(code, &words)?;
                 return Ok(Next::Block);
@@ -336,9 +337,7 @@ impl Control {
             let inch = self.m.inch && self.m.per != Per::Move;
             self.m.feed = Some(feed * step * if inch { 25.4 } else { 1.0 });
         }
-        if let Some((speed, _)) = number(&words, 'S') {
-            self.m.speed = Some(speed);
-        }
+        number(&words, 'S').into_iter().for_each(|(speed, _)| self.m.say_speed(speed));
         if let Some((tool, _)) = number(&words, 'T') {
             self.m.selected = Some(tool as u32);
         }

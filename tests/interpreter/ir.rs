@@ -405,7 +405,8 @@ impl Control {
                     _ => return self.m.halt("a path mode without its name"),
                 };
             }
-            "ADVISE" | "LIMIT_SPINDLE_SPEED" => {}
+            "ADVISE" => {}
+            "LIMIT_SPINDLE_SPEED" => self.m.fastest = Some(self.first(a)?),
             "ORIENT_SPINDLE" => {
                 let angle = if a.is_empty() { None } else { Some(self.first(a)?) };
                 self.m.orient(angle);
@@ -421,10 +422,14 @@ impl Control {
             "SET_OFFSET_DATA" => self.offset_data(a)?,
             "SET_TOOL_DATA" => self.tool_data(a)?,
             "SET_FEED_RATE" => self.m.feed = Some(self.first(a)?),
-            "SET_SPINDLE_MODE" if matches!(a, [Token::Text(mode)] if mode == "turns") => {
-                self.m.surface = false
+            "SET_SPINDLE_MODE" => {
+                let surface = matches!(a, [Token::Text(mode)] if mode == "surface");
+                self.m.count_speed(surface);
             }
-            "SET_SPINDLE_SPEED" => self.m.speed = Some(self.first(a)?),
+            "SET_SPINDLE_SPEED" => {
+                let speed = self.first(a)?;
+                self.m.say_speed(speed);
+            }
             "SELECT_TOOL" => self.m.selected = Some(self.first(a)? as u32),
             "SELECT_TOOL_BY_NAME" => {
                 let [Token::Text(name)] = a else { return self.m.halt("a name is needed") };

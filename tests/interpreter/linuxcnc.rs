@@ -292,8 +292,14 @@ impl Control {
         }
 
         match of(GROUPS[12]) {
-            Some(970) => self.m.surface = false,
-            Some(_) => return self.m.halt("G96"),
+            Some(970) => self.m.count_speed(false),
+            Some(_) => {
+                self.m.count_speed(true);
+                self.m.fastest = words.get('D');
+                if words.get('S').is_none() {
+                    return self.m.halt("G96 without S");
+                }
+            }
             None => {}
         }
 
@@ -308,7 +314,7 @@ impl Control {
             self.m.feed = Some(if self.m.per == Per::Move { feed } else { feed * self.unit() });
         }
         if let Some(speed) = words.get('S') {
-            self.m.speed = Some(speed);
+            self.m.say_speed(speed);
         }
         if let Some(tool) = words.get('T') {
             self.m.selected = Some(tool as u32);
@@ -350,6 +356,7 @@ impl Control {
                 self.m.go_beside(code == 410, false, Some(entry.unwrap_or(0)))?;
             }
             (None, None) => {}
+            (None, Some(_)) if of(GROUPS[12]) == Some(960) => {}
             _ => return self.m.halt("D without G41"),
         }
         match (of(GROUPS[5]), words.get('H')) {
@@ -539,7 +546,7 @@ impl Control {
                 'P' => once == Some(40) || control || path || switch,
                 'L' => control,
                 'Q' => path,
-                'D' => words.codes('G').iter().any(|code| matches!(code, 410 | 420)),
+                'D' => words.codes('G').iter().any(|code| matches!(code, 410 | 420 | 960)),
                 'R' | 'I' | 'J' | 'K' | '@' | '^' => false,
                 _ => true,
             };

@@ -18,6 +18,7 @@ pub mod mach9;
 mod setup;
 pub mod siemens;
 mod slots;
+mod speed;
 mod stored;
 mod threads;
 mod tilt;
@@ -141,8 +142,10 @@ pub struct Event {
     pub per: Per,
     /// The corner at its end.
     pub corner: Corner,
-    /// Speed, rev/min.
+    /// Speed, rev/min, or m/min of a surface.
     pub speed: Option<f64>,
+    /// Of a surface speed: where the machine's X is that it is measured about, and the highest rev/min.
+    pub surface: Option<(f64, Option<f64>)>,
     /// Spindle.
     pub spindle: Spindle,
     /// Tool in the spindle.
@@ -203,6 +206,8 @@ pub struct Machine {
     pub speed: Option<f64>,
     /// The speed is a surface's, in metres a minute.
     pub surface: bool,
+    /// The highest rev/min of a surface speed.
+    pub fastest: Option<f64>,
     /// Spindle.
     pub spindle: Spindle,
     /// In the spindle.
@@ -254,6 +259,7 @@ impl Machine {
             stop_once: false,
             speed: None,
             surface: false,
+            fastest: None,
             spindle: Spindle::Stopped,
             tool: None,
             selected: None,
@@ -397,6 +403,7 @@ impl Machine {
             per: self.per,
             corner: if self.stop_once { Corner::Stop } else { self.corners },
             speed: self.speed,
+            surface: self.surface.then(|| (self.shift(0), self.fastest)),
             spindle: self.spindle,
             tool: self.tool,
             coolant: self.coolant,

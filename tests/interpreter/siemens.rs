@@ -482,7 +482,10 @@ impl<'a> Control<'a> {
             self.m.feed = Some(feed.number * if inch { 25.4 } else { 1.0 });
         }
         if let Some(speed) = w.letter('S') {
-            self.m.speed = Some(speed.number);
+            self.m.say_speed(speed.number);
+        }
+        if let Some(limit) = w.named("LIMS") {
+            self.m.fastest = Some(limit.number);
         }
         if let Some(tool) = w.letter('T') {
             self.m.selected = Some(self.whole(tool.number)?);
@@ -611,12 +614,13 @@ impl<'a> Control<'a> {
                 41 | 42 => group(7),
                 93..=95 => {
                     self.m.count_feed([Per::Move, Per::Minute, Per::Turn][code as usize - 93]);
+                    self.m.count_speed(false);
                     group(15)
                 }
-                // The speed in turns, and the feed's mode with it.
-                97 | 971 => {
-                    self.m.count_feed(if code == 97 { Per::Turn } else { Per::Minute });
-                    self.m.surface = false;
+                // The speed of a surface or in turns, and the feed's mode with it.
+                96 | 97 | 961 | 971 => {
+                    self.m.count_feed(if code < 100 { Per::Turn } else { Per::Minute });
+                    self.m.count_speed(code / 10 == 96 || code == 96);
                     group(15)
                 }
                 9 => {

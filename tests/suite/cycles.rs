@@ -80,6 +80,7 @@ fn read(path: &PathBuf) -> Cited {
             corner,
             tool: None,
             speed: 0.0,
+            surface: None,
             coolant: (false, false),
             beside: None,
             five: [false; 2],

@@ -65,7 +65,7 @@ struct Entry {
 }
 
 fn sources() -> String {
-    ["schema.rs", "cycles.rs", "corners.rs", "repeats.rs", "names.rs", "power_on.rs", "stored.rs"]
+    ["schema.rs", "codes.rs", "cycles.rs", "corners.rs", "repeats.rs", "names.rs", "power_on.rs", "stored.rs"]
         .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
         .join("\n")
 }

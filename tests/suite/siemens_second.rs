@@ -129,7 +129,7 @@ const STOPS: &[(&str, &str)] = &[
     ("G0 G1 X5", "two codes"),
     ("X5 X6", "twice"),
     ("G41 X5", "no radius"),
-    ("G96", "G96"),
+    ("G962 S100", "G962"),
     ("G0 X=R1", "no number"),
     ("R1=5", "R1"),
     ("X1=5", "X1"),

@@ -1,6 +1,6 @@
 //! One canonical function with its place, before it has a time.
 
-use ncc_ir::canon::{AXES, FeedMode, SpindleMode};
+use ncc_ir::canon::{AXES, FeedMode};
 use ncc_ir::exec::{Event, Exec, Kind};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::source::Span;
@@ -49,18 +49,18 @@ impl Act {
     }
 }
 
-/// The feed of a move in mm/min: a feed per turn goes with the speed of the spindle, a time with the
-/// length of the way. A spindle that stands, and a surface speed, of which the diameter is not known,
-/// leave a feed per turn as it is.
+/// The feed of a move in mm/min: a feed per turn goes with the speed of the spindle, of a surface speed with
+/// that in the middle of the way, a time with the length of the way. A spindle that stands leaves a feed per
+/// turn as it is.
 fn per_minute(event: &Event, from: &[Nanos; AXES]) -> Nanos {
     let state = &event.state;
     let by = match state.feed_mode {
         _ if event.rate == 0 || matches!(event.kind, Kind::Synchronised { .. }) => return event.rate,
         FeedMode::PerMinute => return event.rate,
-        FeedMode::PerRevolution if state.spindle_mode == SpindleMode::Surface || state.speed == 0 => {
-            return event.rate;
-        }
-        FeedMode::PerRevolution => state.speed as f64 / ONE as f64,
+        FeedMode::PerRevolution => match state.turns(from[0] / 2 + event.end[0] / 2) {
+            0 => return event.rate,
+            turns => turns as f64 / ONE as f64,
+        },
         FeedMode::InverseTime => path(event, from).length,
     };
     // A rate beyond the range of the type is none.

@@ -220,7 +220,7 @@ impl Clock {
             return;
         }
         let time = fixed(&act, machine, self.spindle);
-        self.spindle = turning(&act.event.state, machine);
+        self.spindle = turning(&act.event, machine);
         self.lower += time.seconds;
         self.upper += time.seconds;
         if time.stops {

@@ -6,7 +6,7 @@
 //! the operator waits is not known; nor does a message.
 
 use ncc_ir::canon::Spindle;
-use ncc_ir::exec::{Attribute, Kind, State};
+use ncc_ir::exec::{Attribute, Event, Kind};
 
 use crate::act::Act;
 use crate::machine::{Machine, ToolChangeOn};
@@ -21,9 +21,10 @@ pub(crate) struct Fixed {
     pub(crate) stops: bool,
 }
 
-/// Speed of the spindle, rev/min; negative counter-clockwise.
-pub(crate) fn turning(state: &State, machine: &Machine) -> f64 {
-    let speed = units(state.speed);
+/// Speed of the spindle behind an event, rev/min; negative counter-clockwise.
+pub(crate) fn turning(event: &Event, machine: &Machine) -> f64 {
+    let state = &event.state;
+    let speed = units(state.turns(event.end[0]));
     let speed = machine.spindle_max.map_or(speed, |most| speed.min(most));
     match state.spindle {
         Spindle::Stopped => 0.0,
@@ -40,7 +41,7 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
     let on_the_fly = |seconds: f64| Fixed { seconds, stops: seconds > 0.0 };
     // From one speed to another, where the time depends on it.
     let by_speed = |to: f64| machine.spindle_acceleration.map(|rate| (to - before).abs() / rate);
-    let after = turning(&act.event.state, machine);
+    let after = turning(&act.event, machine);
     match &act.event.kind {
         Kind::Synchronised { .. } | Kind::Probe { .. } => stop(0.0),
         Kind::Orient(_) => stop(by_speed(0.0).unwrap_or(known(machine.spindle_stop)) + m),

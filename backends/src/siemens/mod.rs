@@ -239,7 +239,7 @@ impl Writer {
         let written = match (&opened, tilt, both) {
             (Err(fault), ..) => Err(fault.clone()),
             (Ok(_), Some(tilt), _) => self.tilt(tilt, stmt.span, sink),
-            (Ok(_), None, Some(both)) => self.write_both(both, sink),
+            (Ok(_), None, Some(both)) => self.write_both(both, stmt.span, sink),
             (Ok(_), None, None) => self.statement(stmt, said, sink),
         };
         self.words.close(stmt, opened.ok(), written, sink);

@@ -2,9 +2,10 @@
 //!
 //! Not here: codes that say one of them.
 
-use ncc_ir::canon::FeedMode;
+use ncc_ir::canon::{FeedMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
+use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
 use crate::word::block::{Need, Part, Rank};
@@ -15,6 +16,7 @@ use crate::word::modes::Setting;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Both {
     feed: FeedMode,
+    mode: SpindleMode,
     code: Code,
 }
 
@@ -26,13 +28,17 @@ impl Writer {
         let (Op::SetFeedMode(feed), Op::SetSpindleMode(mode)) = (&first.op, &second.op) else { return None };
         let joined = second.joined && second.skip == first.skip && self.words.preamble.is_none();
         let feed = Some(*feed).filter(|_| joined)?;
-        Some(Both { feed, code: self.words.codes.spindle_mode(*mode, Some(feed))? })
+        Some(Both { feed, mode: *mode, code: self.words.codes.spindle_mode(*mode, Some(feed))? })
     }
 
-    pub(super) fn write_both(&mut self, both: Both, sink: &mut Sink) -> Result<(), Fault> {
+    pub(super) fn write_both(&mut self, both: Both, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.words.admit(&Need::new(Rank::Setting).code(Some(both.code)), sink)?;
         self.words.block.code(Part::Mode, &both.code);
         self.words.now_in_force(Setting::FeedMode(both.feed));
+        match both.mode {
+            SpindleMode::Turns => self.words.now_in_force(Setting::Turns),
+            SpindleMode::Surface => self.words.surface_in_force(span, sink),
+        }
         Ok(())
     }
 }

@@ -118,7 +118,12 @@ impl Writer {
                     _ => self.words.statement(stmt, sink),
                 }
             }
-            Op::LimitSpindleSpeed(speed) => self.named_alone(NameRole::SpindleLimit, speed, span, sink),
+            Op::LimitSpindleSpeed(speed) => {
+                let word = self.named(NameRole::SpindleLimit, speed, None, span, sink)?;
+                self.words.admit(&Need::new(Rank::Setting), sink)?;
+                self.words.block.text(Part::Tail, &word);
+                Ok(())
+            }
             Op::OrientSpindle(Some(angle)) => {
                 self.words.turned_in = None;
                 self.named_alone(NameRole::SpindleAngle, angle, span, sink)

@@ -163,6 +163,10 @@ pub(crate) struct Codes {
     pub feed_mode: [Option<Code>; 3],
     /// What a speed counts, and what a feed counts by the same code, where it says that as well.
     pub spindle_modes: Vec<(SpindleMode, Option<FeedMode>, Code)>,
+    /// The code beside which the speed word is the highest speed.
+    pub speed_limit: Option<Code>,
+    /// The letter of the highest speed in the block of a surface speed.
+    pub surface_limit: Option<Letter>,
     pub level: [Option<Code>; 2],
     /// By number of the work offset, less one.
     pub origins: Vec<Option<Code>>,
@@ -398,6 +402,16 @@ impl Finder {
         .collect()
     }
 
+    fn speed_limit(&self) -> Option<Code> {
+        let row = self.dialect.code.iter().find(|row| row.limits_speed)?;
+        self.row(&row.code, row.means?)
+    }
+
+    fn surface_limit(&self) -> Option<Letter> {
+        let letter = self.dialect.code.iter().find_map(|row| row.limit)?;
+        self.letter(letter, Quantity::Speed)
+    }
+
     fn frames(&self) -> FrameCodes {
         let words = |meaning| {
             let row = self.dialect.code_for(meaning);
@@ -500,6 +514,8 @@ impl Codes {
             feed_mode: [FeedMode::PerMinute, FeedMode::PerRevolution, FeedMode::InverseTime]
                 .map(|f| code(Meaning::SetFeedMode(f))),
             spindle_modes: find.spindle_modes(),
+            speed_limit: find.speed_limit(),
+            surface_limit: find.surface_limit(),
             level: [ReturnLevel::Initial, ReturnLevel::Retract].map(|l| code(Meaning::SetReturnLevel(l))),
             origins: (1..=last).map(|n| find.origin(n)).collect(),
             no_origin: code(Meaning::SetOriginOffsets(0)),

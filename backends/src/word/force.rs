@@ -1,6 +1,7 @@
 //! What is in force in the text that has been written, as far as the text itself says it.
 
-use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Units};
+use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, SpindleMode, Units};
+use ncc_ir::num::Num;
 
 /// Modes of the written text. `None` is not known: at the start, after a call, where ways meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -10,6 +11,9 @@ pub(crate) struct InForce {
     pub units: Option<Units>,
     pub plane: Option<Plane>,
     pub feed_mode: Option<FeedMode>,
+    pub spindle_mode: Option<SpindleMode>,
+    /// The limit of the spindle that the program has in force.
+    pub limit: Option<Num>,
     pub level: Option<ReturnLevel>,
     /// Whether the distance mode was put in by this writer, so that statements which take what the
     /// source has in force cannot be written.
@@ -33,6 +37,8 @@ impl InForce {
         both(&mut self.units, &before.units);
         both(&mut self.plane, &before.plane);
         both(&mut self.feed_mode, &before.feed_mode);
+        both(&mut self.spindle_mode, &before.spindle_mode);
+        both(&mut self.limit, &before.limit);
         both(&mut self.level, &before.level);
         self.our_distance |= before.our_distance;
         self.our_plane |= before.our_plane;

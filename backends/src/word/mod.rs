@@ -21,6 +21,7 @@ pub(crate) mod number;
 mod plain;
 mod polar;
 mod repeat;
+pub(crate) mod spindle;
 mod start;
 pub(crate) mod statement;
 mod thread;
@@ -109,6 +110,8 @@ pub struct Writer {
     pub(crate) dwell_left: bool,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,
+    /// What the text has said of surface speeds and their limits.
+    pub(crate) surfaces: spindle::Surfaces,
     /// The sense in which the spindle turned on the way into the thread at hand.
     pub(crate) turned_in: Option<Turn>,
     /// The next straight move is in machine coordinates, by this code.
@@ -190,6 +193,7 @@ impl Writer {
             split: false,
             dwell_left: false,
             offset_waits: None,
+            surfaces: spindle::Surfaces::default(),
             turned_in: None,
             machine: None,
             probe: None,
@@ -448,6 +452,7 @@ impl Writer {
         {
             sink.report(modes::cannot("a length offset in a block without Z"), span);
         }
+        self.surface_with_speed(sink);
         let label = if empty { None } else { self.labels.waiting.take() };
         self.labels.lines += u32::from(!empty);
         let number = match self.numbering {

@@ -132,6 +132,10 @@ impl Writer {
             Setting::Distance(Distance::Absolute) => said(codes.distance[0], "absolute coordinates"),
             Setting::Distance(Distance::Incremental) => said(codes.distance[1], "incremental coordinates"),
             Setting::Plane(p) => said(codes.plane[p as usize], "this plane"),
+            Setting::FeedMode(f) if self.surface_joins_feed()? => {
+                let what = "this feed under a constant surface speed";
+                said(codes.spindle_mode(SpindleMode::Surface, Some(f)), what)
+            }
             Setting::FeedMode(f) => match codes.feed_mode[f as usize] {
                 Some(code) => Ok(Some(code)),
                 None if self.only_feed_mode() == Some(f) => Ok(None),
@@ -164,16 +168,8 @@ impl Writer {
             Setting::NoCompensation => Ok(codes.no_compensation),
             Setting::NoLength => Ok(codes.no_length),
             Setting::NoCycle => Ok(codes.end_cycle),
-            Setting::Turns => Ok(self.turns_code()),
+            Setting::Turns => self.turns_code(),
         }
-    }
-
-    /// The code by which a speed counts turns a minute. None is needed where a control has no other way, and
-    /// where a code of the feed says so: both are of one group there, and it is in force already.
-    fn turns_code(&self) -> Option<Code> {
-        let code = self.codes.spindle_mode(SpindleMode::Turns, self.force.feed_mode)?;
-        let said = self.codes.spindle_with_feed() && self.block.says(code.group);
-        (!said).then_some(code)
     }
 
     /// The feed mode of a control that has only one.
@@ -211,13 +207,10 @@ impl Writer {
                 self.force.level = Some(l);
                 self.force.our_level = false;
             }
+            Setting::Turns => self.force.spindle_mode = Some(SpindleMode::Turns),
             // The code of a cycle's end leaves the motion to be said again.
             Setting::NoCycle => self.force.motion = None,
-            Setting::Origin(_)
-            | Setting::NoShift
-            | Setting::NoCompensation
-            | Setting::NoLength
-            | Setting::Turns => {}
+            Setting::Origin(_) | Setting::NoShift | Setting::NoCompensation | Setting::NoLength => {}
         }
     }
 

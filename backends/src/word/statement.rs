@@ -73,8 +73,8 @@ impl Writer {
             }
             Op::Corner { shape, size } => self.ask_corner(*shape, size, span, sink),
             Op::Advise(advice) => self.advise(advice, sink),
-            Op::SetSpindleMode(SpindleMode::Surface) => Err(cannot("a constant surface speed")),
-            Op::LimitSpindleSpeed(_) => Err(cannot("a limit of the spindle speed")),
+            Op::SetSpindleMode(SpindleMode::Surface) => self.surface_speed(stmt, sink),
+            Op::LimitSpindleSpeed(limit) => self.speed_limit(limit, span, sink),
             Op::SelectToolByName(name) => Err(cannot(format!("a tool called {name}"))),
             Op::SetFrame(_) => Err(cannot("a frame")),
             Op::SetSlot(slot) => self.slot(slot, span, sink),

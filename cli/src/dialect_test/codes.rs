@@ -144,11 +144,11 @@ fn code(bench: &Bench, row: &CodeRow, meaning: Meaning, said: &Said) -> Tried {
 /// A code that says what a speed counts, and what a feed counts.
 fn speed_and_feed(bench: &Bench, row: &CodeRow, mode: SpindleMode) -> Tried {
     let feed = row.feed_mode.map(FeedMode::from).map_or("", feed_mode);
-    let mode = match mode {
-        SpindleMode::Turns => "turns",
-        SpindleMode::Surface => "surface",
+    let (mode, speed) = match mode {
+        SpindleMode::Turns => ("turns", ""),
+        SpindleMode::Surface => ("surface", " & SET_SPINDLE_SPEED(180)"),
     };
-    let said = Said::new(format!("SET_FEED_MODE({feed}) & SET_SPINDLE_MODE(\"{mode}\")"));
+    let said = Said::new(format!("SET_FEED_MODE({feed}) & SET_SPINDLE_MODE(\"{mode}\"){speed}"));
     must_show(bench.both_ways(&said), &row.code)
 }
 
@@ -260,7 +260,17 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         Meaning::PolarWords(false) => {
             vec![Said::new("said STRAIGHT_FEED(X 12.345mm, Y -6.7mm)").after(POLAR)]
         }
-        Meaning::SetPosition => one("SET_POSITION(X 12.345mm, Y -6.7mm)"),
+        Meaning::SetPosition => {
+            let limits = d.code.iter().any(|row| row.code == name && row.limits_speed);
+            let place = Some(Said::new("SET_POSITION(X 12.345mm, Y -6.7mm)"));
+            place.into_iter().chain(limits.then(|| Said::new("LIMIT_SPINDLE_SPEED(2500)"))).collect()
+        }
+        Meaning::SetSpindleMode(SpindleMode::Surface) => {
+            const SURFACE: &str = "SET_SPINDLE_MODE(\"surface\") & SET_SPINDLE_SPEED(180)";
+            let limits = d.code.iter().any(|row| row.code == name && row.limit.is_some());
+            let limited = || Said::new(format!("LIMIT_SPINDLE_SPEED(2500) & {SURFACE}"));
+            std::iter::once(Said::new(SURFACE)).chain(limits.then(limited)).collect()
+        }
         Meaning::SetRotation => ["XY", "ZX", "YZ"]
             .map(|plane| {
                 let words = match plane {

@@ -125,7 +125,7 @@ fn take(event: &Event, into: &mut DefaultHasher) {
     (
         state.compensation.plane,
         state.advice,
-        state.limit,
+        (state.limit, state.centre),
         state.within,
         state.spindle_mode,
         state.feed_mode,

@@ -7,7 +7,7 @@ use std::io::{self, Read};
 
 use ncc_dialects::Settings;
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Spindle, Turn, Units};
+use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::exec::{Exec, Runner};
 use ncc_ir::program::{Control, Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
@@ -286,7 +286,13 @@ impl Walk<'_> {
             has_length.then(length),
             turns.then(|| match state.spindle {
                 Spindle::Stopped => spindle(state.spindle).to_owned(),
-                turning => format!("{} {} rev/min", spindle(turning), number(state.speed)),
+                turning => {
+                    let counts = match state.spindle_mode {
+                        SpindleMode::Turns => "rev/min",
+                        SpindleMode::Surface => "m/min",
+                    };
+                    format!("{} {} {counts}", spindle(turning), number(state.speed))
+                }
             }),
             Some(coolant(state.flood, state.mist).to_owned()),
             Some(self.cycle()),

@@ -1,7 +1,7 @@
 //! The columns of the case study's tables: what a function is called, and what feed, speed and tool
 //! stand beside it (Aguiar 2023, table 11).
 
-use ncc_ir::canon::{AXES, Spindle};
+use ncc_ir::canon::{AXES, Spindle, SpindleMode};
 use ncc_ir::exec::{Attribute, Kind, State};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_timeline::{Machine, Timed, path};
@@ -43,6 +43,9 @@ impl Columns {
         let event = &timed.act.event;
         let way = path(event, &timed.act.from);
         let before = std::mem::replace(&mut self.before, event.state);
+        if event.state.spindle_mode == SpindleMode::Surface && event.state.spindle != Spindle::Stopped {
+            self.speed = event.state.turns(event.end[0]);
+        }
         let mut tool = event.state.tool;
         let mut feed = units(event.rate);
         let name = match &event.kind {
@@ -83,7 +86,7 @@ impl Columns {
                 "SET_SPINDLE_SPEED"
             }
             Kind::Attribute(Attribute::StartSpindle(sense)) => {
-                self.speed = event.state.speed;
+                self.speed = event.state.turns(event.end[0]);
                 match sense {
                     Spindle::Clockwise => "START_SPINDLE_CLOCKWISE",
                     Spindle::Counterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",

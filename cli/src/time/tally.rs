@@ -323,7 +323,8 @@ impl Step {
             cuts,
             hole: event.kind == Kind::Attribute(Attribute::Hole),
             feed: cuts.then(|| units(event.rate)),
-            speed: (cuts && event.state.spindle != Spindle::Stopped).then(|| units(event.state.speed)),
+            speed: (cuts && event.state.spindle != Spindle::Stopped)
+                .then(|| units(event.state.turns(event.end[0]))),
             reach: cuts.then(|| said.reach.as_deref().copied().unwrap_or_else(ends)),
         }
     }

@@ -40,7 +40,7 @@ pub(crate) mod text;
 use lalrpop_util::ParseError;
 use logos::Logos;
 use ncc_dialects::Settings;
-use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, Units};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Plane, SpindleMode, Units};
 use ncc_ir::diag::{Diagnostic, Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
@@ -327,7 +327,11 @@ impl Reader {
                 let silent = matches!(op, Op::Blank | Op::Comment(_));
                 self.account(&op, skip.is_some(), span, silent, out);
                 self.state.after(&op, skip.is_some());
-                out.stmts.push(Stmt { skip, ..Stmt::new(span, op) });
+                // A surface speed is said with the function that makes it one.
+                let before = out.stmts.last().filter(|_| matches!(op, Op::SetSpindleSpeed(_)));
+                let surface = Op::SetSpindleMode(SpindleMode::Surface);
+                let joined = before.is_some_and(|stmt| stmt.op == surface && stmt.skip == skip);
+                out.stmts.push(Stmt { skip, joined, ..Stmt::new(span, op) });
             }
             Err((fault, l, r)) => {
                 self.found = true;

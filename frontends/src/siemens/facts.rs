@@ -87,6 +87,8 @@ pub(super) struct State {
     pub(super) distance: Know<Distance>,
     pub(super) plane: Know<Plane>,
     pub(super) feed_mode: Know<FeedMode>,
+    /// Whether a speed is a surface's.
+    pub(super) surface: Know<bool>,
     pub(super) motion: Know<Motion>,
     pub(super) work_offset: Know<u16>,
     /// Whether a tool's length is in force.
@@ -114,6 +116,7 @@ impl State {
             distance: Know::Lost,
             plane: Know::Lost,
             feed_mode: Know::Lost,
+            surface: Know::Lost,
             motion: Know::Lost,
             work_offset: Know::Lost,
             length: Know::Lost,
@@ -134,6 +137,7 @@ impl State {
         self.distance.join(before.distance);
         self.plane.join(before.plane);
         self.feed_mode.join(before.feed_mode);
+        self.surface.join(before.surface);
         self.motion.join(before.motion);
         self.work_offset.join(before.work_offset);
         self.length.join(before.length);

@@ -4,7 +4,7 @@
 //! Moves and frames have files of their own.
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
-use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, Units};
+use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, SpindleMode, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
@@ -74,11 +74,13 @@ impl Lower {
             NameMeaning::Code(meaning) => Some((c, meaning)),
             _ => None,
         });
+        let has_speed = words.get(self.role_letter(Role::Speed)).is_some();
+        self.speed_limit(words, src, out);
         for (code, meaning) in coded.clone() {
             if rank(meaning) < RANK_WORDS {
                 match meaning {
                     Meaning::SetMotionControlMode(mode) => self.path_control(code, mode, words, src, out),
-                    _ => self.setting(code, meaning, out),
+                    _ => self.setting(code, meaning, has_speed, out),
                 }
             }
         }
@@ -176,8 +178,14 @@ impl Lower {
                 self.state.distance = Know::Said(distance);
                 self.again.say(DISTANCE);
             }
-            Meaning::SetFeedMode(mode) => self.count_feed(mode),
-            Meaning::SetSpindleMode(_) => code.feed_mode.into_iter().for_each(|mode| self.count_feed(mode)),
+            Meaning::SetFeedMode(mode) => {
+                self.count_feed(mode);
+                self.state.surface = Know::Said(false);
+            }
+            Meaning::SetSpindleMode(mode) => {
+                code.feed_mode.into_iter().for_each(|mode| self.count_feed(mode));
+                self.state.surface = Know::Said(mode == SpindleMode::Surface);
+            }
             Meaning::SetOriginOffsets(offset) => {
                 self.state.work_offset = Know::Said(offset);
                 self.state.pole.lose();
@@ -220,19 +228,31 @@ impl Lower {
         }
     }
 
-    fn setting(&mut self, code: &Code, meaning: Meaning, out: &mut Batch) {
+    fn setting(&mut self, code: &Code, meaning: Meaning, has_speed: bool, out: &mut Batch) {
         if let (Meaning::SelectPlane(plane), InForce::Active(cycle)) = (meaning, &self.state.cycle)
             && cycle.plane.known() != Some(plane)
         {
             let name = "change of the plane while a cycle is in force";
             self.not_supported(code.name, name, code.span, out);
         }
+        let ends_surface = self.before_spindle_mode(code, meaning, has_speed, out);
+        // Said once more, it says what the feed counts.
+        let again = meaning == Meaning::SetSpindleMode(SpindleMode::Surface)
+            && self.state.surface == Know::Said(true)
+            && !has_speed;
         self.set_mode(*code, out);
         if matches!(meaning, Meaning::SelectPlane(_)) {
             self.length_along_z(out, code.span);
         }
         if let (Meaning::SetSpindleMode(_), Some(mode)) = (meaning, code.feed_mode) {
             self.push(code.span, Op::SetFeedMode(mode), out);
+        }
+        if again {
+            return;
+        }
+        if ends_surface && matches!(meaning, Meaning::SetFeedMode(_)) {
+            setting(meaning).into_iter().for_each(|op| self.push(code.span, op, out));
+            return self.push(code.span, Op::SetSpindleMode(SpindleMode::Turns), out);
         }
         let op = match meaning {
             Meaning::NoEffect => {
@@ -315,19 +335,7 @@ impl Lower {
             }
             self.push(given.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
         }
-        if let Some(given) = words.take_named(NameRole::SpindleLimit)
-            && let Some(num) = self.number(given, Quantity::Speed, src, out)
-        {
-            self.push(given.span, Op::LimitSpindleSpeed(Expr::Num(num)), out);
-        }
-        if let Some(given) = words.take_named(NameRole::SpindleAngle) {
-            if words.has_point() {
-                let name = "stop of the spindle at an angle in a block with axis words";
-                self.not_supported(&src.text(given.span), name, given.span, out);
-            } else if let Some(num) = self.number(given, Quantity::Angle, src, out) {
-                self.push(given.span, Op::OrientSpindle(Some(Expr::Num(num))), out);
-            }
-        }
+        self.spindle_angle(words, src, out);
     }
 
     /// Tool word, tool change and edge.

@@ -21,6 +21,7 @@ use ncc_ir::source::Span;
 use super::again::Again;
 use super::facts::{InForce, Motion, Only, Stand, State};
 use super::sort::Words;
+use super::speed::Surfaces;
 use super::tree::{Block, BlockNumber, Called, Expr, Item, Statement};
 use crate::word::Source;
 use crate::word::block::{Value, Word};
@@ -58,6 +59,7 @@ pub(super) struct Lower {
     pub(super) idle_tap: bool,
     /// The radius by which every corner is rounded.
     pub(super) rounding: Option<ncc_ir::num::Num>,
+    pub(super) surfaces: Surfaces,
     /// Rows, options and patterns that have been reported.
     pub(super) reported: HashSet<Box<str>>,
     /// The subprogram that is being read; `None` in the main program.
@@ -153,6 +155,7 @@ impl Lower {
             stretch: None,
             tilt: Met::default(),
             rounding: None,
+            surfaces: Surfaces::default(),
         }
     }
 

@@ -28,6 +28,7 @@ pub(crate) mod pieces;
 mod polar;
 mod reader;
 mod sort;
+mod speed;
 mod spindles;
 mod synchronised;
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! Moves, cycles and calls have files of their own.
 
 use ncc_dialects::{Meaning, Quantity};
-use ncc_ir::canon::{AdviceKind, Motion, PathMode};
+use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
@@ -38,6 +38,7 @@ impl Lower {
         let (motion, after) = rest.split_at(motion_end);
 
         self.nothing_before_the_tap(codes, block.span, words, out);
+        self.units_before_speed(settings, words, out);
         if self.settings.dialect.block.feed_before_units {
             // The feed's own mode comes first, then the feed, in the units of the blocks before.
             for code in settings.iter().filter(|c| matches!(c.meaning, Meaning::SetFeedMode(_))) {
@@ -79,6 +80,13 @@ impl Lower {
                 }
                 Meaning::SetMotionControlMode(_) if !code.row.words.is_empty() => {
                     self.path_within(code, words, src, out);
+                }
+                Meaning::SetSpindleMode(SpindleMode::Surface) => self.surface_speed(code, words, src, out),
+                Meaning::SetPosition
+                    if code.row.limits_speed
+                        && (!self.has_axis_word(words) || words.get(self.roles.speed).is_some()) =>
+                {
+                    self.speed_limit(code, functions, words, src, out);
                 }
                 meaning if is_frame(meaning) => {
                     self.frame(code, functions, words, src, out);

@@ -43,6 +43,8 @@ pub(super) struct Lower {
     pub(super) centre_seen: CentreSeen,
     pub(super) reported: Reported,
     pub(super) dwells: Dwells,
+    /// Whether the surface speeds of the text have limits of their own.
+    pub(super) limits: Option<bool>,
     /// The subprogram that is being read; `None` in the main program.
     pub(super) sub: Option<Procedure>,
     /// Whether the program that is being read has ended.
@@ -141,6 +143,7 @@ impl Lower {
             letters: std::array::from_fn(|i| dialect.address_row(b'A' + i as u8)),
             roles: Roles::new(dialect),
             dwells: Dwells::default(),
+            limits: None,
             reported: Reported { codes: vec![false; dialect.code.len()], ..Reported::default() },
             settings,
             assume,

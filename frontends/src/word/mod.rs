@@ -34,6 +34,7 @@ pub(crate) mod plain;
 mod polar;
 mod probe;
 pub(crate) mod sort;
+mod spindle;
 #[cfg(test)]
 #[path = "../../tests/word/mod.rs"]
 mod tests;

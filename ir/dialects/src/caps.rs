@@ -160,7 +160,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         },
         reference_via: everything || dialect.code.iter().any(|row| row.means.is_some_and(is_reference)),
         reference_keeps_length: (!everything).then(|| {
-            let keeps = |row: &crate::schema::CodeRow| {
+            let keeps = |row: &crate::codes::CodeRow| {
                 matches!(row.means, Some(Meaning::GoToReference { keeps_length: true, .. }))
             };
             dialect.code.iter().any(keeps)
@@ -178,7 +178,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             }
             (false, true) => {
                 let entry = dialect.letter_for(crate::Role::RadiusEntry).is_some();
-                let by_tool = |row: &crate::schema::CodeRow| {
+                let by_tool = |row: &crate::codes::CodeRow| {
                     row.own_tool && matches!(row.means, Some(Meaning::StartCutterRadiusCompensation(_)))
                 };
                 let diameter = says(Meaning::StartCompensationByDiameter(Side::Left));
@@ -217,7 +217,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         work_offsets: if everything || dialect.family == Family::Canon {
             u16::MAX
         } else {
-            let last = |row: &crate::schema::CodeRow| match row.means {
+            let last = |row: &crate::codes::CodeRow| match row.means {
                 Some(Meaning::SetOriginOffsets(n)) => Some(n.saturating_add(row.count.unwrap_or(1)) - 1),
                 _ => None,
             };
@@ -272,7 +272,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             (false, false) => PathMode::ALL
                 .iter()
                 .filter(|(mode, _)| {
-                    let within = |row: &crate::schema::CodeRow| {
+                    let within = |row: &crate::codes::CodeRow| {
                         let rounded = row.means == Some(Meaning::SetMotionControlMode(PathMode::Continuous));
                         rounded && !row.words.is_empty()
                     };

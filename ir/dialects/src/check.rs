@@ -5,10 +5,13 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
+use ncc_ir::canon::SpindleMode;
+
+use crate::codes::{CodeIndex, CodeRow};
 use crate::fault::DialectFault;
 use crate::meaning::Meaning;
 use crate::names::{NameRow, ParameterRole};
-use crate::schema::{CodeIndex, CodeRow, Dialect};
+use crate::schema::Dialect;
 use crate::stored::DataKind;
 
 /// A fault, and the place of its row in the texts laid end to end.
@@ -116,6 +119,12 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         let offsets = matches!(row.means, Some(Meaning::SetOriginOffsets(1..)));
         if row.feed_mode.is_some() && !matches!(row.means, Some(Meaning::SetSpindleMode(_))) {
             return Err(wrong("says what a feed counts, and not what a speed does"));
+        }
+        if row.limits_speed && row.means != Some(Meaning::SetPosition) {
+            return Err(wrong("says that a speed word beside it is a limit, and takes no axis words"));
+        }
+        if row.limit.is_some() && row.means != Some(Meaning::SetSpindleMode(SpindleMode::Surface)) {
+            return Err(wrong("has `limit`, and is no code of a surface speed"));
         }
         if row.count.is_some() && (row.words.is_empty() || !offsets) {
             return Err(wrong("has `count`, and is no code of work offsets with a word of its own"));

@@ -9,6 +9,7 @@
 
 mod caps;
 mod check;
+mod codes;
 mod corners;
 mod cycles;
 mod fault;
@@ -22,6 +23,7 @@ mod schema;
 mod settings;
 mod stored;
 
+pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, Text};

@@ -8,11 +8,12 @@ use std::collections::BTreeMap;
 use ncc_ir::caps::Caps;
 use serde::Deserialize;
 
+use crate::codes::{CodeIndex, CodeRow};
 use crate::corners::CornerRules;
-use crate::cycles::{CycleRow, CycleRules, DwellWord, PatternRow};
+use crate::cycles::{CycleRow, CycleRules, PatternRow};
 use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow};
-use crate::power_on::{FeedModeName, PathName, PowerOn, SafeStart};
+use crate::power_on::{PathName, PowerOn, SafeStart};
 use crate::repeats::{PolarRules, RepeatRules};
 use crate::stored::DataRow;
 
@@ -376,66 +377,6 @@ pub struct ArcRules {
     pub source: String,
 }
 
-/// A G or M code.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct CodeRow {
-    /// The code as it is written: `G01`, `M6`.
-    pub code: String,
-    /// The number of the last code, if the row stands for several work offsets in sequence, each
-    /// with the next number: `G505` up to 599. The loader makes a row of each.
-    #[serde(default)]
-    pub upto: Option<u16>,
-    /// How many work offsets the code has, if a word of the block says which of them: the word's 1 is
-    /// the one that the row means. Its letter is the first of `words`.
-    #[serde(default)]
-    pub count: Option<u16>,
-    /// What it means; without, it is refused by `refuse`.
-    #[serde(default)]
-    pub means: Option<Meaning>,
-    /// The name by which it is refused.
-    #[serde(default)]
-    pub refuse: Option<String>,
-    /// Its modal group: two codes of a group exclude each other in a block. Empty for one-shots.
-    #[serde(default)]
-    pub group: String,
-    /// Letters of its own words, besides those that stand for themselves.
-    #[serde(default)]
-    pub words: String,
-    /// Letters whose numbers name blocks: of the program that it stands in, and in a return of the one
-    /// that has called it. They may be words of a code that is refused.
-    #[serde(default)]
-    pub blocks: String,
-    /// Whether the code is one of other machines than the dictionary is about, so that a text which has
-    /// it is hardly written for one of these.
-    #[serde(default)]
-    pub other_machine: bool,
-    /// Whether a length offset, or a radius, without its word is that of the tool in the spindle.
-    #[serde(default)]
-    pub own_tool: bool,
-    /// Whether a code of units leaves the feed in the machine's basic system.
-    #[serde(default)]
-    pub feed_stays: bool,
-    /// What a feed counts from here on, where a code of the spindle's speed says that as well; such codes and
-    /// those of the feed are of one group, and each of either ends the other.
-    #[serde(default)]
-    pub feed_mode: Option<FeedModeName>,
-    /// Letter and unit of a dwell, the first one for writing.
-    #[serde(default)]
-    pub dwell: Vec<DwellWord>,
-    /// Of advice that a word of the block switches, the number that switches it on; 0 switches it off.
-    #[serde(default)]
-    pub on: Option<u32>,
-    /// Whether it is written when several codes mean the same.
-    #[serde(default = "yes")]
-    pub write: bool,
-    /// Whether the row is confirmed.
-    #[serde(default = "yes")]
-    pub sure: bool,
-    /// Who says so.
-    pub source: String,
-}
-
 /// A question that the sources leave open.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -484,17 +425,6 @@ pub struct Can {
     pub frames_shut: bool,
     /// Any structure of the IR can be carried (the text form).
     pub everything: bool,
-}
-
-/// Rows of `code` by number: G and M codes in tenths (`G5.1` is 51).
-#[derive(Clone, Debug, Default)]
-pub struct CodeIndex {
-    /// G codes.
-    pub g: Vec<Option<u16>>,
-    /// M codes.
-    pub m: Vec<Option<u16>>,
-    /// Rows of `address` by letter, A first.
-    pub letter: [Option<u8>; 26],
 }
 
 pub(crate) fn yes() -> bool {

@@ -45,13 +45,16 @@ impl Exec {
             Op::SetSpindleMode(mode) if self.state.spindle_mode != *mode => {
                 self.state.spindle_mode = *mode;
                 self.state.speed = 0;
+                self.state.centre = 0;
+                self.speed_watched = true;
             }
             Op::LimitSpindleSpeed(limit) => {
                 let limit = u32::try_from(self.value(limit, span)? / (ONE / 1000));
-                let Ok(limit) = limit else {
-                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                let Some(limit) = limit.ok().filter(|limit| *limit > 0) else {
+                    return self.fault(Fault::OutOfRange { word: "highest speed".into() }, span);
                 };
                 self.state.limit = limit;
+                self.within_limit(span)?;
             }
             _ => {}
         }
@@ -131,6 +134,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         self.state.spindle = to;
+        self.within_limit(span)?;
         let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };
         self.tell(what, span, out)
     }
@@ -181,6 +185,7 @@ impl Exec {
             && self.feed == other.feed
             && self.selected == other.selected
             && self.state == other.state
+            && self.speed_watched == other.speed_watched
             && self.corner.is_none()
             && other.corner.is_none()
             && self.cycle.is_none()
@@ -208,6 +213,7 @@ impl Exec {
         self.feed = other.feed;
         self.selected = other.selected;
         self.state = other.state;
+        self.speed_watched = other.speed_watched;
         self.said |= other.said;
         self.ended = other.ended;
     }

@@ -202,6 +202,9 @@ pub struct State {
     pub advice: u64,
     /// Highest spindle speed in thousandths of a turn a minute; counts only while the spindle turns.
     pub limit: u32,
+    /// Under a surface speed, where the machine's X is from which the radius is measured; counts only while
+    /// the spindle turns.
+    pub centre: Nanos,
     /// Lengths that belong to the path mode, to it in rapids, to advice, and to moves that are made one:
     /// tenths of a micrometre.
     pub within: [i32; 4],
@@ -235,6 +238,7 @@ impl Default for State {
             speed: 0,
             advice: 0,
             limit: u32::MAX,
+            centre: 0,
             within: [0; 4],
             compensation: Compensation::default(),
             spindle: Spindle::Stopped,
@@ -251,6 +255,23 @@ impl Default for State {
 }
 
 impl State {
+    /// Turns a minute with X at this place of the machine, in nanos: of a surface speed those by the radius
+    /// there, up to the limit. In the middle, without a limit, they are not known: 0.
+    pub fn turns(&self, x: Nanos) -> Nanos {
+        if self.spindle_mode == SpindleMode::Turns {
+            return self.speed;
+        }
+        let limit = Nanos::from(self.limit).saturating_mul(1_000_000);
+        let radius = x.abs_diff(self.centre) as f64;
+        // Metres to nanos of a millimetre, and turns to their nanos.
+        let turns = self.speed as f64 * 1000.0 / (std::f64::consts::TAU * radius) * 1e9;
+        match turns < limit as f64 {
+            true => turns as Nanos,
+            false if self.limit == u32::MAX => 0,
+            false => limit,
+        }
+    }
+
     /// Whether two states are the same to the machine: the speed of a stopped spindle is nothing.
     #[inline]
     pub fn same(&self, other: &State) -> bool {
@@ -259,7 +280,8 @@ impl State {
             && (self.spindle == Spindle::Stopped
                 || self.speed == other.speed
                     && self.spindle_mode == other.spindle_mode
-                    && self.limit == other.limit)
+                    && self.limit == other.limit
+                    && self.centre == other.centre)
             && self.flood == other.flood
             && self.mist == other.mist
             && (self.tip, self.tilted) == (other.tip, other.tilted)

@@ -18,6 +18,7 @@ mod holes;
 mod polar;
 mod run;
 mod slots;
+mod speed;
 mod thread;
 mod tilt;
 
@@ -90,6 +91,8 @@ pub struct Exec {
     feed: Nanos,
     selected: i64,
     state: State,
+    /// Whether what a speed counts needs to be looked at before anything happens.
+    speed_watched: bool,
     cycle: Option<InForce>,
     /// Whether the program has ended.
     ended: bool,
@@ -180,6 +183,7 @@ impl Exec {
                 path: world.path,
                 ..State::default()
             },
+            speed_watched: false,
             cycle: None,
             ended: false,
             muted: false,
@@ -429,6 +433,9 @@ impl Exec {
         if cutting && self.feed == 0 {
             return self.fault(Fault::NoFeed, span);
         }
+        if self.speed_watched {
+            self.watch_speed(&kind, span)?;
+        }
         if self.quiet {
             self.counted += 1;
         } else {
@@ -562,6 +569,7 @@ impl Exec {
             }
             Op::StopCutterRadiusCompensation => self.stop_compensation(),
             Op::UseLengthUnits(units) => {
+                self.units_of_speed(*units);
                 self.modes.inch = *units == Units::Inch;
                 self.said |= UNITS;
             }
@@ -614,10 +622,7 @@ impl Exec {
             Op::SetData(data) => self.set_data(data, span, out)?,
             Op::SetPole(set) => self.set_pole(set, span)?,
             Op::Polar(polar) => self.polar(polar, span, out)?,
-            Op::SetSpindleSpeed(speed) => {
-                self.state.speed = self.value(speed, span)?;
-                self.tell(Attribute::SpindleSpeed(self.state.speed), span, out)?;
-            }
+            Op::SetSpindleSpeed(speed) => self.set_speed(speed, span, out)?,
             Op::SelectTool(tool) => {
                 self.selected = self.whole(tool, span)?;
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;

@@ -81,6 +81,7 @@ impl Exec {
         if speed <= 0 {
             return self.fault(Fault::NoSpeed, span);
         }
+        self.within_limit(span)?;
         let pitch = match stated {
             Some(pitch) => pitch,
             None if self.feed == 0 => return self.fault(Fault::NoFeed, span),
@@ -110,6 +111,9 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
+        if self.state.spindle_mode == SpindleMode::Surface {
+            return self.not_executed("a stop at an angle under a constant surface speed", span);
+        }
         let angle = match angle {
             Some(angle) => self.value(angle, span)?,
             None => self.world.orientation,

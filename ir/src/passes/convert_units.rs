@@ -8,7 +8,7 @@
 use super::walk::Walk;
 use super::write::{exact, rounded, unit_of};
 use super::{Target, each_body};
-use crate::canon::{Axis, Distance, Units};
+use crate::canon::{Axis, Distance, SpindleMode, Units};
 use crate::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
@@ -116,6 +116,9 @@ impl Converter<'_> {
                 }
             }
             Op::SetFeedRate(feed) => self.loose(feed)?,
+            Op::SetSpindleMode(SpindleMode::Surface) => {
+                return Err(Fault::CannotSay { what: "a surface speed in other units".into() });
+            }
             // Where the corner ends follows from it.
             Op::Corner { size, .. } => self.whole(size)?,
             Op::StartCutterRadiusCompensation { radius: CutterRadius::Diameter(diameter), .. } => {

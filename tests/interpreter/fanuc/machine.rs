@@ -4,6 +4,15 @@ use super::super::Halt;
 use super::{Control, Word, number};
 
 impl Control {
+    /// G92 with a speed alone: the highest one under G96.
+    pub(super) fn highest_speed(&mut self, words: &[Word]) -> bool {
+        let alone = !self.haas && self.axis_words(words) == [None; 6];
+        if alone {
+            self.m.fastest = number(words, 'S').map(|(speed, _)| speed);
+        }
+        alone
+    }
+
     /// G53, G28 and G30: all rapid; what is left of a tool's length by G28 is not looked at.
     pub(super) fn machine_point(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
         if self.cycle.is_some() {

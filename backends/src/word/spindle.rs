@@ -1,0 +1,126 @@
+//! What a speed counts, and its limit.
+//!
+//! Not here: a code that says both what a speed and what a feed counts, for two statements at once.
+
+use ncc_ir::canon::SpindleMode;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::Stmt;
+use ncc_ir::source::Span;
+
+use super::block::{Need, Part, Rank};
+use super::codes::Code;
+use super::modes::cannot;
+use super::{Sink, Writer};
+
+/// The option that says whose coordinate is the radius of a surface speed.
+const AXIS: &str = "surface_axis";
+
+/// What the text has said of surface speeds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Surfaces {
+    /// Whether any was in force so far.
+    pub(crate) met: bool,
+    /// Whether any limit was.
+    limited: bool,
+    /// Whether any has no limit in its block, where that is the place for it.
+    unlimited: bool,
+    /// A code whose speed must follow it in its block.
+    waits: Option<Span>,
+}
+
+impl Writer {
+    /// The code by which a speed counts turns a minute. None is needed where a control has no other way, and
+    /// where a code of the feed says so: both are of one group there, and it is in force already.
+    pub(super) fn turns_code(&self) -> Result<Option<Code>, Fault> {
+        let Some(code) = self.codes.spindle_mode(SpindleMode::Turns, self.force.feed_mode) else {
+            return match self.surfaces.met {
+                true => Err(cannot("the end of a constant surface speed, with this feed")),
+                false => Ok(None),
+            };
+        };
+        let surface = self.surfaces.met && self.force.spindle_mode != Some(SpindleMode::Turns);
+        let said = self.codes.spindle_with_feed() && self.block.says(code.group) && !surface;
+        Ok((!said).then_some(code))
+    }
+
+    /// Whether a code of the feed must say that the speed is still a surface's.
+    pub(super) fn surface_joins_feed(&self) -> Result<bool, Fault> {
+        match self.force.spindle_mode {
+            _ if !self.surfaces.met || !self.codes.spindle_with_feed() => Ok(false),
+            Some(mode) => Ok(mode == SpindleMode::Surface),
+            None => Err(cannot("what a feed counts where it is not known what a speed does")),
+        }
+    }
+
+    /// The speed of the block is a surface's.
+    pub(super) fn surface_speed(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let code = self.codes.spindle_mode(SpindleMode::Surface, self.force.feed_mode);
+        let code = code.ok_or_else(|| cannot("a constant surface speed"))?;
+        let mut need = Need::new(Rank::Setting).code(Some(code));
+        let limit = match self.codes.surface_limit {
+            None => None,
+            Some(letter) => match self.force.limit {
+                Some(limit) => {
+                    need = need.letter(letter.letter);
+                    Some((letter.letter, self.value(&letter, &Expr::Num(limit), stmt.span, sink)?))
+                }
+                None if self.surfaces.limited => {
+                    return Err(cannot("a limit that is not known to be in force"));
+                }
+                None => {
+                    self.surfaces.unlimited = true;
+                    None
+                }
+            },
+        };
+        self.admit(&need, sink)?;
+        self.block.code(Part::Mode, &code);
+        if let Some((letter, value)) = limit {
+            self.block.word(Part::Mode, letter, value);
+        }
+        self.surface_in_force(stmt.span, sink);
+        Ok(())
+    }
+
+    /// Notes that the text has said a surface speed, whose speed is to follow.
+    pub(crate) fn surface_in_force(&mut self, span: Span, sink: &mut Sink) {
+        self.rely(AXIS, span, sink);
+        self.force.spindle_mode = Some(SpindleMode::Surface);
+        self.surfaces.met = true;
+        self.surfaces.waits = Some(span);
+    }
+
+    /// The highest speed under a surface speed.
+    pub(super) fn speed_limit(&mut self, limit: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if let (Some(code), Some(letter)) = (self.codes.speed_limit, self.codes.speed) {
+            let value = self.value(&letter, limit, span, sink)?;
+            if !self.block.is_empty() {
+                self.flush(false, sink);
+                self.split = true;
+            }
+            self.admit(&Need::new(Rank::Alone).code(Some(code)).letter(letter.letter), sink)?;
+            self.block.code(Part::Mode, &code);
+            self.block.word(Part::Mode, letter.letter, value);
+            return Ok(());
+        }
+        let known = self.codes.surface_limit.and_then(|_| limit.literal());
+        let limit = known.ok_or_else(|| cannot("a limit of the spindle speed"))?;
+        // It is said with the surface speed that follows.
+        if self.surfaces.unlimited || self.force.spindle_mode == Some(SpindleMode::Surface) {
+            return Err(cannot("a limit of the spindle behind the surface speed that it is for"));
+        }
+        self.surfaces.limited = true;
+        self.force.limit = Some(limit);
+        Ok(())
+    }
+
+    /// Tells of a surface speed whose speed does not stand in its block.
+    pub(super) fn surface_with_speed(&mut self, sink: &mut Sink) {
+        if let Some(span) = self.surfaces.waits.take()
+            && self.codes.speed.is_none_or(|speed| !self.block.has(speed.letter))
+        {
+            sink.report(cannot("a constant surface speed without its speed in the block"), span);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! What a speed counts, its limit, and the spindle stopped at an angle.
+//!
+//! One modal group says what a feed and what a speed counts, so that a code of the feed ends a surface speed.
+
+use ncc_dialects::{Meaning, NameRole, Quantity};
+use ncc_ir::canon::SpindleMode;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::Op;
+
+use super::lower::Lower;
+use super::sort::{Code, Words};
+use crate::Batch;
+use crate::word::Source;
+use crate::word::facts::Know;
+
+/// The option that says whose coordinate is the radius of a surface speed.
+const AXIS: &str = "surface_axis";
+
+/// What the text has said of surface speeds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Surfaces {
+    /// Whether any was in force so far.
+    met: bool,
+    /// Whether a code of the feed stood where it is not known what a speed counts, before the first one.
+    doubted: bool,
+}
+
+impl Lower {
+    /// Before a code that says what a speed counts, or may end a surface speed. Gives whether it ends one, as
+    /// far as that can be known.
+    pub(super) fn before_spindle_mode(
+        &mut self,
+        code: &Code,
+        meaning: Meaning,
+        has_speed: bool,
+        out: &mut Batch,
+    ) -> bool {
+        let surface = self.state.surface;
+        match meaning {
+            Meaning::SetSpindleMode(SpindleMode::Surface) => {
+                if self.surfaces.doubted {
+                    let name = "constant cutting speed behind a subprogram that says what a feed counts";
+                    self.not_supported(code.name, name, code.span, out);
+                }
+                self.surfaces.met = true;
+                if self.option(AXIS, code.span, out) != "X" {
+                    let name = "constant cutting speed about another axis than X";
+                    self.not_supported(code.name, name, code.span, out);
+                }
+                if !has_speed && surface != Know::Said(true) {
+                    let fault = Fault::WordMissing { code: code.name.into(), word: "S".into() };
+                    self.fault(fault, code.span, out);
+                }
+                false
+            }
+            Meaning::SetFeedMode(_) => {
+                self.surfaces.doubted |= surface == Know::Lost && !self.surfaces.met;
+                self.surfaces.met && surface != Know::Said(false)
+            }
+            _ => false,
+        }
+    }
+
+    /// The highest speed of the spindle, which counts from this block on.
+    pub(super) fn speed_limit(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        if let Some(given) = words.take_named(NameRole::SpindleLimit)
+            && let Some(num) = self.number(given, Quantity::Speed, src, out)
+        {
+            self.push(given.span, Op::LimitSpindleSpeed(Expr::Num(num)), out);
+        }
+    }
+
+    /// The spindle stopped at an angle.
+    pub(super) fn spindle_angle(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
+        let Some(given) = words.take_named(NameRole::SpindleAngle) else { return };
+        if words.has_point() {
+            let name = "stop of the spindle at an angle in a block with axis words";
+            self.not_supported(&src.text(given.span), name, given.span, out);
+        } else if let Some(num) = self.number(given, Quantity::Angle, src, out) {
+            self.push(given.span, Op::OrientSpindle(Some(Expr::Num(num))), out);
+        }
+    }
+}
