@@ -123,7 +123,7 @@ pub struct Caps {
     pub offset_with_z: bool,
     /// A length offset counts as soon as it is read: the tool stands at another Z.
     pub length_at_once: bool,
-    /// Such a program begins with words for no length.
+    /// A program begins with words for no length.
     pub starts_without_length: bool,
     /// Behind the end of a cycle no motion is in force.
     pub cycle_ends_motion: bool,

@@ -110,6 +110,7 @@ impl Writer {
     ) -> Result<(), Fault> {
         let span = stmt.span;
         self.owed = None;
+        self.cycled = true;
         if with > 1 {
             self.end_modal(sink)?;
         }
@@ -137,7 +138,9 @@ impl Writer {
         match with {
             1 => {
                 self.owed = Some(text);
-                self.pay_call(sink)
+                // What the spindle does for a tap that makes no hole is left open: it is called up for one.
+                let waits = matches!(&cycle.kind, CycleKind::Tap(tap) if !tap.chuck) && stmt.skip.is_none();
+                if waits { Ok(()) } else { self.pay_call(sink) }
             }
             2 => {
                 self.alone(&text, sink)?;

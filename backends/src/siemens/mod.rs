@@ -93,6 +93,8 @@ pub struct Writer {
     /// A cycle that the program has in force and the text has not, because it was called once for a
     /// hole where the tool stood.
     owed: Option<String>,
+    /// Whether a cycle has been called in this unit.
+    cycled: bool,
     /// Whether the next straight move is in machine coordinates.
     raw: bool,
     /// Whether the feed counts in the machine's basic system, and which that is.
@@ -119,6 +121,7 @@ impl Writer {
             words: word::Writer::new(settings, layout),
             standing: Standing::START,
             owed: None,
+            cycled: false,
             raw: false,
             basic_feed: false,
             basic_units: if basic_inch { Units::Inch } else { Units::Mm },

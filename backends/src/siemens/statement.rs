@@ -6,7 +6,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
-use super::{Sink, Writer};
+use super::{Modal, Sink, Writer};
 use crate::word::block::{Need, Part, Rank};
 use crate::word::modes::cannot;
 use ncc_ir::expr::Expr;
@@ -177,6 +177,10 @@ impl Writer {
             Op::Polar(polar) => self.polar(polar, span, sink),
             Op::Position(_) => {
                 self.pay_call(sink)?;
+                let open = self.words.force.motion.is_none() && stmt.skip.is_none();
+                if self.cycled && self.standing.modal == Modal::Off && open {
+                    return Err(cannot("axis words whose motion is left open, behind a cycle"));
+                }
                 self.words.statement(stmt, sink)
             }
             Op::StartCycle(cycle) => self.start_cycle(cycle, with, stmt, sink),

@@ -373,9 +373,9 @@ impl Finder {
         let feed = self.dialect.letter_for(Role::Feed);
         let lead = |letter: char| {
             let mut rules = self.dialect.numbers(Quantity::Length);
-            // Fractions of an inch as leads in millimetres.
-            rules.decimals += 2;
-            rules.decimals_inch = rules.decimals_inch.map(|decimals| decimals + 2);
+            // Fractions of an inch as leads in millimetres, and both as fine as pitches are compared.
+            rules.decimals += 3;
+            rules.decimals_inch = rules.decimals_inch.map(|decimals| decimals + 4);
             match Some(letter) == feed {
                 true => self.letter(letter, Quantity::Feed),
                 false => Some(Letter {

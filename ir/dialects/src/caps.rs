@@ -230,8 +230,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || says(Meaning::ClearFrame(ncc_ir::program::FrameSlot::Shift)),
         offset_with_z: dialect.can.offset_with_z,
         length_at_once: dialect.can.length_at_once,
-        starts_without_length: dialect.can.length_at_once
-            && dialect.safe_start.contains(&SafeStart::NoLengthOffset),
+        starts_without_length: dialect.safe_start.contains(&SafeStart::NoLengthOffset),
         cycle_ends_motion: dialect.cycles.ends_motion,
         cycles_measured_anew: dialect.cycles.measured_anew,
         change_stops_spindle: dialect.can.change_stops_spindle,

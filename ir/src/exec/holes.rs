@@ -4,7 +4,7 @@
 //! tests holds the two together.
 
 use super::{Attribute, Event, Exec, Kind};
-use crate::canon::{AXES, Motion, Plane, ReturnLevel, Spindle, Turn};
+use crate::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};
 use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -23,6 +23,8 @@ pub(super) struct InForce {
     initial: Nanos,
     /// The work offset in which the initial level was found.
     initial_in: u16,
+    /// The length by which it was found.
+    initial_length: Nanos,
     retract: Nanos,
     depth: Nanos,
     return_level: Option<ReturnLevel>,
@@ -134,6 +136,12 @@ impl Exec {
         let normal = plane.axes().2 as usize;
         let initial = self.cycle.as_ref().map_or(self.position[normal], |c| c.initial);
         let initial_in = self.cycle.as_ref().map_or(self.modes.work_offset, |c| c.initial_in);
+        let length = |length| if normal == super::Z { self.length_of(length) } else { 0 };
+        let initial_length = self.cycle.as_ref().map_or(length(self.modes.length), |c| c.initial_length);
+        let another = initial_length != length(self.waiting.unwrap_or(self.modes.length));
+        if another && cycle.retract.distance.or(self.modes.distance) == Distance::Incremental {
+            return self.not_executed("a retract plane from a level of another length", span);
+        }
         let retract = self.target(&cycle.retract, initial, span)?;
         let depth = self.target(&cycle.depth, retract, span)?;
         if depth > retract {
@@ -196,6 +204,7 @@ impl Exec {
             plane,
             initial,
             initial_in,
+            initial_length,
             retract,
             depth,
             return_level: cycle.return_level.known(),
@@ -320,6 +329,13 @@ impl Exec {
             // Whether it is a level of the work or of the machine, no source tells.
             let what = "a return to the initial level of another work offset".into();
             return self.fault(Fault::NotExecuted { what }, span);
+        }
+        if cycle.return_plane.is_none() && level != cycle.retract && normal == super::Z {
+            let length = self.length_of(self.waiting.unwrap_or(self.modes.length));
+            if length != cycle.initial_length {
+                // Whether it is a level of the work or of the tool's end, no source tells.
+                return self.not_executed("a return to the initial level of another length", span);
+            }
         }
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);

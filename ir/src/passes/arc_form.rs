@@ -49,12 +49,12 @@ pub(super) fn over(
     for stmt in body {
         walk.enter(stmt.skip);
         // Errors of rounding do not add up: the next arc begins where this one really ends.
-        let mut end = None;
+        let mut exactly = None;
         let mut refused = false;
         if let Op::ArcForm(arc) = &stmt.op {
             match state.by_centre(arc, walk, target.decimals_in(walk.unit())) {
-                Ok((op, ends)) => {
-                    end = ends;
+                Ok((op, made)) => {
+                    exactly = made;
                     diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
                     stmt.op = op;
                 }
@@ -69,8 +69,11 @@ pub(super) fn over(
             // It is told once.
             stmt.op = Op::Blank;
         }
-        for (axis, nanos) in end.into_iter().flatten() {
-            walk.at.position[axis as usize] = Some(nanos);
+        if let Some(Exactly { end, heading }) = exactly {
+            for (axis, nanos) in end {
+                walk.at.position[axis as usize] = Some(nanos);
+            }
+            state.heading = if stmt.skip.is_none() { heading } else { Heading::Unknown };
         }
     }
 }
@@ -200,8 +203,15 @@ impl Around for Known<'_> {
     }
 }
 
-/// An arc by its centre, and its exact end; or the line that it is.
-pub(super) type Made = (Op, Option<[(Axis, Nanos); 2]>);
+/// How an arc ends before its words are rounded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Exactly {
+    end: [(Axis, Nanos); 2],
+    heading: Heading,
+}
+
+/// An arc by its centre, and how it ends exactly; or the line that it is.
+pub(super) type Made = (Op, Option<Exactly>);
 
 fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Result<Made, Fault> {
     let plane = walk.at.plane(arc.plane).ok_or(Fault::EntryFactNeeded { fact: ModeName::Plane })?;
@@ -233,6 +243,8 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
             to.set(axis, absolute(rounded(end[i], decimals, unit)));
         }
     }
+    let heading = Heading::Bent(plane, geometry::tangent(end, centre, turn));
+    let exactly = Exactly { end: [(first, end[0]), (second, end[1])], heading };
     let arc = Arc {
         plane: Fact::Known(plane),
         turn,
@@ -241,5 +253,5 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
         turns: arc.turns,
         said: arc.said,
     };
-    Ok((Op::ArcFeed(Box::new(arc)), Some([(first, end[0]), (second, end[1])])))
+    Ok((Op::ArcFeed(Box::new(arc)), Some(exactly)))
 }

@@ -1,12 +1,13 @@
 //! What a target does at once where other controls wait, and what it takes away where they keep it: a length
 //! that counts as soon as it is read, so that the tool stands at another Z; a motion that is over with the
-//! cycle behind it.
+//! cycle behind it. And what every control leaves open: a level from where the tool stood before the first Z,
+//! by which length it is measured.
 //!
 //! It changes nothing. What depends on either is refused where the source says it.
 
 use super::Target;
 use super::walk::Walk;
-use crate::canon::{Axis, Distance};
+use crate::canon::{Axis, Distance, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::{conduct, miscellaneous, modes};
@@ -18,6 +19,8 @@ use crate::source::Span;
 pub(super) struct State {
     /// Another length is in force, and no absolute Z has been named since.
     length: bool,
+    /// The target's first blocks say no length, and no absolute Z has been named since.
+    start: bool,
     /// A cycle is over, and no motion has been said since.
     motion: bool,
 }
@@ -25,12 +28,13 @@ pub(super) struct State {
 impl State {
     /// The start of a main program: without a length, where the target's first blocks say so.
     pub(super) fn new(caps: &Caps) -> State {
-        State { length: caps.starts_without_length, motion: false }
+        let start = caps.starts_without_length;
+        State { length: start && caps.length_at_once, start, motion: false }
     }
 
     /// Whether further statements must be looked at.
     pub(super) fn is_busy(&self) -> bool {
-        self.length || self.motion
+        self.length || self.start || self.motion
     }
 
     /// The end of a subprogram, which returns if nothing else is said.
@@ -88,7 +92,18 @@ fn over_one(
         }
         Op::Hole(_) | Op::Pattern(_) if state.length => state.refuse_length(stmt.span, diags),
         Op::Hole(_) | Op::Pattern(_) => state.motion = false,
-        Op::StartCycle(_) => state.motion = false,
+        Op::StartCycle(cycle) => {
+            state.motion = false;
+            let from_level =
+                cycle.retract.distance.known().or(walk.at.modes.distance) != Some(Distance::Absolute);
+            let back_to_level = cycle.return_plane.is_none()
+                && cycle.return_level.known().or(walk.at.modes.return_level) != Some(ReturnLevel::Retract);
+            if state.start && (from_level || back_to_level) {
+                state.start = false;
+                let what = "a level for holes from where the tool stands before any absolute Z".into();
+                diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            }
+        }
         // A block that may be skipped leaves it open whether the motion is over.
         Op::EndCycle => state.motion = target.caps.cycle_ends_motion && stmt.skip.is_none(),
         Op::SetPosition(axes) if state.length && axes[Axis::Z as usize].is_some() => {
@@ -139,10 +154,14 @@ fn goes(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut State, diags: &mut Vec
 
 /// Axis words: an absolute Z settles where the tool stands, and another one depends on it.
 fn names(to: &Point, stmt: &Stmt, walk: &Walk, state: &mut State, diags: &mut Vec<Diagnostic>) {
-    let Some(word) = to.get(Axis::Z).filter(|_| state.length) else { return };
+    let Some(word) = to.get(Axis::Z).filter(|_| state.length || state.start) else { return };
     match word.distance.known().or(walk.at.modes.distance) {
         // With the switch on, it is not said.
-        Some(Distance::Absolute) => state.length = stmt.skip.is_some(),
-        Some(Distance::Incremental) | None => state.refuse_length(stmt.span, diags),
+        Some(Distance::Absolute) => {
+            state.length &= stmt.skip.is_some();
+            state.start &= stmt.skip.is_some();
+        }
+        Some(Distance::Incremental) | None if state.length => state.refuse_length(stmt.span, diags),
+        Some(Distance::Incremental) | None => {}
     }
 }

@@ -571,7 +571,9 @@ impl Legaliser {
         let caps = &self.target.caps;
         let moved = |p: &Procedure| {
             caps.centres_from_zero && repeat_ends::moves_arcs(&p.body)
-                || !caps.repeat_by_numbers && repeat_ends::under_another_cycle(&p.body)
+                || (!caps.repeat_by_numbers || repeat_ends::changes_cycle(&p.body))
+                    && repeat_ends::under_another_cycle(&p.body)
+                || !caps.repeat_by_numbers && repeat_ends::is_one_block_of_several(&p.body)
         };
         if program.procedures.iter().any(moved) {
             return true;

@@ -104,7 +104,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(POLAR, caps.polar == PolarForm::Any);
     needs(TURN, caps.rotary_ways);
     needs(CORNER, caps.corners == Corners::ALL);
-    needs(AT_ONCE, !caps.length_at_once && !caps.cycle_ends_motion);
+    needs(AT_ONCE, !caps.length_at_once && !caps.starts_without_length && !caps.cycle_ends_motion);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.path_merges && caps.seen() == Seen::default());
     lacks
 }

@@ -57,6 +57,25 @@ pub(super) fn under_another_cycle(body: &[Stmt]) -> bool {
     })
 }
 
+/// Whether a cycle is called up, or ends, within blocks that are repeated.
+pub(super) fn changes_cycle(body: &[Stmt]) -> bool {
+    body.iter().enumerate().any(|(at, stmt)| {
+        let Op::RepeatBlocks(repeat) = &stmt.op else { return false };
+        let blocks = again(body, at, &repeat.from, repeat.to.as_deref()).unwrap_or_default();
+        blocks.iter().any(|s| matches!(s.op, Op::StartCycle(_) | Op::EndCycle))
+    })
+}
+
+/// Whether a block that is repeated alone calls a cycle up or ends one, which takes blocks of their own.
+pub(super) fn is_one_block_of_several(body: &[Stmt]) -> bool {
+    body.iter().enumerate().any(|(at, stmt)| {
+        let Op::RepeatBlocks(repeat) = &stmt.op else { return false };
+        let alone = repeat.to.as_ref() == Some(&repeat.from);
+        let blocks = again(body, at, &repeat.from, repeat.to.as_deref()).unwrap_or_default();
+        alone && blocks.iter().any(|s| matches!(s.op, Op::StartCycle(_) | Op::EndCycle))
+    })
+}
+
 /// Names the last block of every repetition that says something.
 pub(super) fn name(body: &mut Vec<Stmt>, known: &BTreeSet<Text>) {
     let mut last = 0u32;

@@ -66,6 +66,7 @@ fn plane_of(walk: &Walk, cycle: &Cycle, to: ReturnLevel) -> Option<Coord> {
     let normal = walk.at.plane(cycle.plane)?.axes().2;
     match to {
         ReturnLevel::Retract => level(walk, &cycle.retract, in_force.retract, normal).ok(),
+        ReturnLevel::Initial if walk.waiting => None,
         ReturnLevel::Initial => {
             let initial = in_force.initial.filter(|i| in_force.retract.is_some_and(|r| *i >= r))?;
             Some(at(initial, normal, walk.unit()))
@@ -163,7 +164,8 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
         return Level::No;
     }
     let not_below = in_force.initial.zip(in_force.retract).is_some_and(|(initial, r)| initial >= r);
-    if same(in_force.initial) && not_below {
+    // By which length a level is measured that is found before another one is taken up, is left open.
+    if same(in_force.initial) && not_below && !walk.waiting && !changes_length(&body[i + 1..]) {
         return Level::Is(ReturnLevel::Initial);
     }
     match behind_first(body, i, in_force, walk, target) {
@@ -182,7 +184,7 @@ fn behind_first(body: &[Stmt], i: usize, in_force: &InForce, walk: &Walk, target
     new.return_plane = None;
     new.return_level = Fact::Known(ReturnLevel::Initial);
     in_force.return_plane?;
-    if !level_is_free(&body[i + 1..]) {
+    if !level_is_free(&body[i + 1..]) || changes_length(&body[i + 1..]) {
         return None;
     }
     let hole = first_hole(body, i, cycle.feed.is_some())?;
@@ -248,6 +250,13 @@ fn makes_more(body: &[Stmt]) -> bool {
 /// Whether a statement ends the cycle in force.
 fn ends(stmt: &Stmt) -> bool {
     matches!(stmt.op.unwrapped(), Op::EndCycle | Op::ProgramEnd | moves!())
+}
+
+/// Whether another length comes before the cycle that has just been called up surely ends.
+fn changes_length(after: &[Stmt]) -> bool {
+    let over = |s: &&Stmt| ends(s) && s.skip.is_none();
+    let length = |s: &&Stmt| matches!(s.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. });
+    after.iter().find(|s| length(s) || over(s)).is_some_and(|s| length(&s))
 }
 
 /// Whether no further cycle, called up before this one is ended, counts from the level at which the

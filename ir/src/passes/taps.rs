@@ -22,8 +22,11 @@ use crate::track::Tracker;
 
 use super::walk::Walk;
 
-/// Digits of a pitch that follows from feed and speed.
+/// Digits of a pitch in millimetres that follows from feed and speed, as fine as pitches are compared.
 const PITCH_DIGITS: u8 = 6;
+
+/// The same in inches, of which one digit less would be coarser.
+const PITCH_DIGITS_INCH: u8 = 8;
 
 /// Feed and speed in force, as far as they are numbers.
 #[derive(Clone, Copy, Debug, Default)]
@@ -321,7 +324,11 @@ pub(super) fn pitch_of(feed: Option<Num>, speed: Option<Num>, walk: &Walk) -> Re
     }
     let speed = turns(speed)?;
     let pitch = (i128::from(feed) * i128::from(ONE) + speed / 2) / speed;
-    Ok(rounded(Nanos::try_from(pitch).unwrap_or(Nanos::MAX), PITCH_DIGITS, unit))
+    Ok(rounded(Nanos::try_from(pitch).unwrap_or(Nanos::MAX), pitch_digits(unit), unit))
+}
+
+fn pitch_digits(unit: Unit) -> u8 {
+    if unit == Unit::Inch { PITCH_DIGITS_INCH } else { PITCH_DIGITS }
 }
 
 fn feed_of(pitch: Option<Num>, speed: Option<Num>, walk: &Walk) -> Result<Num, Fault> {
