@@ -307,7 +307,14 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::Data(stored) => {
                 let alone = |value: Nanos| [mm(value), 0.0, 0.0, 0.0, 0.0, 0.0];
                 match **stored {
-                    Stored::Offset(offset, zero) => Happening::Data("zero", offset, zero.map(mm)),
+                    Stored::Offset(offset, zero, 0) => Happening::Data("zero", offset, zero.map(mm)),
+                    Stored::Offset(offset, mut zero, turn) => {
+                        // A turned zero has its angle in the place of C's.
+                        zero[5] = turn;
+                        Happening::Data("turned zero", offset, zero.map(mm))
+                    }
+                    Stored::Position(place, at) => Happening::Data("position", u32::from(place), at.map(mm)),
+                    Stored::Tool(tool) => Happening::Data("tool", tool, [0.0; 6]),
                     Stored::Length(entry, length) => Happening::Data("length", entry, alone(length)),
                     Stored::Value(entry, which, added, value) => {
                         let table = match (which == ToolValue::RadiusWear, added) {

@@ -84,6 +84,12 @@ pub struct Caps {
     pub reference_keeps_length: Option<bool>,
     /// Values of work offsets: set; added to; so that the present position reads the words.
     pub offset_data: [bool; 3],
+    /// Whether a work offset can be turned.
+    pub offset_turns: bool,
+    /// Stored positions that can be set to where the axes stand: 1, 2.
+    pub stored_positions: [bool; 2],
+    /// Whether the number of the tool in the spindle can be set.
+    pub tool_number: bool,
     /// Values of the table of tools, in the order of [`crate::program::ToolValue::ALL`].
     pub tool_data: [bool; 4],
     /// Whether a value can be added to one of that table.

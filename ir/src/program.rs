@@ -439,6 +439,8 @@ impl Op {
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => "SET_OFFSET_DATA",
                 Data::Tool { .. } => "SET_TOOL_DATA",
+                Data::Position(_) => "STORE_POSITION",
+                Data::ToolInSpindle(_) => "SET_TOOL_NUMBER",
             },
             Op::GoToReference(_) => "GO_TO_REFERENCE",
             Op::UseToolEdge { .. } => "USE_TOOL_EDGE",

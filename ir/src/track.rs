@@ -436,12 +436,14 @@ impl Tracker {
             }
             Op::SetData(data) => match &**data {
                 // Where the axes stand is counted anew, if it is the offset in force.
-                Data::Offset { offset, words, .. }
+                Data::Offset { offset, words, turn, .. }
                     if self.modes.work_offset.is_none_or(|own| own == *offset) =>
                 {
-                    self.lose(&std::array::from_fn(|axis| words[axis].is_some()));
+                    let turns = turn.is_some();
+                    self.lose(&std::array::from_fn(|axis| words[axis].is_some() || turns && axis < 2));
                 }
-                Data::Offset { .. } | Data::Tool { .. } => {}
+                Data::ToolInSpindle(tool) => self.tool = tool.literal().and_then(|n| n.whole()),
+                Data::Offset { .. } | Data::Tool { .. } | Data::Position(_) => {}
             },
             Op::UseToolEdge { edge, .. } => {
                 let edge = edge.literal().and_then(|n| n.whole());

@@ -464,10 +464,16 @@ impl Comparison {
     fn same_data(&self, a: &Stored, b: &Stored, inch: bool) -> bool {
         let near = |x: Nanos, y: Nanos| x.abs_diff(y) <= self.half[usize::from(inch)].max(self.within) as u64;
         match (a, b) {
-            (Stored::Offset(m, a), Stored::Offset(n, b)) => m == n && self.end(a, b, inch).is_none(),
+            (Stored::Offset(m, a, s), Stored::Offset(n, b, t)) => {
+                let turned = s.abs_diff(*t) <= Resolution::half(self.resolution.degree, false) as u64;
+                m == n && turned && self.end(a, b, inch).is_none()
+            }
+            (Stored::Position(m, a), Stored::Position(n, b)) => m == n && self.end(a, b, inch).is_none(),
+            (Stored::Tool(m), Stored::Tool(n)) => m == n,
             (Stored::Length(m, a), Stored::Length(n, b)) => m == n && near(*a, *b),
             (Stored::Value(m, p, s, a), Stored::Value(n, q, t, b)) => (m, p, s) == (n, q, t) && near(*a, *b),
-            (Stored::Offset(..) | Stored::Length(..) | Stored::Value(..), _) => false,
+            (Stored::Offset(..) | Stored::Position(..) | Stored::Tool(_), _)
+            | (Stored::Length(..) | Stored::Value(..), _) => false,
         }
     }
 

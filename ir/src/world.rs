@@ -74,6 +74,8 @@ const FOREIGN: u32 = 1 << 24;
 pub struct Tables {
     /// Zero of work offsets (1 is the first), in machine coordinates, axis by axis.
     pub work_offsets: BTreeMap<u16, [Option<Nanos>; AXES]>,
+    /// By how many degrees work offsets are turned about Z, in nanos; where nobody has said it they are not.
+    pub work_turns: BTreeMap<u16, Nanos>,
     /// Lengths of tools, in nanos of a millimetre: entries of the length table, and edge 1 of the tool
     /// with that number. 0 is no tool.
     pub lengths: BTreeMap<u32, Nanos>,
@@ -177,6 +179,11 @@ impl World {
             None if self.seed == 0 => 0,
             None => self.odd(renamed * 8 + axis as u32, 190),
         })
+    }
+
+    /// By how much a work offset is turned about Z, degrees in nanos.
+    pub fn work_turn(&self, number: u16) -> Nanos {
+        self.tables.work_turns.get(&number).copied().unwrap_or(0)
     }
 
     /// A work offset by the number that both worlds of a comparison know it by.

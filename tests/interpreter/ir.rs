@@ -288,7 +288,11 @@ impl Control {
         let setup = &self.m.setup;
         let mut shift = if self.machine_once { [0.0; 6] } else { self.m.zero_of(self.m.offset) };
         if !self.machine_once {
-            let slots = self.m.slots.shift();
+            let mut slots = self.m.slots.shift();
+            if self.m.turn_of(self.m.offset) != 0.0 {
+                // It is turned with the offset.
+                slots[..3].fill(0.0);
+            }
             shift = std::array::from_fn(|axis| shift[axis] + slots[axis] + self.m.apart(axis));
         }
         let none = self.machine_once && self.without_length;
@@ -301,7 +305,17 @@ impl Control {
     }
 
     fn chain(&self) -> Frame {
-        if self.machine_once { Frame::NONE } else { self.m.turn.then(&self.frame) }
+        if self.machine_once {
+            return Frame::NONE;
+        }
+        let inside = self.m.turn.then(&self.frame);
+        match self.m.turn_of(self.m.offset) {
+            0.0 => inside,
+            degrees => {
+                let [x, y, z, ..] = self.m.slots.shift();
+                Frame::turn(degrees, 0, 1).then(&Frame::shift([x, y, z])).then(&inside)
+            }
+        }
     }
 
     /// Machine to program coordinates.
@@ -421,6 +435,14 @@ impl Control {
             }
             "SET_OFFSET_DATA" => self.offset_data(a)?,
             "SET_TOOL_DATA" => self.tool_data(a)?,
+            "STORE_POSITION" => {
+                let place = self.first(a)? as u32;
+                self.m.store_position(place);
+            }
+            "SET_TOOL_NUMBER" => {
+                let tool = self.first(a)? as u32;
+                self.m.store_tool(tool);
+            }
             "SET_FEED_RATE" => self.m.feed = Some(self.first(a)?),
             "SET_SPINDLE_MODE" => {
                 let surface = matches!(a, [Token::Text(mode)] if mode == "surface");

@@ -121,7 +121,7 @@ impl Words {
 /// Modal groups of G codes; codes of none stand alone.
 const GROUPS: [&[u32]; 13] = [
     &[0, 10, 20, 30, 330, 331, 382, 383, 384, 385, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
-    &[40, 100, 280, 300, 520, 530, 920, 921, 922],
+    &[40, 100, 280, 281, 300, 301, 520, 530, 920, 921, 922],
     &[170, 180, 190],
     &[200, 210],
     &[400, 410, 411, 420, 421],
@@ -136,9 +136,10 @@ const GROUPS: [&[u32]; 13] = [
 ];
 
 /// Modal groups of M codes; switches of the operator's overrides change no move of their own.
-const M_GROUPS: [&[u32]; 8] = [
+const M_GROUPS: [&[u32]; 9] = [
     &[0, 10, 20, 300, 600, 980, 990],
     &[60],
+    &[610],
     &[30, 40, 50],
     &[70, 80, 90],
     &[480, 490],
@@ -247,7 +248,7 @@ impl Control {
         if self.m.plane != 17 || machine || axes[0].is_some() || axes[1].is_some() {
             return self.m.halt("@ or ^ in another plane, with G53, or beside X or Y");
         }
-        let (x, y) = (self.m.at[0] - self.m.shift(0), self.m.at[1] - self.m.shift(1));
+        let [x, y, ..] = self.here();
         let (now_length, now_angle) = (x.hypot(y), y.atan2(x).to_degrees());
         if now_length < 1e-9 && (!self.m.absolute || length.is_none() || angle.is_none()) {
             return self.m.halt("@ or ^ counted from the zero itself");
@@ -323,6 +324,12 @@ impl Control {
             // The spindle stands when the change is done.
             self.m.change_tool()?;
             self.m.turn(Spindle::Stopped);
+        }
+        if m.contains(&610) {
+            match words.get('Q') {
+                Some(tool) if tool >= 0.0 => self.m.store_tool(tool as u32),
+                _ => return self.m.halt("M61 without Q"),
+            }
         }
         for code in &m {
             match code {
@@ -411,9 +418,10 @@ impl Control {
         match once {
             Some(920) => {
                 // The present point gets these coordinates.
+                let here = self.here();
                 for (axis, word) in axes.into_iter().enumerate() {
                     if let Some(value) = word {
-                        let now = self.m.at[axis] - self.m.shift(axis);
+                        let now = here[axis];
                         self.m.slots.origin[axis] += now - value;
                     }
                 }
@@ -429,13 +437,15 @@ impl Control {
                 if way != self.m.at {
                     self.m.traverse(way);
                 }
-                let stored = (self.m.setup.stored)(if code == 280 { 1 } else { 2 });
+                let stored = self.m.position_of(if code == 280 { 1 } else { 2 });
                 let to = std::array::from_fn(|axis| match axes[axis] {
                     None if any => way[axis],
                     _ => stored[axis],
                 });
                 self.m.traverse(to);
             }
+            Some(code @ (281 | 301)) if !any => self.m.store_position(if code == 281 { 1 } else { 2 }),
+            Some(281 | 301) => return self.m.halt("G28.1 or G30.1 with axis words"),
             Some(100) => self.table(words, axes)?,
             _ => {
                 if code == Some(800) {
@@ -506,8 +516,15 @@ impl Control {
         // P0 of L2 and L20 is the offset in force.
         let entry = if entry == 0 && table != 1 { self.m.offset } else { entry };
         let radius = words.get('R').map(|r| r * self.unit());
+        let turn = words.get('R').unwrap_or(self.m.turn_of(entry));
         match table {
-            // A rotation of the offset is out of scope.
+            // R turns the offset; without, it is turned as before.
+            2 if (1..=9).contains(&entry) && (words.get('R').is_some() || turn != 0.0) => {
+                self.m.store_turned_zero(entry, axes, turn);
+            }
+            20 if turn != 0.0 || self.m.turn_of(self.m.offset) != 0.0 => {
+                return self.m.halt("G10 L20 and a turned offset");
+            }
             2 | 20 if (1..=9).contains(&entry) && radius.is_none() => {
                 let zero = |axis: usize, value: f64| match table {
                     2 => value,
@@ -540,7 +557,7 @@ impl Control {
     fn unused(&self, words: &Words, once: Option<u32>) -> Result<(), Halt> {
         let control = words.codes('M').contains(&980);
         let switch = words.codes('M').iter().any(|code| matches!(code, 500 | 510 | 530));
-        let path = words.codes('G').contains(&640);
+        let path = words.codes('G').contains(&640) || words.codes('M').contains(&610);
         for (letter, _) in &words.words {
             let used = match letter {
                 'P' => once == Some(40) || control || path || switch,
@@ -557,8 +574,43 @@ impl Control {
         Ok(())
     }
 
+    /// A vector of the work offset in force as the machine has it.
+    fn turned(&self, [x, y]: [f64; 2], back: bool) -> [f64; 2] {
+        let degrees = self.m.turn_of(self.m.offset);
+        let (sin, cos) = if back { -degrees } else { degrees }.to_radians().sin_cos();
+        [x * cos - y * sin, x * sin + y * cos]
+    }
+
+    /// Where the tool stands, in program coordinates: from the offset's zero, turned back with it, less what
+    /// G52 and G92 shift.
+    fn here(&self) -> Place {
+        let mut here: Place = std::array::from_fn(|axis| self.m.at[axis] - self.m.shift(axis));
+        if self.m.turn_of(self.m.offset) != 0.0 {
+            let origin = self.m.slots.origin;
+            let back = self.turned([here[0] + origin[0], here[1] + origin[1]], true);
+            (here[0], here[1]) = (back[0] - origin[0], back[1] - origin[1]);
+        }
+        here
+    }
+
+    /// A point of the program in machine coordinates.
+    fn machine(&self, point: Place) -> Place {
+        let mut at: Place = std::array::from_fn(|axis| point[axis] + self.m.shift(axis));
+        let origin = self.m.slots.origin;
+        let to = self.turned([point[0] + origin[0], point[1] + origin[1]], false);
+        (at[0], at[1]) = (at[0] - point[0] - origin[0] + to[0], at[1] - point[1] - origin[1] + to[1]);
+        at
+    }
+
     /// Where axis words lead to.
     fn target(&self, axes: [Option<f64>; 6]) -> Place {
+        if self.m.turn_of(self.m.offset) != 0.0 {
+            let mut to = self.here();
+            for (to, word) in to.iter_mut().zip(axes) {
+                *to = word.map_or(*to, |word| if self.m.absolute { word } else { *to + word });
+            }
+            return self.machine(to);
+        }
         std::array::from_fn(|axis| match axes[axis] {
             None => self.m.at[axis],
             Some(value) if self.m.absolute => value + self.m.shift(axis),
@@ -580,6 +632,18 @@ impl Control {
             Some(_) if way.iter().any(Option::is_some) => return self.m.halt("centre and radius"),
             Some(r) => self.m.centre_by_radius(to, r, clockwise)?,
             None if way[normal].is_some() => return self.m.halt("a centre off the plane"),
+            None if self.m.turn_of(self.m.offset) != 0.0 => match (way[first], way[second]) {
+                // About Z alone X and Y stay a plane.
+                (a, b) if normal == 2 && (a.or(b).is_some() && !self.absolute_centre) => {
+                    let by = self.turned([a.unwrap_or(0.0), b.unwrap_or(0.0)], false);
+                    (self.m.at[0] + by[0], self.m.at[1] + by[1])
+                }
+                (Some(a), Some(b)) if normal == 2 => {
+                    let at = self.machine([a, b, 0.0, 0.0, 0.0, 0.0]);
+                    (at[0], at[1])
+                }
+                _ => return self.m.halt("an arc in a turned offset, in another plane or by half a centre"),
+            },
             None => match (way[first], way[second], self.absolute_centre) {
                 (None, None, _) => return self.m.halt("an arc without centre and radius"),
                 (Some(a), Some(b), true) => (a + self.m.shift(first), b + self.m.shift(second)),

@@ -9,6 +9,9 @@ use super::{Halt, Machine, Place, What};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Stored {
     zeros: BTreeMap<u32, Place>,
+    /// Degrees about Z.
+    turns: BTreeMap<u32, f64>,
+    positions: BTreeMap<u32, Place>,
     /// Length without wear, and wear.
     lengths: BTreeMap<u32, (f64, f64)>,
 }
@@ -17,6 +20,45 @@ impl Machine {
     /// Zero of a work offset.
     pub(super) fn zero_of(&self, offset: u32) -> Place {
         self.stored.zeros.get(&offset).copied().unwrap_or_else(|| (self.setup.work_offset)(offset))
+    }
+
+    /// Degrees by which a work offset is turned about Z, with what G92 shifts in it (LinuxCNC, G10 L2 R).
+    pub(super) fn turn_of(&self, offset: u32) -> f64 {
+        self.stored.turns.get(&offset).copied().unwrap_or(0.0)
+    }
+
+    /// Turns a work offset and puts its zero into its table, for the axes with a value.
+    pub(super) fn store_turned_zero(&mut self, offset: u32, values: [Option<f64>; 6], turn: f64) {
+        let mut zero = self.zero_of(offset);
+        for (axis, value) in values.into_iter().enumerate() {
+            zero[axis] = value.unwrap_or(zero[axis]);
+            self.settled[axis] &= offset != self.offset || value.is_none() && axis > 1;
+        }
+        self.stored.zeros.insert(offset, zero);
+        self.stored.turns.insert(offset, turn);
+        let mut shown = zero;
+        if turn != 0.0 {
+            shown[5] = turn;
+        }
+        let what = if turn == 0.0 { "zero" } else { "turned zero" };
+        self.record(What::Data(what, offset, shown));
+    }
+
+    /// A position that the control keeps, in machine coordinates.
+    pub(super) fn position_of(&self, place: u32) -> Place {
+        self.stored.positions.get(&place).copied().unwrap_or_else(|| (self.setup.stored)(place))
+    }
+
+    /// It is where the machine stands now.
+    pub(super) fn store_position(&mut self, place: u32) {
+        self.stored.positions.insert(place, self.at);
+        self.record(What::Data("position", place, self.at));
+    }
+
+    /// The tool in the spindle has this number.
+    pub(super) fn store_tool(&mut self, tool: u32) {
+        self.tool = Some(tool);
+        self.record(What::Data("tool", tool, [0.0; 6]));
     }
 
     /// Length of an entry, wear included.

@@ -37,7 +37,9 @@ pub(super) fn reference(r: &Reference, out: &mut Vec<u8>) {
 /// A value of a table.
 pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
     match d {
-        Data::Offset { offset, mode, words: by } => {
+        Data::Position(place) => whole(u64::from(*place), out),
+        Data::ToolInSpindle(tool) => expr(tool, out),
+        Data::Offset { offset, mode, words: by, turn } => {
             whole(u64::from(*offset), out);
             let mode = match mode {
                 DataMode::Set => "",
@@ -46,6 +48,10 @@ pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
             };
             put(mode, out);
             words(&by[..], out);
+            if let Some(turn) = turn {
+                put(", turned ", out);
+                expr(turn, out);
+            }
         }
         Data::Tool { entry, which, added, value } => {
             whole(u64::from(*entry), out);

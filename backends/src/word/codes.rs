@@ -118,6 +118,8 @@ pub(crate) struct DataCode {
     pub select: (u8, u32),
     /// Letter of the entry.
     pub entry: u8,
+    /// The word that turns a work offset.
+    pub turn: Option<Letter>,
     /// Words of values of tools.
     pub values: Vec<(ToolValue, Letter)>,
 }
@@ -194,6 +196,10 @@ pub(crate) struct Codes {
     pub probes: Vec<(Probe, Code, bool)>,
     /// Tables that values are put into.
     pub tables: Vec<DataCode>,
+    /// Where the axes stand as stored position 1, 2.
+    pub store_position: [Option<Code>; 2],
+    /// The code that says the number of the tool in the spindle, and its word.
+    pub tool_number: Option<(Code, Letter)>,
     pub length: Option<Code>,
     pub no_length: Option<Code>,
     /// Centres are measured from the start point.
@@ -454,6 +460,7 @@ impl Finder {
                 code: self.row(code, Meaning::SetData)?,
                 select: (letter, number),
                 entry: u8::try_from(row.entry).ok()?,
+                turn: row.turns.and_then(|letter| self.letter(letter, Quantity::Angle)),
                 values: values
                     .filter_map(|v| Some((v.of.into(), self.letter(v.letter, Quantity::Length)?)))
                     .collect(),
@@ -557,6 +564,11 @@ impl Codes {
                 })
                 .collect(),
             tables: find.tables(),
+            store_position: [1, 2].map(|place| code(Meaning::StorePosition(place))),
+            tool_number: dialect.code_for(Meaning::SetToolNumber).and_then(|row| {
+                let letter = find.letter(row.words.chars().next()?, Quantity::Integer)?;
+                Some((code(Meaning::SetToolNumber)?, letter))
+            }),
             length: code(Meaning::UseToolLengthOffset),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
             centre_from_start: code(Meaning::SetCentreMode(CentreFrom::Start)),

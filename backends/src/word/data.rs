@@ -9,8 +9,9 @@ use ncc_ir::program::{Coord, Data, DataMode, ToolValue};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
-use super::codes::{DataCode, Letter};
+use super::codes::{Code, DataCode, Letter};
 use super::modes::{Inserted, cannot};
+use super::number::Shaped;
 use super::{Sink, Writer};
 
 impl Writer {
@@ -18,7 +19,19 @@ impl Writer {
     pub(crate) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let tables = &self.codes.tables;
         match data {
-            Data::Offset { offset, mode, words } => {
+            Data::Position(place) => {
+                let code = self.codes.store_position[usize::from(*place == 2)];
+                let code = code.ok_or_else(|| cannot("storing where the axes stand"))?;
+                self.alone(code, None, sink)
+            }
+            Data::ToolInSpindle(tool) => {
+                let code = self.codes.tool_number.filter(|_| tool.literal().is_some());
+                let (code, letter) =
+                    code.ok_or_else(|| cannot("setting the number of the tool in the spindle"))?;
+                let value = self.value(&letter, tool, span, sink)?;
+                self.alone(code, Some((letter.letter, value)), sink)
+            }
+            Data::Offset { offset, mode, words, turn } => {
                 let kind = match mode {
                     DataMode::Set | DataMode::Add => DataKind::Offset,
                     DataMode::Here => DataKind::OffsetHere,
@@ -35,6 +48,10 @@ impl Writer {
                         let letter = self.codes.axes[axis as usize];
                         own.push((letter.ok_or_else(|| cannot("this axis"))?, word.clone()));
                     }
+                }
+                if let Some(turn) = turn {
+                    let letter = table.turn.ok_or_else(|| cannot("rotation of a work offset"))?;
+                    own.push((letter, turn.clone()));
                 }
                 let entry = u32::from(offset - table.row.first) + 1;
                 self.stored(&table, entry, *mode == DataMode::Add, &own, span, sink)
@@ -57,6 +74,21 @@ impl Writer {
                 self.stored(&table, *entry, *added, &[(letter, value)], span, sink)
             }
         }
+    }
+
+    /// A code in a block of its own, with a word of its.
+    fn alone(&mut self, code: Code, word: Option<(u8, Shaped)>, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
+        let need = Need::new(Rank::Alone).code(Some(code));
+        self.admit(&word.as_ref().map_or(need, |(letter, _)| need.letter(*letter)), sink)?;
+        self.block.code(Part::Mode, &code);
+        if let Some((letter, value)) = word {
+            self.block.word(Part::Mode, letter, value);
+        }
+        Ok(())
     }
 
     fn stored(

@@ -332,6 +332,8 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             points.iter().map(said).collect()
         }
         Meaning::SetData => Vec::new(),
+        Meaning::StorePosition(place) => vec![Said::new(format!("STORE_POSITION({place})"))],
+        Meaning::SetToolNumber => vec![Said::new("SET_TOOL_NUMBER(7)")],
         Meaning::StartCutterRadiusCompensation(side) => {
             let radii = &d.caps.radii;
             let ways = [("7", radii.entry), ("tool", radii.tool), ("in-force", radii.in_force)];

@@ -284,6 +284,12 @@ pub(crate) enum Token {
     SetOffsetData,
     #[token("SET_TOOL_DATA")]
     SetToolData,
+    #[token("STORE_POSITION")]
+    StorePosition,
+    #[token("SET_TOOL_NUMBER")]
+    SetToolNumber,
+    #[token("turned")]
+    Turned,
     #[token("LINE_PATTERN")]
     LinePattern,
     #[token("POSITION_LIST")]

@@ -110,6 +110,14 @@ pub(crate) fn path(
     }
 }
 
+/// The number of a stored position.
+pub(crate) fn stored(place: Literal, l: usize, r: usize) -> Parsed<u8> {
+    match place.plain() {
+        Some(place @ 1..=2) => Ok(place as u8),
+        _ => refuse(l, r, Fault::OutOfRange { word: "stored position".into() }),
+    }
+}
+
 /// What a spindle speed counts, by its name.
 pub(crate) fn spindle(name: &str, l: usize, r: usize) -> Parsed<SpindleMode> {
     match name {

@@ -3,7 +3,7 @@
 //! Refused by name: tables that the dictionary does not have, entries outside their numbers, and values
 //! put in while a cycle is in force or where it is not known whether they are added.
 
-use ncc_dialects::{DataKind, DataRow, Quantity, RADIUS_DATA};
+use ncc_dialects::{DataKind, DataRow, Meaning, Quantity, RADIUS_DATA};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -118,12 +118,14 @@ impl Lower {
                 by[axis as usize] = self.number(&word, axis_row.quantity, src, out).map(Expr::Num);
             }
         }
-        if let Some(word) = row.turns.and_then(|letter| words.take(letter as u8)) {
+        let turn = row.turns.and_then(|letter| words.take(letter as u8));
+        if let Some(word) = turn.filter(|_| row.kind == DataKind::OffsetHere) {
             let code = format!("{} {}", row.name, src.text(word.span)).into();
-            let name = "rotation of a work offset".into();
+            let name = "rotation of a work offset by where the axes stand".into();
             return self.fault(Fault::NotSupported { code, name }, word.span, out);
         }
-        if by.iter().all(Option::is_none) {
+        let turn = turn.and_then(|word| self.number(&word, Quantity::Angle, src, out)).map(Expr::Num);
+        if by.iter().all(Option::is_none) && turn.is_none() && !self.now.failed {
             return self.fault(Fault::WordMissing { code: row_name(), word: "X".into() }, code.span, out);
         }
         let mode = match (row.kind, added) {
@@ -135,7 +137,29 @@ impl Lower {
             (_, false) => DataMode::Set,
         };
         let offset = row.first + (number - 1) as u16;
-        let data = Data::Offset { offset, mode, words: Box::new(by) };
+        let data = Data::Offset { offset, mode, words: Box::new(by), turn };
+        self.push(code.span, Op::SetData(Box::new(data)), out);
+    }
+
+    /// Where the axes stand becomes a stored position; or the number of the tool in the spindle is said.
+    pub(super) fn stored(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
+        let code_text: Box<str> = code.row.code.as_str().into();
+        let data = match code.meaning {
+            Meaning::StorePosition(_) if self.has_axis_word(words) => {
+                let name = "storing where the axes stand in a block with axis words".into();
+                return self.fault(Fault::NotSupported { code: code_text, name }, code.span, out);
+            }
+            Meaning::StorePosition(place) => Data::Position(place),
+            _ => {
+                let letter = code.row.words.bytes().next().unwrap_or(b'Q');
+                let Some(word) = words.take(letter) else {
+                    let word = char::from(letter).to_string().into();
+                    return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
+                };
+                let Some(tool) = self.whole(&word, src, out) else { return };
+                Data::ToolInSpindle(Expr::int(i64::from(tool)))
+            }
+        };
         self.push(code.span, Op::SetData(Box::new(data)), out);
     }
 

@@ -390,6 +390,7 @@ impl Lower {
                 Op::UseToolLengthOffset(Expr::int(0))
             }
             Meaning::SetData => return self.data(code, words, src, out),
+            Meaning::StorePosition(_) | Meaning::SetToolNumber => return self.stored(code, words, src, out),
             Meaning::ProgramStop => Op::ProgramStop,
             Meaning::OptionalProgramStop => Op::OptionalProgramStop,
             Meaning::ProgramEnd => {

@@ -166,6 +166,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             dialect.code.iter().any(keeps)
         }),
         offset_data: if everything { [true; 3] } else { dialect.sets_offsets() },
+        offset_turns: everything || dialect.data.iter().any(|row| row.turns.is_some()),
+        stored_positions: [1, 2].map(|place| everything || says(Meaning::StorePosition(place))),
+        tool_number: everything || says(Meaning::SetToolNumber),
         tool_data: if everything { [true; 4] } else { dialect.sets_tools() },
         tool_data_added: everything || dialect.data.iter().any(|r| r.kind == DataKind::Tool && r.adds),
         tool_names: everything

@@ -66,6 +66,10 @@ pub enum Meaning {
     },
     /// Puts values into the table of the row of `[[data]]` that a word of the block names.
     SetData,
+    /// Where the axes stand becomes the stored position of this number.
+    StorePosition(u8),
+    /// The row's word is the number of the tool that is in the spindle.
+    SetToolNumber,
     /// The block's axis words, or polar ones, say about which point polar words are.
     SetPole(PoleFrom),
     /// From here on, the words of the plane's axes are radius and angle about program zero (`true`), or
@@ -204,6 +208,8 @@ impl fmt::Display for Meaning {
                 };
             }
             Meaning::SetData => "SET_DATA",
+            Meaning::StorePosition(place) => return write!(f, "STORE_POSITION {place}"),
+            Meaning::SetToolNumber => "SET_TOOL_NUMBER",
             Meaning::SetPole(PoleFrom::Zero) => "SET_POLE zero",
             Meaning::SetPole(PoleFrom::Here) => "SET_POLE here",
             Meaning::SetPole(PoleFrom::Pole) => "SET_POLE pole",
@@ -339,6 +345,9 @@ impl FromStr for Meaning {
                 Meaning::GoToReference { point: ReferencePoint::Stored(2), keeps_length: true }
             }
             ("SET_DATA", "") => Meaning::SetData,
+            ("STORE_POSITION", "1") => Meaning::StorePosition(1),
+            ("STORE_POSITION", "2") => Meaning::StorePosition(2),
+            ("SET_TOOL_NUMBER", "") => Meaning::SetToolNumber,
             ("SET_POLE", "zero") => Meaning::SetPole(PoleFrom::Zero),
             ("SET_POLE", "here") => Meaning::SetPole(PoleFrom::Here),
             ("SET_POLE", "pole") => Meaning::SetPole(PoleFrom::Pole),

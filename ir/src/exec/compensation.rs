@@ -327,6 +327,8 @@ impl Exec {
                 Data::Tool { which: ToolValue::Radius | ToolValue::RadiusWear, .. } => {
                     Some("another radius under cutter radius compensation")
                 }
+                Data::Position(_) => Some("storing where the axes stand under cutter radius compensation"),
+                Data::ToolInSpindle(_) => Some("another tool under cutter radius compensation"),
                 Data::Offset { .. } | Data::Tool { .. } => None,
             },
             miscellaneous!()

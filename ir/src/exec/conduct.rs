@@ -171,6 +171,7 @@ impl Exec {
             && self.frame == other.frame
             && self.chain == other.chain
             && self.slots == other.slots
+            && self.offset_turned == other.offset_turned
             && self.last == other.last
             && self.heading == other.heading
             && self.raw == other.raw

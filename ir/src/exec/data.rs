@@ -10,7 +10,7 @@ use crate::canon::same_point;
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
 use crate::num::{Nanos, ONE};
-use crate::program::{Data, DataMode, Reference, ToolValue};
+use crate::program::{Data, DataMode, Reference, ReferencePoint, ToolValue};
 use crate::source::Span;
 
 impl Exec {
@@ -73,10 +73,24 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         let stored = match data {
-            Data::Offset { offset, mode, words } => {
+            Data::Position(place) => {
+                let here = self.machine();
+                self.world.tables.references.insert(ReferencePoint::Stored(*place), here.map(Some));
+                Stored::Position(*place, here)
+            }
+            Data::ToolInSpindle(tool) => {
+                let Ok(number) = u32::try_from(self.whole(tool, span)?) else {
+                    return self.fault(Fault::OutOfRange { word: "tool".into() }, span);
+                };
+                self.state.tool = i64::from(number);
+                Stored::Tool(self.world.tool_number(number))
+            }
+            Data::Offset { offset, mode, words, turn } => {
                 let here = self.machine();
                 let mut zero = self.world.work_offset(*offset);
-                if *mode == DataMode::Here && (self.modes.shifted || self.chain.is_some()) {
+                let turned = self.world.work_turn(*offset);
+                let is_turned = turned != 0 || self.offset_turned;
+                if *mode == DataMode::Here && (self.modes.shifted || self.chain.is_some() || is_turned) {
                     return self.not_executed("a work offset set by the position under a frame", span);
                 }
                 for (axis, word) in words.iter().enumerate() {
@@ -93,11 +107,13 @@ impl Exec {
                         Some(_) | None => return self.fault(Fault::OutOfRange { word: "".into() }, span),
                     };
                 }
+                let turned = turn.as_ref().map_or(Ok(turned), |turn| self.value(turn, span))?;
                 self.world.tables.work_offsets.insert(*offset, zero.map(Some));
+                self.world.tables.work_turns.insert(*offset, turned);
                 if self.modes.work_offset == *offset {
                     self.reframe(here);
                 }
-                Stored::Offset(self.world.offset_number(*offset), zero)
+                Stored::Offset(self.world.offset_number(*offset), zero, turned)
             }
             Data::Tool { entry, which, added, value } => {
                 let value = self.value(value, span)?;

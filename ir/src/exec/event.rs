@@ -91,8 +91,12 @@ pub enum Kind {
 /// Values in the control's tables, after a program has changed them. Numbers are those of the source.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Stored {
-    /// Zero of a work offset, machine coordinates in nanos.
-    Offset(u32, [Nanos; AXES]),
+    /// Zero of a work offset, machine coordinates in nanos, and its turn about Z, degrees in nanos.
+    Offset(u32, [Nanos; AXES], Nanos),
+    /// A position stored in the control, machine coordinates in nanos.
+    Position(u8, [Nanos; AXES]),
+    /// The number of the tool in the spindle.
+    Tool(u32),
     /// Length of an entry of the table of tools, wear included.
     Length(u32, Nanos),
     /// Another value of an entry of that table: which, whether it was added, and what was said.
@@ -103,10 +107,16 @@ impl std::fmt::Display for Stored {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let number = |n: &Nanos| *n as f64 / crate::num::ONE as f64;
         match self {
-            Stored::Offset(offset, zero) => {
+            Stored::Offset(offset, zero, turn) => {
                 write!(f, "zero of work offset {offset} at")?;
-                zero.iter().try_for_each(|at| write!(f, " {}", number(at)))
+                zero.iter().try_for_each(|at| write!(f, " {}", number(at)))?;
+                if *turn == 0 { Ok(()) } else { write!(f, ", turned by {}", number(turn)) }
             }
+            Stored::Position(place, at) => {
+                write!(f, "stored position {place} at")?;
+                at.iter().try_for_each(|at| write!(f, " {}", number(at)))
+            }
+            Stored::Tool(tool) => write!(f, "tool {tool} is in the spindle"),
             Stored::Length(entry, length) => write!(f, "length {} in entry {entry}", number(length)),
             Stored::Value(entry, which, added, value) => {
                 let what = match which {

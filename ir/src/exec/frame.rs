@@ -3,8 +3,8 @@
 //! A chain of translations stays exact; with rotations or factors, positions pass through floats
 //! and are rounded to a nano. Rotations are in a plane of two axes; others are refused.
 
+use super::Exec;
 use super::slots::{Frames, Present};
-use super::{Exec, Length};
 use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -19,6 +19,17 @@ pub(crate) struct Chain {
     /// `None` is no rotation, factor or mirror.
     turn: Option<[[f64; 3]; 3]>,
     shift: [Nanos; AXES],
+}
+
+/// Which length of a tool is in force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Length {
+    /// An entry of the table; 0 is none.
+    Entry(u32),
+    /// An edge of a tool, where that is not an entry.
+    Edge(i64, u32),
+    /// What a return to the reference point has left of it, if anything.
+    Left,
 }
 
 const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -220,6 +231,10 @@ impl Present for Now<'_> {
     }
 
     fn work(&self, axis: usize) -> Result<Nanos, Diagnostic> {
+        if self.exec.offset_turned {
+            let what = "a frame that depends on where the axes stand in a turned work offset".into();
+            return Err(Diagnostic::new(Fault::NotExecuted { what }, self.span));
+        }
         Ok(self.exec.machine()[axis].wrapping_sub(self.exec.frame[axis]))
     }
 
@@ -260,6 +275,19 @@ impl Exec {
                 .not_executed("coordinates of the present point in a frame that turns or scales", span);
         }
         let shift = self.origin_shift();
+        if self.offset_turned {
+            if frames.chain() != Chain::NONE {
+                return self
+                    .not_executed("coordinates of the present point in a frame of a turned offset", span);
+            }
+            for (axis, word) in axes.iter().enumerate() {
+                let Some(word) = word else { continue };
+                let at = self.position[axis].wrapping_sub(self.value(word, span)?);
+                frames.origin[axis] = Some(shift[axis].wrapping_add(at));
+            }
+            self.use_slots(frames);
+            return Ok(());
+        }
         frames.set_position(axes, &shift, &Now { exec: self, span })?;
         self.use_slots(frames);
         Ok(())
@@ -274,6 +302,20 @@ impl Exec {
         let mut frames = self.slots();
         frames.clear(slot);
         self.use_slots(frames);
+    }
+
+    /// Turns the work offset in force, with the shift of the origin and all frames in it; 0 is not turned.
+    #[cold]
+    pub(super) fn turn_offset(&mut self, turn: Nanos) {
+        let mut chain = Chain::NONE;
+        self.offset_turned = turn != 0;
+        if self.offset_turned {
+            let (sin, cos) = geometry::sin_cos(turn);
+            chain.append([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]]);
+            chain = chain.then(&Chain::by(self.origin_shift()));
+        }
+        let chain = chain.then(&self.slots().chain());
+        self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
     }
 
     fn slots(&self) -> Frames {

@@ -45,6 +45,7 @@ use crate::world::{Sideways, World};
 use arcs::Heading;
 use centre_path::CentrePath;
 use compensation::Contour;
+use frame::Length;
 use holes::InForce;
 
 const Z: usize = Axis::Z as usize;
@@ -66,6 +67,8 @@ pub struct Exec {
     chain: Option<Box<Chain>>,
     /// The slots that they come from, and the shift of the origin; `None` is nothing in any.
     slots: Option<Box<Frames>>,
+    /// Whether the work offset in force is turned: then the shift of the origin is in the chain.
+    offset_turned: bool,
     /// Position of the last move's event.
     last: [Nanos; AXES],
     /// Direction of the last move.
@@ -120,17 +123,6 @@ struct InModes {
     shifted: bool,
 }
 
-/// Which length of a tool is in force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Length {
-    /// An entry of the table; 0 is none.
-    Entry(u32),
-    /// An edge of a tool, where that is not an entry.
-    Edge(i64, u32),
-    /// What a return to the reference point has left of it, if anything.
-    Left,
-}
-
 // Bits of `Exec::said`.
 const MOTION: u16 = 1;
 const DISTANCE: u16 = 2;
@@ -165,6 +157,7 @@ impl Exec {
             frame: [0; AXES],
             chain: None,
             slots: None,
+            offset_turned: false,
             last: world.start,
             heading: Heading::None,
             after_stop: None,
@@ -325,7 +318,11 @@ impl Exec {
     /// Computes the frame anew; the machine stays at `here`.
     fn reframe(&mut self, here: [Nanos; AXES]) {
         self.frame = self.world.work_offset(self.modes.work_offset);
-        if self.modes.shifted || self.slots.is_some() {
+        let turn = self.world.work_turn(self.modes.work_offset);
+        if turn != 0 || self.offset_turned {
+            self.turn_offset(turn);
+        }
+        if !self.offset_turned && (self.modes.shifted || self.slots.is_some()) {
             let shift = self.origin_shift();
             for (f, s) in self.frame.iter_mut().zip(shift) {
                 *f = f.wrapping_add(s);

@@ -213,6 +213,9 @@ impl Exec {
             Op::SetData(data) => match **data {
                 Data::Offset { offset, .. } => offset == self.modes.work_offset,
                 Data::Tool { .. } => self.state.tip,
+                // Where the axes stand behind a switch, the machine alone knows.
+                Data::Position(_) => true,
+                Data::ToolInSpindle(_) => self.state.tip,
             },
             Op::ClearFrame(_)
             | Op::UseToolCentrePoint(_)

@@ -135,6 +135,7 @@ impl Converter<'_> {
                     words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
                 }
                 Data::Tool { value, .. } => self.whole(value)?,
+                Data::Position(_) | Data::ToolInSpindle(_) => {}
             },
             Op::SetFrame(frame) => {
                 if let FrameStep::Translate(words) = &mut frame.step {

@@ -308,6 +308,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         Op::SetData(data) => match &mut **data {
             Data::Offset { words, .. } => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
             Data::Tool { value, .. } => settle_expr(value, here),
+            Data::Position(_) | Data::ToolInSpindle(_) => {}
         },
         Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)

@@ -620,7 +620,7 @@ impl Legaliser {
             let mut cannot = |what: &str| {
                 diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
             };
-            match &stmt.op {
+            match &mut stmt.op {
                 Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
                 Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
                 Op::Goto(_) if !caps.repeats => cannot("a jump"),
@@ -638,14 +638,26 @@ impl Legaliser {
                     });
                 }
                 Op::SetData(data) => {
-                    let can = match **data {
-                        Data::Offset { mode, .. } => caps.offset_data[mode as usize],
-                        Data::Tool { which, added, .. } => {
-                            caps.tool_data[which as usize] && (caps.tool_data_added || !added)
+                    // What cannot be turned is not.
+                    if let Data::Offset { turn, .. } = &mut **data {
+                        turn.take_if(|turn| {
+                            !caps.offset_turns && turn.literal().is_some_and(|n| n.is_zero())
+                        });
+                    }
+                    match &**data {
+                        Data::Offset { turn: Some(_), .. } if !caps.offset_turns => {
+                            cannot("rotation of a work offset");
                         }
-                    };
-                    if !can {
-                        cannot("this value in the control's tables");
+                        Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
+                        Data::Tool { which, added, .. }
+                            if caps.tool_data[*which as usize] && (caps.tool_data_added || !added) => {}
+                        Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
+                        Data::ToolInSpindle(_) if caps.tool_number => {}
+                        Data::Position(_) => cannot("storing where the axes stand"),
+                        Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
+                        Data::Offset { .. } | Data::Tool { .. } => {
+                            cannot("this value in the control's tables");
+                        }
                     }
                 }
                 _ => {}

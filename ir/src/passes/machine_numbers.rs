@@ -86,6 +86,8 @@ impl Renumbering {
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => self.maps.offsets.is_some(),
                 Data::Tool { .. } => self.maps.entries.is_some(),
+                Data::ToolInSpindle(_) => self.maps.tools.is_some(),
+                Data::Position(_) => false,
             },
             Op::Call(_) => !self.maps.programs.is_empty() || self.maps.programs_in_force,
             Op::Control(control) => bodies(control).into_iter().flatten().any(|s| self.concerns(&s.op)),
@@ -154,7 +156,10 @@ impl Renumbering {
                             *entry = number;
                         }
                     }
-                    Data::Tool { .. } => {}
+                    Data::ToolInSpindle(tool) if self.maps.tools.is_some() => {
+                        self.put_in(tool, Numbered::Tool, at, diags);
+                    }
+                    Data::Tool { .. } | Data::ToolInSpindle(_) | Data::Position(_) => {}
                 },
                 Op::Call(call) => {
                     if let Some(name) = self.maps.program(&call.name) {

@@ -90,6 +90,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(TOOL_AXIS, caps.tip == TipForm::Any && caps.tilt == TiltForm::Any);
     needs(FRAME, caps.says_all_frames());
     let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
+    let data = data && caps.offset_turns && caps.stored_positions == [true; 2] && caps.tool_number;
     let points =
         caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
     needs(

@@ -84,7 +84,16 @@ pub enum Data {
         mode: DataMode,
         /// The words; an axis without one keeps its value.
         words: Box<[Option<Expr>; AXES]>,
+        /// By how many degrees the offset is turned about Z from here on, counter-clockwise, between its zero
+        /// and the shift of the origin; without, as before. A control without such a turn has none ever.
+        turn: Option<Expr>,
     },
+    /// `STORE_POSITION`: where the axes stand becomes a position stored in the control
+    /// ([`ReferencePoint::Stored`]).
+    Position(u8),
+    /// `SET_TOOL_NUMBER`: the tool in the spindle is the one with this number; nothing is changed or moved, and
+    /// the length in force stays.
+    ToolInSpindle(Expr),
     /// A value of an entry of the table of tools; [`DataMode::Here`] is none of these.
     Tool {
         /// The entry.

@@ -20,7 +20,18 @@ impl Control {
                 *value = value.map(|value| self.m.at[axis] - length - value);
             }
         }
-        self.m.store_zero(offset, values, says("added"));
+        let turn = self.after(a, "turned");
+        if says("here") && turn.unwrap_or(self.m.turn_of(offset)) != 0.0 {
+            return self.m.halt("a turned work offset by the position");
+        }
+        match turn {
+            _ if says("added") => self.m.store_zero(offset, values, true),
+            None if self.m.turn_of(offset) == 0.0 => self.m.store_zero(offset, values, false),
+            turn => {
+                let turn = turn.unwrap_or(self.m.turn_of(offset));
+                self.m.store_turned_zero(offset, values, turn);
+            }
+        }
         Ok(())
     }
 

@@ -171,7 +171,7 @@ impl Control {
         let (point, rest) = match (point.as_str(), rest) {
             ("home", rest) => ([0.0; 6], rest),
             ("further", [Token::Number(n, _), rest @ ..]) => ((self.m.setup.reference)(*n as u32), rest),
-            ("stored", [Token::Number(n, _), rest @ ..]) => ((self.m.setup.stored)(*n as u32), rest),
+            ("stored", [Token::Number(n, _), rest @ ..]) => (self.m.position_of(*n as u32), rest),
             _ => return self.m.halt(format!("the point {point}")),
         };
         let via = rest.iter().position(|t| matches!(t, Token::Name(n) if n == "via"));

@@ -47,14 +47,9 @@ impl Control {
             self.rapid(normal, r);
         }
         for time in 0..times {
-            let mut over = self.m.at;
-            for axis in [first, second] {
-                over[axis] = match axes[axis] {
-                    None => self.m.at[axis],
-                    Some(value) if self.m.absolute => value + self.m.shift(axis),
-                    Some(value) => self.m.at[axis] + value,
-                };
-            }
+            let mut in_plane = [None; 6];
+            (in_plane[first], in_plane[second]) = (axes[first], axes[second]);
+            let mut over = self.target(in_plane);
             // The first time from where the tool stands above R, later on from the level of return.
             if time > 0 || self.m.at[normal] <= r {
                 over[normal] = clear;

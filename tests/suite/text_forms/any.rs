@@ -310,8 +310,11 @@ fn data() -> impl Strategy<Value = Data> {
     let modes = select(vec![DataMode::Set, DataMode::Add, DataMode::Here]);
     let words = || prop::option::of(expr());
     prop_oneof![
-        (any::<u16>(), modes, [words(), words(), words(), words(), words(), words()])
-            .prop_map(|(offset, mode, words)| Data::Offset { offset, mode, words: Box::new(words) }),
+        (any::<u16>(), modes, [words(), words(), words(), words(), words(), words()], words()).prop_map(
+            |(offset, mode, words, turn)| Data::Offset { offset, mode, words: Box::new(words), turn }
+        ),
+        (1u8..=2).prop_map(Data::Position),
+        expr().prop_map(Data::ToolInSpindle),
         (any::<u32>(), select(ToolValue::ALL.to_vec()), any::<bool>(), expr())
             .prop_map(|(entry, which, added, value)| Data::Tool { entry, which, added, value }),
     ]
