@@ -227,9 +227,14 @@ impl Writer {
     }
 
     fn no_effect(&mut self, name: &str, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        let means = self.dialect.name_row(name).and_then(|row| row.means);
-        if means != Some(NameMeaning::Code(Meaning::NoEffect)) {
+        let (word, arguments) = name.split_at(name.find('(').unwrap_or(name.len()));
+        let row = self.dialect.name_row(&word.trim_end().to_ascii_uppercase());
+        let row = row.filter(|row| row.means == Some(NameMeaning::Code(Meaning::NoEffect)));
+        let Some(row) = row.filter(|row| arguments.is_empty() || row.arguments) else {
             return self.words.statement(stmt, sink);
+        };
+        if row.arguments {
+            return self.alone(name, sink);
         }
         self.words.admit(&Need::new(Rank::Setting), sink)?;
         self.words.block.text(Part::Mode, name);

@@ -78,6 +78,7 @@ impl Lower {
     pub(super) fn is_word_with_arguments(&self, name: &str) -> bool {
         let row = self.settings.dialect.name_row(name);
         match row.and_then(|row| row.means) {
+            _ if row.is_some_and(|row| row.arguments) => true,
             Some(NameMeaning::Code(Meaning::Advise(kind, None))) => kind == AdviceKind::PathTolerance,
             Some(NameMeaning::Code(Meaning::NoEffect)) => name == SET_MASTER,
             Some(NameMeaning::Code(Meaning::SetTilt | Meaning::UseToolCentrePoint(_))) => true,
@@ -88,8 +89,11 @@ impl Lower {
     /// Such a word.
     pub(super) fn word_with_arguments(&mut self, name: &str, called: &Called, src: Source, out: &mut Batch) {
         let arguments = called.arguments.as_deref().unwrap_or_default();
-        let means = self.settings.dialect.name_row(name).and_then(|row| row.means);
-        match means {
+        let row = self.settings.dialect.name_row(name);
+        if row.is_some_and(|row| row.arguments) {
+            return self.push(called.span, Op::NoEffect(src.text(called.span)), out);
+        }
+        match row.and_then(|row| row.means) {
             Some(NameMeaning::Code(Meaning::SetTilt)) => {
                 return self.swivel(name, called.span, arguments, src, out);
             }

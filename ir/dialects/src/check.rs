@@ -10,7 +10,7 @@ use ncc_ir::canon::SpindleMode;
 use crate::codes::{CodeIndex, CodeRow};
 use crate::fault::DialectFault;
 use crate::meaning::Meaning;
-use crate::names::{NameRow, ParameterRole};
+use crate::names::{NameMeaning, NameRow, ParameterRole};
 use crate::schema::Dialect;
 use crate::stored::DataKind;
 
@@ -262,6 +262,9 @@ fn names(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
         }
         if row.role.is_some() != row.quantity.is_some() {
             return Err(wrong("needs `quantity` with `role`"));
+        }
+        if row.arguments && row.means != Some(NameMeaning::Code(Meaning::NoEffect)) {
+            return Err(wrong("has `arguments` and an effect"));
         }
     }
     for (at, row) in dialect.call.iter().enumerate() {

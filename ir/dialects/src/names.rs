@@ -35,6 +35,9 @@ pub struct NameRow {
     /// Its modal group, shared with the codes; empty for one-shots and addresses.
     #[serde(default)]
     pub group: String,
+    /// Whether arguments belong to a word without an effect, which go with it as they are written.
+    #[serde(default)]
+    pub arguments: bool,
     /// Whether it is written when several words mean the same.
     #[serde(default = "crate::schema::yes")]
     pub write: bool,
