@@ -159,6 +159,8 @@ pub struct Caps {
     pub threads: Threads,
     /// How points by radius and angle are said.
     pub polar: PolarForm,
+    /// A stop of the spindle at the control's own angle.
+    pub own_stop: bool,
     /// Which way round a rotary axis goes.
     pub rotary_ways: bool,
     /// Lines by their angle and one coordinate.

@@ -116,6 +116,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         feed_mode: None,
         limits_speed: false,
         limit: None,
+        orient: None,
         other_machine: false,
         own_tool: false,
         dwell: Vec::new(),

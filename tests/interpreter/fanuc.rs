@@ -349,7 +349,7 @@ impl Control {
             Some(4) => self.m.turn(Spindle::Counterclockwise),
             Some(7) => self.m.cool(self.m.coolant.0, true),
             Some(8) => self.m.cool(true, self.m.coolant.1),
-            Some(19) if number(&words, 'R').or(number(&words, 'P')).is_none() => self.m.orient(None),
+            Some(19) => self.stop_at_angle(&words)?,
             Some(29) if !self.haas => self.rigid = true,
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
@@ -549,7 +549,7 @@ impl Control {
     fn go(&mut self, words: &[Word]) -> Result<(), Halt> {
         let axes = self.axis_words(words);
         let ijk = ['I', 'J', 'K'].map(|letter| self.length(words, letter));
-        let r = self.length(words, 'R');
+        let r = self.length(words, 'R').filter(|_| number(words, 'M') != Some((19.0, false)));
         let any_centre = ijk.iter().any(Option::is_some) || r.is_some();
         if axes.iter().all(Option::is_none) && !any_centre {
             return Ok(());

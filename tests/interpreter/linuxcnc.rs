@@ -140,7 +140,7 @@ const M_GROUPS: [&[u32]; 9] = [
     &[0, 10, 20, 300, 600, 980, 990],
     &[60],
     &[610],
-    &[30, 40, 50],
+    &[30, 40, 50, 190],
     &[70, 80, 90],
     &[480, 490],
     &[500],
@@ -336,6 +336,16 @@ impl Control {
                 30 => self.m.turn(Spindle::Clockwise),
                 40 => self.m.turn(Spindle::Counterclockwise),
                 50 => self.m.turn(Spindle::Stopped),
+                190 => {
+                    // Without Q the program goes on while the spindle still turns.
+                    let (Some(angle), Some(_)) = (words.get('R'), words.get('Q')) else {
+                        return self.m.halt("M19 without R and Q");
+                    };
+                    if words.get('P').is_some_and(|way| way != 0.0) {
+                        return self.m.halt("M19 with a sense");
+                    }
+                    self.m.orient(Some(angle));
+                }
                 70 => self.m.cool(self.m.coolant.0, true),
                 80 => self.m.cool(true, self.m.coolant.1),
                 90 => self.m.cool(false, false),
@@ -558,11 +568,13 @@ impl Control {
         let control = words.codes('M').contains(&980);
         let switch = words.codes('M').iter().any(|code| matches!(code, 500 | 510 | 530));
         let path = words.codes('G').contains(&640) || words.codes('M').contains(&610);
+        let stop = words.codes('M').contains(&190);
         for (letter, _) in &words.words {
             let used = match letter {
-                'P' => once == Some(40) || control || path || switch,
+                'P' => once == Some(40) || control || path || switch || stop,
                 'L' => control,
-                'Q' => path,
+                'Q' => path || stop,
+                'R' if stop => true,
                 'D' => words.codes('G').iter().any(|code| matches!(code, 410 | 420 | 960)),
                 'R' | 'I' | 'J' | 'K' | '@' | '^' => false,
                 _ => true,

@@ -227,6 +227,7 @@ impl<'a> Control<'a> {
                 }
                 Item::Named(name, value) => {
                     let centre = ["I1", "J1", "K1", "AP"].contains(&name.as_str());
+                    let centre = centre || name == "SPOS" && value.mark == Mark::Absolute;
                     if w.named(name).is_some() || (!centre && value.mark != Mark::None) {
                         return self.m.halt(format!("{name} twice, or with AC or IC"));
                     }

@@ -3,7 +3,9 @@
 //! A row counts only if its word reads back to the same meaning, so every code here was found by
 //! its meaning and checked by its number. Not here: when a word is written.
 
-use ncc_dialects::{DataRow, Dialect, DwellWord, Meaning, PatternRow, Quantity, Role, Settings, Thread};
+use ncc_dialects::{
+    DataRow, Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread,
+};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
@@ -212,8 +214,10 @@ pub(crate) struct Codes {
     pub spindle_stop: Option<Code>,
     /// Makes the tapping cycle called up next a rigid one.
     pub rigid_tapping: Option<Code>,
-    /// Stop of the spindle at the control's own angle.
+    /// Stop of the spindle at the control's own angle, and the words of another one.
     pub orient: Option<Code>,
+    pub orient_words: Option<&'static OrientWords>,
+    pub orient_angles: Vec<Letter>,
     /// The code that rounds corners with a word that says how far from the path, and that word.
     pub path_within: Option<(Code, Letter)>,
     /// The letter of its second word, within which moves are made one.
@@ -413,6 +417,15 @@ impl Finder {
         self.row(&row.code, row.means?)
     }
 
+    fn orient_words(&self) -> Option<&'static OrientWords> {
+        self.dialect.code_for(Meaning::OrientSpindle)?.orient.as_ref()
+    }
+
+    fn orient_angles(&self) -> Vec<Letter> {
+        let words = self.orient_words().map_or(&[][..], |words| &words.angle);
+        words.iter().filter_map(|word| self.letter(word.letter, word.quantity)).collect()
+    }
+
     fn surface_limit(&self) -> Option<Letter> {
         let letter = self.dialect.code.iter().find_map(|row| row.limit)?;
         self.letter(letter, Quantity::Speed)
@@ -579,6 +592,8 @@ impl Codes {
             spindle_stop: code(Meaning::StopSpindleTurning),
             rigid_tapping: code(Meaning::RigidTapping),
             orient: code(Meaning::OrientSpindle),
+            orient_words: find.orient_words(),
+            orient_angles: find.orient_angles(),
             path_within: dialect
                 .code_for(Meaning::SetMotionControlMode(PathMode::Continuous))
                 .and_then(|row| row.words.chars().next())

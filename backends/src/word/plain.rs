@@ -42,6 +42,7 @@ impl Writer {
             || self.residual
             || self.corner.is_some()
             || self.polar
+            || self.surfaces.unsaid.is_some()
             || self.labels.waiting.is_some()
         {
             return false;

@@ -2,10 +2,10 @@
 //!
 //! Not here: a code that says both what a speed and what a feed counts, for two statements at once.
 
-use ncc_ir::canon::SpindleMode;
+use ncc_ir::canon::{Spindle, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::program::Stmt;
+use ncc_ir::program::{Op, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -15,6 +15,9 @@ use super::{Sink, Writer};
 
 /// The option that says whose coordinate is the radius of a surface speed.
 const AXIS: &str = "surface_axis";
+
+/// The option that says how long a stop of the spindle at an angle is waited for, seconds.
+const WAIT: &str = "orient_wait";
 
 /// What the text has said of surface speeds.
 #[derive(Clone, Copy, Debug, Default)]
@@ -27,6 +30,8 @@ pub(crate) struct Surfaces {
     unlimited: bool,
     /// A code whose speed must follow it in its block.
     waits: Option<Span>,
+    /// A limit that is to be said with the surface speed that follows.
+    pub(super) unsaid: Option<Span>,
 }
 
 impl Writer {
@@ -62,6 +67,7 @@ impl Writer {
             None => None,
             Some(letter) => match self.force.limit {
                 Some(limit) => {
+                    self.surfaces.unsaid = None;
                     need = need.letter(letter.letter);
                     Some((letter.letter, self.value(&letter, &Expr::Num(limit), stmt.span, sink)?))
                 }
@@ -111,8 +117,37 @@ impl Writer {
             return Err(cannot("a limit of the spindle behind the surface speed that it is for"));
         }
         self.surfaces.limited = true;
+        self.surfaces.unsaid = Some(span);
         self.force.limit = Some(limit);
         Ok(())
+    }
+
+    /// Tells of a limit that counts before a surface speed could say it.
+    pub(super) fn limit_in_turns(&mut self, op: &Op, sink: &mut Sink) {
+        let starts = matches!(op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise);
+        let sets = matches!(
+            op,
+            Op::LimitSpindleSpeed(_)
+                | Op::SetSpindleMode(_)
+                | Op::SetSpindleSpeed(_)
+                | Op::SetFeedMode(_)
+                | Op::SetFeedRate(_)
+                | Op::UseLengthUnits(_)
+                | Op::SetDistanceMode(_)
+                | Op::SelectPlane(_)
+                | Op::SetOriginOffsets(_)
+                | Op::SelectTool(_)
+                | Op::StopSpindleTurning
+                | Op::Comment(_)
+                | Op::Blank
+                | Op::NoEffect(_)
+        );
+        let turns = matches!(self.tracker.spindle, Some(Spindle::Clockwise | Spindle::Counterclockwise));
+        if (starts || turns && !sets)
+            && let Some(span) = self.surfaces.unsaid.take()
+        {
+            sink.report(cannot("a limit of the spindle under a speed in turns"), span);
+        }
     }
 
     /// Tells of a surface speed whose speed does not stand in its block.
@@ -122,5 +157,41 @@ impl Writer {
         {
             sink.report(cannot("a constant surface speed without its speed in the block"), span);
         }
+    }
+
+    /// A stop of the spindle, at the control's own angle or at another one.
+    pub(super) fn orient(&mut self, angle: Option<&Expr>, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        const WHAT: &str = "a spindle stopped at an angle";
+        let code = self.codes.orient.ok_or_else(|| cannot(WHAT))?;
+        let words = self.codes.orient_words;
+        let wait = words.and_then(|words| words.wait);
+        let mut need = Need::new(Rank::SpindleOn).code(Some(code));
+        let Some(angle) = angle else {
+            if wait.is_some() {
+                return Err(cannot("a stop of the spindle at the control's own angle"));
+            }
+            self.admit(&need, sink)?;
+            self.block.code(Part::Tail, &code);
+            return Ok(());
+        };
+        // On some machines a choice says which letter it is.
+        let chosen = words.and_then(|words| words.option.as_deref()).map(|option| self.settings.get(option));
+        let counts = |letter: u8| chosen.is_none_or(|chosen| chosen.as_bytes() == [letter]);
+        let letter = self.codes.orient_angles.iter().find(|letter| counts(letter.letter)).copied();
+        let letter = letter.ok_or_else(|| cannot(WHAT))?;
+        let value = self.value(&letter, angle, span, sink)?;
+        need = need.letter(letter.letter);
+        if let Some(wait) = wait {
+            need = need.letter(wait as u8);
+            self.rely(WAIT, span, sink);
+        }
+        self.admit(&need, sink)?;
+        self.block.code(Part::Tail, &code);
+        self.block.word(Part::Tail, letter.letter, value);
+        if let Some(wait) = wait {
+            let text = format!("{wait}{}", self.settings.get(WAIT));
+            self.block.text(Part::Tail, &text);
+        }
+        Ok(())
     }
 }

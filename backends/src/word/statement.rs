@@ -22,6 +22,9 @@ impl Writer {
         if self.preamble.is_some() && self.absorb(stmt, sink)? {
             return Ok(());
         }
+        if self.surfaces.unsaid.is_some() {
+            self.limit_in_turns(&stmt.op, sink);
+        }
         self.leave_polar(stmt, sink)?;
         let span = stmt.span;
         let codes = &self.codes;
@@ -103,10 +106,7 @@ impl Writer {
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
             Op::SynchronisedFeed(m) => self.thread(m, span, sink),
-            Op::OrientSpindle(Some(_)) => Err(cannot("a spindle stopped at an angle")),
-            Op::OrientSpindle(None) => {
-                self.m_code(Rank::SpindleOn, codes.orient, "a spindle stopped at an angle", sink)
-            }
+            Op::OrientSpindle(angle) => self.orient(angle.as_ref(), span, sink),
             Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
             // The mode of polar words is about program zero alone; a pass has seen to it.
             Op::SetPole(_) if codes.polar[1].is_some() => Ok(()),

@@ -404,6 +404,12 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             vec![Said { after: "END_CYCLE()".to_owned(), ..Said::new(hole) }]
         }
         Meaning::Dwell | Meaning::StartCycle | Meaning::Pattern => Vec::new(),
+        Meaning::OrientSpindle => {
+            let row = d.code.iter().find(|row| row.code == name);
+            let words = row.and_then(|row| row.orient.as_ref()).filter(|words| words.option.is_none());
+            let own = words.is_none_or(|words| words.wait.is_none()).then(|| Said::new("ORIENT_SPINDLE()"));
+            own.into_iter().chain(words.map(|_| Said::new("ORIENT_SPINDLE(45deg)"))).collect()
+        }
         // Spindle, coolant, stops: what is said by its name alone.
         function => {
             let text = function.to_string();

@@ -256,7 +256,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         let computed = Fault::MacroLanguage { what: src.text(span) };
-        if !place.index.is_empty() {
+        if !place.index.is_empty() && !self.is_first_spindle(place, src, out) {
             return match place.address {
                 Address::Name(name) => self.refuse_name(name, span, src, out),
                 Address::Letter(_) | Address::System(_) => self.fault(computed, span, out),
@@ -303,11 +303,14 @@ impl Lower {
                         | NameRole::PolarAngle
                         | NameRole::LineAngle
                 );
-                if given.way.is_some() {
+                // Which way round the spindle goes to where it stops cuts nothing, where it is the shortest.
+                let stop = role == NameRole::SpindleAngle;
+                if given.way.is_some_and(|way| !(stop && way == RotaryWay::Shortest)) {
                     let name = "way of a turning axis in a word of another kind";
                     return self.not_supported(&src.text(span), name, span, out);
                 }
-                if given.distance.is_some() && !through {
+                let absolute = stop && given.distance == Some(Distance::Absolute);
+                if given.distance.is_some() && !through && !absolute {
                     let name = "AC or IC of a word that is no coordinate";
                     return self.not_supported(&src.text(span), name, span, out);
                 }

@@ -4,7 +4,7 @@
 //! Refused by name: other spindles than the first, and tolerances of the path in the coding of older
 //! controls.
 
-use ncc_dialects::{Meaning, NameMeaning, Role};
+use ncc_dialects::{Meaning, NameMeaning, NameRole, Role};
 use ncc_ir::canon::AdviceKind;
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 
 use super::lower::Lower;
 use super::sort::Words;
-use super::tree::{Address, Called, Expr, Value};
+use super::tree::{Address, Called, Expr, Place, Value};
 use crate::Batch;
 use crate::word::Source;
 use crate::word::facts::Know;
@@ -72,6 +72,19 @@ impl Lower {
             let (parameter, value) = (MASTER.into(), "1".into());
             out.report(Fault::AssumedParameter { parameter, value }, at);
         }
+    }
+
+    /// Whether a place is that of the first spindle, which is the master spindle: `SPOS[1]`, `LIMS[1]`.
+    pub(super) fn is_first_spindle(&mut self, place: &Place, src: Source, out: &mut Batch) -> bool {
+        let Address::Name(name) = place.address else { return false };
+        let word = src.text(name).to_ascii_uppercase();
+        let role = self.settings.dialect.name_row(&word).and_then(|row| row.role);
+        let of_spindle = matches!(role, Some(NameRole::SpindleAngle | NameRole::SpindleLimit));
+        let first = matches!(&place.index[..], [index] if number(Some(index)) == Some(1));
+        if of_spindle && first {
+            self.master_spindle(name, out);
+        }
+        of_spindle && first
     }
 
     /// Whether a word of the dictionary has arguments of its own.

@@ -100,6 +100,9 @@ impl Lower {
             }
         }
         self.feed_word(motion, words, src, out);
+        // Its words may be letters of others.
+        let oriented = before.iter().find(|code| code.meaning == Meaning::OrientSpindle);
+        self.now.angle = oriented.and_then(|code| self.orient_words(code, words, src, out));
         self.speed_and_tool(words, src, out);
         let mut dwell = false;
         for code in before {
@@ -322,7 +325,7 @@ impl Lower {
             Meaning::ExactStop => Op::ExactStop,
             Meaning::OrientSpindle => {
                 self.state.turning = false;
-                Op::OrientSpindle(None)
+                Op::OrientSpindle(self.now.angle.take().map(Expr::Num))
             }
             Meaning::StartSpindleClockwise => {
                 self.state.turning = true;

@@ -106,6 +106,8 @@ pub(super) struct Now {
     mark: usize,
     /// Feed of a cycle's own block.
     pub(super) feed: Option<Num>,
+    /// The angle at which the block stops the spindle.
+    pub(super) angle: Option<Num>,
     /// Whether the cycle in force must be called up again with other data.
     pub(super) recall: bool,
     /// Whether the last comment is a message.

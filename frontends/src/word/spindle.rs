@@ -4,6 +4,7 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::SpindleMode;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::program::Op;
 
 use super::Source;
@@ -85,5 +86,61 @@ impl Lower {
         if let Some(limit) = self.number(&word, Quantity::Speed, src, out) {
             self.push(code.span.to(word.span), Op::LimitSpindleSpeed(Expr::Num(limit)), out);
         }
+    }
+
+    /// The words of a stop of the spindle: the angle, if one is said.
+    pub(super) fn orient_words(
+        &mut self,
+        code: &Code,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Num> {
+        let rule = code.row.orient.as_ref()?;
+        let code_text: Box<str> = code.row.code.as_str().into();
+        let said = rule.angle.iter().find(|word| words.get(word.letter as u8).is_some()).copied();
+        let option = self.settings.dialect.option.iter().find(|o| Some(&o.name) == rule.option.as_ref());
+        if let (Some(said), Some(option)) = (said, option) {
+            // The speed word is a speed on a machine where it is no angle.
+            let chosen = self.settings.get(&option.name) == said.letter.to_string();
+            if !chosen && said.letter as u8 == self.roles.speed {
+                return None;
+            }
+            if !chosen {
+                let name = format!("{} of the spindle's angle, by the option {}", said.letter, option.name);
+                self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
+                _ = words.take(said.letter as u8);
+                return None;
+            }
+        }
+        let missing = |letter: char| Fault::WordMissing {
+            code: code.row.code.as_str().into(),
+            word: letter.to_string().into(),
+        };
+        if let Some(wait) = rule.wait {
+            let letter = if said.is_none() { rule.angle.first().map_or(wait, |w| w.letter) } else { wait };
+            let Some(word) = words.take(wait as u8).filter(|_| said.is_some()) else {
+                return self.refuse(missing(letter), code.span, out);
+            };
+            let seconds = self.number(&word, Quantity::Seconds, src, out)?;
+            if seconds.mantissa <= 0 {
+                return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+            }
+        }
+        if let Some(turn) = rule.turn
+            && let Some(word) = words.take(turn as u8)
+            && self.whole(&word, src, out)? != 0
+        {
+            let name = "sense in which the spindle turns to its angle".into();
+            return self.refuse(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
+        }
+        let said = said?;
+        let word = words.take(said.letter as u8)?;
+        let mut angle = self.number(&word, said.quantity, src, out)?;
+        angle.unit = Unit::Degree;
+        if !angle.nanos(false).is_some_and(|nanos| (0..360 * ONE).contains(&nanos)) {
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+        }
+        Some(angle)
     }
 }

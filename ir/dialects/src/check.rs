@@ -123,6 +123,9 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         if row.limits_speed && row.means != Some(Meaning::SetPosition) {
             return Err(wrong("says that a speed word beside it is a limit, and takes no axis words"));
         }
+        if row.orient.is_some() && row.means != Some(Meaning::OrientSpindle) {
+            return Err(wrong("has `orient`, and is no stop of the spindle"));
+        }
         if row.limit.is_some() && row.means != Some(Meaning::SetSpindleMode(SpindleMode::Surface)) {
             return Err(wrong("has `limit`, and is no code of a surface speed"));
         }

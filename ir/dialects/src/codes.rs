@@ -7,7 +7,7 @@ use serde::Deserialize;
 use crate::cycles::DwellWord;
 use crate::meaning::Meaning;
 use crate::power_on::FeedModeName;
-use crate::schema::yes;
+use crate::schema::{Quantity, yes};
 
 /// A G or M code.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -61,6 +61,9 @@ pub struct CodeRow {
     /// counts until the next such code: without its word there is none.
     #[serde(default)]
     pub limit: Option<char>,
+    /// Of a stop of the spindle, its words.
+    #[serde(default)]
+    pub orient: Option<OrientWords>,
     /// Letter and unit of a dwell, the first one for writing.
     #[serde(default)]
     pub dwell: Vec<DwellWord>,
@@ -75,6 +78,33 @@ pub struct CodeRow {
     pub sure: bool,
     /// Who says so.
     pub source: String,
+}
+
+/// Words of a stop of the spindle at an angle.
+#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct OrientWords {
+    /// The angle, the first one for writing.
+    pub angle: Vec<AngleWord>,
+    /// The option that says which of these letters it is on the machine at hand.
+    #[serde(default)]
+    pub option: Option<String>,
+    /// Letter of the time to wait for it, in seconds. Where there is one, it and the angle must be said.
+    #[serde(default)]
+    pub wait: Option<char>,
+    /// Letter of the sense in which the spindle turns to it: 0 is the shorter way, and any other is refused.
+    #[serde(default)]
+    pub turn: Option<char>,
+}
+
+/// A word that says at which angle.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
+#[serde(deny_unknown_fields)]
+pub struct AngleWord {
+    /// Its letter.
+    pub letter: char,
+    /// An angle, or a whole number of degrees.
+    pub quantity: Quantity,
 }
 
 /// Rows of `code` by number: G and M codes in tenths (`G5.1` is 51).

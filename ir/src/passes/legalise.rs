@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::needs::{
     ARC, AT_ONCE, CALL, CONTROL, CORNER, CYCLE, EDGE, EVERY, FRAME, LENGTH, MACHINE, MEASURE, MESSAGE, MOVE,
-    PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
+    ORIENT, PATH, PATTERN, POLAR, RADIUS, SHIFT, SKIP, TABLE, THREAD, TOOL_AXIS, TURN, WORK, interest, lacks,
 };
 use super::walk::Walk;
 use super::write::EXACT;
@@ -16,8 +16,8 @@ use super::{
     Target, absolute_holes, approach, arc_form, at_once, cutter_radius, expand_calls, expand_corners,
     expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts,
     machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
-    polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures, state_clearance,
-    taps, threads, tool_axis, tool_change, tool_edge, work_offset,
+    polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures, spindle_angle,
+    state_clearance, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -46,6 +46,7 @@ pub struct Legaliser {
     path: path_control::State,
     polar: polar_words::State,
     corners: expand_corners::State,
+    angle: spindle_angle::State,
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
@@ -101,6 +102,7 @@ impl Legaliser {
             path: path_control::State::default(),
             polar: polar_words::State::default(),
             corners: expand_corners::State::default(),
+            angle: spindle_angle::State::default(),
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
@@ -135,6 +137,7 @@ impl Legaliser {
     /// The source is the program of another kind of control.
     pub fn between_controls(&mut self) {
         self.target.other_control = true;
+        self.lacks |= ORIENT;
         let caps = &mut self.target.caps;
         if caps.repeat_by_numbers && !caps.repeat_count_known {
             // A pass more or less cuts another part: written out, it is the same on every machine.
@@ -417,6 +420,7 @@ impl Legaliser {
                 absolute_holes::alike(stmts, &mut start.clone(), diags);
             }
         }
+        spindle_angle::over(stmts, &mut self.angle, &self.target, diags);
         if needs & (CYCLE | THREAD) != 0 && self.lacks & THREAD != 0 {
             threads::over(stmts, &mut start.clone(), &mut self.threads, &self.target, diags);
         }

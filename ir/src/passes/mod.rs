@@ -46,6 +46,7 @@ pub mod return_plane;
 mod rotary_ways;
 pub mod skip_levels;
 pub mod specialise_procedures;
+mod spindle_angle;
 mod spindle_holes;
 pub mod state_clearance;
 pub mod taps;
@@ -227,6 +228,12 @@ pub const PASSES: &[Pass] = &[
         run: approach::run,
     },
     Pass { name: "expand-cycles", about: "turns canned cycles into their moves", run: expand_cycles::run },
+    // Behind the cycles, which may have been written out with stops of the spindle.
+    Pass {
+        name: "spindle-angle",
+        about: "states the angle at which the spindle stops where the target needs it",
+        run: spindle_angle::run,
+    },
     // Behind the cycles, which may have been written out as threads.
     Pass { name: "threads", about: "says threads in the target's form", run: threads::run },
     Pass {

@@ -34,6 +34,7 @@ pub(super) const TOOL_AXIS: u32 = 1 << 24;
 pub(super) const CORNER: u32 = 1 << 25;
 pub(super) const AT_ONCE: u32 = 1 << 26;
 pub(super) const TURN: u32 = 1 << 29;
+pub(super) const ORIENT: u32 = 1 << 30;
 
 /// What a target lacks.
 pub(super) fn lacks(caps: &Caps) -> u32 {
@@ -104,6 +105,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(THREAD, caps.threads.any);
     needs(POLAR, caps.polar == PolarForm::Any);
     needs(TURN, caps.rotary_ways);
+    needs(ORIENT, caps.own_stop);
     needs(CORNER, caps.corners == Corners::ALL);
     needs(AT_ONCE, !caps.length_at_once && !caps.starts_without_length && !caps.cycle_ends_motion);
     needs(PATH, caps.exact_stop && caps.path_in_rapids && caps.path_merges && caps.seen() == Seen::default());
@@ -124,6 +126,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::SynchronisedFeed(_) => THREAD,
         Op::StartCycle(_) | Op::Hole(_) | Op::Position(_) => CYCLE,
         Op::EndCycle => CYCLE | AT_ONCE,
+        miscellaneous!() if matches!(op, Op::OrientSpindle(_)) => ORIENT,
         Op::SetPole(_) => POLAR,
         Op::Polar(polar) => POLAR | interest_of(&polar.op),
         Op::Pattern(_) => PATTERN | CYCLE,

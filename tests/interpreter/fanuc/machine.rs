@@ -4,6 +4,17 @@ use super::super::Halt;
 use super::{Control, Word, number};
 
 impl Control {
+    /// M19: on a Haas R with a point, or whole degrees by P; on a Fanuc without either.
+    pub(super) fn stop_at_angle(&mut self, words: &[Word]) -> Result<(), Halt> {
+        let angle = match (number(words, 'R'), number(words, 'P')) {
+            (None, None) => None,
+            (Some((degrees, true)), None) | (None, Some((degrees, false))) if self.haas => Some(degrees),
+            _ => return self.m.halt("M19 with other words"),
+        };
+        self.m.orient(angle);
+        Ok(())
+    }
+
     /// G92 with a speed alone: the highest one under G96.
     pub(super) fn highest_speed(&mut self, words: &[Word]) -> bool {
         let alone = !self.haas && self.axis_words(words) == [None; 6];
