@@ -228,6 +228,7 @@ fn heading(name: &str, dialect: &Dialect) -> String {
     match (dialect.family, dialect.program.number) {
         (Family::Sinumerik, _) if name.bytes().all(|b| b.is_ascii_digit()) => format!("%_N_L{name}_SPF\n"),
         (Family::Sinumerik, _) => format!("%_N_{name}_SPF\n"),
+        (_, Some(_)) if !name.bytes().all(|b| b.is_ascii_digit()) => format!("<{name}>\n"),
         (_, Some(letter)) => format!("{letter}{name}\n"),
         (_, None) => String::new(),
     }
@@ -281,6 +282,11 @@ fn name_of(line: &[u8], dialect: &Dialect) -> Option<String> {
             .strip_prefix('L')
             .filter(|n| !n.is_empty() && !n.starts_with('0') && n.bytes().all(|b| b.is_ascii_digit()));
         return Some(number.unwrap_or(name).to_owned());
+    }
+    if dialect.program.names && line.starts_with(b"<") {
+        let name = std::str::from_utf8(&line[1..]).ok()?.split_once('>')?.0;
+        let number = name.strip_prefix('O').filter(|n| n.bytes().all(|b| b.is_ascii_digit()));
+        return Some(number.map_or(name, |n| n.trim_start_matches('0')).to_owned());
     }
     let (letter, rest) = line.split_first()?;
     let sign = char::from(*letter).to_ascii_uppercase();

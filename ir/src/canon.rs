@@ -124,11 +124,15 @@ pub enum PathMode {
     Dynamics,
     /// As [`PathMode::AxisTolerances`], and where two moves meet without a corner too.
     Tangential,
+    /// As [`PathMode::Continuous`], and slower than the feed says at inner corners of a compensated contour.
+    SlowCorners,
+    /// As [`PathMode::Continuous`], and the operator can neither hold the feed nor change it.
+    Tapping,
 }
 
 impl PathMode {
     /// All modes with their names in text.
-    pub const ALL: [(PathMode, &'static str); 9] = [
+    pub const ALL: [(PathMode, &'static str); 11] = [
         (PathMode::ExactStop, "exact-stop"),
         (PathMode::ExactPath, "exact-path"),
         (PathMode::Continuous, "continuous"),
@@ -138,6 +142,8 @@ impl PathMode {
         (PathMode::WithinBlocks, "within-blocks"),
         (PathMode::Dynamics, "dynamics"),
         (PathMode::Tangential, "tangential"),
+        (PathMode::SlowCorners, "slow-corners"),
+        (PathMode::Tapping, "tapping"),
     ];
 
     /// Its name in text.

@@ -4,7 +4,10 @@
 
 mod machine;
 mod polar;
+mod programs;
 mod tilt;
+
+use programs::{Program, programs, without_name};
 
 use super::{Corner, Cut, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
 
@@ -47,55 +50,6 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         control.m.record(What::TextEnd);
     }
     control.m.with_corners()
-}
-
-/// A program of the text: its number and its blocks, each with its line.
-struct Program {
-    number: u32,
-    blocks: Vec<(usize, String)>,
-}
-
-/// Parts the text into programs and blocks, without comments, blanks and end-of-block signs.
-fn programs(text: &str) -> Vec<Program> {
-    let framed = text.lines().any(|line| line.trim_start().starts_with('%'));
-    let mut open = !framed;
-    let mut programs: Vec<Program> = Vec::new();
-    for (index, line) in text.lines().enumerate() {
-        if line.trim_start().starts_with('%') {
-            if open {
-                break;
-            }
-            open = true;
-            continue;
-        }
-        if !open {
-            continue;
-        }
-        let mut bare = String::new();
-        let mut inside = false;
-        for c in line.chars() {
-            match c {
-                '(' => inside = true,
-                ')' => inside = false,
-                _ if inside || c.is_whitespace() => {}
-                _ => bare.push(c.to_ascii_uppercase()),
-            }
-        }
-        for block in bare.split(';').filter(|b| !b.is_empty()) {
-            if block.starts_with(['O', ':']) {
-                let digits: String = block[1..].chars().take_while(char::is_ascii_digit).collect();
-                programs.push(Program { number: digits.parse().unwrap_or(0), blocks: Vec::new() });
-                continue;
-            }
-            if programs.is_empty() {
-                programs.push(Program { number: 0, blocks: Vec::new() });
-            }
-            if let Some(program) = programs.last_mut() {
-                program.blocks.push((index + 1, block.to_owned()));
-            }
-        }
-    }
-    programs
 }
 
 /// What a cycle keeps from block to block: a word, and whether it was incremental.
@@ -208,7 +162,8 @@ impl Control {
     }
 
     fn block(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
-        let Some(words) = self.words(block)? else { return Ok(Next::Block) };
+        let (block, called) = without_name(block);
+        let Some(words) = self.words(&block)? else { return Ok(Next::Block) };
         if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGMrc".contains(w.0)) {
             return self.m.halt(format!("the word {letter}"));
         }
@@ -273,6 +228,7 @@ impl Control {
                 22 | 23 if !self.haas && self.axis_words(&words) == [None; 6] => {}
                 9 => self.m.stop_once = true,
                 61 => self.m.corners = Corner::Stop,
+                62 | 63 if !self.haas => self.m.corners = Corner::Rounded,
                 64 => self.m.corners = Corner::Rounded,
                 93 => self.m.count_feed(Per::Move),
                 94 => self.m.count_feed(Per::Minute),
@@ -431,7 +387,8 @@ impl Control {
                 self.m.record(What::End);
                 return Ok(Next::End);
             }
-            Some(98) => return self.call(&words, all),
+            Some(98) => return self.call(&words, called.as_deref(), all),
+            _ if called.is_some() => return self.m.halt("a name without a call"),
             Some(99) => {
                 if self.depth == 0 || number(&words, 'P').is_some() || number(&words, 'L').is_some() {
                     return self.m.halt("M99 in the main program, with P or with L");
@@ -663,32 +620,6 @@ impl Control {
             self.m.hole(hole, r, z, back)?;
         }
         Ok(())
-    }
-
-    /// M98: P is the number, with L the count; more than four digits carry the count in front.
-    fn call(&mut self, words: &[Word], all: &[Program]) -> Result<Next, Halt> {
-        let Some((p, _)) = number(words, 'P') else { return self.m.halt("M98 without P") };
-        let p = p as u32;
-        let (times, name) = match number(words, 'L') {
-            Some((l, _)) => (l as u32, p),
-            None if p > 9999 && !self.haas => (p / 10000, p % 10000),
-            None => (1, p),
-        };
-        let Some(program) = all.iter().skip(1).find(|program| program.number == name) else {
-            return self.m.halt(format!("no program {name}"));
-        };
-        if self.depth == 4 {
-            return self.m.halt("calls five deep");
-        }
-        for _ in 0..times {
-            self.depth += 1;
-            let ended = self.program(&program.blocks, all)?;
-            self.depth -= 1;
-            if ended {
-                return Ok(Next::End);
-            }
-        }
-        Ok(Next::Block)
     }
 }
 

@@ -254,7 +254,9 @@ impl Writer {
                     | PathMode::AxisTolerances
                     | PathMode::WithinBlocks
                     | PathMode::Dynamics
-                    | PathMode::Tangential => return Err(here(cannot(&s.op))),
+                    | PathMode::Tangential
+                    | PathMode::SlowCorners
+                    | PathMode::Tapping => return Err(here(cannot(&s.op))),
                 });
                 if let Some(within) = within {
                     out.extend_from_slice(b", ");

@@ -185,6 +185,11 @@ impl Block {
             && (self.most_m == 0 || need.m <= self.most_m)
     }
 
+    /// Whether it says a feed.
+    pub(crate) fn has_feed(&self) -> bool {
+        !self.parts[Part::Feed as usize].is_empty()
+    }
+
     /// Whether the feed may go over to the next block, which is a motion.
     pub(crate) fn feed_can_wait(&self, need: &Need) -> bool {
         need.rank == Rank::Motion

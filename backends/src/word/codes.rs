@@ -111,6 +111,16 @@ pub(crate) struct AdviceCode {
     pub word: Option<(u8, u32)>,
 }
 
+/// The code of a probing move.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ProbeCode {
+    pub code: Code,
+    /// Whether it stays in force.
+    pub stays: bool,
+    /// Whether its block must say a feed.
+    pub own_feed: bool,
+}
+
 /// A table that values are put into.
 #[derive(Clone, Debug)]
 pub(crate) struct DataCode {
@@ -147,8 +157,8 @@ pub(crate) struct FrameCodes {
     pub no_scale: Option<Code>,
     pub mirror: Option<Code>,
     pub no_mirror: Option<Code>,
-    /// A tilted plane with the letters of its turns, and the tool turned upright on it.
-    pub tilt: Option<(Code, [Letter; 3])>,
+    /// A tilted plane with the letters of its turns and the axes about which they are, and the tool turned upright on it.
+    pub tilt: Option<(Code, [Letter; 3], [Axis; 3])>,
     pub upright: Option<Code>,
 }
 
@@ -195,7 +205,7 @@ pub(crate) struct Codes {
     /// To points of the machine, with the letter that names a further one.
     pub references: Vec<(ReferencePoint, Code, Option<Letter>)>,
     /// Probing moves, each with whether its code stays in force as a motion's does.
-    pub probes: Vec<(Probe, Code, bool)>,
+    pub probes: Vec<(Probe, ProbeCode)>,
     /// Tables that values are put into.
     pub tables: Vec<DataCode>,
     /// Where the axes stand as stored position 1, 2.
@@ -223,7 +233,7 @@ pub(crate) struct Codes {
     /// The letter of its second word, within which moves are made one.
     pub path_merged: Option<Letter>,
     /// Ways of taking corners, in the order of [`PathMode::ALL`].
-    pub path: [Option<Code>; 9],
+    pub path: [Option<Code>; 11],
     pub exact_stop: Option<Code>,
     /// Points by radius and angle: off, on.
     pub polar: [Option<Code>; 2],
@@ -458,7 +468,9 @@ impl Finder {
             no_scale: self.code(Meaning::ClearFrame(FrameSlot::Scale)),
             mirror: self.code(Meaning::SetMirror),
             no_mirror: self.code(Meaning::ClearMirror),
-            tilt: self.code(Meaning::SetTilt).zip(tilt),
+            tilt: self.code(Meaning::SetTilt).zip(tilt).and_then(|(code, letters)| {
+                Some((code, letters, self.dialect.code_for(Meaning::SetTilt)?.turns_about()?))
+            }),
             upright: self.code(Meaning::OrientToolAxis),
         }
     }
@@ -573,7 +585,8 @@ impl Codes {
                     let Some(meaning @ Meaning::StraightProbe(probe)) = row.means else { return None };
                     let feed = dialect.code_for(Meaning::StraightFeed);
                     let stays = feed.is_some_and(|feed| feed.group == row.group);
-                    Some((probe, find.row(&row.code, meaning)?, stays))
+                    let code = find.row(&row.code, meaning)?;
+                    Some((probe, ProbeCode { code, stays, own_feed: row.own_feed }))
                 })
                 .collect(),
             tables: find.tables(),

@@ -160,6 +160,7 @@ impl Writer {
             let value = self.value(&letter, &feed, span, sink)?;
             self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
             self.block.word(Part::Feed, letter.letter, value);
+            self.force.feed = feed.literal();
         }
         let other_motion = self.force.motion.is_some_and(|m| m != Motion::Cycle);
         if dropped && other_motion {
@@ -330,6 +331,9 @@ impl Writer {
         }
         if let Some(letter) = none {
             self.block.digits(Part::Tail, letter, "0");
+        }
+        if let Some(feed) = &held.cycle.feed {
+            self.force.feed = feed.literal();
         }
         self.force.motion = Some(Motion::Cycle);
         held.in_text = stmt.skip.is_none() || stmt.skip == held.skip;

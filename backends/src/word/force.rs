@@ -15,6 +15,8 @@ pub(crate) struct InForce {
     /// The limit of the spindle that the program has in force.
     pub limit: Option<Num>,
     pub level: Option<ReturnLevel>,
+    /// The feed, if it was said in the units and the feed mode that are in force.
+    pub feed: Option<Num>,
     /// Whether the distance mode was put in by this writer, so that statements which take what the
     /// source has in force cannot be written.
     pub our_distance: bool,
@@ -40,6 +42,7 @@ impl InForce {
         both(&mut self.spindle_mode, &before.spindle_mode);
         both(&mut self.limit, &before.limit);
         both(&mut self.level, &before.level);
+        both(&mut self.feed, &before.feed);
         self.our_distance |= before.our_distance;
         self.our_plane |= before.our_plane;
         self.our_level |= before.our_level;

@@ -55,7 +55,12 @@ impl Writer {
 
     fn program_line(&self, letter: char, number: u32, title: Option<&str>, out: &mut Vec<u8>) {
         let digits = self.dialect.program.number_digits;
-        out.extend_from_slice(format!("{letter}{number:0digits$}").as_bytes());
+        self.title_line(&format!("{letter}{number:0digits$}"), title, out);
+    }
+
+    /// The line that names a program.
+    fn title_line(&self, name: &str, title: Option<&str>, out: &mut Vec<u8>) {
+        out.extend_from_slice(name.as_bytes());
         match title {
             Some(title) => {
                 if self.dialect.block.blanks {
@@ -75,10 +80,12 @@ impl Writer {
         let number = match self.dialect.program.number.filter(|_| self.dialect.program.subprograms) {
             None => Err(cannot("a subprogram")),
             Some(_) if !p.parameters.is_empty() => Err(cannot("a subprogram with parameters")),
-            Some(letter) => self.program_number(&p.name).map(|number| (letter, number)),
+            Some(_) if self.has_name(&p.name) => Ok(None),
+            Some(letter) => self.program_number(&p.name).map(|number| Some((letter, number))),
         };
         match number {
-            Ok((letter, number)) => self.program_line(letter, number, p.title.as_deref(), sink.out),
+            Ok(Some((letter, number))) => self.program_line(letter, number, p.title.as_deref(), sink.out),
+            Ok(None) => self.title_line(&format!("<{}>", p.name), p.title.as_deref(), sink.out),
             Err(fault) => return sink.report(fault, span),
         }
         if let Some(trace) = &mut self.trace {

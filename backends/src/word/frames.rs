@@ -49,8 +49,8 @@ impl Writer {
                 self.filled(code, &self.along(&lines[..])?, &[], Inserted::default(), span, sink)
             }
             Slot::Tilt(tilt) => {
-                let (code, letters) = frames.tilt.ok_or_else(|| cannot("a tilted plane"))?;
-                if tilt.about != [Axis::Z, Axis::X, Axis::Z] {
+                let (code, letters, about) = frames.tilt.ok_or_else(|| cannot("a tilted plane"))?;
+                if tilt.about != about {
                     return Err(cannot("a tilted plane by turns about these axes"));
                 }
                 // All of its words are written.

@@ -116,8 +116,8 @@ pub struct Writer {
     pub(crate) turned_in: Option<Turn>,
     /// The next straight move is in machine coordinates, by this code.
     machine: Option<codes::Code>,
-    /// The next straight move at feed is a probing one, by this code; whether that stays in force.
-    probe: Option<(codes::Code, bool)>,
+    /// The next straight move at feed is a probing one, by this code.
+    probe: Option<codes::ProbeCode>,
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     told_corner: bool,

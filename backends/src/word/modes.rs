@@ -191,6 +191,9 @@ impl Writer {
     pub(crate) fn now_in_force(&mut self, setting: Setting) {
         match setting {
             Setting::Units(u) => {
+                if self.force.units != Some(u) {
+                    self.force.feed = None;
+                }
                 self.force.units = Some(u);
                 self.units_stated[u as usize] = true;
             }
@@ -202,7 +205,12 @@ impl Writer {
                 self.force.plane = Some(p);
                 self.force.our_plane = false;
             }
-            Setting::FeedMode(f) => self.force.feed_mode = Some(f),
+            Setting::FeedMode(f) => {
+                if self.force.feed_mode != Some(f) {
+                    self.force.feed = None;
+                }
+                self.force.feed_mode = Some(f);
+            }
             Setting::Level(l) => {
                 self.force.level = Some(l);
                 self.force.our_level = false;

@@ -4,7 +4,7 @@
 //! form, computed where it has to be from where the written text itself puts the tool.
 
 use ncc_dialects::NameMeaning;
-use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion, Units};
+use ncc_ir::canon::{AXES, Axis, Distance, Fact, FeedMode, Motion, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::geometry;
@@ -37,7 +37,7 @@ impl Writer {
         };
         let code = code.ok_or_else(|| cannot("a straight move"))?;
         let probe = self.probe.take().filter(|_| !rapid);
-        let code = probe.map_or(code, |(code, _)| code);
+        let code = probe.map_or(code, |probe| probe.code);
         let mut inserted = Inserted::default();
         self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
         let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
@@ -54,11 +54,20 @@ impl Writer {
         }
         match probe {
             None => self.force.motion = Some(motion),
-            Some((_, true)) => self.force.motion = None,
-            Some((_, false)) => {}
+            Some(probe) if probe.stays => self.force.motion = None,
+            Some(_) => {}
         }
         self.point(&to.to, span, sink)?;
         self.put_corner();
+        if probe.is_some_and(|probe| probe.own_feed) && !self.block.has_feed() {
+            let counts = self.force.feed_mode != Some(FeedMode::InverseTime);
+            let (Some(feed), Some(letter)) = (self.force.feed.filter(|_| counts), self.codes.feed_word)
+            else {
+                return Err(cannot("a probing move whose feed is not known"));
+            };
+            let feed = self.value(&letter, &Expr::Num(feed), span, sink)?;
+            self.block.word(Part::Feed, letter.letter, feed);
+        }
         if probe.is_some() {
             // Where these axes are now, nothing that rounding has left is known of.
             for (residue, word) in self.residue.iter_mut().zip(&to.to.axes) {

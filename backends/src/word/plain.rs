@@ -139,6 +139,7 @@ impl Writer {
             at = number::write(line, at + 1, shaped);
             line[at] = b' ';
             at += blanks;
+            self.force.feed = Some(*n);
         }
         at -= blanks;
         // One byte too many of a short line end is overwritten, or never taken.

@@ -8,7 +8,7 @@ use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, St
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
-use super::codes::{AdviceCode, Code, Dwell, Letter};
+use super::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
 use super::modes::{Setting, cannot};
 use super::number::{self, Shaped, Unwritable};
 use super::{Sink, Writer};
@@ -88,9 +88,8 @@ impl Writer {
                 Ok(())
             }
             Op::Probe(probe) => {
-                let found = codes.probes.iter().find(|(own, ..)| own == probe);
-                let (_, code, stays) = *found.ok_or_else(|| cannot("a probing move"))?;
-                self.probe = Some((code, stays));
+                let found = codes.probes.iter().find(|(own, _)| own == probe);
+                self.probe = Some(found.ok_or_else(|| cannot("a probing move"))?.1);
                 Ok(())
             }
             // It is said with the length that follows.
@@ -349,6 +348,7 @@ impl Writer {
         self.feed_apart(sink);
         self.admit(&Need::new(Rank::Feed).letter(letter.letter), sink)?;
         self.block.word(Part::Feed, letter.letter, value);
+        self.force.feed = feed.literal();
         // A later feed takes the place of the one that a cycle brought.
         if let Some(held) = &mut self.held {
             held.cycle.feed = None;
@@ -448,6 +448,9 @@ impl Writer {
             return Err(cannot("a call with arguments"));
         }
         self.call_up_now(stmt, sink)?;
+        if self.has_name(&call.name) {
+            return self.call_by_name(call, &words, sink);
+        }
         let number = self.program_number(&call.name)?;
         let packed = self.dialect.program.packed_call_digits as usize;
         let least = if self.dialect.program.padded_calls { self.dialect.program.number_digits } else { 0 };
@@ -473,6 +476,36 @@ impl Writer {
         // The subprogram may change everything.
         self.forget();
         Ok(())
+    }
+
+    /// A call of a subprogram by its name.
+    fn call_by_name(&mut self, call: &Call, words: &CallCode, sink: &mut Sink) -> Result<(), Fault> {
+        let need = Need::new(Rank::Call).code(Some(words.code));
+        let count = match (call.times, words.count) {
+            (0, _) => return Err(cannot("a call that is made no times")),
+            (1, _) => None,
+            (2..=9999, Some(letter)) => Some(letter),
+            _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
+        };
+        self.admit(&count.iter().fold(need, |need, letter| need.letter(*letter)), sink)?;
+        self.block.code(Part::Tail, &words.code);
+        self.block.text(Part::Tail, &format!("<{}>", call.name));
+        if let Some(letter) = count {
+            self.block.digits(Part::Tail, letter, &call.times.to_string());
+        }
+        self.forget();
+        Ok(())
+    }
+
+    /// Whether a subprogram is written by its name: one that the control can read, and no number.
+    pub(crate) fn has_name(&self, name: &str) -> bool {
+        let fits = |b: u8| b.is_ascii_alphanumeric() || b"+-_.".contains(&b);
+        let number = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+        let read_as_number = number(name) || name.strip_prefix('O').is_some_and(number);
+        self.settings.writes_names()
+            && (1..=32).contains(&name.len())
+            && name.bytes().all(fits)
+            && !read_as_number
     }
 
     /// The number of a subprogram, as its name says it.

@@ -134,3 +134,23 @@ fn an_option_says_what_p_of_a_deep_hole_is() {
     let out = run(both).exits(0).out;
     assert!(out.contains("G83 X5. Y0. Z-9. R2. Q4. P500 F80."), "{out}");
 }
+
+/// A subprogram with a name, called twice.
+const NAMED: &str = "%\nO0014\nG21 G90 G17 G54\nG0 X0. Y0. Z5.\nM98 <ROW-1> L2\nM30\n<ROW-1> (ALONG X)\nG91 X5.\nG90\nM99\n%\n";
+
+#[test]
+fn an_option_says_whether_names_are_written() {
+    let folder = folder();
+    std::fs::write(folder.path().join("part.nc"), NAMED).unwrap();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    let out = run("fanuc to fanuc part.nc --no-head").exits(0).out;
+    assert!(out.contains("M98 P21001") && out.contains("O1001 (ALONG X)"), "{out}");
+    let out = run("fanuc to fanuc part.nc --no-head --to-option program_names=names").exits(0).out;
+    assert!(out.contains("M98 <ROW-1> L2") && out.contains("<ROW-1> (ALONG X)"), "{out}");
+    let by = "siemens to fanuc part.mpf --no-head --to-option program_names=names";
+    let text =
+        "%_N_MAIN_MPF\nG710 G17 G90 G94 G54\nG0 X0 Y0 Z5\nROW_1\nM30\n%_N_ROW_1_SPF\nG1 X5 F100\nM17\n";
+    std::fs::write(folder.path().join("part.mpf"), text).unwrap();
+    let out = run(by).exits(0).out;
+    assert!(out.contains("M98 <ROW_1>") && out.contains("<ROW_1>\n"), "{out}");
+}

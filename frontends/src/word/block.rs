@@ -79,6 +79,8 @@ pub(crate) struct Block {
     pub(crate) comments: Vec<Span>,
     /// All of it, without the line's end.
     pub(crate) span: Span,
+    /// Names of programs, in their brackets.
+    pub(crate) names: Vec<Span>,
     /// What is refused already by its form.
     pub(crate) faults: Vec<(Fault, Span)>,
     /// Comments as the lexer leaves them.
@@ -88,7 +90,11 @@ pub(crate) struct Block {
 impl Block {
     /// Whether there is nothing in it.
     pub(super) fn is_empty(&self) -> bool {
-        self.words.is_empty() && self.skip == 0 && self.comments.is_empty() && self.faults.is_empty()
+        self.words.is_empty()
+            && self.skip == 0
+            && self.comments.is_empty()
+            && self.names.is_empty()
+            && self.faults.is_empty()
     }
 
     pub(super) fn clear(&mut self) {
@@ -96,6 +102,7 @@ impl Block {
         self.skip = 0;
         self.tail = None;
         self.comments.clear();
+        self.names.clear();
         self.faults.clear();
     }
 }
@@ -152,6 +159,12 @@ impl Sink<'_> {
         };
         let span = self.span(start, end);
         self.block.words.push(Word { letter, value, span });
+    }
+
+    /// A program's name.
+    pub(crate) fn name(&mut self, start: usize, end: usize) {
+        let span = self.span(start, end);
+        self.block.names.push(span);
     }
 
     /// A word behind a comma: its letter is kept as a small one.

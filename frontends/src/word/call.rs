@@ -3,10 +3,12 @@
 //! After a call every fact is lost: the subprogram may have changed it.
 
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Call, Op};
+use ncc_ir::program::{Call, Op, Text};
+use ncc_ir::source::Span;
 
 use super::Source;
 use super::facts::State;
+use super::frame::Called;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
@@ -19,6 +21,18 @@ impl Lower {
     pub(super) fn call(&mut self, code: &Code, words: &mut Words, src: Source, out: &mut Batch) {
         let mut letters = code.row.words.bytes();
         let program = letters.next().unwrap_or(b' ');
+        if words.get(program).is_none()
+            && let Some((name, span)) = self.now.name.take()
+        {
+            let times = match letters.next().and_then(|l| words.take(l)) {
+                Some(word) => self.whole(&word, src, out),
+                None => Some(1),
+            };
+            let (Some(times), Some(called)) = (times, Called::of(name.as_bytes())) else {
+                return self.fault(Fault::OutOfRange { word: name }, span, out);
+            };
+            return self.call_program(called.text(), times, code.span.to(span), span, out);
+        }
         let Some(word) = words.take(program) else {
             let (code_text, word) = (code.row.code.as_str().into(), char::from(program).to_string().into());
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
@@ -39,12 +53,21 @@ impl Lower {
             times = number / packed;
             number %= packed;
         }
-        if number == 0 || times == 0 || times > MOST_TIMES {
+        if number == 0 {
             return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
         }
+        if times == 0 || times > MOST_TIMES {
+            return self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+        }
+        self.call_program(number.to_string().into(), times, code.span.to(word.span), word.span, out);
+    }
+
+    fn call_program(&mut self, name: Text, times: u32, block: Span, word: Span, out: &mut Batch) {
+        if times == 0 || times > MOST_TIMES {
+            return self.fault(Fault::OutOfRange { word: name }, word, out);
+        }
         out.whole = true;
-        let call = Call { name: number.to_string().into(), times, arguments: Vec::new() };
-        self.push(code.span.to(word.span), Op::Call(Box::new(call)), out);
+        self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new() })), out);
         self.state = State::lost();
     }
 

@@ -29,6 +29,7 @@ impl Lower {
         let Some(word) = words.take(self.roles.feed) else {
             return;
         };
+        self.now.fed = true;
         if self.is_lead(motion) {
             return self.lead(&word, src, out);
         }

@@ -8,7 +8,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::program::{Procedure, Text};
 use ncc_ir::source::Span;
 
-use super::block::{Value, Word};
+use super::block::Value;
 use super::facts::State;
 use super::lower::decode;
 use super::{Reader, Source};
@@ -20,6 +20,39 @@ const MOST_CONTROL_SIGNS: u32 = 16;
 /// End of a text file in old systems; nothing may follow it.
 const CONTROL_Z: u8 = 0x1A;
 
+/// Longest name of a program.
+const LONGEST_NAME: usize = 32;
+
+/// What a program is called by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Called {
+    Number(u32),
+    Name(Text),
+}
+
+impl Called {
+    /// What a name in brackets calls: `<O12>` is a number; `None` is no name.
+    pub(super) fn of(bracketed: &[u8]) -> Option<Called> {
+        let name = std::str::from_utf8(bracketed).ok()?.strip_prefix('<')?.strip_suffix('>')?;
+        let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        if let Some(number) = name.strip_prefix('O').filter(|rest| digits(rest)) {
+            return number.parse().ok().filter(|number| *number > 0).map(Called::Number);
+        }
+        let fits = |b: u8| b.is_ascii_alphanumeric() || b"+-_.".contains(&b);
+        let is_name = (1..=LONGEST_NAME).contains(&name.len()) && name.bytes().all(fits);
+        // A name of digits alone would be another program than that number's.
+        (is_name && !digits(name)).then(|| Called::Name(name.into()))
+    }
+
+    /// The name by which statements call it.
+    pub(super) fn text(&self) -> Text {
+        match self {
+            Called::Number(number) => number.to_string().into(),
+            Called::Name(name) => name.clone(),
+        }
+    }
+}
+
 /// How far the frame of the text is.
 #[derive(Debug)]
 pub(super) struct Frame {
@@ -28,6 +61,8 @@ pub(super) struct Frame {
     /// Letter of the program number and the sign that may stand for it; 0 for none.
     number: [u8; 2],
     title: bool,
+    /// Whether programs may have names.
+    named: bool,
     /// Whether the mark that opens the text has been met.
     opened: bool,
     /// Nothing is read any more: the closing mark has been met.
@@ -41,8 +76,8 @@ pub(super) struct Frame {
     /// Not a text; nothing is read any more.
     pub(super) is_binary: bool,
     control_signs: u32,
-    /// Numbers of the programs met.
-    numbers: Vec<u32>,
+    /// Numbers and names of the programs met.
+    programs: Vec<Text>,
     /// End of what has been read.
     pub(super) end: u32,
 }
@@ -55,6 +90,7 @@ impl Frame {
             mark: &program.frame,
             number: [sign(program.number), sign(program.number_also)],
             title: program.title,
+            named: program.names,
             opened: false,
             closed: false,
             blocks: false,
@@ -62,7 +98,7 @@ impl Frame {
             after_end: false,
             is_binary: false,
             control_signs: 0,
-            numbers: Vec::new(),
+            programs: Vec::new(),
             end: 0,
         }
     }
@@ -86,7 +122,7 @@ impl Reader {
             return self.lower.ended && text.is_empty();
         }
         // The rest of the opening line is a leader, which controls ignore.
-        if self.frame.opened || self.frame.blocks || !self.frame.numbers.is_empty() {
+        if self.frame.opened || self.frame.blocks || !self.frame.programs.is_empty() {
             if !self.frame.opened {
                 out.report(Fault::OpeningMarkMissing { mark: self.frame.mark.into() }, span);
                 self.frame.faulty = true;
@@ -116,6 +152,23 @@ impl Reader {
 
     /// A program number at the head of a block; `true` if the block is over with it.
     pub(super) fn program_word(&mut self, src: Source, out: &mut Batch) -> bool {
+        if let Some(&name) = self.block.names.first()
+            && (!self.frame.named || self.block.names.len() > 1)
+        {
+            let name = self.block.names.get(1).copied().filter(|_| self.frame.named).unwrap_or(name);
+            let fault = Fault::NotSupported { code: src.text(name), name: "program with a name".into() };
+            self.block.faults.push((fault, name));
+            return false;
+        }
+        if let Some(&name) = self.block.names.first()
+            && self.block.words.is_empty()
+            && self.block.faults.is_empty()
+            && self.block.skip == 0
+        {
+            self.named_program(name, src, out);
+            self.block.names.clear();
+            return true;
+        }
         let first = self.block.words.first().copied();
         let Some(word) = first.filter(|w| w.letter != 0 && self.frame.number.contains(&w.letter)) else {
             return false;
@@ -129,7 +182,7 @@ impl Reader {
             self.frame.faulty = true;
             return true;
         };
-        self.begin_program(number, word, src, out);
+        self.begin_program(Called::Number(number), word.span, src, out);
         self.block.words.remove(0);
         self.block.tail = self.block.tail.map(|at| at.saturating_sub(1));
         if self.frame.title && !self.block.comments.is_empty() {
@@ -138,28 +191,51 @@ impl Reader {
         self.block.is_empty()
     }
 
-    fn begin_program(&mut self, number: u32, word: Word, src: Source, out: &mut Batch) {
+    /// A program's name in a block of its own.
+    fn named_program(&mut self, span: Span, src: Source, out: &mut Batch) {
+        let Some(called) = Called::of(src.bytes(span)) else {
+            out.report(Fault::OutOfRange { word: src.text(span) }, span);
+            self.frame.faulty = true;
+            return;
+        };
+        // The name is the main program's title; a comment beside it stays one.
+        let is_main = self.frame.programs.is_empty() && !self.frame.blocks;
+        let keeps = is_main && matches!(called, Called::Name(_));
+        self.begin_program(called, span, src, out);
+        if self.frame.title && !self.block.comments.is_empty() && !keeps {
+            self.block.comments.remove(0);
+        }
+        if !self.block.comments.is_empty() {
+            self.block.names.clear();
+            self.lower.block(&self.block, src, out);
+        }
+    }
+
+    fn begin_program(&mut self, called: Called, span: Span, src: Source, out: &mut Batch) {
         let title: Option<Text> = match self.block.comments.first() {
             Some(&comment) if self.frame.title => Some(decode(src.bytes(comment))),
             Some(_) | None => None,
         };
-        if self.frame.numbers.contains(&number) {
-            out.report(Fault::ProgramTwice { name: number.to_string().into() }, word.span);
+        let name = called.text();
+        if self.frame.programs.iter().any(|other| other.eq_ignore_ascii_case(&name)) {
+            out.report(Fault::ProgramTwice { name: name.clone() }, span);
             self.frame.faulty = true;
         }
-        let is_main = self.frame.numbers.is_empty() && !self.frame.blocks;
-        self.frame.numbers.push(number);
+        let is_main = self.frame.programs.is_empty() && !self.frame.blocks;
+        self.frame.programs.push(name.clone());
         if is_main {
-            out.name.number = Some(number);
-            out.name.title = title;
+            match called {
+                Called::Number(number) => (out.name.number, out.name.title) = (Some(number), title),
+                Called::Name(name) => out.name.title = Some(name),
+            }
             return;
         }
         if !self.frame.blocks && !self.frame.faulty {
-            out.report(Fault::EmptyProgram, word.span);
+            out.report(Fault::EmptyProgram, span);
             self.frame.faulty = true;
         }
         self.end_of_program(out);
-        self.lower.sub = Some(Procedure { name: number.to_string().into(), title, ..Procedure::default() });
+        self.lower.sub = Some(Procedure { name, title, ..Procedure::default() });
         self.lower.ended = false;
         self.lower.state = State::lost();
         self.lower.refresh();

@@ -74,6 +74,7 @@ fn block(tokens: &mut Tokens, base: u32, dialect: &Dialect, block_number: u8, fo
             (_, Token::Do | Token::End | Token::While) => frames = true,
             (_, Token::Skip) => skipped = true,
             (_, Token::Letter(letter)) if first && number == Some(letter as char) => found(Flow::Program),
+            (_, Token::Name) if first && dialect.program.names => found(Flow::Program),
             (_, Token::Colon) if first && number_also == Some(':') => found(Flow::Program),
             _ => says = true,
         }

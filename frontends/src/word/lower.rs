@@ -104,6 +104,8 @@ pub(super) struct Now {
     pub(super) cycle_ended: bool,
     /// Length of the target before the block.
     mark: usize,
+    /// Whether the block says a feed.
+    pub(super) fed: bool,
     /// Feed of a cycle's own block.
     pub(super) feed: Option<Num>,
     /// The angle at which the block stops the spindle.
@@ -118,6 +120,8 @@ pub(super) struct Now {
     pub(super) corner: Option<super::block::Word>,
     /// Radius and angle of the block's end point by signs of their own, until a move takes them.
     pub(super) polar: [Option<super::block::Word>; 2],
+    /// A program's name, until a call takes it.
+    pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
     pub(super) again: Option<super::again::Asked>,
 }
@@ -174,6 +178,7 @@ impl Lower {
             mark: self.target(out).len(),
             failed: !block.faults.is_empty(),
             refused: !block.faults.is_empty(),
+            name: block.names.first().map(|&span| (src.text(span), span)),
             ..Now::default()
         };
         if self.state.feed_mode.value() == Some(FeedMode::InverseTime) {
@@ -201,6 +206,9 @@ impl Lower {
             }
             if !self.now.failed {
                 self.check_unused(&words, src, out);
+            }
+            if let Some((name, span)) = self.now.name.take().filter(|_| !self.now.failed) {
+                self.fault(Fault::WordUnused { word: name }, span, out);
             }
         } else {
             // The modes that it says still count.

@@ -39,6 +39,10 @@ impl Lower {
         if let Some(name) = why {
             self.fault(Fault::NotSupported { code: text(), name: name.into() }, code.span, out);
         }
+        if code.row.own_feed && !self.now.fed {
+            let word = char::from(self.roles.feed).to_string().into();
+            return self.fault(Fault::WordMissing { code: text(), word }, code.span, out);
+        }
         self.rely_on_feed(block, out);
         let to = self.point(None, block, words, src, out);
         if to.is_empty() {

@@ -6,7 +6,6 @@
 //! on later is then refused by name. So are planes without all of their words.
 
 use ncc_dialects::{Meaning, Quantity};
-use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{FrameSlot, Op, Slot, Tilt};
@@ -117,7 +116,7 @@ impl Lower {
         }
         let [Some(first), Some(second), Some(third)] = angles else { return None };
         self.set_mode(code.meaning, out);
-        let about = [Axis::Z, Axis::X, Axis::Z];
+        let about = code.row.turns_about()?;
         Some(Op::SetSlot(Box::new(Slot::Tilt(Box::new(Tilt {
             origin,
             about,

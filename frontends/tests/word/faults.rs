@@ -85,8 +85,8 @@ fn codes_that_are_refused() {
     );
     assert_eq!(faults("fanuc", "G0 X5. ,R2.\n"), ["WordUnused { word: ',R2.' } at ',R2.'"]);
     assert_eq!(
-        faults("fanuc", "M98 <PART>\n"),
-        ["Syntax { found: '<PART>', expected: 'a word' } at '<PART>'"]
+        faults("haas", "M98 <PART>\n"),
+        ["NotSupported { code: '<PART>', name: 'program with a name' } at '<PART>'"]
     );
     assert_eq!(
         faults("fanuc", "M98 P<PART>\n"),

@@ -196,7 +196,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         },
         tilt: match () {
             () if everything => TiltForm::Any,
-            () if says(Meaning::SetTilt) => TiltForm::Euler,
+            // What is written are turns about Z, X and Z.
+            () if dialect.code_for(Meaning::SetTilt).is_some_and(|row| row.turns == "ZXZ") => TiltForm::Euler,
             () if names(NameMeaning::Code(Meaning::SetTilt)) => TiltForm::AxisByAxis,
             () => TiltForm::None,
         },

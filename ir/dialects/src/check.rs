@@ -129,6 +129,9 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         if row.limit.is_some() && row.means != Some(Meaning::SetSpindleMode(SpindleMode::Surface)) {
             return Err(wrong("has `limit`, and is no code of a surface speed"));
         }
+        if (row.means == Some(Meaning::SetTilt)) != row.turns_about().is_some() {
+            return Err(wrong("needs `turns` about X, Y or Z if it tilts the plane, and has none else"));
+        }
         if row.count.is_some() && (row.words.is_empty() || !offsets) {
             return Err(wrong("has `count`, and is no code of work offsets with a word of its own"));
         }

@@ -2,6 +2,7 @@
 //!
 //! Not here: what a meaning is (`meaning`), and whether rows fit together (`check`).
 
+use ncc_ir::canon::Axis;
 use serde::Deserialize;
 
 use crate::cycles::DwellWord;
@@ -35,6 +36,10 @@ pub struct CodeRow {
     /// Letters of its own words, besides those that stand for themselves.
     #[serde(default)]
     pub words: String,
+    /// Of a tilted plane by angles, the axes about which they turn, one after the other, each as the turns before
+    /// have left it: `ZXZ`. The angles are those of `words`.
+    #[serde(default)]
+    pub turns: String,
     /// Letters whose numbers name blocks: of the program that it stands in, and in a return of the one
     /// that has called it. They may be words of a code that is refused.
     #[serde(default)]
@@ -46,6 +51,9 @@ pub struct CodeRow {
     /// Whether a length offset, or a radius, without its word is that of the tool in the spindle.
     #[serde(default)]
     pub own_tool: bool,
+    /// Whether its block must say a feed.
+    #[serde(default)]
+    pub own_feed: bool,
     /// Whether a code of units leaves the feed in the machine's basic system.
     #[serde(default)]
     pub feed_stays: bool,
@@ -78,6 +86,15 @@ pub struct CodeRow {
     pub sure: bool,
     /// Who says so.
     pub source: String,
+}
+
+impl CodeRow {
+    /// The axes about which the angles of a tilted plane turn; `None` if there are not three of them.
+    pub fn turns_about(&self) -> Option<[Axis; 3]> {
+        let linear = |letter| Axis::from_letter(letter).filter(|axis| !axis.is_rotary());
+        let axes: Vec<Axis> = self.turns.bytes().filter_map(linear).collect();
+        axes.try_into().ok().filter(|_| self.turns.len() == 3 && self.words.len() == 3)
+    }
 }
 
 /// Words of a stop of the spindle at an angle.

@@ -134,6 +134,9 @@ pub struct ProgramRules {
     pub padded_calls: bool,
     /// Least digits of a written program number.
     pub number_digits: usize,
+    /// Whether a program may have a name in place of a number: `<PART-1>`, called by the same behind the code of a
+    /// call. `<O12>` is the program with that number.
+    pub names: bool,
     /// Whether the comment after the number is a title.
     pub title: bool,
     /// Whether further programs in the text are subprograms.

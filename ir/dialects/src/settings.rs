@@ -16,6 +16,9 @@ pub const CYCLE_APPROACH: &str = "cycle_approach";
 /// Option of a dictionary: what tapping is without a code that makes it rigid, `chuck` or `rigid`.
 pub const TAPPING: &str = "tapping";
 
+/// Option of a dictionary: how subprograms with a name are written, by `numbers` or by `names`.
+pub const PROGRAM_NAMES: &str = "program_names";
+
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -85,6 +88,11 @@ impl Settings {
         row.dwell.or_else(|| asked.map(AskedDwell::word))
     }
 
+    /// Whether a subprogram with a name is written by it.
+    pub fn writes_names(&self) -> bool {
+        self.dialect.program.names && self.get(PROGRAM_NAMES) == "names"
+    }
+
     /// What the dialect can say, as its options are.
     pub fn caps(&self) -> Caps {
         let mut caps = self.dialect.caps.clone();
@@ -95,6 +103,9 @@ impl Settings {
         for row in self.dialect.cycle.iter().filter(asked) {
             let same = caps.cycles.iter_mut().filter(|cap| cap.kind == row.kind);
             same.for_each(|cap| cap.dwell = true);
+        }
+        if self.writes_names() {
+            caps.call_digits = 0;
         }
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps

@@ -1,0 +1,103 @@
+//! Programs of a text, by their numbers and names, and calls of them.
+
+use super::super::Halt;
+use super::{Control, Next, Word, number};
+
+/// A program of the text: its number or its name, and its blocks, each with its line.
+pub(super) struct Program {
+    name: String,
+    pub(super) blocks: Vec<(usize, String)>,
+}
+
+/// Parts the text into programs and blocks, without comments, blanks and end-of-block signs.
+pub(super) fn programs(text: &str) -> Vec<Program> {
+    let framed = text.lines().any(|line| line.trim_start().starts_with('%'));
+    let mut open = !framed;
+    let mut programs: Vec<Program> = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        if line.trim_start().starts_with('%') {
+            if open {
+                break;
+            }
+            open = true;
+            continue;
+        }
+        if !open {
+            continue;
+        }
+        let mut bare = String::new();
+        let mut inside = false;
+        for c in line.chars() {
+            match c {
+                '(' => inside = true,
+                ')' => inside = false,
+                _ if inside || c.is_whitespace() => {}
+                _ => bare.push(c.to_ascii_uppercase()),
+            }
+        }
+        for block in bare.split(';').filter(|b| !b.is_empty()) {
+            if block.starts_with(['O', ':']) {
+                let digits: String = block[1..].chars().take_while(char::is_ascii_digit).collect();
+                programs
+                    .push(Program { name: digits.trim_start_matches('0').to_owned(), blocks: Vec::new() });
+                continue;
+            }
+            if let Some((name, "")) = block.strip_prefix('<').and_then(|rest| rest.split_once('>')) {
+                programs.push(Program { name: own_name(name), blocks: Vec::new() });
+                continue;
+            }
+            if programs.is_empty() {
+                programs.push(Program { name: String::new(), blocks: Vec::new() });
+            }
+            if let Some(program) = programs.last_mut() {
+                program.blocks.push((index + 1, block.to_owned()));
+            }
+        }
+    }
+    programs
+}
+
+/// The name between brackets; `O` and digits is the number.
+fn own_name(name: &str) -> String {
+    let number = name.strip_prefix('O').filter(|rest| rest.chars().all(|c| c.is_ascii_digit()));
+    number.map_or(name, |n| n.trim_start_matches('0')).to_owned()
+}
+
+/// A block without the name in it, and that name.
+pub(super) fn without_name(block: &str) -> (String, Option<String>) {
+    let parts = block.split_once('<').and_then(|(before, rest)| Some((before, rest.split_once('>')?)));
+    match parts {
+        Some((before, (name, behind))) => (format!("{before}{behind}"), Some(own_name(name))),
+        None => (block.to_owned(), None),
+    }
+}
+
+impl Control {
+    /// M98: P is the number, with L the count; more than four digits carry the count in front. Or a name.
+    pub(super) fn call(&mut self, words: &[Word], name: Option<&str>, all: &[Program]) -> Result<Next, Halt> {
+        let number_of = number(words, 'P').map(|(p, _)| p as u32);
+        let count = number(words, 'L').map(|(l, _)| l as u32);
+        let (times, name) = match (number_of, name, count) {
+            (None, Some(name), count) if !self.haas => (count.unwrap_or(1), name.to_owned()),
+            (Some(p), None, Some(count)) => (count, p.to_string()),
+            (Some(p), None, None) if p > 9999 && !self.haas => (p / 10000, (p % 10000).to_string()),
+            (Some(p), None, None) => (1, p.to_string()),
+            _ => return self.m.halt("M98 without P, or with P and a name"),
+        };
+        let Some(program) = all.iter().skip(1).find(|program| program.name == name) else {
+            return self.m.halt(format!("no program {name}"));
+        };
+        if self.depth == 4 {
+            return self.m.halt("calls five deep");
+        }
+        for _ in 0..times {
+            self.depth += 1;
+            let ended = self.program(&program.blocks, all)?;
+            self.depth -= 1;
+            if ended {
+                return Ok(Next::End);
+            }
+        }
+        Ok(Next::Block)
+    }
+}
