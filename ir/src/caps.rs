@@ -413,6 +413,8 @@ pub struct CycleCap {
     pub parameter: bool,
     /// Whether it can say another first peck, and dwells between pecks.
     pub strokes: bool,
+    /// Whether it can say pecks that decrease from the first one to a least one.
+    pub shrinks: bool,
     /// Whether it can say another feed on the way out.
     pub feed_out: bool,
     /// How tapping and the boring cycles that stop the spindle are said.

@@ -61,6 +61,9 @@ pub enum CycleKind {
         peck: Expr,
         /// Depth of the first peck below the retract plane, where it is another.
         first: Option<Expr>,
+        /// How much less each further peck is than the one before it, from the first one on; then `peck` is
+        /// the least.
+        less: Option<Expr>,
         /// How far above the last depth the rapid back ends.
         clearance: Clearance,
         /// Seconds after every peck but the last, if any.
@@ -76,6 +79,9 @@ pub enum CycleKind {
         peck: Expr,
         /// Depth of the first peck below the retract plane, where it is another.
         first: Option<Expr>,
+        /// How much less each further peck is than the one before it, from the first one on; then `peck` is
+        /// the least.
+        less: Option<Expr>,
         /// How far up.
         lift: Clearance,
         /// Whether the lift is at feed; else it is rapid.
@@ -105,6 +111,12 @@ pub enum CycleKind {
     FineBore(Box<FineBore>),
     /// Feed to the bottom, dwell, stop the spindle, rapid out.
     BoreStop(BoreStop),
+}
+
+/// Depth of the peck behind one of a depth, where each is less than the one before by `less`, and none less than
+/// `peck`.
+pub fn next_peck(before: Nanos, peck: Nanos, less: Option<Nanos>) -> Nanos {
+    less.map_or(peck, |less| before.saturating_sub(less).max(peck))
 }
 
 /// What tapping needs to know.

@@ -58,6 +58,7 @@ struct Kept {
     r: Option<(f64, bool)>,
     z: Option<(f64, bool)>,
     q: Option<f64>,
+    ijk: Option<[f64; 3]>,
     p: Option<f64>,
 }
 
@@ -557,7 +558,7 @@ impl Control {
     /// A block while a cycle is in force: a hole if it has X, Y, Z, R or another axis.
     fn hole(&mut self, cycle: u32, words: &[Word]) -> Result<(), Halt> {
         let (repeat, other) = if self.haas { ('L', 'K') } else { ('K', 'L') };
-        if number(words, other).is_some() && number(words, 'M').is_none() {
+        if number(words, other).is_some() && number(words, 'M').is_none() && !self.haas {
             return self.m.halt(format!("{other} in a cycle"));
         }
         // K0, on a Haas L0, stores the data and makes no hole.
@@ -580,6 +581,17 @@ impl Control {
         if let Some(q) = self.length(words, 'Q') {
             self.kept.q = Some(q.abs());
         }
+        match ['I', 'J', 'K'].map(|letter| self.length(words, letter)) {
+            [None, None, None] => {}
+            [Some(i), Some(j), Some(k)] if self.haas && matches!(cycle, 73 | 83) => {
+                self.kept.ijk = Some([i, j, k])
+            }
+            [None, None, Some(_)] if !self.haas => {}
+            _ => return self.m.halt("I J K in a cycle"),
+        }
+        if self.kept.q.is_some() && self.kept.ijk.is_some() {
+            return self.m.halt("Q, and I J K");
+        }
         // The P of a call is a program number.
         if let Some((p, point)) =
             number(words, 'P').filter(|_| number(words, 'M').is_none_or(|m| m.0 != 98.0))
@@ -595,11 +607,15 @@ impl Control {
         }
         let r = if r_inc { self.initial + r } else { r + shift };
         let z = if z_inc { r + z } else { z + shift };
+        let seconds = self.kept.p.filter(|_| self.haas).unwrap_or(0.0);
         let hole = match (cycle, self.kept.q, self.kept.p) {
+            (73 | 83, None, _) if self.kept.ijk.is_some() => {
+                Hole::Fewer(self.kept.ijk.unwrap_or_default(), cycle == 73, seconds)
+            }
             (81, ..) => Hole::Drill,
             (82, _, Some(p)) => Hole::DrillDwell(p),
-            (73, Some(q), p) if q > 0.0 => Hole::Break(q, p.filter(|_| self.haas).unwrap_or(0.0)),
-            (83, Some(q), p) if q > 0.0 => Hole::Peck(q, p.filter(|_| self.haas).unwrap_or(0.0)),
+            (73, Some(q), _) if q > 0.0 => Hole::Break(q, seconds),
+            (83, Some(q), _) if q > 0.0 => Hole::Peck(q, seconds),
             (85, ..) => Hole::Bore(0.0),
             (74 | 84, _, p) => {
                 let into = if cycle == 74 { Spindle::Counterclockwise } else { Spindle::Clockwise };

@@ -13,6 +13,9 @@ pub enum Hole {
     Peck(f64, f64),
     /// Pecks of so much, the tool staying in the hole; dwell behind the last one if not zero.
     Break(f64, f64),
+    /// Pecks of which the first is so deep, each further one so much less, and none less than the last number; in
+    /// the hole, or out of it; dwell behind the last one if not zero.
+    Fewer([f64; 3], bool, f64),
     /// Feed in, dwell if not zero, feed out to R.
     Bore(f64),
     /// In and out in step with the spindle, which turns this way first; rigid, or in a chuck; a dwell at
@@ -65,6 +68,26 @@ impl Machine {
                 if let Hole::Peck(_, seconds) | Hole::Break(_, seconds) = hole {
                     self.stay(seconds);
                 }
+            }
+            Hole::Fewer([first, less, least], stays, seconds) => {
+                if first < least || less < 0.0 || least <= 0.0 {
+                    return self.halt("pecks that do not decrease");
+                }
+                // Depths below R, as the manual's first, second, third pass have them.
+                let (mut below, mut pass) = (first, first);
+                while below < r - z - 1e-9 {
+                    self.straight(level(self.at, r - below))?;
+                    if stays {
+                        self.traverse(level(self.at, r - below + self.setup.break_lift));
+                    } else {
+                        self.traverse(level(self.at, r));
+                        self.traverse(level(self.at, r - below + self.setup.peck_clearance));
+                    }
+                    pass = if pass - less < least { least } else { pass - less };
+                    below += pass;
+                }
+                self.straight(level(self.at, z))?;
+                self.stay(seconds);
             }
             Hole::Tap(into, rigid, seconds) => {
                 let (Some(feed), Some(speed)) = (self.feed, self.speed.filter(|s| *s > 0.0)) else {

@@ -169,6 +169,7 @@ fn form(of: &str) -> String {
         "String" => "text".into(),
         "bool" => "true or false".into(),
         "char" => "letter or sign".into(),
+        "[char; 3]" => "list of letters".into(),
         "u8" | "u16" | "u32" | "usize" | "i64" => "whole number".into(),
         "f64" => "number".into(),
         "Meaning" | "NameMeaning" => "a meaning".into(),

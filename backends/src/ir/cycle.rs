@@ -70,27 +70,32 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
             }
             put(if *to_level { ", to-level)" } else { ")" }, out);
         }
-        CycleKind::DrillPeck { peck, first, clearance: c, pause, settle, dwell } => {
+        CycleKind::DrillPeck { peck, first, less, clearance: c, pause, settle, dwell } => {
             put("(peck ", out);
             expr(peck, out);
             put(", clearance ", out);
             clearance(c, out);
             let words = [
                 (", first ", first.as_ref()),
+                (", less ", less.as_ref()),
                 (", pause ", pause.as_ref()),
                 (", settle ", settle.as_ref()),
                 (", dwell ", dwell.as_ref()),
             ];
             details(&words, out);
         }
-        CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell } => {
+        CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, dwell } => {
             put("(peck ", out);
             expr(peck, out);
             put(", lift ", out);
             clearance(lift, out);
             put(if *lift_at_feed { ", at-feed" } else { "" }, out);
-            let words =
-                [(", first ", first.as_ref()), (", pause ", pause.as_ref()), (", dwell ", dwell.as_ref())];
+            let words = [
+                (", first ", first.as_ref()),
+                (", less ", less.as_ref()),
+                (", pause ", pause.as_ref()),
+                (", dwell ", dwell.as_ref()),
+            ];
             details(&words, out);
         }
         CycleKind::Tap(tap) => {

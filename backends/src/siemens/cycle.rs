@@ -221,7 +221,10 @@ impl Writer {
                 to.put(Role::Sense, sense(bore.turn.map_or(Spindle::Stopped, Turn::spindle)).into())?;
             }
             CycleKind::DrillDwell { dwell } => self.argument(&mut to, Role::Dwell, dwell, span, sink)?,
-            CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell } => {
+            CycleKind::DrillPeck { less: Some(_), .. } | CycleKind::DrillBreak { less: Some(_), .. } => {
+                return Err(cannot("pecks that decrease"));
+            }
+            CycleKind::DrillPeck { peck, first, less: None, clearance, pause, settle, dwell } => {
                 self.strokes(&planes, peck, first.as_ref(), &mut to, span, sink)?;
                 self.pauses(pause.as_ref(), dwell.as_ref(), &mut to, span, sink)?;
                 if let Some(settle) = settle {
@@ -230,7 +233,7 @@ impl Writer {
                 to.put(Role::Way, "1".into())?;
                 self.distance(Role::Clearance, clearance, &mut to, span, sink)?;
             }
-            CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell } => {
+            CycleKind::DrillBreak { peck, first, less: None, lift, lift_at_feed, pause, dwell } => {
                 if !lift_at_feed {
                     return Err(cannot("a chip-breaking cycle that lifts in rapid"));
                 }

@@ -72,6 +72,8 @@ pub(crate) struct CycleCode {
     /// The option that says whether there is that word.
     pub asked: Option<&'static str>,
     pub peck: Option<Letter>,
+    /// Of pecks that decrease: of the first, of how much less each further one is, of the least.
+    pub shrinking: Option<[Letter; 3]>,
     pub hand: Option<Turn>,
     /// What the control does of itself in it.
     pub form: CycleForm,
@@ -348,6 +350,14 @@ impl Finder {
                 retract: self.letter(row.retract, Quantity::Length)?,
                 dwell: match settings.dwell(row) {
                     Some(word) => Some(self.dwell(word)?),
+                    None => None,
+                },
+                shrinking: match row.shrinking {
+                    Some([first, less, least]) => Some([
+                        self.letter(first, Quantity::Length)?,
+                        self.letter(less, Quantity::Length)?,
+                        self.letter(least, Quantity::Length)?,
+                    ]),
                     None => None,
                 },
                 asked: row.dwell_by.as_ref().map(|by| by.option.as_str()),

@@ -43,7 +43,7 @@ struct CallWords {
     level: Option<Code>,
     depth: Option<(Letter, Coord)>,
     retract: Option<(Letter, Coord)>,
-    peck: Option<(u8, Shaped)>,
+    pecks: Vec<(u8, Shaped)>,
     dwell: Option<(u8, Shaped)>,
     feed: Option<(u8, Shaped)>,
 }
@@ -290,7 +290,7 @@ impl Writer {
         for (letter, _) in [&words.depth, &words.retract].into_iter().flatten() {
             need = need.letter(letter.letter);
         }
-        for (letter, _) in [words.peck, words.dwell, words.feed].iter().flatten() {
+        for (letter, _) in words.pecks.iter().chain(&words.dwell).chain(&words.feed) {
             need = need.letter(*letter);
         }
         if let Some(at) = at {
@@ -302,7 +302,7 @@ impl Writer {
             need = self.point_need(need, at)?;
         }
         // Where the call makes a hole, none is made by counting to zero.
-        let repeat = self.dialect.cycles.repeat.filter(|_| !self.dialect.cycles.repeat_once);
+        let repeat = self.settings.repeat_word().filter(|_| !self.dialect.cycles.repeat_once);
         let none = match (at, self.dialect.cycles.hole_on_definition, repeat) {
             (None, true, Some(letter)) => Some(letter as u8),
             _ => None,
@@ -323,8 +323,8 @@ impl Writer {
             let retract = self.value(letter, &coord.value, stmt.span, sink)?;
             self.block.word(Part::Axes, letter.letter, retract);
         }
-        for (letter, value) in [words.peck, words.dwell].into_iter().flatten() {
-            self.block.word(Part::Axes, letter, value);
+        for (letter, value) in words.pecks.iter().chain(&words.dwell) {
+            self.block.word(Part::Axes, *letter, *value);
         }
         if let Some((letter, value)) = words.feed {
             self.block.word(Part::Feed, letter, value);
@@ -397,10 +397,7 @@ impl Writer {
                 && self.cycle_code(b).is_ok_and(|r| r.code == row.code)
         });
         let same_kind = before.is_some_and(|b| b.kind == cycle.kind);
-        let peck = match (row.peck, peck.filter(|_| !same_kind)) {
-            (Some(letter), Some(peck)) => Some((letter.letter, self.value(&letter, peck, span, sink)?)),
-            _ => None,
-        };
+        let pecks = self.peck_words(&row, &cycle.kind, peck.filter(|_| !same_kind), span, sink)?;
         if self.force.motion != Some(Motion::Cycle) && !self.dialect.cycles.dwell_left {
             self.dwell_left = false;
         }
@@ -440,10 +437,57 @@ impl Writer {
             level,
             depth: (!same_depth).then(|| (row.depth, cycle.depth.clone())),
             retract: (!same_retract).then(|| (row.retract, cycle.retract.clone())),
-            peck,
+            pecks,
             dwell,
             feed,
         })
+    }
+
+    /// The words that say how deep the pecks are, or how far fine boring shifts. Pecks that decrease, and pecks
+    /// of one depth, stay in force until the cycle ends: which of them count then, nobody knows.
+    fn peck_words(
+        &mut self,
+        row: &CycleCode,
+        kind: &CycleKind,
+        peck: Option<&Expr>,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Vec<(u8, Shaped)>, Fault> {
+        let (first, less) = match kind {
+            CycleKind::DrillPeck { first, less, .. } | CycleKind::DrillBreak { first, less, .. } => {
+                (first, less)
+            }
+            CycleKind::Drill
+            | CycleKind::DrillDwell { .. }
+            | CycleKind::Bore { .. }
+            | CycleKind::Tap(_)
+            | CycleKind::FineBore(_)
+            | CycleKind::BoreStop(_) => (&None, &None),
+        };
+        let Some(peck) = peck else { return Ok(Vec::new()) };
+        if self.force.motion != Some(Motion::Cycle) || !self.dialect.cycles.retained {
+            self.pecks_left = None;
+        }
+        let shrinks = less.is_some();
+        if self.pecks_left.is_some_and(|left| left != shrinks) {
+            return Err(cannot(
+                "pecks that decrease, and pecks of one depth, without the end of a cycle between",
+            ));
+        }
+        let words = match (first, less, row.shrinking, row.peck) {
+            (Some(first), Some(less), Some(letters), _) => {
+                letters.into_iter().zip([first, less, peck]).collect::<Vec<_>>()
+            }
+            (None, None, _, Some(letter)) => vec![(letter, peck)],
+            (None, None, _, None) => return Ok(Vec::new()),
+            _ => return Err(cannot("pecks of different depths")),
+        };
+        self.pecks_left = Some(shrinks);
+        let mut written = Vec::with_capacity(words.len());
+        for (letter, value) in words {
+            written.push((letter.letter, self.value(&letter, value, span, sink)?));
+        }
+        Ok(written)
     }
 
     /// The code of a cycle's return level, where it has to be stated.

@@ -108,6 +108,8 @@ pub struct Writer {
     pub(crate) split: bool,
     /// A cycle has said a dwell that stays in force for others: for those of its series, or for all.
     pub(crate) dwell_left: bool,
+    /// Whether the pecks that the text has in force decrease, if it has said any since a cycle ended.
+    pecks_left: Option<bool>,
     /// A length offset in the block at hand that needs a Z word beside it.
     offset_waits: Option<Span>,
     /// What the text has said of surface speeds and their limits.
@@ -192,6 +194,7 @@ impl Writer {
             first_left: None,
             split: false,
             dwell_left: false,
+            pecks_left: None,
             offset_waits: None,
             surfaces: spindle::Surfaces::default(),
             turned_in: None,

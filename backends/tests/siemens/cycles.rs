@@ -28,7 +28,7 @@ fn drill() -> Op {
 
 fn peck(clearance: Clearance, first: Option<&str>) -> CycleKind {
     let (pause, settle, dwell) = (Some(seconds("0.5")), Some(seconds("1.")), Some(seconds("0.5")));
-    CycleKind::DrillPeck { peck: mm("2."), first: first.map(mm), clearance, pause, settle, dwell }
+    CycleKind::DrillPeck { peck: mm("2."), first: first.map(mm), less: None, clearance, pause, settle, dwell }
 }
 
 fn stated(text: &str) -> Clearance {
@@ -138,6 +138,7 @@ fn pecks() {
     let chips = |dwell: Option<&str>, at_feed| CycleKind::DrillBreak {
         peck: mm("2."),
         first: None,
+        less: None,
         lift: stated("1."),
         lift_at_feed: at_feed,
         pause: None,
@@ -191,6 +192,7 @@ fn a_first_peck_is_reckoned_in_the_programs_own_unit() {
     let kind = CycleKind::DrillPeck {
         peck: entry("10."),
         first: Some(entry("12.5")),
+        less: None,
         clearance: Clearance::Stated(entry("0.6")),
         pause: None,
         settle: None,

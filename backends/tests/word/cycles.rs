@@ -19,7 +19,15 @@ fn cycle(kind: CycleKind, depth: &str, feed: Option<&str>) -> Cycle {
 }
 
 fn peck(clearance: Clearance, dwell: Option<Expr>) -> CycleKind {
-    CycleKind::DrillPeck { peck: mm("2."), first: None, clearance, pause: None, settle: None, dwell }
+    CycleKind::DrillPeck {
+        peck: mm("2."),
+        first: None,
+        less: None,
+        clearance,
+        pause: None,
+        settle: None,
+        dwell,
+    }
 }
 
 fn start(cycle: Cycle) -> Op {

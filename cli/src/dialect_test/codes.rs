@@ -599,6 +599,20 @@ fn cycle(bench: &Bench, row: &CycleRow, rows: &mut Vec<Row>) {
         };
         rows.push(tried.row("cycle", name, sure));
     }
+    if let (Some([first, less, least]), Some(first_row)) =
+        (row.shrinking, primary.filter(|p| p.code == row.code))
+    {
+        let usual = cycle_text(d, &CycleRow { dwell: None, ..first_row.clone() }, &usual);
+        let shrinks = usual.replace("(peck 5mm", "(peck 2mm").replacen(
+            "parameter",
+            "parameter, first 5mm, less 1.5mm",
+            1,
+        );
+        let said =
+            Said { after: "END_CYCLE()".to_owned(), ..Said::new(format!("{shrinks}\nHOLE(X 10mm, Y 20mm)")) };
+        let tried = must_show(bench.both_ways(&said), &row.code);
+        rows.push(tried.row("cycle", format!("{} {first}{less}{least}", row.code), sure));
+    }
     if let (Some(letter), true) = (d.cycles.repeat, primary.is_some_and(|p| p.code == row.code)) {
         // Written with one hole, and read with the word behind it.
         let start = cycle_text(d, &said, &usual);

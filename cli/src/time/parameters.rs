@@ -75,17 +75,23 @@ fn start(cycle: &Cycle, exec: &Exec) -> Parameters {
     match &cycle.kind {
         CycleKind::Drill => {}
         CycleKind::DrillDwell { dwell } => put("dwell", dwell),
-        CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell } => {
+        CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, dwell } => {
             put("peck", peck);
-            let words = [("first_peck", first), ("pause", pause), ("settle", settle), ("dwell", dwell)];
+            let words = [
+                ("first_peck", first),
+                ("less", less),
+                ("pause", pause),
+                ("settle", settle),
+                ("dwell", dwell),
+            ];
             words.into_iter().for_each(|(name, value)| value.iter().for_each(|value| put(name, value)));
             if let Clearance::Stated(value) = clearance {
                 put("clearance", value);
             }
         }
-        CycleKind::DrillBreak { peck, first, lift, pause, dwell, .. } => {
+        CycleKind::DrillBreak { peck, first, less, lift, pause, dwell, .. } => {
             put("peck", peck);
-            let words = [("first_peck", first), ("pause", pause), ("dwell", dwell)];
+            let words = [("first_peck", first), ("less", less), ("pause", pause), ("dwell", dwell)];
             words.into_iter().for_each(|(name, value)| value.iter().for_each(|value| put(name, value)));
             if let Clearance::Stated(value) = lift {
                 put("lift", value);

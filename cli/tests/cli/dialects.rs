@@ -154,3 +154,22 @@ fn an_option_says_whether_names_are_written() {
     let out = run(by).exits(0).out;
     assert!(out.contains("M98 <ROW_1>") && out.contains("<ROW_1>\n"), "{out}");
 }
+
+/// Three holes in a row, counted as a Series 15 counts them.
+const COUNTED: &str =
+    "%\nO0015\nG21 G90 G17 G98 G54\nS900 M3\nG0 X0. Y0. Z10.\nG91 G81 X5. Z-6. R-8. F100. L3\nG80\nM30\n%\n";
+
+#[test]
+fn an_option_says_by_which_letter_holes_are_counted() {
+    let folder = folder();
+    std::fs::write(folder.path().join("part.nc"), COUNTED).unwrap();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    run("fanuc to canon part.nc").exits(1).says("repetition by L");
+    let counted = run("fanuc to canon part.nc --no-head --from-option repeat_word=L").exits(0).out;
+    assert_eq!(counted.matches("STRAIGHT_FEED").count(), 3, "{counted}");
+    let none = COUNTED.replace("X5.", "").replace("L3", "L0");
+    std::fs::write(folder.path().join("stored.nc"), none.replace("G80\n", "X5.\nG80\n")).unwrap();
+    let by = "fanuc to fanuc stored.nc --no-head --from-option repeat_word=L --to-option repeat_word=L";
+    let stored = run(by).exits(0).out;
+    assert!(stored.contains("G81 ") && !stored.contains('K'), "{stored}");
+}

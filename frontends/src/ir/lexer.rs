@@ -450,6 +450,8 @@ pub(crate) enum Token {
     Lift,
     #[token("pause")]
     Pause,
+    #[token("less")]
+    LessBy,
     #[token("settle")]
     Settle,
     #[token("drill-break")]

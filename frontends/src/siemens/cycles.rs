@@ -360,7 +360,15 @@ impl Lower {
                     return self.out_of_range(a, Role::Lift, out);
                 }
                 let lift = Clearance::Stated(Expr::Num(lift.unwrap_or(Num::int(1, Unit::Mm))));
-                CycleKind::DrillBreak { peck, first: first_peck, lift, lift_at_feed: true, pause, dwell }
+                CycleKind::DrillBreak {
+                    peck,
+                    first: first_peck,
+                    less: None,
+                    lift,
+                    lift_at_feed: true,
+                    pause,
+                    dwell,
+                }
             }
             1 => {
                 let clearance = match self.argument(a, Role::Clearance, src, out).filter(|num| !num.is_zero())
@@ -370,7 +378,7 @@ impl Lower {
                     None => self.automatic_clearance(a, reference, depth, below(depth, first), out)?,
                 };
                 let clearance = Clearance::Stated(Expr::Num(clearance));
-                CycleKind::DrillPeck { peck, first: first_peck, clearance, pause, settle, dwell }
+                CycleKind::DrillPeck { peck, first: first_peck, less: None, clearance, pause, settle, dwell }
             }
             _ => return self.out_of_range(a, Role::Way, out),
         })

@@ -136,6 +136,8 @@ impl Lower {
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
         let dwell = dwell.or_else(|| self.dwell_left(row, code, out));
         let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck));
+        let shrinking = given.shrinking.or_else(|| kept.as_ref().and_then(|k| k.shrinking));
+        let pecks = self.pecks(row, peck, shrinking, code.span, out);
         let blame = !self.now.failed;
         for (letter, missing) in [(depth_letter, depth.is_none()), (row.retract, retract.is_none())] {
             if missing && blame {
@@ -148,7 +150,7 @@ impl Lower {
         }
         let rigid = self.tap_is_rigid(row, code.span, out);
         let bottom = self.dwells(row, dwell, code.span, out);
-        let kind = self.kind(row, rigid, bottom, peck, code, out);
+        let kind = self.kind(row, rigid, bottom, pecks, code, out);
         let feed = self.now.feed;
         if feed.is_some() {
             self.state.cycle_feed = feed;
@@ -159,7 +161,7 @@ impl Lower {
             self.state.cycle = InForce::Lost;
             return;
         };
-        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, feed };
+        let active = Active { row: index, plane, retract, depth, kind, dwell, peck, shrinking, feed };
         self.state.cycle = InForce::Active(Box::new(active));
         self.call_up(block, out);
         if dialect.cycles.hole_on_definition && has_hole_word {
@@ -227,8 +229,8 @@ impl Lower {
         let InForce::Active(active) = &mut self.state.cycle else {
             return;
         };
-        let changes =
-            given.depth.is_some() || given.retract.is_some() || given.dwell.is_some() || given.peck.is_some();
+        let pecks = given.peck.is_some() || given.shrinking.is_some();
+        let changes = given.depth.is_some() || given.retract.is_some() || given.dwell.is_some() || pecks;
         if !changes {
             return;
         }
@@ -240,11 +242,13 @@ impl Lower {
         }
         active.dwell = given.dwell.or(active.dwell);
         active.peck = given.peck.or(active.peck);
+        active.shrinking = given.shrinking.or(active.shrinking);
         let rigid = active.kind.name() == "tap-rigid";
-        let (dwell, peck) = (active.dwell, active.peck);
+        let (dwell, peck, shrinking) = (active.dwell, active.peck, active.shrinking);
         let bottom = self.dwells(row, dwell, block, out);
+        let pecks = self.pecks(row, peck, shrinking, block, out);
         if let (Ok(kind), InForce::Active(active)) =
-            (kind_of(row, rigid, bottom, peck), &mut self.state.cycle)
+            (kind_of(row, rigid, bottom, pecks), &mut self.state.cycle)
         {
             active.kind = kind;
         }
@@ -310,7 +314,7 @@ impl Lower {
 
     /// How often the block's hole is made.
     fn repeat(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> u32 {
-        let letter = self.settings.dialect.cycles.repeat;
+        let letter = self.settings.repeat_word();
         let Some(word) = letter.and_then(|l| words.take(l as u8)) else {
             return 1;
         };
@@ -401,7 +405,62 @@ impl Lower {
             // A peck's sign is ignored by the other controls that take one.
             Some(Num { mantissa: num.mantissa.abs(), ..num })
         });
-        Given { depth, retract, dwell, peck }
+        let shrinking = self.shrinking(row, words, src, out);
+        Given { depth, retract, dwell, peck, shrinking }
+    }
+
+    /// The words of pecks that decrease: all of them, or none.
+    fn shrinking(
+        &mut self,
+        row: &CycleRow,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<[Num; 3]> {
+        let letters = row.shrinking?;
+        let found = letters.map(|letter| words.take(letter as u8));
+        let word = found.iter().flatten().next()?;
+        let code = || row.code.as_str().into();
+        if let [None, None, Some(least)] = &found {
+            let name = "way out of the hole after several pecks".into();
+            let code = format!("{} {}", row.code, src.text(least.span)).into();
+            return self.refuse(Fault::NotSupported { code, name }, least.span, out);
+        }
+        if let Some(missing) =
+            letters.iter().zip(&found).find_map(|(letter, word)| word.is_none().then_some(letter))
+        {
+            let fault = Fault::WordMissing { code: code(), word: missing.to_string().into() };
+            return self.refuse(fault, word.span, out);
+        }
+        let mut pecks = [Num::int(0, Unit::Mm); 3];
+        for (peck, word) in pecks.iter_mut().zip(found.iter().flatten()) {
+            *peck = self.number(word, Quantity::Length, src, out)?;
+        }
+        let [first, less, least] = pecks.map(|num| num.nanos(false).unwrap_or(0));
+        if less < 0 || least <= 0 || first < least {
+            return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
+        }
+        Some(pecks)
+    }
+
+    /// The pecks of a cycle. Which count where both are in force, no source tells.
+    fn pecks(
+        &mut self,
+        row: &CycleRow,
+        peck: Option<Num>,
+        shrinking: Option<[Num; 3]>,
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Pecks> {
+        match (peck, shrinking.filter(|_| row.shrinking.is_some())) {
+            (Some(_), Some(_)) => {
+                let name = "decreasing pecks beside pecks of one depth".into();
+                self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
+            }
+            (Some(peck), None) => Some(Pecks { peck, shrinking: None }),
+            (None, Some([first, less, peck])) => Some(Pecks { peck, shrinking: Some([first, less]) }),
+            (None, None) => None,
+        }
     }
 
     /// The dwell of a cycle, of the one that is in force: where the sources do not agree whether it has one,
@@ -442,7 +501,7 @@ impl Lower {
         row: &CycleRow,
         rigid: bool,
         dwell: Option<Num>,
-        peck: Option<Num>,
+        peck: Option<Pecks>,
         code: &Code,
         out: &mut Batch,
     ) -> Option<CycleKind> {
@@ -474,11 +533,24 @@ struct Given {
     retract: Option<Coord>,
     dwell: Option<Num>,
     peck: Option<Num>,
+    shrinking: Option<[Num; 3]>,
+}
+
+/// How deep pecks are.
+#[derive(Clone, Copy, Debug)]
+struct Pecks {
+    /// Each of them; the least of those that decrease.
+    peck: Num,
+    /// The first, and how much less each further one is.
+    shrinking: Option<[Num; 2]>,
 }
 
 /// The cycle of a row; `Err` with the letter of the word that it lacks.
-fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -> Result<CycleKind, char> {
+fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>) -> Result<CycleKind, char> {
     let (own, to_level) = (row.own(), row.feed_to_level);
+    let peck = pecks.map(|pecks| pecks.peck);
+    let shrinking = pecks.and_then(|pecks| pecks.shrinking);
+    let (first, less) = (shrinking.map(|s| Expr::Num(s[0])), shrinking.map(|s| Expr::Num(s[1])));
     if row.dwell_needed && dwell.is_none() {
         return Err(row.dwell.map_or(' ', |d| d.letter));
     }
@@ -490,7 +562,8 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
         "drill-peck" => CycleKind::DrillPeck {
             peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
-            first: None,
+            first,
+            less,
             clearance: Clearance::Parameter,
             pause: None,
             settle: None,
@@ -498,7 +571,8 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, peck: Option<Num>) -
         },
         "drill-break" => CycleKind::DrillBreak {
             peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
-            first: None,
+            first,
+            less,
             lift: Clearance::Parameter,
             lift_at_feed: false,
             pause: None,

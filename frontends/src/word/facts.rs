@@ -68,6 +68,8 @@ pub(super) struct Active {
     pub(super) kind: CycleKind,
     pub(super) dwell: Option<Num>,
     pub(super) peck: Option<Num>,
+    /// Of pecks that decrease: the first, how much less each further one is, and the least.
+    pub(super) shrinking: Option<[Num; 3]>,
     /// Feed of the cycle's own block.
     pub(super) feed: Option<Num>,
 }

@@ -160,6 +160,9 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         if (row.kind == "bore-fine") != row.shift.is_some() {
             return Err(wrong("needs `shift` if it is fine boring, and has none else"));
         }
+        if row.shrinking.is_some() && row.peck.is_none() {
+            return Err(wrong("has `shrinking` and no `peck`"));
+        }
         let asked = |asked: &crate::cycles::AskedDwell| dialect.option.iter().any(|o| o.name == asked.option);
         if row.dwell_by.as_ref().is_some_and(|by| row.dwell.is_some() || !asked(by)) {
             return Err(wrong("has `dwell_by` beside `dwell`, or no such option"));

@@ -65,6 +65,10 @@ pub struct CycleRow {
     /// Letter of the peck.
     #[serde(default)]
     pub peck: Option<char>,
+    /// Letters of pecks that decrease, in place of that one: of the first, of how much less each further one is, and
+    /// of the least.
+    #[serde(default)]
+    pub shrinking: Option<[char; 3]>,
     /// Whether the dwell must be said.
     #[serde(default)]
     pub dwell_needed: bool,

@@ -16,6 +16,9 @@ pub const CYCLE_APPROACH: &str = "cycle_approach";
 /// Option of a dictionary: what tapping is without a code that makes it rigid, `chuck` or `rigid`.
 pub const TAPPING: &str = "tapping";
 
+/// Option of a dictionary: the letter of the number of repetitions in a cycle's block.
+pub const REPEAT_WORD: &str = "repeat_word";
+
 /// Option of a dictionary: how subprograms with a name are written, by `numbers` or by `names`.
 pub const PROGRAM_NAMES: &str = "program_names";
 
@@ -86,6 +89,11 @@ impl Settings {
     pub fn dwell(&self, row: &CycleRow) -> Option<DwellWord> {
         let asked = row.dwell_by.as_ref().filter(|asked| self.get(&asked.option) == DWELLS);
         row.dwell.or_else(|| asked.map(AskedDwell::word))
+    }
+
+    /// The letter of the number of repetitions in a cycle's block: the option's, else the dictionary's own.
+    pub fn repeat_word(&self) -> Option<char> {
+        self.get(REPEAT_WORD).chars().next().or(self.dialect.cycles.repeat)
     }
 
     /// Whether a subprogram with a name is written by it.

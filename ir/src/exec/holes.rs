@@ -5,7 +5,7 @@
 
 use super::{Attribute, Event, Exec, Kind};
 use crate::canon::{AXES, Distance, Motion, Plane, ReturnLevel, Spindle, Turn};
-use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Pattern, Shift, next_peck};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::Nanos;
@@ -91,8 +91,10 @@ enum Way {
 struct Strokes {
     /// Depth of the first below the retract plane.
     first: Nanos,
-    /// Depth of each further one.
+    /// Depth of each further one, the least where they decrease.
     peck: Nanos,
+    /// How much less each further one is than the one before it, where they decrease.
+    less: Option<Nanos>,
     /// Seconds after every one but the last.
     pause: Option<Nanos>,
     /// Seconds at the bottom.
@@ -151,8 +153,9 @@ impl Exec {
         let way = match &cycle.kind {
             CycleKind::Drill => Way::Drill { dwell: None },
             CycleKind::DrillDwell { dwell } => Way::Drill { dwell: Some(self.value(dwell, span)?) },
-            CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell: d } => {
-                let strokes = self.strokes([peck, first.as_ref().unwrap_or(peck)], retract - depth, span)?;
+            CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, dwell: d } => {
+                let pecks = [peck, first.as_ref().unwrap_or(peck)];
+                let strokes = self.strokes(pecks, less.as_ref(), retract - depth, span)?;
                 let strokes = Strokes { pause: dwell(pause)?, dwell: dwell(d)?, ..strokes };
                 let clearance = match clearance {
                     Clearance::Stated(value) => self.value(value, span)?,
@@ -160,8 +163,9 @@ impl Exec {
                 };
                 Way::Peck { strokes, clearance, settle: dwell(settle)? }
             }
-            CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell: d } => {
-                let strokes = self.strokes([peck, first.as_ref().unwrap_or(peck)], retract - depth, span)?;
+            CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, dwell: d } => {
+                let pecks = [peck, first.as_ref().unwrap_or(peck)];
+                let strokes = self.strokes(pecks, less.as_ref(), retract - depth, span)?;
                 let strokes = Strokes { pause: dwell(pause)?, dwell: dwell(d)?, ..strokes };
                 let lift = match lift {
                     Clearance::Stated(value) => self.value(value, span)?,
@@ -236,12 +240,20 @@ impl Exec {
         Ok(by)
     }
 
-    fn strokes(&self, words: [&Expr; 2], way: Nanos, span: Span) -> Result<Strokes, Diagnostic> {
+    fn strokes(
+        &self,
+        words: [&Expr; 2],
+        less: Option<&Expr>,
+        way: Nanos,
+        span: Span,
+    ) -> Result<Strokes, Diagnostic> {
         let (peck, first) = (self.value(words[0], span)?, self.value(words[1], span)?);
-        if peck <= 0 || first <= 0 || way / peck > MOST_PECKS {
+        let less = less.map(|less| self.value(less, span)).transpose()?;
+        let grows = less.is_some_and(|less| less < 0 || first < peck);
+        if peck <= 0 || first <= 0 || grows || way / peck > MOST_PECKS {
             return self.fault(Fault::OutOfRange { word: "depth of a peck".into() }, span);
         }
-        Ok(Strokes { first, peck, pause: None, dwell: None })
+        Ok(Strokes { first, peck, less, pause: None, dwell: None })
     }
 
     pub(super) fn hole(&mut self, to: &Point, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
@@ -366,25 +378,29 @@ impl Exec {
                 self.dwell(dwell, span, out)?;
             }
             Way::Peck { strokes, clearance, settle } => {
-                let mut bottom = cycle.retract - strokes.first;
+                let mut stroke = strokes.first;
+                let mut bottom = cycle.retract - stroke;
                 while bottom > cycle.depth {
                     self.go_to_level(normal, bottom, true, span, out)?;
                     self.dwell(strokes.pause, span, out)?;
                     self.go_to_level(normal, cycle.retract, false, span, out)?;
                     self.dwell(settle, span, out)?;
                     self.go_to_level(normal, bottom + clearance, false, span, out)?;
-                    bottom -= strokes.peck;
+                    stroke = next_peck(stroke, strokes.peck, strokes.less);
+                    bottom -= stroke;
                 }
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
                 self.dwell(strokes.dwell, span, out)?;
             }
             Way::Break { strokes, lift, at_feed } => {
-                let mut bottom = cycle.retract - strokes.first;
+                let mut stroke = strokes.first;
+                let mut bottom = cycle.retract - stroke;
                 while bottom > cycle.depth {
                     self.go_to_level(normal, bottom, true, span, out)?;
                     self.dwell(strokes.pause, span, out)?;
                     self.go_to_level(normal, bottom + lift, at_feed, span, out)?;
-                    bottom -= strokes.peck;
+                    stroke = next_peck(stroke, strokes.peck, strokes.less);
+                    bottom -= stroke;
                 }
                 self.go_to_level(normal, cycle.depth, true, span, out)?;
                 self.dwell(strokes.dwell, span, out)?;

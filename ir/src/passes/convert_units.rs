@@ -278,10 +278,10 @@ impl Converter<'_> {
             self.loose(feed)?;
         }
         match &mut cycle.kind {
-            CycleKind::DrillPeck { peck, first, clearance, .. }
-            | CycleKind::DrillBreak { peck, first, lift: clearance, .. } => {
+            CycleKind::DrillPeck { peck, first, less, clearance, .. }
+            | CycleKind::DrillBreak { peck, first, less, lift: clearance, .. } => {
                 self.whole(peck)?;
-                first.iter_mut().try_for_each(|first| self.whole(first))?;
+                first.iter_mut().chain(less).try_for_each(|first| self.whole(first))?;
                 match clearance {
                     Clearance::Stated(value) => self.loose(value)?,
                     Clearance::Parameter => {}

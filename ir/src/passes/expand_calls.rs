@@ -232,10 +232,10 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
             cycle.return_plane.iter_mut().for_each(|c| settle_coord(c, here));
             cycle.feed.iter_mut().for_each(|f| settle_expr(f, here));
             match &mut cycle.kind {
-                CycleKind::DrillPeck { peck, first, clearance, .. }
-                | CycleKind::DrillBreak { peck, first, lift: clearance, .. } => {
+                CycleKind::DrillPeck { peck, first, less, clearance, .. }
+                | CycleKind::DrillBreak { peck, first, less, lift: clearance, .. } => {
                     settle_expr(peck, here);
-                    first.iter_mut().for_each(|f| settle_expr(f, here));
+                    first.iter_mut().chain(less).for_each(|f| settle_expr(f, here));
                     if let Clearance::Stated(clearance) = clearance {
                         settle_expr(clearance, here);
                     }

@@ -22,7 +22,7 @@ use super::write::{Rebuild, as_absolute, at, cut, exact, is_absolute, only, rebu
 use super::{Target, each_body, expand_patterns, polar_words};
 use crate::canon::{Axis, Motion, ReturnLevel};
 use crate::caps::{Caps, CycleCap, CycleForm};
-use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Shift, absolute};
+use crate::cycle::{Approach, Clearance, Cycle, CycleKind, Leg, Shift, absolute, next_peck};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::kinds::{flow, moves};
@@ -305,15 +305,17 @@ pub(super) fn sayable(
     let (dwell, details) = match &cycle.kind {
         CycleKind::Drill => (false, true),
         CycleKind::DrillDwell { .. } => (true, true),
-        CycleKind::DrillPeck { dwell, clearance, first, pause, settle, .. } => {
-            let strokes = first.is_some() || pause.is_some() || settle.is_some();
-            (dwell.is_some(), says_pecks(&cap, clearance, strokes))
+        CycleKind::DrillPeck { dwell, clearance, first, less, pause, settle, .. } => {
+            let other_first = first.is_some() && less.is_none();
+            let strokes = other_first || pause.is_some() || settle.is_some();
+            (dwell.is_some(), says_pecks(&cap, clearance, strokes) && (less.is_none() || cap(|c| c.shrinks)))
         }
-        CycleKind::DrillBreak { dwell, lift, first, pause, lift_at_feed, .. } => {
-            let strokes = first.is_some() || pause.is_some();
+        CycleKind::DrillBreak { dwell, lift, first, less, pause, lift_at_feed, .. } => {
+            let strokes = first.is_some() && less.is_none() || pause.is_some();
             let rapid = cap(|c| c.lift_at_feed != Some(true));
             let way = if *lift_at_feed { cap(|c| c.lift_at_feed != Some(false)) } else { rapid };
-            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way)
+            let shrinks = less.is_none() || cap(|c| c.shrinks);
+            (dwell.is_some(), says_pecks(&cap, lift, strokes) && way && shrinks)
         }
         CycleKind::Bore { dwell, feed_out, .. } => {
             (dwell.is_some(), feed_out.is_none() || cap(|c| c.feed_out))
@@ -597,8 +599,8 @@ fn pecks(
         None => Err(Fault::CannotSay { what: what.into() }),
     };
     let length = |value: &Expr| walk.at.nanos(value).ok_or_else(|| unknown.clone());
-    let (peck, first, pause, between) = match &in_force.cycle.kind {
-        CycleKind::DrillPeck { peck, first, clearance, pause, settle, .. } => {
+    let (peck, first, less, pause, between) = match &in_force.cycle.kind {
+        CycleKind::DrillPeck { peck, first, less, clearance, pause, settle, .. } => {
             let clearance = match clearance {
                 Clearance::Stated(value) => length(value)?,
                 Clearance::Parameter => parameter(
@@ -606,9 +608,9 @@ fn pecks(
                     "peck drilling whose clearance is a parameter of the control",
                 )?,
             };
-            (peck, first, pause, Between::Out { clearance, settle: settle.as_ref() })
+            (peck, first, less, pause, Between::Out { clearance, settle: settle.as_ref() })
         }
-        CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, .. } => {
+        CycleKind::DrillBreak { peck, first, less, lift, lift_at_feed, pause, .. } => {
             let lift = match lift {
                 Clearance::Stated(value) => length(value)?,
                 Clearance::Parameter => parameter(
@@ -616,7 +618,7 @@ fn pecks(
                     "chip-breaking drilling whose lift is a parameter of the control",
                 )?,
             };
-            (peck, first, pause, Between::Up { lift, at_feed: *lift_at_feed })
+            (peck, first, less, pause, Between::Up { lift, at_feed: *lift_at_feed })
         }
         CycleKind::Drill
         | CycleKind::DrillDwell { .. }
@@ -631,13 +633,16 @@ fn pecks(
         Some(first) => length(first)?,
         None => peck,
     };
-    if peck == 0 || first <= 0 || retract.saturating_sub(depth) / peck > MOST_PECKS {
+    let less = less.as_ref().map(length).transpose()?;
+    let grows = less.is_some_and(|less| less < 0 || first < peck);
+    if peck == 0 || first <= 0 || grows || retract.saturating_sub(depth) / peck > MOST_PECKS {
         return Err(Fault::OutOfRange { word: "depth of a peck".into() });
     }
     let unit = unit_of(normal, walk.unit());
     let go = |nanos: Nanos| only(normal, absolute(exact(nanos, unit)));
     let up = only(normal, level(walk, &in_force.cycle.retract, in_force.retract, normal)?);
-    let mut bottom = retract.saturating_sub(first);
+    let mut stroke = first;
+    let mut bottom = retract.saturating_sub(stroke);
     let mut joined = stated;
     while bottom > depth {
         moves.push((joined, cut(go(bottom))));
@@ -658,7 +663,8 @@ fn pecks(
                 moves.push((false, if *at_feed { cut(to) } else { traverse(to) }));
             }
         }
-        bottom = bottom.saturating_sub(peck);
+        stroke = next_peck(stroke, peck, less);
+        bottom = bottom.saturating_sub(stroke);
     }
     Ok(())
 }

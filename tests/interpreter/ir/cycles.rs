@@ -31,6 +31,8 @@ enum Hole {
     Strokes {
         first: f64,
         peck: f64,
+        /// How much less than the one before it a peck is, down to the least.
+        less: Option<f64>,
         pause: Option<f64>,
         dwell: Option<f64>,
         out: Out,
@@ -122,6 +124,7 @@ impl Control {
             ("drill-peck" | "drill-break", dwell, Some(peck)) => Hole::Strokes {
                 first: number("first").unwrap_or(peck),
                 peck,
+                less: number("less"),
                 pause: number("pause"),
                 dwell,
                 out: if name == "drill-peck" {
@@ -317,11 +320,12 @@ impl Control {
                 self.feed(z)?;
                 self.stay(dwell);
             }
-            Hole::Strokes { first, peck, pause, dwell, out } => {
+            Hole::Strokes { first, peck, less, pause, dwell, out } => {
                 if peck <= 0.0 || first <= 0.0 || (r - z) / peck > 10_000.0 {
                     return self.m.halt("a peck that leads nowhere");
                 }
-                let mut bottom = r - first;
+                let mut stroke = first;
+                let mut bottom = r - stroke;
                 while bottom > z + 1e-9 {
                     self.feed(bottom)?;
                     self.stay(pause);
@@ -334,7 +338,8 @@ impl Control {
                         Out::Break { lift, at_feed: true } => self.feed(bottom + lift)?,
                         Out::Break { lift, at_feed: false } => self.rapid(bottom + lift),
                     }
-                    bottom -= peck;
+                    stroke = less.map_or(peck, |less| f64::max(peck, stroke - less));
+                    bottom -= stroke;
                 }
                 self.feed(z)?;
                 self.stay(dwell);

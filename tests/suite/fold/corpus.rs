@@ -20,8 +20,14 @@ const STOPPED: &str = "no statement of the spindle is read as part of a hole: wh
 /// Why a cycle in a tilted plane does not come back.
 const TILTED: &str = "nothing is folded in a tilted plane";
 
+/// Why pecks that decrease do not come back.
+const DECREASING: &str = "pecks are folded where all but the first and the last are of one depth";
+
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 17] = [
+const LOST: [(&str, &str, &str); 20] = [
+    ("haas/decreasing-pecks.nc", "cycle drill-peck of 1", DECREASING),
+    ("haas/decreasing-pecks.nc", "cycle drill-peck of 2", DECREASING),
+    ("haas/decreasing-pecks.nc", "cycle drill-break of 2", DECREASING),
     ("fanuc/five-axes.nc", "cycle drill of 3", TILTED),
     ("siemens/five-axes.mpf", "cycle drill of 2", TILTED),
     ("siemens/swivel-post.mpf", "cycle drill of 2", TILTED),

@@ -25,6 +25,7 @@ pub(super) fn everything(decimals: u8) -> Target {
         clearance: true,
         parameter: true,
         strokes: true,
+        shrinks: true,
         feed_out: true,
         lift_at_feed: None,
         form: ncc_ir::caps::CycleForm::Any,

@@ -217,14 +217,22 @@ impl Maker {
                 let (peck, first, back) = self.strokes(deep);
                 let settle = dwell(self);
                 let (pause, dwell) = (dwell(self), dwell(self));
-                CycleKind::DrillPeck { peck, first, clearance: Clearance::Stated(back), pause, settle, dwell }
+                CycleKind::DrillPeck {
+                    peck,
+                    first,
+                    less: None,
+                    clearance: Clearance::Stated(back),
+                    pause,
+                    settle,
+                    dwell,
+                }
             }
             6..=7 => {
                 let (peck, first, back) = self.strokes(deep);
                 let (pause, dwell) = (dwell(self), dwell(self));
                 let lift_at_feed = self.chance.percent(40);
                 let lift = Clearance::Stated(back);
-                CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell }
+                CycleKind::DrillBreak { peck, first, less: None, lift, lift_at_feed, pause, dwell }
             }
             _ => {
                 let feed_out = self.chance.percent(30).then(|| self.feed());

@@ -51,17 +51,20 @@ fn kind() -> impl Strategy<Value = CycleKind> {
         || prop_oneof![Just(Clearance::Parameter), (1i64..20).prop_map(|t| Clearance::Stated(mm(t).into()))];
     let pause = || prop::option::of(seconds());
     let first = || prop::option::of((5i64..90).prop_map(|t| Expr::from(mm(t))));
+    let less = || prop::option::of((0i64..20).prop_map(|t| Expr::from(mm(t))));
     prop_oneof![
         3 => Just(CycleKind::Drill),
         1 => seconds().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
-        1 => (10i64..80, clearance(), first(), [pause(), pause(), pause()]).prop_map(
-            |(peck, clearance, first, [pause, settle, dwell])| {
-                CycleKind::DrillPeck { peck: mm(peck).into(), first, clearance, pause, settle, dwell }
+        1 => (10i64..80, clearance(), first(), less(), [pause(), pause(), pause()]).prop_map(
+            |(peck, clearance, first, less, [pause, settle, dwell])| {
+                let first = if less.is_some() { Some(mm(peck + 7).into()) } else { first };
+                CycleKind::DrillPeck { peck: mm(peck).into(), first, less, clearance, pause, settle, dwell }
             }
         ),
-        1 => (10i64..80, clearance(), first(), [pause(), pause()], any::<bool>()).prop_map(
-            |(peck, lift, first, [pause, dwell], lift_at_feed)| {
-                CycleKind::DrillBreak { peck: mm(peck).into(), first, lift, lift_at_feed, pause, dwell }
+        1 => (10i64..80, clearance(), first(), less(), [pause(), pause()], any::<bool>()).prop_map(
+            |(peck, lift, first, less, [pause, dwell], lift_at_feed)| {
+                let first = if less.is_some() { Some(mm(peck + 7).into()) } else { first };
+                CycleKind::DrillBreak { peck: mm(peck).into(), first, less, lift, lift_at_feed, pause, dwell }
             }
         ),
         1 => (pause(), prop::option::of(100i64..900), any::<bool>()).prop_map(|(dwell, out, to_level)| {

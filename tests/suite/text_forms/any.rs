@@ -147,20 +147,22 @@ fn cycle() -> BoxedStrategy<Cycle> {
     let kind = prop_oneof![
         Just(CycleKind::Drill),
         expr().prop_map(|dwell| CycleKind::DrillDwell { dwell }),
-        ([of(expr()), of(expr()), of(expr()), of(expr()), of(expr())], expr()).prop_map(
-            |([clearance, first, pause, settle, dwell], peck)| CycleKind::DrillPeck {
+        ([of(expr()), of(expr()), of(expr()), of(expr()), of(expr()), of(expr())], expr()).prop_map(
+            |([clearance, first, less, pause, settle, dwell], peck)| CycleKind::DrillPeck {
                 peck,
                 first,
+                less,
                 clearance: clearance.map_or(Clearance::Parameter, Clearance::Stated),
                 pause,
                 settle,
                 dwell,
             }
         ),
-        ([of(expr()), of(expr()), of(expr()), of(expr())], expr(), any::<bool>()).prop_map(
-            |([lift, first, pause, dwell], peck, lift_at_feed)| CycleKind::DrillBreak {
+        ([of(expr()), of(expr()), of(expr()), of(expr()), of(expr())], expr(), any::<bool>()).prop_map(
+            |([lift, first, less, pause, dwell], peck, lift_at_feed)| CycleKind::DrillBreak {
                 peck,
                 first,
+                less,
                 lift: lift.map_or(Clearance::Parameter, Clearance::Stated),
                 lift_at_feed,
                 pause,

@@ -163,7 +163,7 @@ fn cycle(c: &Cycle) -> String {
     let kind = match &c.kind {
         CycleKind::Drill => String::new(),
         CycleKind::DrillDwell { dwell } => format!(" dwell {}", expr(dwell)),
-        CycleKind::DrillPeck { peck, first, clearance, pause, settle, dwell } => format!(
+        CycleKind::DrillPeck { peck, first, less: _, clearance, pause, settle, dwell } => format!(
             " {}{} ahead {}{}{}{}",
             expr(peck),
             option("first", first),
@@ -172,7 +172,7 @@ fn cycle(c: &Cycle) -> String {
             option("settle", settle),
             option("dwell", dwell)
         ),
-        CycleKind::DrillBreak { peck, first, lift, lift_at_feed, pause, dwell } => format!(
+        CycleKind::DrillBreak { peck, first, less: _, lift, lift_at_feed, pause, dwell } => format!(
             " {}{} lift{} {}{}{}",
             expr(peck),
             option("first", first),

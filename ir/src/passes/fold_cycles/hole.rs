@@ -295,6 +295,7 @@ impl Found {
             Between::Out { settle, .. } => CycleKind::DrillPeck {
                 peck,
                 first,
+                less: None,
                 clearance: Clearance::Stated(length(above(one))),
                 pause,
                 settle: settle.map(seconds),
@@ -303,6 +304,7 @@ impl Found {
             Between::Up { at_feed, .. } => CycleKind::DrillBreak {
                 peck,
                 first,
+                less: None,
                 lift: Clearance::Stated(length(above(one))),
                 lift_at_feed: *at_feed,
                 pause,
