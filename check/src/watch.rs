@@ -240,7 +240,7 @@ impl Checker {
                 self.rebase(exec);
                 self.forget_program();
             }
-            Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => {
+            Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
                 self.seen.length_lost = false;
                 length::said(self, at, exec);
                 self.rebase(exec);

@@ -88,6 +88,8 @@ pub struct Caps {
     pub offset_turns: bool,
     /// Stored positions that can be set to where the axes stand: 1, 2.
     pub stored_positions: [bool; 2],
+    /// Whether a tool's length can be stated, and whether one can be added to that in force.
+    pub stated_lengths: [bool; 2],
     /// Whether the number of the tool in the spindle can be set.
     pub tool_number: bool,
     /// Values of the table of tools, in the order of [`crate::program::ToolValue::ALL`].

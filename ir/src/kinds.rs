@@ -65,6 +65,7 @@ macro_rules! tooling {
             | $crate::program::Op::SelectToolByName(_)
             | $crate::program::Op::ChangeTool
             | $crate::program::Op::UseToolLengthOffset(_)
+            | $crate::program::Op::UseToolLength(_)
             | $crate::program::Op::UseToolEdge { .. }
     };
 }

@@ -230,6 +230,7 @@ pub fn leaves_points(op: &Op, plane: Option<Plane>) -> bool {
         | Op::SetReturnLevel(_)
         | Op::UseLengthUnits(_)
         | Op::UseToolLengthOffset(_)
+        | Op::UseToolLength(_)
         | Op::StartCycle(_)
         | Op::EndCycle
         | miscellaneous!()

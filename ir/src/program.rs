@@ -17,7 +17,7 @@ mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
-pub use machine::{CutterRadius, Data, DataMode, Probe, Reference, ReferencePoint, ToolValue};
+pub use machine::{CutterRadius, Data, DataMode, Probe, Reference, ReferencePoint, ToolLength, ToolValue};
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use crate::canon::{
@@ -315,6 +315,8 @@ pub enum Op {
     /// `USE_TOOL_LENGTH_OFFSET`: entry of the length table, 0 for none. Moves nothing; taken up
     /// with the next move of the drilling axis (Z).
     UseToolLengthOffset(Expr),
+    /// `USE_TOOL_LENGTH`, `ADD_TOOL_LENGTH`, `ADD_TOOL_LENGTH_OFFSET`: a length that is no entry of the table.
+    UseToolLength(Box<ToolLength>),
     /// `USE_TOOL_EDGE`: length of an edge of the tool in the spindle, 0 for none. Moves nothing;
     /// taken up with the next move of the drilling axis (Z). Edge 1 of a tool is the entry of the
     /// length table with the tool's number.
@@ -463,6 +465,11 @@ impl Op {
             Op::SelectToolByName(_) => "SELECT_TOOL_BY_NAME",
             Op::ChangeTool => "CHANGE_TOOL",
             Op::UseToolLengthOffset(_) => "USE_TOOL_LENGTH_OFFSET",
+            Op::UseToolLength(length) => match **length {
+                ToolLength::Value(_) => "USE_TOOL_LENGTH",
+                ToolLength::Added(_) => "ADD_TOOL_LENGTH",
+                ToolLength::AddedEntry(_) => "ADD_TOOL_LENGTH_OFFSET",
+            },
             Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
             Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",
             Op::StopSpindleTurning => "STOP_SPINDLE_TURNING",

@@ -454,6 +454,7 @@ impl Tracker {
                     (Some(_) | None, _) => None,
                 };
             }
+            Op::UseToolLength(_) => self.modes.length_offset = None,
             Op::UseToolLengthOffset(entry) => {
                 let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;

@@ -349,6 +349,17 @@ impl Control {
         }
     }
 
+    /// A length that is in no table, in place of the one in force or added to it.
+    fn state_length(&mut self, value: f64, added: bool) {
+        let before = self.shift()[2];
+        let own = before - self.m.zero_of(self.m.offset)[2] - self.m.slots.shift()[2] - self.m.apart(2);
+        self.edge = None;
+        self.m.use_stated_length(value + if added { own } else { 0.0 }, false);
+        if self.shift()[2] != before {
+            self.unsettle_length();
+        }
+    }
+
     fn unsettle_length(&mut self) {
         self.m.settled[2] = false;
         if self.frame.turns() {
@@ -435,6 +446,15 @@ impl Control {
             }
             "SET_OFFSET_DATA" => self.offset_data(a)?,
             "SET_TOOL_DATA" => self.tool_data(a)?,
+            "USE_TOOL_LENGTH" | "ADD_TOOL_LENGTH" => {
+                let Some(Token::Number(value, unit)) = a.first() else { return self.m.halt("a length") };
+                let value = self.base(*value, unit);
+                self.state_length(value, name == "ADD_TOOL_LENGTH");
+            }
+            "ADD_TOOL_LENGTH_OFFSET" => {
+                let value = self.m.length_of(self.first(a)? as u32);
+                self.state_length(value, true);
+            }
             "STORE_POSITION" => {
                 let place = self.first(a)? as u32;
                 self.m.store_position(place);

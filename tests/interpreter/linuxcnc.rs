@@ -125,7 +125,7 @@ const GROUPS: [&[u32]; 13] = [
     &[170, 180, 190],
     &[200, 210],
     &[400, 410, 411, 420, 421],
-    &[430, 490],
+    &[430, 431, 432, 490],
     &[540, 550, 560, 570, 580, 590, 591, 592, 593],
     &[610, 611, 640],
     &[900, 910],
@@ -376,7 +376,20 @@ impl Control {
             (None, Some(_)) if of(GROUPS[12]) == Some(960) => {}
             _ => return self.m.halt("D without G41"),
         }
+        let z = words.get('Z').map(|z| z * self.unit());
+        let lengthways = matches!(of(GROUPS[5]), Some(431 | 432));
+        if lengthways && "XYABC".chars().any(|letter| words.get(letter).is_some()) {
+            return self.m.halt("G43.1 or G43.2 along another axis than Z");
+        }
         match (of(GROUPS[5]), words.get('H')) {
+            (Some(code @ (431 | 432)), None) => match z {
+                Some(z) => self.m.use_stated_length(z, code == 432),
+                None => return self.m.halt("G43.1 or G43.2 without a length"),
+            },
+            (Some(432), Some(entry)) if z.is_none() => {
+                let length = self.m.length_of(entry as u32);
+                self.m.use_stated_length(length, true);
+            }
             (Some(430), Some(entry)) => self.m.use_length(entry as u32),
             (Some(430), None) => match self.m.tool {
                 Some(tool) => self.m.use_length(tool),
@@ -400,7 +413,14 @@ impl Control {
         self.absolute_centre = of(GROUPS[9]).map_or(self.absolute_centre, |code| code == 901);
         self.return_initial = of(GROUPS[11]).map_or(self.return_initial, |code| code == 980);
 
-        self.act(&words, of(GROUPS[0]), once)?;
+        // The axis words of a length are its own.
+        match lengthways {
+            true if of(GROUPS[0]).is_some() || once.is_some() => {
+                return self.m.halt("motion beside G43.1 or G43.2");
+            }
+            true => {}
+            false => self.act(&words, of(GROUPS[0]), once)?,
+        }
 
         match m.iter().find(|code| M_GROUPS[0].contains(code)) {
             // What the pallets do is no matter of the axes.

@@ -44,6 +44,15 @@ impl Machine {
         self.record(What::Data(what, offset, shown));
     }
 
+    /// A length that is in no table, in place of the one in force or added to it (LinuxCNC, G43.1 and G43.2). It
+    /// stands under one of two numbers that no table has.
+    pub(super) fn use_stated_length(&mut self, value: f64, added: bool) {
+        let sum = value + if added { self.length_of(self.entry) } else { 0.0 };
+        let under = if self.entry == u32::MAX - 1 { u32::MAX - 2 } else { u32::MAX - 1 };
+        self.stored.lengths.insert(under, (sum, 0.0));
+        self.use_length(under);
+    }
+
     /// A position that the control keeps, in machine coordinates.
     pub(super) fn position_of(&self, place: u32) -> Place {
         self.stored.positions.get(&place).copied().unwrap_or_else(|| (self.setup.stored)(place))

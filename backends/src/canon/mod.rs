@@ -360,6 +360,7 @@ impl Writer {
             | Op::Probe(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
+            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

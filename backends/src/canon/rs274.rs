@@ -155,7 +155,7 @@ fn rank(op: &Op) -> u8 {
         Op::SelectPlane(_) => 11,
         Op::UseLengthUnits(_) => 12,
         Op::StartCutterRadiusCompensation { .. } | Op::StopCutterRadiusCompensation => 13,
-        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => 14,
+        Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => 14,
         Op::SetOriginOffsets(_) => 15,
         Op::SetMotionControlMode(_) => 16,
         Op::SetDistanceMode(_) => 17,
@@ -422,6 +422,7 @@ impl Printer<'_> {
             | Op::LimitSpindleSpeed(_)
             | Op::SelectToolByName(_)
             | Op::UseToolLengthOffset(_)
+            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::OrientSpindle(_)
             | Op::MachineFunction(_)

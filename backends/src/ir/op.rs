@@ -4,7 +4,7 @@ use ncc_ir::canon::{
     Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, SpindleMode, Turn, Units,
 };
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Point, Shape};
+use ncc_ir::program::{Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Point, Shape, ToolLength};
 
 use super::cycle::{cycle, further_turn, pattern, pitch};
 use super::expr::{expr, var};
@@ -63,6 +63,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SelectToolByName(_)
         | Op::ChangeTool
         | Op::UseToolLengthOffset(_)
+        | Op::UseToolLength(_)
         | Op::StartSpindleClockwise
         | Op::StartSpindleCounterclockwise
         | Op::StopSpindleTurning
@@ -173,6 +174,11 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         }
         Op::GoToReference(r) => machine::reference(r, out),
         Op::SetData(d) => machine::data(d, out),
+        Op::UseToolLength(length) => match &**length {
+            ToolLength::Value(value) | ToolLength::Added(value) | ToolLength::AddedEntry(value) => {
+                expr(value, out);
+            }
+        },
         Op::SetPole(set) => pole(set, out),
         Op::TurnRotaryAxes(ways) => rotary_ways(ways, out),
         Op::Polar(_)

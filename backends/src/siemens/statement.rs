@@ -158,6 +158,7 @@ impl Writer {
             Op::Probe(_) => Err(cannot("a probing move")),
             Op::GoToReference(_) => Err(cannot("a move to the reference point")),
             Op::SetData(_) => Err(cannot("values of tables")),
+            Op::UseToolLength(_) => Err(cannot("a tool's length by its value")),
             Op::SetFeedRate(feed) => {
                 self.feed(feed, span, sink)?;
                 self.standing.feed = feed.literal();

@@ -210,6 +210,8 @@ pub(crate) struct Codes {
     pub probes: Vec<(Probe, ProbeCode)>,
     /// Tables that values are put into.
     pub tables: Vec<DataCode>,
+    /// A length by its value: in place of the one in force, added to it.
+    pub stated_length: [Option<Code>; 2],
     /// Where the axes stand as stored position 1, 2.
     pub store_position: [Option<Code>; 2],
     /// The code that says the number of the tool in the spindle, and its word.
@@ -600,6 +602,7 @@ impl Codes {
                 })
                 .collect(),
             tables: find.tables(),
+            stated_length: [false, true].map(|added| code(Meaning::UseToolLength { added })),
             store_position: [1, 2].map(|place| code(Meaning::StorePosition(place))),
             tool_number: dialect.code_for(Meaning::SetToolNumber).and_then(|row| {
                 let letter = find.letter(row.words.chars().next()?, Quantity::Integer)?;

@@ -5,7 +5,7 @@ use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
-use ncc_ir::program::{Coord, Data, DataMode, ToolValue};
+use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -74,6 +74,25 @@ impl Writer {
                 self.stored(&table, *entry, *added, &[(letter, value)], span, sink)
             }
         }
+    }
+
+    /// A length that is no entry of the table, in a block of its own.
+    pub(crate) fn stated_length(
+        &mut self,
+        length: &ToolLength,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let [stated, added] = self.codes.stated_length;
+        let z = self.codes.axes[Axis::Z as usize];
+        let (code, letter, value) = match length {
+            ToolLength::Value(value) => (stated, z, value),
+            ToolLength::Added(value) => (added, z, value),
+            ToolLength::AddedEntry(entry) => (added, self.codes.entry, entry),
+        };
+        let (code, letter) = code.zip(letter).ok_or_else(|| cannot("a tool's length by its value"))?;
+        let value = self.value(&letter, value, span, sink)?;
+        self.alone(code, Some((letter.letter, value)), sink)
     }
 
     /// A code in a block of its own, with a word of its.

@@ -50,6 +50,7 @@ impl Setting {
             Op::SetSpindleMode(SpindleMode::Turns) => Setting::Turns,
             Op::ClearFrame(_)
             | Op::UseToolLengthOffset(_)
+            | Op::UseToolLength(_)
             | Op::Comment(_)
             | Op::NoEffect(_)
             | Op::Blank

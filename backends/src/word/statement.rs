@@ -102,6 +102,7 @@ impl Writer {
             Op::OrientToolAxis(Some(_)) => Err(cannot("the way in which the tool's axis is turned")),
             Op::GoToReference(reference) => self.reference(reference, span, sink),
             Op::SetData(data) => self.data(data, span, sink),
+            Op::UseToolLength(length) => self.stated_length(length, span, sink),
             Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
             Op::SynchronisedFeed(m) => self.thread(m, span, sink),

@@ -349,6 +349,12 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             vec![Said::new(format!("{start} & said STRAIGHT_TRAVERSE(X 10mm)"))]
         }
         Meaning::StopCutterRadiusCompensation => one("STOP_CUTTER_RADIUS_COMPENSATION()"),
+        Meaning::UseToolLength { added: false } => {
+            one("USE_TOOL_LENGTH(82.5mm) & said STRAIGHT_TRAVERSE(Z 30mm)")
+        }
+        Meaning::UseToolLength { added: true } => {
+            one("ADD_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)")
+        }
         Meaning::UseToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(7) & said STRAIGHT_TRAVERSE(Z 30mm)"),
         Meaning::CancelToolLengthOffset => one("USE_TOOL_LENGTH_OFFSET(0)"),
         Meaning::EndCycle => match d.cycle.iter().find(|row| writes(d, row)) {

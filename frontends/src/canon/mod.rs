@@ -161,6 +161,7 @@ impl State {
             | Op::Probe(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
+            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::ArcForm(_)
             | Op::SynchronisedFeed(_)

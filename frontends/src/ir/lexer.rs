@@ -61,6 +61,9 @@ pub(crate) enum Valued {
     LimitSpindleSpeed,
     SelectTool,
     UseToolLengthOffset,
+    UseToolLength,
+    AddToolLength,
+    AddToolLengthOffset,
     Dwell,
     RoundCorner,
     ChamferCorner,
@@ -179,6 +182,9 @@ pub(crate) enum Token {
     #[token("SET_SPINDLE_SPEED", |_| Valued::SetSpindleSpeed)]
     #[token("LIMIT_SPINDLE_SPEED", |_| Valued::LimitSpindleSpeed)]
     #[token("SELECT_TOOL", |_| Valued::SelectTool)]
+    #[token("USE_TOOL_LENGTH", |_| Valued::UseToolLength)]
+    #[token("ADD_TOOL_LENGTH", |_| Valued::AddToolLength)]
+    #[token("ADD_TOOL_LENGTH_OFFSET", |_| Valued::AddToolLengthOffset)]
     #[token("USE_TOOL_LENGTH_OFFSET", |_| Valued::UseToolLengthOffset)]
     #[token("DWELL", |_| Valued::Dwell)]
     #[token("ROUND_CORNER", |_| Valued::RoundCorner)]

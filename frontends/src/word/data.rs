@@ -8,7 +8,7 @@ use ncc_ir::canon::{AXES, Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
-use ncc_ir::program::{Data, DataMode, Op, ToolValue};
+use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
 
 use super::Source;
 use super::facts::{InForce, Know};
@@ -161,6 +161,49 @@ impl Lower {
             }
         };
         self.push(code.span, Op::SetData(Box::new(data)), out);
+    }
+
+    /// A length of the tool by its value, or one that is added to the one in force.
+    pub(super) fn stated_length(
+        &mut self,
+        code: &Code,
+        added: bool,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let code_text: Box<str> = code.row.code.as_str().into();
+        let entry = words.take(if added { self.roles.length_entry } else { 0 });
+        let value = words.take(b'Z');
+        if self.has_axis_word(words) || entry.is_some() && value.is_some() {
+            let name = match entry {
+                Some(_) => "entry of the length table beside axis words",
+                None => "length of a tool along another axis than Z",
+            };
+            words.left = 0;
+            return self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
+        }
+        let length = match (entry, value) {
+            (Some(word), _) => {
+                self.whole(&word, src, out).map(|entry| ToolLength::AddedEntry(Expr::int(i64::from(entry))))
+            }
+            (None, Some(word)) => self.number(&word, Quantity::Length, src, out).map(|value| {
+                let value = Expr::Num(value);
+                if added { ToolLength::Added(value) } else { ToolLength::Value(value) }
+            }),
+            (None, None) => {
+                return self.fault(Fault::WordMissing { code: code_text, word: "Z".into() }, code.span, out);
+            }
+        };
+        let Some(length) = length else { return };
+        if added {
+            // What it is added to counts.
+            self.rely_on_frames(true, code.span, out);
+        }
+        self.end_tip(code.span, out);
+        self.state.length_offset = Know::Said(());
+        self.state.level_open = true;
+        self.push(code.span, Op::UseToolLength(Box::new(length)), out);
     }
 
     #[allow(clippy::too_many_arguments)] // All that the block says.

@@ -384,6 +384,7 @@ impl Lower {
                 };
                 return self.length_offset(&word, code.span.to(word.span), words, src, out);
             }
+            Meaning::UseToolLength { added } => return self.stated_length(code, added, words, src, out),
             Meaning::UseToolCentrePoint(true) => return self.use_tip(code, words, src, out),
             Meaning::OrientToolAxis => return self.upright(code, words, out),
             Meaning::CancelToolLengthOffset => {

@@ -260,7 +260,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::Dwell | Meaning::MachineFunction(_) => 13,
         Meaning::RigidTapping => 13,
         Meaning::UseToolLengthOffset | Meaning::CancelToolLengthOffset => 14,
-        Meaning::UseToolCentrePoint(_) => 14,
+        Meaning::UseToolCentrePoint(_) | Meaning::UseToolLength { .. } => 14,
         Meaning::OrientToolAxis => 15,
         Meaning::SetData | Meaning::StorePosition(_) => 15,
         Meaning::SetToolNumber => RANK_WORDS,

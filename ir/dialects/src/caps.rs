@@ -171,6 +171,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         offset_data: if everything { [true; 3] } else { dialect.sets_offsets() },
         offset_turns: everything || dialect.data.iter().any(|row| row.turns.is_some()),
         stored_positions: [1, 2].map(|place| everything || says(Meaning::StorePosition(place))),
+        stated_lengths: [false, true].map(|added| everything || says(Meaning::UseToolLength { added })),
         tool_number: everything || says(Meaning::SetToolNumber),
         tool_data: if everything { [true; 4] } else { dialect.sets_tools() },
         tool_data_added: everything || dialect.data.iter().any(|r| r.kind == DataKind::Tool && r.adds),

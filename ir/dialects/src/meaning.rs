@@ -95,6 +95,11 @@ pub enum Meaning {
     OrientSpindle,
     /// Takes up the length entry that a word of the block names.
     UseToolLengthOffset,
+    /// The block's Z word is the length in force, or is added to it; so is the length of the entry that a word
+    /// names.
+    UseToolLength {
+        added: bool,
+    },
     /// No length offset.
     CancelToolLengthOffset,
     /// Calls up the cycle of the row with the same code.
@@ -240,6 +245,8 @@ impl fmt::Display for Meaning {
             Meaning::LimitSpindleSpeed => "LIMIT_SPINDLE_SPEED",
             Meaning::OrientSpindle => "ORIENT_SPINDLE",
             Meaning::UseToolLengthOffset => "USE_TOOL_LENGTH_OFFSET",
+            Meaning::UseToolLength { added: false } => "USE_TOOL_LENGTH",
+            Meaning::UseToolLength { added: true } => "ADD_TOOL_LENGTH",
             Meaning::CancelToolLengthOffset => "USE_TOOL_LENGTH_OFFSET 0",
             Meaning::StartCycle => "START_CYCLE",
             Meaning::EndCycle => "END_CYCLE",
@@ -385,6 +392,8 @@ impl FromStr for Meaning {
             ("LIMIT_SPINDLE_SPEED", "") => Meaning::LimitSpindleSpeed,
             ("ORIENT_SPINDLE", "") => Meaning::OrientSpindle,
             ("USE_TOOL_LENGTH_OFFSET", "") => Meaning::UseToolLengthOffset,
+            ("USE_TOOL_LENGTH", "") => Meaning::UseToolLength { added: false },
+            ("ADD_TOOL_LENGTH", "") => Meaning::UseToolLength { added: true },
             ("USE_TOOL_LENGTH_OFFSET", "0") => Meaning::CancelToolLengthOffset,
             ("START_CYCLE", "") => Meaning::StartCycle,
             ("END_CYCLE", "") => Meaning::EndCycle,

@@ -20,7 +20,7 @@ impl Exec {
     pub fn length_entry(&self) -> Option<u32> {
         match self.waiting.unwrap_or(self.modes.length) {
             Length::Entry(entry) => Some(entry),
-            Length::Edge(..) | Length::Left => None,
+            Length::Edge(..) | Length::Value(_) | Length::Left => None,
         }
     }
 
@@ -28,7 +28,7 @@ impl Exec {
     /// is -1 where none was named.
     pub fn length_edge(&self) -> Option<(i64, u32)> {
         match self.waiting.unwrap_or(self.modes.length) {
-            Length::Entry(_) | Length::Left => None,
+            Length::Entry(_) | Length::Value(_) | Length::Left => None,
             Length::Edge(tool, edge) => Some((tool, edge)),
         }
     }

@@ -170,7 +170,7 @@ impl Exec {
                     let tool = (tool as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
                     return Ok(EDGE | (tool as u32) << 4 | edge);
                 }
-                Length::Left => 0,
+                Length::Value(_) | Length::Left => 0,
             },
             CutterRadius::Diameter(diameter) => {
                 let steps = (self.value(diameter, span)?.abs() + STEP / 2) / STEP;
@@ -316,6 +316,7 @@ impl Exec {
                 let entry = u32::try_from(self.whole(entry, span)?).unwrap_or(u32::MAX);
                 (length != Length::Entry(entry)).then_some("another length under cutter radius compensation")
             }
+            Op::UseToolLength(_) => Some("another length under cutter radius compensation"),
             Op::UseToolEdge { edge, .. } => {
                 let edge = u32::try_from(self.whole(edge, span)?).unwrap_or(u32::MAX);
                 (length != self.edge(edge)).then_some("another edge under cutter radius compensation")

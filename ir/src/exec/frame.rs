@@ -10,7 +10,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry;
 use crate::num::{Nanos, ONE};
-use crate::program::{Coord, Frame, FrameSlot, FrameStep, Point, Slot};
+use crate::program::{Coord, Frame, FrameSlot, FrameStep, Point, Slot, ToolLength};
 use crate::source::Span;
 
 /// Frames in force: what the program calls `p` is `turn · p + shift` in the work offset.
@@ -28,6 +28,8 @@ pub(super) enum Length {
     Entry(u32),
     /// An edge of a tool, where that is not an entry.
     Edge(i64, u32),
+    /// This one, whatever the table says.
+    Value(Nanos),
     /// What a return to the reference point has left of it, if anything.
     Left,
 }
@@ -366,10 +368,30 @@ impl Exec {
         Ok(())
     }
 
+    /// A length that is no entry of the table; what is added to is the length that waits, or is in force.
+    pub(super) fn use_length(&mut self, length: &ToolLength, span: Span) -> Result<(), Diagnostic> {
+        let before = self.length_of(self.waiting.unwrap_or(self.modes.length));
+        let sum = match length {
+            ToolLength::Value(value) => Some(self.value(value, span)?),
+            ToolLength::Added(value) => before.checked_add(self.value(value, span)?),
+            ToolLength::AddedEntry(entry) => match u32::try_from(self.whole(entry, span)?) {
+                Ok(entry) => before.checked_add(self.world.tool_length(entry)),
+                Err(_) => None,
+            },
+        };
+        let Some(sum) = sum.filter(|sum| sum.unsigned_abs() < 1 << 60) else {
+            return self.fault(Fault::OutOfRange { word: "length".into() }, span);
+        };
+        self.said |= super::LENGTH;
+        self.waiting = Some(Length::Value(sum));
+        Ok(())
+    }
+
     pub(super) fn length_of(&self, length: Length) -> Nanos {
         match length {
             Length::Entry(entry) => self.world.tool_length(entry),
             Length::Edge(tool, edge) => self.world.edge_length(tool, edge),
+            Length::Value(length) => length,
             Length::Left => self.world.left_length(),
         }
     }

@@ -635,6 +635,7 @@ impl Exec {
                 self.state.tool = self.selected;
                 self.emit(Kind::ToolChange, span, out)?;
             }
+            Op::UseToolLength(length) => self.use_length(length, span)?,
             Op::UseToolLengthOffset(entry) => {
                 let entry = u32::try_from(self.whole(entry, span)?);
                 let Ok(entry) = entry else {

@@ -273,6 +273,7 @@ impl Exec {
             | Op::SelectTool(_)
             | Op::SelectToolByName(_)
             | Op::UseToolLengthOffset(_)
+            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::SetFeedRate(_)
             | Op::Position(_)

@@ -76,7 +76,9 @@ fn over_one(
     diags: &mut Vec<Diagnostic>,
 ) {
     match op {
-        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => state.length = target.caps.length_at_once,
+        Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
+            state.length = target.caps.length_at_once
+        }
         Op::StraightTraverse(m) | Op::StraightFeed(m) => goes(&m.to, stmt, walk, state, diags),
         Op::SynchronisedFeed(m) => goes(&m.to, stmt, walk, state, diags),
         Op::ArcFeed(arc) => goes(&arc.to, stmt, walk, state, diags),

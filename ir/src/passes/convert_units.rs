@@ -17,6 +17,7 @@ use crate::num::{Num, Unit};
 use crate::polar;
 use crate::program::{
     Centre, Coord, CutterRadius, Data, FrameStep, Op, Pitch, Point, PoleWords, Program, Shape, Slot, Stmt,
+    ToolLength,
 };
 use crate::track::Tracker;
 
@@ -175,8 +176,14 @@ impl Converter<'_> {
             | Op::ProgramEnd
             | Op::Assign(..)
             | miscellaneous!()
-            | tooling!()
             | flow!() => {}
+            op @ tooling!() => {
+                if let Op::UseToolLength(length) = op
+                    && let ToolLength::Value(value) | ToolLength::Added(value) = &mut **length
+                {
+                    self.whole(value)?;
+                }
+            }
         }
         Ok(())
     }

@@ -16,7 +16,7 @@ use crate::kinds::{conduct, flow, miscellaneous, modes, tooling};
 use crate::num::Unit;
 use crate::program::{
     Call, Centre, Control, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Procedure, Program, Shape,
-    Slot, Stmt,
+    Slot, Stmt, ToolLength,
 };
 use crate::source::Span;
 use crate::track::Tracker;
@@ -321,8 +321,14 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::Assign(..)
         | miscellaneous!()
         | modes!()
-        | tooling!()
         | flow!() => {}
+        tooling!() => {
+            if let Op::UseToolLength(length) = op
+                && let ToolLength::Value(value) | ToolLength::Added(value) = &mut **length
+            {
+                settle_expr(value, here);
+            }
+        }
         conduct!() => {
             if let Op::Corner { size, .. } = op {
                 settle_expr(size, here);

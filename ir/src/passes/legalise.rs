@@ -24,7 +24,7 @@ use crate::caps::{Caps, PolarForm};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
-use crate::program::{Arc, Data, Op, Procedure, Program, Stmt};
+use crate::program::{Arc, Data, Op, Procedure, Program, Stmt, ToolLength};
 use crate::track::Tracker;
 
 /// Brings a program within a target's capabilities.
@@ -641,8 +641,12 @@ impl Legaliser {
                         "a move in machine coordinates without the tool's length"
                     });
                 }
+                Op::UseToolLength(l)
+                    if !caps.stated_lengths[usize::from(!matches!(**l, ToolLength::Value(_)))] =>
+                {
+                    cannot("a tool's length that stands in no table");
+                }
                 Op::SetData(data) => {
-                    // What cannot be turned is not.
                     if let Data::Offset { turn, .. } = &mut **data {
                         turn.take_if(|turn| {
                             !caps.offset_turns && turn.literal().is_some_and(|n| n.is_zero())

@@ -125,7 +125,7 @@ fn take(
             walk.step(&stmt);
             return made.push(Stmt { op: Op::GoToReference(Box::new(reference)), ..stmt });
         }
-        Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } => {
+        Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. } => {
             state.put_off = None;
             state.lost = None;
         }

@@ -13,7 +13,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::{conduct, drilling, miscellaneous, modes, moves, polar};
 use crate::maps::{Maps, Numbered};
-use crate::program::{Control, CutterRadius, Data, Op, Program, ProgramName, Stmt, Text};
+use crate::program::{Control, CutterRadius, Data, Op, Program, ProgramName, Stmt, Text, ToolLength};
 use crate::source::Span;
 
 /// What bears no number of tools, lengths, work offsets or programs.
@@ -79,6 +79,9 @@ impl Renumbering {
             Op::SelectTool(_) => self.maps.tools.is_some(),
             Op::SelectToolByName(name) => self.maps.tool_names.contains_key(name),
             Op::UseToolLengthOffset(_) => self.maps.entries.is_some(),
+            Op::UseToolLength(length) => {
+                self.maps.entries.is_some() && matches!(**length, ToolLength::AddedEntry(_))
+            }
             miscellaneous!() if matches!(op, Op::StartCutterRadiusCompensation { .. }) => {
                 self.maps.entries.is_some()
             }
@@ -128,6 +131,13 @@ impl Renumbering {
                         let text = number.to_string().into();
                         self.used.insert((Numbered::Tool, std::mem::take(name), text));
                         stmt.op = Op::SelectTool(Expr::int(i64::from(number)));
+                    }
+                }
+                Op::UseToolLength(length) => {
+                    if let (ToolLength::AddedEntry(entry), true) =
+                        (&mut **length, self.maps.entries.is_some())
+                    {
+                        self.put_in(entry, Numbered::LengthEntry, at, diags);
                     }
                 }
                 Op::UseToolLengthOffset(entry) if self.maps.entries.is_some() => {

@@ -91,7 +91,11 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(TOOL_AXIS, caps.tip == TipForm::Any && caps.tilt == TiltForm::Any);
     needs(FRAME, caps.says_all_frames());
     let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
-    let data = data && caps.offset_turns && caps.stored_positions == [true; 2] && caps.tool_number;
+    let data = data
+        && caps.offset_turns
+        && caps.stored_positions == [true; 2]
+        && caps.tool_number
+        && caps.stated_lengths == [true; 2];
     let points =
         caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();
     needs(
@@ -135,6 +139,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::ChangeTool => TABLE,
         Op::UseMachineCoordinates { .. } | Op::Probe(_) => MACHINE,
         Op::GoToReference(_) | Op::SetData(_) => MACHINE,
+        Op::UseToolLength(_) => MACHINE | LENGTH | TABLE | AT_ONCE,
         Op::SetOriginOffsets(_) => WORK,
         Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
         Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) | Op::ClearFrame(FrameSlot::Tilt) => TOOL_AXIS,

@@ -63,6 +63,7 @@ impl State {
             Op::SelectTool(_)
             | Op::SelectToolByName(_)
             | Op::UseToolLengthOffset(_)
+            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::SetFeedRate(_)
             | Op::Position(_)

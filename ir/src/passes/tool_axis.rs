@@ -237,6 +237,7 @@ pub(super) fn over(
                 made.push(stmt);
             }
             Op::UseToolLengthOffset(_)
+            | Op::UseToolLength(_)
             | Op::UseToolEdge { .. }
             | Op::SelectTool(_)
             | Op::SelectToolByName(_)

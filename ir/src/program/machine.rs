@@ -107,6 +107,17 @@ pub enum Data {
     },
 }
 
+/// A length of the tool that is no entry of the table. It moves nothing, and is taken up as an entry's is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ToolLength {
+    /// `USE_TOOL_LENGTH`: this length takes the place of the one in force.
+    Value(Expr),
+    /// `ADD_TOOL_LENGTH`: it is added to the one in force.
+    Added(Expr),
+    /// `ADD_TOOL_LENGTH_OFFSET`: the length of an entry of the table is added to the one in force.
+    AddedEntry(Expr),
+}
+
 /// By which radius a contour is compensated. In general it is no length: what stands in the control's
 /// tables is the operator's.
 #[derive(Clone, Debug, PartialEq)]

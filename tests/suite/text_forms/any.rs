@@ -427,6 +427,13 @@ fn simple() -> BoxedStrategy<Op> {
         }),
         expr().prop_map(Op::SelectTool),
         expr().prop_map(Op::UseToolLengthOffset),
+        (expr(), 0..3).prop_map(|(value, which)| {
+            Op::UseToolLength(Box::new(match which {
+                0 => ToolLength::Value(value),
+                1 => ToolLength::Added(value),
+                _ => ToolLength::AddedEntry(value),
+            }))
+        }),
         expr().prop_map(Op::Dwell),
         (select(CornerShape::ALL.to_vec()), expr()).prop_map(|(shape, size)| Op::Corner { shape, size }),
     ];
