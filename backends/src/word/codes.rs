@@ -435,7 +435,11 @@ impl Finder {
     }
 
     fn speed_limit(&self) -> Option<Code> {
-        let row = self.dialect.code.iter().find(|row| row.limits_speed)?;
+        let row = self
+            .dialect
+            .code
+            .iter()
+            .find(|row| row.limits_speed && row.means == Some(Meaning::SetPosition))?;
         self.row(&row.code, row.means?)
     }
 
@@ -449,7 +453,7 @@ impl Finder {
     }
 
     fn surface_limit(&self) -> Option<Letter> {
-        let letter = self.dialect.code.iter().find_map(|row| row.limit)?;
+        let letter = self.dialect.code_for(Meaning::SetSpindleMode(SpindleMode::Surface))?.limit?;
         self.letter(letter, Quantity::Speed)
     }
 

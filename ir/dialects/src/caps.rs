@@ -302,10 +302,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             .flat_map(|(kind, _)| (0..kind.values().len() as u8).map(|value| (*kind, value)))
             .filter(|(kind, value)| everything || says_advice(dialect, *kind, *value))
             .collect(),
-        own_stop: !dialect
-            .code
-            .iter()
-            .any(|row| row.orient.as_ref().is_some_and(|words| words.wait.is_some())),
+        own_stop: dialect
+            .code_for(Meaning::OrientSpindle)
+            .and_then(|row| row.orient.as_ref())
+            .is_none_or(|words| words.wait.is_none()),
         rotary_ways: everything
             || dialect.name_for(NameMeaning::TurnRotaryAxis(RotaryWay::Shortest)).is_some(),
         line_angles: everything || dialect.name_with(NameRole::LineAngle).is_some(),

@@ -5,8 +5,6 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use ncc_ir::canon::SpindleMode;
-
 use crate::codes::{CodeIndex, CodeRow};
 use crate::fault::DialectFault;
 use crate::meaning::Meaning;
@@ -119,15 +117,6 @@ pub(crate) fn index(dialect: &Dialect, places: &Places) -> Result<CodeIndex, Fau
         let offsets = matches!(row.means, Some(Meaning::SetOriginOffsets(1..)));
         if row.feed_mode.is_some() && !matches!(row.means, Some(Meaning::SetSpindleMode(_))) {
             return Err(wrong("says what a feed counts, and not what a speed does"));
-        }
-        if row.limits_speed && row.means != Some(Meaning::SetPosition) {
-            return Err(wrong("says that a speed word beside it is a limit, and takes no axis words"));
-        }
-        if row.orient.is_some() && row.means != Some(Meaning::OrientSpindle) {
-            return Err(wrong("has `orient`, and is no stop of the spindle"));
-        }
-        if row.limit.is_some() && row.means != Some(Meaning::SetSpindleMode(SpindleMode::Surface)) {
-            return Err(wrong("has `limit`, and is no code of a surface speed"));
         }
         if (row.means == Some(Meaning::SetTilt)) != row.turns_about().is_some() {
             return Err(wrong("needs `turns` about X, Y or Z if it tilts the plane, and has none else"));
