@@ -7,7 +7,7 @@ use crate::expr::Expr;
 use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, moves, polar, tooling};
 use crate::num::Num;
 use crate::passes::seen_advice;
-use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot};
+use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -454,6 +454,11 @@ impl Caps {
     /// Whether advice can be written.
     pub fn advises(&self, kind: AdviceKind, value: u8) -> bool {
         self.advice.contains(&(kind, value))
+    }
+
+    /// Whether a length that stands in no table can be written.
+    pub fn says_length(&self, length: &ToolLength) -> bool {
+        self.stated_lengths[usize::from(!matches!(length, ToolLength::Value(_)))]
     }
 
     /// What of a machine's state its words tell apart.

@@ -3,15 +3,14 @@
 //! A row counts only if its word reads back to the same meaning, so every code here was found by
 //! its meaning and checked by its number. Not here: when a word is written.
 
-use ncc_dialects::{
-    DataRow, Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread,
-};
+use ncc_dialects::{Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
 use ncc_ir::caps::CycleForm;
-use ncc_ir::program::{CentreFrom, FrameSlot, Probe, ReferencePoint, ToolValue};
+use ncc_ir::program::{CentreFrom, FrameSlot, Probe, ReferencePoint};
 
+use super::data::DataCode;
 use super::number::Format;
 
 /// Longest code, with a word that belongs to it.
@@ -121,21 +120,6 @@ pub(crate) struct ProbeCode {
     pub stays: bool,
     /// Whether its block must say a feed.
     pub own_feed: bool,
-}
-
-/// A table that values are put into.
-#[derive(Clone, Debug)]
-pub(crate) struct DataCode {
-    pub row: &'static DataRow,
-    pub code: Code,
-    /// Letter and number that say which table.
-    pub select: (u8, u32),
-    /// Letter of the entry.
-    pub entry: u8,
-    /// The word that turns a work offset.
-    pub turn: Option<Letter>,
-    /// Words of values of tools.
-    pub values: Vec<(ToolValue, Letter)>,
 }
 
 /// A call's words: the number, and the count where it has a letter of its own.

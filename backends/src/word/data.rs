@@ -1,6 +1,6 @@
 //! Values put into the control's tables: a code with the words that say which table and which entry.
 
-use ncc_dialects::{DataKind, RADIUS_DATA};
+use ncc_dialects::{DataKind, DataRow, RADIUS_DATA};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -9,10 +9,25 @@ use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
-use super::codes::{Code, DataCode, Letter};
+use super::codes::{Code, Letter};
 use super::modes::{Inserted, cannot};
 use super::number::Shaped;
 use super::{Sink, Writer};
+
+/// A table that values are put into.
+#[derive(Clone, Debug)]
+pub(crate) struct DataCode {
+    pub row: &'static DataRow,
+    pub code: Code,
+    /// Letter and number that say which table.
+    pub select: (u8, u32),
+    /// Letter of the entry.
+    pub entry: u8,
+    /// The word that turns a work offset.
+    pub turn: Option<Letter>,
+    /// Words of values of tools.
+    pub values: Vec<(ToolValue, Letter)>,
+}
 
 impl Writer {
     /// Puts values into a table, in a block of its own.

@@ -24,7 +24,7 @@ use crate::caps::{Caps, PolarForm};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
-use crate::program::{Arc, Data, Op, Procedure, Program, Stmt, ToolLength};
+use crate::program::{Arc, Data, Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
 
 /// Brings a program within a target's capabilities.
@@ -641,11 +641,7 @@ impl Legaliser {
                         "a move in machine coordinates without the tool's length"
                     });
                 }
-                Op::UseToolLength(l)
-                    if !caps.stated_lengths[usize::from(!matches!(**l, ToolLength::Value(_)))] =>
-                {
-                    cannot("a tool's length that stands in no table");
-                }
+                Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
                 Op::SetData(data) => {
                     if let Data::Offset { turn, .. } = &mut **data {
                         turn.take_if(|turn| {
