@@ -25,6 +25,8 @@ pub(super) struct InForce {
     initial_in: u16,
     /// The length by which it was found.
     initial_length: Nanos,
+    /// Whether the retract plane is measured from it.
+    from_level: bool,
     retract: Nanos,
     depth: Nanos,
     return_level: Option<ReturnLevel>,
@@ -136,14 +138,15 @@ impl Exec {
     pub(super) fn start_cycle(&mut self, cycle: &Cycle, span: Span) -> Result<(), Diagnostic> {
         let plane = self.plane_of(cycle.plane);
         let normal = plane.axes().2 as usize;
+        if self.cycle.as_ref().is_some_and(|cycle| cycle.plane != plane) {
+            // 16-C: the drilling axis is changed when no cycle is in force.
+            return self.not_executed("a cycle along another axis than the one in force", span);
+        }
         let initial = self.cycle.as_ref().map_or(self.position[normal], |c| c.initial);
         let initial_in = self.cycle.as_ref().map_or(self.modes.work_offset, |c| c.initial_in);
         let length = |length| if normal == super::Z { self.length_of(length) } else { 0 };
         let initial_length = self.cycle.as_ref().map_or(length(self.modes.length), |c| c.initial_length);
-        let another = initial_length != length(self.waiting.unwrap_or(self.modes.length));
-        if another && cycle.retract.distance.or(self.modes.distance) == Distance::Incremental {
-            return self.not_executed("a retract plane from a level of another length", span);
-        }
+        let from_level = cycle.retract.distance.or(self.modes.distance) == Distance::Incremental;
         let retract = self.target(&cycle.retract, initial, span)?;
         let depth = self.target(&cycle.depth, retract, span)?;
         if depth > retract {
@@ -209,6 +212,7 @@ impl Exec {
             initial,
             initial_in,
             initial_length,
+            from_level,
             retract,
             depth,
             return_level: cycle.return_level.known(),
@@ -342,11 +346,12 @@ impl Exec {
             let what = "a return to the initial level of another work offset".into();
             return self.fault(Fault::NotExecuted { what }, span);
         }
-        if cycle.return_plane.is_none() && level != cycle.retract && normal == super::Z {
+        let to_level = cycle.return_plane.is_none() && level != cycle.retract;
+        if (to_level || cycle.from_level) && normal == super::Z {
             let length = self.length_of(self.waiting.unwrap_or(self.modes.length));
             if length != cycle.initial_length {
                 // Whether it is a level of the work or of the tool's end, no source tells.
-                return self.not_executed("a return to the initial level of another length", span);
+                return self.not_executed("a hole by the initial level of another length", span);
             }
         }
         let out_to = cycle.return_plane.unwrap_or(level);
