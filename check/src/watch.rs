@@ -218,7 +218,7 @@ impl Checker {
             Op::ClearFrame(FrameSlot::Shift) => {}
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) | Op::ClearFrame(_) => {
                 // A shift of zero is none.
-                if !exec.has_frames() {
+                if !exec.has_program_frames() {
                     self.seen.switch_off(LeftOn::Frame);
                 } else if !matches!(step.stmt.op, Op::ClearFrame(_)) {
                     self.seen.switch_on(LeftOn::Frame, at);
@@ -269,17 +269,23 @@ impl Checker {
                 self.moved(step, event);
             }
             // It touches, and cuts nothing.
-            Kind::Probe { .. } => self.moved(step, event),
+            Kind::Probe { .. } => {
+                spindle::probed(self);
+                self.moved(step, event);
+            }
             Kind::Synchronised { .. } => {
                 spindle::cut(self, event, self.last);
                 self.moved(step, event);
             }
             Kind::Orient(_) => {
                 self.seen.spindle = Known::Said;
-                self.spindle = spindle::Met::default();
+                self.spindle = spindle::Met::held();
                 self.seen.switch_off(LeftOn::Spindle);
             }
-            Kind::ToolChange => length::changed(self, event),
+            Kind::ToolChange => {
+                spindle::changed(self);
+                length::changed(self, event);
+            }
             Kind::ProgramEnd => {
                 left::on(self, event.span);
                 self.ended = true;

@@ -1,9 +1,11 @@
 //! NC0805: moves at feed while the spindle stands, or turns at no stated speed. Told once until the
-//! program switches the spindle or says a speed.
+//! program switches the spindle or says a speed. A spindle that the program holds at an angle is meant to stand,
+//! and so is one with a probe in it.
 
 use ncc_ir::canon::{AXES, Spindle, same_point};
 use ncc_ir::exec::Event;
 use ncc_ir::num::Nanos;
+use ncc_ir::source::Span;
 
 use crate::finding::{Finding, What};
 use crate::seen::Known;
@@ -13,6 +15,33 @@ use crate::watch::Checker;
 #[derive(Debug, Default)]
 pub(crate) struct Met {
     told: bool,
+    /// Where it has been told that it stands.
+    stands: Option<Span>,
+    /// Whether the tool in it probes.
+    probes: bool,
+}
+
+impl Met {
+    /// The program has stopped it at an angle.
+    pub(crate) fn held() -> Met {
+        Met { told: true, ..Met::default() }
+    }
+}
+
+/// A move until something is touched: what is in the spindle is a probe.
+pub(crate) fn probed(checker: &mut Checker) {
+    if let Some(at) = checker.spindle.stands.take() {
+        checker.findings.retain(|finding| finding.span != at || !matches!(finding.what, What::SpindleStands));
+    }
+    checker.spindle.told = true;
+    checker.spindle.probes = true;
+}
+
+/// Another tool is in the spindle.
+pub(crate) fn changed(checker: &mut Checker) {
+    if checker.spindle.probes {
+        checker.spindle = Met::default();
+    }
 }
 
 /// A move at feed from `last`.
@@ -27,6 +56,7 @@ pub(crate) fn cut(checker: &mut Checker, event: &Event, last: [Nanos; AXES]) {
         return;
     }
     checker.spindle.told = true;
+    checker.spindle.stands = stands.then_some(event.span);
     let what = if stands { What::SpindleStands } else { What::SpindleWithoutSpeed };
     let at_entry = known == Known::Entry;
     checker.findings.add(Finding { at_entry, ..Finding::new(what, event.span) });

@@ -82,7 +82,8 @@ pub(super) struct Found {
 /// Looks through a text.
 pub(super) fn find(settings: &Settings, text: &[u8]) -> Found {
     let mut lines = Lines::new(settings.clone());
-    let mut look = Look { dialect: settings.dialect, found: Found::default(), scope: 0, line: 0 };
+    let mut look =
+        Look { dialect: settings.dialect, found: Found::default(), scope: 0, named: false, line: 0 };
     let (mut base, mut pieces) = (0, Vec::new());
     for whole in text.split_inclusive(|b| *b == b'\n') {
         look.line += 1;
@@ -116,6 +117,8 @@ struct Look<'d> {
     dialect: &'d Dialect,
     found: Found,
     scope: usize,
+    /// Whether the program in hand has a name in place of a number.
+    named: bool,
     line: u32,
 }
 
@@ -128,6 +131,13 @@ struct Whole {
     end: usize,
 }
 
+/// The number of a program that is named by it, `<O12>`.
+fn number_named(name: &[u8]) -> Option<u32> {
+    let digits = name.strip_prefix(b"<")?.strip_suffix(b">")?;
+    let digits = digits.strip_prefix(b"O").or_else(|| digits.strip_prefix(b"o"))?;
+    std::str::from_utf8(digits).ok().filter(|d| d.bytes().all(|b| b.is_ascii_digit()))?.parse().ok()
+}
+
 impl Look<'_> {
     fn doubt(&mut self, what: impl Into<String>, only: Option<u32>) {
         let only = only.map(|value| (self.scope, value));
@@ -135,6 +145,10 @@ impl Look<'_> {
     }
 
     fn reference(&mut self, base: usize, value: u32, start: usize, end: usize, of_callers: bool) {
+        if of_callers && self.named {
+            // Which programs call it by its name is not looked for.
+            self.doubt("a return from a program with a name", None);
+        }
         let digits = base + start..base + end;
         let (scope, line) = (self.scope, self.line);
         self.found.references.push(Reference { value, digits, scope, of_callers, line });
@@ -152,16 +166,23 @@ impl Look<'_> {
             Some([sign, number, ..]) if self.begins_program(sign.text(line)) => whole(number, line),
             Some(_) | None => None,
         };
-        if let Some(program) = program {
-            self.scope += 1;
+        let name = pieces.get(at).filter(|p| self.dialect.program.names && p.text(line).starts_with(b"<"));
+        let heads = program.is_some() || name.is_some();
+        self.scope += usize::from(heads);
+        self.named = if heads { name.is_some() } else { self.named };
+        let numbered = name.and_then(|p| number_named(p.text(line)));
+        if let Some(program) = program.or(numbered) {
             self.found.programs.insert(self.scope, program);
+        }
+        for number in pieces.iter().skip(at + 1).filter_map(|p| number_named(p.text(line))) {
+            self.found.calls.insert((self.scope, number));
         }
         let number = self.number(line, base, all, &pieces, at);
         let used = at + if number.is_some() { 2 } else { 0 };
         self.found.blocks.push(Block {
             scope: self.scope,
             place: base + pieces.get(at).map_or(line.len(), |p| p.start),
-            says: program.is_none() && pieces.len() > used,
+            says: !heads && pieces.len() > used,
             line: self.line,
             number: number.clone(),
         });

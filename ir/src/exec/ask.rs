@@ -2,6 +2,7 @@
 //!
 //! For those who tell what happens (tables, time). Nothing here changes anything.
 
+use super::frame::Chain;
 use super::holes::InForce;
 use super::{Exec, Length, State};
 use crate::canon::{AXES, Distance, Motion, Plane};
@@ -83,6 +84,16 @@ impl Exec {
     /// Whether frames are chained between the program and its work offset.
     pub fn has_frames(&self) -> bool {
         self.chain.is_some() || self.state.tilted
+    }
+
+    /// Whether any of them is the program's: a work offset may be turned by itself.
+    pub fn has_program_frames(&self) -> bool {
+        match self.offset_turned {
+            true => {
+                self.slots.as_ref().is_some_and(|slots| slots.chain() != Chain::NONE) || self.state.tilted
+            }
+            false => self.has_frames(),
+        }
     }
 
     /// Whether points are those of the tool's tip, or of a tilted plane: where the linear axes then are,
