@@ -553,6 +553,7 @@ impl Legaliser {
             self.change.start_over();
             self.at_once = at_once::State::default();
             self.run(&mut procedure.body, &Modes::default(), diags);
+            self.change.start_over();
             self.finish(&mut procedure.body, diags);
             self.at_once.end_of_sub(&procedure.body, diags);
         }
@@ -564,6 +565,7 @@ impl Legaliser {
         self.length.flush(stmts, diags);
         self.one.flush(stmts);
         self.threads.finish(stmts, diags);
+        self.change.finish(diags);
     }
 
     /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
@@ -621,10 +623,13 @@ impl Legaliser {
         let caps = &self.target.caps;
         for stmt in stmts {
             walk.enter(stmt.skip);
+            if !caps.offset_turns {
+                work_offset::leave_straight(&mut stmt.op);
+            }
             let mut cannot = |what: &str| {
                 diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
             };
-            match &mut stmt.op {
+            match &stmt.op {
                 Op::ArcFeed(arc) if !caps.helix && is_helix(arc, &walk.at) => cannot("a helix"),
                 Op::Control(_) if !caps.repeats => cannot("control of the program's flow"),
                 Op::Goto(_) if !caps.repeats => cannot("a jump"),
@@ -642,28 +647,21 @@ impl Legaliser {
                     });
                 }
                 Op::UseToolLength(length) if !caps.says_length(length) => cannot("a length of no table"),
-                Op::SetData(data) => {
-                    if let Data::Offset { turn, .. } = &mut **data {
-                        turn.take_if(|turn| {
-                            !caps.offset_turns && turn.literal().is_some_and(|n| n.is_zero())
-                        });
+                Op::SetData(data) => match &**data {
+                    Data::Offset { turn: Some(_), .. } if !caps.offset_turns => {
+                        cannot("rotation of a work offset");
                     }
-                    match &**data {
-                        Data::Offset { turn: Some(_), .. } if !caps.offset_turns => {
-                            cannot("rotation of a work offset");
-                        }
-                        Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
-                        Data::Tool { which, added, .. }
-                            if caps.tool_data[*which as usize] && (caps.tool_data_added || !added) => {}
-                        Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
-                        Data::ToolInSpindle(_) if caps.tool_number => {}
-                        Data::Position(_) => cannot("storing where the axes stand"),
-                        Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
-                        Data::Offset { .. } | Data::Tool { .. } => {
-                            cannot("this value in the control's tables");
-                        }
+                    Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
+                    Data::Tool { which, added, .. }
+                        if caps.tool_data[*which as usize] && (caps.tool_data_added || !added) => {}
+                    Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
+                    Data::ToolInSpindle(_) if caps.tool_number => {}
+                    Data::Position(_) => cannot("storing where the axes stand"),
+                    Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
+                    Data::Offset { .. } | Data::Tool { .. } => {
+                        cannot("this value in the control's tables");
                     }
-                }
+                },
                 _ => {}
             }
             walk.step(stmt);

@@ -38,6 +38,8 @@ pub(super) struct State {
     way_out: Option<WayOut>,
     /// The feed that a lead has taken the place of.
     owed: Option<Num>,
+    /// Whether a lead has taken the place of a feed that is not known.
+    lost: bool,
     /// Whether the spindle was stopped at an angle, and held since.
     held: bool,
 }
@@ -45,7 +47,7 @@ pub(super) struct State {
 impl State {
     /// Whether something is to come yet.
     pub(super) fn is_busy(&self) -> bool {
-        self.way_out.is_some() || self.owed.is_some()
+        self.way_out.is_some() || self.owed.is_some() || self.lost
     }
 
     /// Takes note of statements that need nothing.
@@ -130,6 +132,7 @@ pub(super) fn over(
         };
         if threads.by_feed && original.turn.is_none() && !original.chuck {
             state.owed = speed_of.feed;
+            state.lost = state.owed.is_none();
         }
         walk.step(&stmt);
         match ops {
@@ -219,7 +222,28 @@ fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
 
 /// Says again the feed that a lead has taken the place of, in the block that needs it.
 fn give_back(state: &mut State, stmt: &mut Stmt, made: &mut Rebuild) -> Result<(), Fault> {
-    let Some(feed) = state.owed else { return Ok(()) };
+    let Some(feed) = state.owed else {
+        let says = |op: &Op| match op {
+            Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd => true,
+            Op::StartCycle(cycle) => cycle.feed.is_some(),
+            _ => false,
+        };
+        let cuts = matches!(
+            stmt.op.unwrapped(),
+            Op::StraightFeed(_)
+                | Op::ArcFeed(_)
+                | Op::ArcForm(_)
+                | Op::Position(_)
+                | Op::Hole(_)
+                | Op::Pattern(_)
+        );
+        if state.lost && cuts {
+            state.lost = false;
+            return cannot("a feed behind a thread that is not known");
+        }
+        state.lost &= !says(&stmt.op) || stmt.skip.is_some();
+        return Ok(());
+    };
     match stmt.op.unwrapped() {
         Op::SetFeedRate(_) | Op::SetFeedMode(_) | Op::ProgramEnd if stmt.skip.is_none() => state.owed = None,
         Op::StartCycle(cycle) if cycle.feed.is_some() && stmt.skip.is_none() => state.owed = None,
@@ -252,7 +276,7 @@ impl State {
             let span = body.last().map(|stmt| stmt.span).unwrap_or_default();
             diags.push(Diagnostic::new(Fault::CannotSay { what }, span));
         }
-        self.owed = None;
+        (self.owed, self.lost) = (None, false);
     }
 }
 

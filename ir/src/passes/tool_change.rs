@@ -23,13 +23,19 @@ impl State {
         *self = State { turning: true, open: None };
     }
 
+    /// The text of a main program ends, which may have no word for its end.
+    pub(super) fn finish(&mut self, diags: &mut Vec<Diagnostic>) {
+        if let Some((at, _)) = self.open.take() {
+            diags.push(goes_on(at));
+        }
+    }
+
     /// Looks at further statements.
     pub(super) fn over(&mut self, stmts: &[Stmt], diags: &mut Vec<Diagnostic>) {
         for stmt in stmts {
             if self.open.is_some() && needs_spindle(&stmt.op) {
                 let at = self.open.take().map_or(stmt.span, |(at, _)| at);
-                let what = "a spindle that goes on turning when the tool is changed";
-                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+                diags.push(goes_on(at));
             }
             let sure = stmt.skip.is_none();
             let said = matches!(
@@ -53,6 +59,11 @@ impl State {
             }
         }
     }
+}
+
+fn goes_on(at: Span) -> Diagnostic {
+    let what = "a spindle that goes on turning when the tool is changed";
+    Diagnostic::new(Fault::CannotSay { what: what.into() }, at)
 }
 
 /// Whether a statement makes something happen, for which it matters what the spindle does.

@@ -8,7 +8,7 @@ use super::{Target, each_body};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, polar, tooling};
-use crate::program::{Op, Program, Stmt};
+use crate::program::{Data, Op, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -133,4 +133,15 @@ pub(super) fn over(
         }
         made.leave_out(stmt);
     });
+}
+
+/// Takes out that a work offset is not turned, for a target whose offsets never are. Where that is all it says,
+/// the turn that the offset may have had is left to be refused.
+pub(super) fn leave_straight(op: &mut Op) {
+    let Op::SetData(data) = op else { return };
+    if let Data::Offset { turn, words, .. } = &mut **data
+        && words.iter().any(Option::is_some)
+    {
+        turn.take_if(|turn| turn.literal().is_some_and(|n| n.is_zero()));
+    }
 }
