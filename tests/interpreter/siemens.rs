@@ -15,7 +15,7 @@ mod tilt;
 
 use super::{Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
-use text::{ADVICE, Argument, Block, Item, Mark, Unit, Value};
+use text::{ADVICE, Argument, Block, Item, Mark, NOTHING, Unit, Value};
 
 /// Runs the main program of a text.
 ///
@@ -285,8 +285,7 @@ impl<'a> Control<'a> {
                 // The master spindle is the first one, and a tolerance of the path is advice.
                 ("SETMS", true, []) if matches!(arguments, [Argument::Number(n)] if *n == 1.0) => {}
                 ("CYCLE832", true, []) => {}
-                // The blank of the simulation, and folds of the editor.
-                ("WORKPIECE" | "GROUP_BEGIN" | "GROUP_END", true, []) => {}
+                (name, true, []) if NOTHING.contains(&name) => {}
                 ("HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802", true, []) => self.pattern(name, arguments)?,
                 _ => return self.m.halt(format!("the call of {name}, or other words beside it")),
             }

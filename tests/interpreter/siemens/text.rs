@@ -107,6 +107,9 @@ pub(super) const ADVICE: [&str; 39] = [
     "WALIMOF",
 ];
 
+/// Calls that show something and move nothing: the blank of the simulation, folds of the editor.
+pub(super) const NOTHING: [&str; 3] = ["WORKPIECE", "GROUP_BEGIN", "GROUP_END"];
+
 /// Parts a text.
 pub(super) fn units(text: &str) -> Vec<Unit> {
     let mut units: Vec<Unit> = Vec::new();
@@ -244,6 +247,10 @@ impl Reader {
         if let Some(name) = self.name() {
             self.blanks();
             return match self.peek(0) {
+                '(' if NOTHING.contains(&name.to_ascii_uppercase().as_str()) => {
+                    self.parentheses()?;
+                    Ok(Item::Call(name, Vec::new()))
+                }
                 '(' => Ok(Item::Call(name, self.arguments()?)),
                 '=' => Ok(Item::Named(name, self.assigned()?)),
                 _ => Ok(Item::Name(name)),
@@ -316,6 +323,23 @@ impl Reader {
             return Err("an expression in parentheses".into());
         }
         Ok(Value { number, mark })
+    }
+
+    /// What stands in parentheses, whatever it is.
+    fn parentheses(&mut self) -> Result<(), String> {
+        let (mut depth, mut quoted) = (0, false);
+        while self.at < self.text.len() {
+            let sign = self.peek(0);
+            self.at += 1;
+            quoted ^= sign == '"';
+            match sign {
+                '(' if !quoted => depth += 1,
+                ')' if !quoted && depth == 1 => return Ok(()),
+                ')' if !quoted => depth -= 1,
+                _ => {}
+            }
+        }
+        Err("no end of arguments".into())
     }
 
     fn arguments(&mut self) -> Result<Vec<Argument>, String> {
