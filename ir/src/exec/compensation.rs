@@ -262,7 +262,7 @@ impl Exec {
         } else if self.contour.block == Block::Empty && counts(&stmt.op) && !self.contour.lines {
             self.contour.block = Block::Still;
         }
-        let words = to(&stmt.op).is_some_and(|to| !to.is_empty());
+        let words = matches!(stmt.op, Op::Polar(_)) || to(&stmt.op).is_some_and(|to| !to.is_empty());
         if !moved && before == self.position && words && !self.contour.lines {
             self.contour.still = 2;
         }
