@@ -103,7 +103,10 @@ impl Lower {
     pub(super) fn word_with_arguments(&mut self, name: &str, called: &Called, src: Source, out: &mut Batch) {
         let arguments = called.arguments.as_deref().unwrap_or_default();
         let row = self.settings.dialect.name_row(name);
-        if row.is_some_and(|row| row.arguments) {
+        if let Some(row) = row.filter(|row| row.arguments) {
+            if self.first_time(&row.name) {
+                out.report(Fault::AssumedNoEffect { code: row.name.as_str().into() }, called.span);
+            }
             return self.push(called.span, Op::NoEffect(src.text(called.span)), out);
         }
         match row.and_then(|row| row.means) {
