@@ -6,12 +6,12 @@
 
 use std::collections::HashMap;
 
-use ncc_ir::canon::{AXES, Spindle};
+use ncc_ir::canon::{AXES, Spindle, SpindleMode};
 use ncc_ir::exec::Compensation;
 use ncc_ir::num::Nanos;
 
 use crate::measure::{Measure, Shift, bits};
-use crate::record::{Length, Record, Style, What};
+use crate::record::{Length, Record, Still, Style, What};
 use crate::resync::Tape;
 
 /// Groups that are kept; further ones are counted.
@@ -29,8 +29,10 @@ const FAR: Nanos = 20_000_000_000;
 pub enum Change {
     /// Feed, mm/min in nanos.
     Feed(Nanos, Nanos),
-    /// Speed of the spindle, rev/min in nanos.
-    Speed(Nanos, Nanos),
+    /// Speed of the spindle, in nanos of what it counts: rev/min, or m/min of a surface speed.
+    Speed((Nanos, SpindleMode), (Nanos, SpindleMode)),
+    /// Highest speed of the spindle, thousandths of a rev/min; `None` is no limit of the program.
+    SpeedLimit(Option<u32>, Option<u32>),
     /// Sense of the spindle.
     Spindle(Spindle, Spindle),
     /// Tool.
@@ -173,6 +175,7 @@ impl Collector {
             bits::FRAME,
             bits::FEED,
             bits::SPEED,
+            bits::LIMIT,
             bits::SPINDLE,
             bits::COOLANT,
             bits::COMPENSATION,
@@ -385,7 +388,11 @@ fn attribute(bit: u8, a: &Style, b: &Style) -> Change {
     match bit {
         bits::TOOL => Change::Tool(s.tool, t.tool),
         bits::FEED => Change::Feed(a.rate, b.rate),
-        bits::SPEED => Change::Speed(s.speed, t.speed),
+        bits::SPEED => Change::Speed((s.speed, s.spindle_mode), (t.speed, t.spindle_mode)),
+        bits::LIMIT => {
+            let limit = |state: &Still| (state.limit != u32::MAX).then_some(state.limit);
+            Change::SpeedLimit(limit(s), limit(t))
+        }
         bits::SPINDLE => Change::Spindle(s.spindle, t.spindle),
         bits::COOLANT => Change::Coolant([s.flood, s.mist], [t.flood, t.mist]),
         bits::COMPENSATION => Change::Compensation(s.compensation, t.compensation),

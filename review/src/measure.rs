@@ -23,7 +23,7 @@ pub struct Measure {
 pub mod bits {
     /// Feed.
     pub const FEED: u8 = 1;
-    /// Speed of the turning spindle.
+    /// Speed of the turning spindle, or what it counts.
     pub const SPEED: u8 = 2;
     /// Sense of the spindle.
     pub const SPINDLE: u8 = 4;
@@ -35,6 +35,8 @@ pub mod bits {
     pub const COMPENSATION: u8 = 64;
     /// Where offsets and lengths put it.
     pub const FRAME: u8 = 32;
+    /// Limit of the turning spindle's speed.
+    pub const LIMIT: u8 = 128;
 }
 
 impl Measure {
@@ -117,10 +119,11 @@ impl Measure {
         let frame = a.apart != b.apart
             && a.apart.iter().zip(&b.apart).any(|(x, y)| (0..AXES).any(|i| x[i].abs_diff(y[i]) > apart(i)));
         let turned = (0..3).any(|i| a.turned[i].abs_diff(b.turned[i]) > self.degrees as u64);
-        let speed = |s: &Still| (s.speed, s.spindle_mode, s.limit);
+        let speed = |s: &Still| (s.speed, s.spindle_mode);
         let bit = |is: bool, bit: u8| if is { bit } else { 0 };
         bit(feed, bits::FEED)
             | bit(turning && speed(s) != speed(t), bits::SPEED)
+            | bit(turning && s.limit != t.limit, bits::LIMIT)
             | bit(s.spindle != t.spindle, bits::SPINDLE)
             | bit(s.tool != t.tool, bits::TOOL)
             | bit((s.flood, s.mist) != (t.flood, t.mist), bits::COOLANT)

@@ -149,6 +149,45 @@ fn an_edit_is_told_as_what_it_is() {
     failures.finish();
 }
 
+/// What a speed counts, and its limit, are told by their names.
+#[test]
+fn a_speed_is_told_with_what_it_counts() {
+    let surface = PART.replacen("S1000 M03", "G92 S2500\nG96 S180 M03", 1);
+    let cases = [
+        (
+            PART,
+            "S1000 M03",
+            "G96 S180 M03",
+            "spindle speed 1000 rev/min → 180 m/min constant surface speed on",
+        ),
+        // The number is the same one.
+        (
+            PART,
+            "S1000 M03",
+            "G96 S1000 M03",
+            "spindle speed 1000 rev/min → 1000 m/min constant surface speed on",
+        ),
+        (&surface, "S180", "S150", "same path; constant surface speed 180 → 150 m/min on"),
+        (&surface, "G96 S180", "S180", "spindle speed 180 m/min constant surface speed → 180 rev/min on"),
+        (
+            &surface,
+            "S2500",
+            "S2000",
+            "same path; limit of the spindle's speed 2500 rev/min → 2000 rev/min on",
+        ),
+        (&surface, "G92 S2500\n", "", "same path; limit of the spindle's speed 2500 rev/min → none on"),
+    ];
+    let mut failures = Failures::default();
+    for (text, from, to, told) in cases {
+        let edited = text.replacen(from, to, 1);
+        let document = diff(("fanuc", text.as_bytes()), ("fanuc", edited.as_bytes())).expect("executed");
+        if !summary(&document).contains(told) || !faults_of(diff::SCHEMA, &document).is_empty() {
+            failures.add(format!("{from:?} → {to:?}"), format!("{}\ninstead of {told}", summary(&document)));
+        }
+    }
+    failures.finish();
+}
+
 /// Moves of which each is shorter than what counts as the same go somewhere together.
 #[test]
 fn a_way_in_very_short_moves_is_no_rounding() {

@@ -1,5 +1,6 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
+use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 
@@ -82,7 +83,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::LabelUnknown { .. } => own("put the label before the block that repeats from it"),
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),
         Fault::AssumedPath { .. } => own("compare corners on the machine with what the program wants"),
-        Fault::PathRelaxed { .. } => own("check corners and their tolerance on the machine"),
+        Fault::PathRelaxed { from, .. } => match PathMode::named(from) {
+            Some(PathMode::SlowCorners) => own("say a lower feed where the contour turns inwards"),
+            Some(PathMode::Tapping) => own("leave feed hold and override alone in these blocks"),
+            _ => own("check corners and their tolerance on the machine"),
+        },
         Fault::AssumedTip => own(
             "check on the machine which rotary axes there are, their senses, and whether the zero turns with the work",
         ),

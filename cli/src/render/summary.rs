@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io;
 
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
+use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 
 use super::About;
@@ -20,13 +21,22 @@ const MOST_LINES: usize = 6;
 const MOST_PHRASES: usize = 12;
 
 /// The headings, in the order of the account.
-const HEADINGS: [(&str, &[Verdict]); 5] = [
-    ("assumed", &[Verdict::Assumed]),
-    ("expanded", &[Verdict::Expanded]),
-    ("rounded", &[Verdict::WithinTolerance]),
-    ("reformatted", &[Verdict::Reformatted]),
-    ("lost", &[Verdict::Changed, Verdict::Manual, Verdict::Dropped]),
-];
+const HEADINGS: [&str; 6] = ["assumed", "expanded", "rounded", "corners", "reformatted", "lost"];
+
+/// The heading under which a fault is named, if it has a place in the account.
+fn heading(fault: &Fault) -> Option<&'static str> {
+    let Gravity::Verdict(verdict) = fault.gravity() else { return None };
+    Some(match verdict {
+        Verdict::Exact => return None,
+        Verdict::Assumed => "assumed",
+        Verdict::Expanded => "expanded",
+        // What is another way of taking corners is no rounding of numbers.
+        Verdict::WithinTolerance if matches!(fault, Fault::PathRelaxed { .. }) => "corners",
+        Verdict::WithinTolerance => "rounded",
+        Verdict::Reformatted => "reformatted",
+        Verdict::Changed | Verdict::Manual | Verdict::Dropped => "lost",
+    })
+}
 
 /// Diagnostics that one phrase covers.
 struct Group {
@@ -68,7 +78,7 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
         Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "", beside: ("", "") };
     let groups: Vec<(&str, Vec<Group>)> = HEADINGS
         .iter()
-        .map(|(heading, verdicts)| (*heading, groups(&outcome.diagnostics, verdicts, at)))
+        .map(|heading| (*heading, groups(&outcome.diagnostics, heading, at)))
         .filter(|(_, groups)| !groups.is_empty())
         .collect();
     let places =
@@ -117,12 +127,11 @@ fn coloured(out: &mut dyn WriteColor, colour: Color, text: &str) -> io::Result<(
     out.reset()
 }
 
-fn groups(diagnostics: &[Diagnostic], verdicts: &[Verdict], at: Context) -> Vec<Group> {
+fn groups(diagnostics: &[Diagnostic], under: &str, at: Context) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut by_phrase: HashMap<String, usize> = HashMap::new();
     for diagnostic in diagnostics {
-        let Gravity::Verdict(verdict) = diagnostic.fault.gravity() else { continue };
-        if !verdicts.contains(&verdict) {
+        if heading(&diagnostic.fault) != Some(under) {
             continue;
         }
         let phrase = phrase(&diagnostic.fault, at);
@@ -221,7 +230,11 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         }
         Fault::RepeatExpanded { .. } => "a repetition into its blocks".to_owned(),
         Fault::SkipLevelLost { level } => format!("block-skip level {level} is no switch of its own"),
-        Fault::PathRelaxed { from, to } => format!("corners by {} as {}", plain(from), plain(to)),
+        Fault::PathRelaxed { from, to: mode } => match PathMode::named(from) {
+            Some(PathMode::SlowCorners) => "the feed, not lowered at inner corners of a contour".to_owned(),
+            Some(PathMode::Tapping) => "the feed, which can be held and overridden".to_owned(),
+            _ => format!("{}, as {}", plain(from), plain(mode)),
+        },
         Fault::AdviceLeftOut { kind } => format!("advice on {} left out", plain(kind)),
         Fault::WorkOffsetLeftOut { offset } => format!("work offset {offset} left out: nothing moves in it"),
         Fault::NumbersLeftOut { count } => {

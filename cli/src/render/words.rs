@@ -4,6 +4,7 @@
 //! is in `advice`, the background on the fault's page in `pages/`.
 
 use ncc_dialects::{Dialect, Meaning};
+use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::maps::Numbered;
 use ncc_ir::num::ONE;
@@ -283,10 +284,20 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("block-skip level {level} lost"),
             format!("{to} cannot tell this switch from the others"),
         ),
-        Fault::PathRelaxed { from, to: mode } => (
-            format!("corners by {} written as {}", plain(from), plain(mode)),
-            format!("{to} has no word for this way of taking corners"),
-        ),
+        Fault::PathRelaxed { from, to: mode } => match PathMode::named(from) {
+            Some(PathMode::SlowCorners) => (
+                "the feed is not lowered at inner corners of a contour any more".into(),
+                format!("{to} has no word for it, and goes round them at the whole feed"),
+            ),
+            Some(PathMode::Tapping) => (
+                "the feed can be held and overridden again".into(),
+                format!("{to} has no word that forbids it"),
+            ),
+            _ => (
+                format!("corners by {} written as {}", plain(from), plain(mode)),
+                format!("{to} has no word for this way of taking corners"),
+            ),
+        },
         Fault::AdviceLeftOut { kind } => (
             format!("advice on {} left out", plain(kind)),
             format!("{to} has no word of this kind; the programmed moves stay"),

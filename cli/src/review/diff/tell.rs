@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
-use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::num::Nanos;
+use ncc_ir::canon::{AXES, Axis, SpindleMode};
+use ncc_ir::num::{Nanos, ONE};
 use ncc_review::change::{Change, Group};
 use ncc_review::record::What;
 
@@ -234,6 +234,7 @@ fn kind(change: &Change) -> &'static str {
     match change {
         Change::Feed(..) => "feed",
         Change::Speed(..) => "speed",
+        Change::SpeedLimit(..) => "speed-limit",
         Change::Spindle(..) => "spindle",
         Change::Tool(..) => "tool",
         Change::Coolant(..) => "coolant",
@@ -256,7 +257,10 @@ fn kind(change: &Change) -> &'static str {
 fn values(change: &Change) -> Option<[String; 2]> {
     Some(match change {
         Change::Feed(a, b) => [rounded(*a, 3), rounded(*b, 3)],
-        Change::Speed(a, b) | Change::Dwell(a, b) | Change::Orient(a, b) => [number(*a), number(*b)],
+        Change::Speed((a, x), (b, y)) if x == y => [number(*a), number(*b)],
+        Change::Speed(a, b) => [*a, *b].map(|(speed, counts)| speed_counting(speed, counts)),
+        Change::SpeedLimit(a, b) => [*a, *b].map(limit),
+        Change::Dwell(a, b) | Change::Orient(a, b) => [number(*a), number(*b)],
         Change::Spindle(a, b) => [*a, *b].map(|s| spindle(s).to_owned()),
         Change::Tool(a, b) => [*a, *b].map(tool_name),
         Change::Coolant(a, b) => [*a, *b].map(|[flood, mist]| coolant(flood, mist).to_owned()),
@@ -272,6 +276,19 @@ fn values(change: &Change) -> Option<[String; 2]> {
 
 fn tool_name(tool: i64) -> String {
     if tool < 0 { "the one at the start".to_owned() } else { format!("T{tool}") }
+}
+
+/// A speed of the spindle with what it counts.
+fn speed_counting(speed: Nanos, counts: SpindleMode) -> String {
+    match counts {
+        SpindleMode::Turns => format!("{} rev/min", number(speed)),
+        SpindleMode::Surface => format!("{} m/min constant surface speed", number(speed)),
+    }
+}
+
+/// A limit of the spindle's speed, in thousandths of a rev/min.
+fn limit(limit: Option<u32>) -> String {
+    limit.map_or("none".to_owned(), |limit| format!("{} rev/min", number(Nanos::from(limit) * (ONE / 1000))))
 }
 
 fn name(what: What) -> &'static str {
@@ -300,7 +317,11 @@ fn changed(change: &Change) -> String {
     };
     match change {
         Change::Feed(..) => arrow("feed", change),
+        Change::Speed((_, SpindleMode::Surface), (_, SpindleMode::Surface)) => {
+            format!("{} m/min", arrow("constant surface speed", change))
+        }
         Change::Speed(..) => arrow("spindle speed", change),
+        Change::SpeedLimit(..) => arrow("limit of the spindle's speed", change),
         Change::Spindle(..) => arrow("spindle", change),
         Change::Tool(..) => arrow("tool", change),
         Change::Coolant(..) => arrow("coolant", change),
@@ -366,6 +387,7 @@ fn title(group: &Group) -> String {
     match &group.change {
         Change::Feed(..)
         | Change::Speed(..)
+        | Change::SpeedLimit(..)
         | Change::Spindle(..)
         | Change::Tool(..)
         | Change::Coolant(..)
@@ -409,6 +431,7 @@ fn summary(groups: &[Group], differences: &[Difference], left_out: u64) -> Strin
         Change::Gap => group.moves != [0, 0],
         Change::Feed(..)
         | Change::Speed(..)
+        | Change::SpeedLimit(..)
         | Change::Spindle(..)
         | Change::Tool(..)
         | Change::Coolant(..)
@@ -486,7 +509,7 @@ fn summary(groups: &[Group], differences: &[Difference], left_out: u64) -> Strin
 /// Many differences, by their kind.
 fn classes(groups: &[Group]) -> Vec<String> {
     /// What is said of a kind, in the order in which it is said.
-    const KINDS: [(&str, &str); 16] = [
+    const KINDS: [(&str, &str); 18] = [
         ("shift", "a tail is shifted"),
         ("moved", "off"),
         ("gap", ""),
@@ -498,9 +521,11 @@ fn classes(groups: &[Group]) -> Vec<String> {
         ("tool", "another tool"),
         ("feed", "another feed"),
         ("speed", "another spindle speed"),
+        ("speed-limit", "another limit of the spindle's speed"),
         ("spindle", "another sense of the spindle"),
         ("coolant", "other coolant"),
         ("compensation", "other cutter radius compensation"),
+        ("orientation", "another angle of the spindle"),
         ("dwell", "another dwell"),
         ("text", "another text or function"),
     ];
