@@ -347,6 +347,14 @@ impl Lower {
                 if a.get(Role::FirstDepth).is_some() { Role::FirstDepth } else { Role::RelativeFirstDepth };
             return self.out_of_range(a, role, out);
         }
+        // Pecks are all alike here, so that a least depth says nothing; a greater one contradicts them.
+        if let Some(least) = self.argument(a, Role::LeastPeck, src, out)
+            && (least.mantissa < 0 || below(stroke, least))
+        {
+            let name = format!("{}: a least depth above that of the first peck", a.name(Role::LeastPeck));
+            self.not_supported(&a.row.name, &name, a.at(Role::LeastPeck), out);
+            return None;
+        }
         let whole = self.sum(a, stroke, safety, out)?;
         let first_peck = (!safety.is_zero()).then_some(Expr::Num(whole));
         let settle = self.time(a, Role::Settle, src, out);

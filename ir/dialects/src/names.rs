@@ -308,6 +308,8 @@ pub enum ParameterRole {
     FirstDepth,
     /// First depth below the reference plane, unsigned.
     RelativeFirstDepth,
+    /// Least depth of a peck where each is less than the one before; of pecks that are all alike it says nothing.
+    LeastPeck,
     /// Dwell above the hole before each further peck.
     Settle,
     /// 0 breaks the chip, 1 clears it.
