@@ -2,7 +2,7 @@
 
 use super::acts::{Act, Acts};
 use crate::canon::Plane;
-use crate::cycle::{Clearance, CycleKind};
+use crate::cycle::{Clearance, CycleKind, next_peck};
 use crate::expr::Expr;
 use crate::num::{Nanos, Num, Unit};
 use crate::passes::write::{at, exact};
@@ -282,8 +282,8 @@ impl Found {
         let unit = acts.unit();
         let length = |nanos: Nanos| Expr::from(exact(nanos, unit));
         let seconds = |nanos: Nanos| Expr::from(exact(nanos, Unit::Second));
-        let (peck, first) = self.pecks(strokes)?;
-        let (peck, first) = (length(peck), first.map(length));
+        let Pecks { peck, first, less } = self.pecks(strokes)?;
+        let (peck, first, less) = (length(peck), first.map(length), less.map(length));
         let alike = |stroke: &Stroke| {
             stroke.pause == one.pause && above(stroke) == above(one) && shape(stroke) == shape(one)
         };
@@ -295,7 +295,7 @@ impl Found {
             Between::Out { settle, .. } => CycleKind::DrillPeck {
                 peck,
                 first,
-                less: None,
+                less,
                 clearance: Clearance::Stated(length(above(one))),
                 pause,
                 settle: settle.map(seconds),
@@ -304,7 +304,7 @@ impl Found {
             Between::Up { at_feed, .. } => CycleKind::DrillBreak {
                 peck,
                 first,
-                less: None,
+                less,
                 lift: Clearance::Stated(length(above(one))),
                 lift_at_feed: *at_feed,
                 pause,
@@ -314,22 +314,51 @@ impl Found {
         Some(Hole { strokes: strokes.len(), ..self.hole(kind, acts) })
     }
 
-    /// Depth of a peck, and of the first one if it is another; the last is what remains.
-    fn pecks(&self, strokes: &[Stroke]) -> Option<(Nanos, Option<Nanos>)> {
+    /// The rule that the pecks follow; the last one is what remains.
+    fn pecks(&self, strokes: &[Stroke]) -> Option<Pecks> {
         let mut depths = Vec::with_capacity(strokes.len() + 1);
         let mut last = self.retract.1;
         for bottom in strokes.iter().map(|s| s.bottom).chain([self.depth.1]) {
             depths.push(last - bottom);
             last = bottom;
         }
-        let (first, rest) = (depths[0], *depths.last()?);
-        let peck = match depths[1..depths.len() - 1] {
-            [] => first.max(rest),
-            [peck, ref others @ ..] if others.iter().all(|d| *d == peck) && rest <= peck => peck,
-            _ => return None,
-        };
-        Some((peck, (first != peck).then_some(first)))
+        let (rest, whole) = depths.split_last()?;
+        alike(whole, *rest).or_else(|| shrinking(whole, *rest))
     }
+}
+
+/// How deep pecks are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Pecks {
+    /// Depth of each; where they shrink, the least.
+    peck: Nanos,
+    /// Of the first one, where it is another.
+    first: Option<Nanos>,
+    /// How much less each is than the one before it.
+    less: Option<Nanos>,
+}
+
+/// Pecks of one depth behind the first one, and what remains.
+fn alike(whole: &[Nanos], rest: Nanos) -> Option<Pecks> {
+    let (first, further) = whole.split_first()?;
+    let peck = match further {
+        [] => rest.max(*first),
+        [peck, others @ ..] if others.iter().all(|d| d == peck) && rest <= *peck => *peck,
+        _ => return None,
+    };
+    Some(Pecks { peck, first: (*first != peck).then_some(*first), less: None })
+}
+
+/// Pecks each of which is less than the one before by the same, down to a least one, and what remains.
+fn shrinking(whole: &[Nanos], rest: Nanos) -> Option<Pecks> {
+    let [first, second, ..] = *whole else { return None };
+    let less = first.checked_sub(second).filter(|less| *less > 0)?;
+    // The first one that does not follow is the least; of pecks that all do, the one that would come next is.
+    let floor = whole.windows(2).find(|pair| pair[1] != pair[0] - less).map(|pair| pair[1]);
+    let peck = floor.unwrap_or_else(|| rest.max(whole[whole.len() - 1] - less));
+    let follows = whole.windows(2).all(|pair| pair[1] == next_peck(pair[0], peck, Some(less)));
+    let remains = rest <= next_peck(whole[whole.len() - 1], peck, Some(less));
+    (peck > 0 && follows && remains).then_some(Pecks { peck, first: Some(first), less: Some(less) })
 }
 
 /// How far above its bottom a stroke begins again.
