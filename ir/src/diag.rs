@@ -227,6 +227,10 @@ faults! {
     NoArc = 229, Error;
     /// A move in step with a spindle that has no speed.
     NoSpeed = 230, Error;
+    /// An expression that is worth nothing.
+    NoValue { what: Box<str> } = 231, Error;
+    /// A variable is read that the program has not set.
+    VariableUnset { name: Box<str> } = 232, Error;
 
     /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.
@@ -319,6 +323,8 @@ faults! {
     AdviceLeftOut { kind: Box<str> } = 418, verdict(Verdict::Reformatted);
     /// A work offset that the target cannot name, and in which nothing moves.
     WorkOffsetLeftOut { offset: u16 } = 419, verdict(Verdict::Reformatted);
+    /// What computes and decides was executed, and the blocks that come of it were written.
+    Flattened { blocks: u64 } = 420, verdict(Verdict::Expanded);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

@@ -1,8 +1,7 @@
 //! Expressions: the arguments of statements.
 //!
 //! Nearly every argument of a real program is a literal, so a literal is stored inline and
-//! everything else behind a box. No front-end of today writes more than literals; the other forms
-//! are here because the text form (`ir`) carries them, and execution refuses them by name.
+//! everything else behind a box. What an expression is worth is in `value`.
 
 use crate::num::{Num, Unit};
 
@@ -41,6 +40,15 @@ pub enum Var {
     Retentive(Box<str>),
     /// Something of the control itself, named by its meaning.
     System(Box<str>),
+}
+
+impl Var {
+    /// Its name, without its kind.
+    pub fn name(&self) -> &str {
+        match self {
+            Var::Local(name) | Var::Common(name) | Var::Retentive(name) | Var::System(name) => name,
+        }
+    }
 }
 
 /// Operators with one operand.

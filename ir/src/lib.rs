@@ -7,6 +7,7 @@
 //!
 //! This crate knows no dialect by name, reads no file and prints nothing.
 
+pub mod arguments;
 pub mod beside;
 pub mod canon;
 pub mod caps;
@@ -27,5 +28,6 @@ pub mod round;
 pub mod source;
 pub mod track;
 pub mod valid;
+pub mod value;
 pub mod verify;
 pub mod world;

@@ -112,6 +112,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NoToolSelected => own("say the tool number in this block or before it"),
         Fault::NoFeed => own("say the feed in this block or before it"),
         Fault::NoSpeed => own("say the speed of the spindle before it"),
+        Fault::NoValue { .. } => {
+            own("see which values its variables have there; a control stops with an alarm")
+        }
+        Fault::VariableUnset { .. } => own("set the variable before it is read"),
         Fault::NoCycle => own("call the cycle up before the positions"),
         Fault::CycleUpsideDown => own("check the signs of the bottom and of the retract plane"),
         Fault::EntryFactNeeded { .. } => own("say it in the subprogram itself"),
@@ -158,6 +162,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::CornerExpanded
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
+        | Fault::Flattened { .. }
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }
         | Fault::AdviceLeftOut { .. }

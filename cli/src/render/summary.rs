@@ -221,6 +221,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
+        Fault::Flattened { blocks } => format!("what computes into {blocks} straight blocks"),
         Fault::FramesExpanded => "frames into the coordinates".to_owned(),
         Fault::CycleFolded { kind, holes } => {
             format!("moves into the {} cycle ({holes} {})", plain(kind), plural(u64::from(*holes), "hole"))
@@ -286,6 +287,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoToolSelected
         | Fault::NoFeed
         | Fault::NoSpeed
+        | Fault::NoValue { .. }
+        | Fault::VariableUnset { .. }
         | Fault::NoCycle
         | Fault::CycleUpsideDown
         | Fault::EntryFactNeeded { .. }

@@ -141,6 +141,11 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         }
         Fault::NoFeed => ("move at feed without a feed".into(), "no feed has been said before".into()),
         Fault::NoSpeed => ("a thread without a speed".into(), "no spindle speed has been said before".into()),
+        Fault::NoValue { what } => ("an expression without a value".into(), format!("this is {what}")),
+        Fault::VariableUnset { name } => (
+            format!("variable {name} is read and was never set"),
+            "what it holds, the control alone knows".into(),
+        ),
         Fault::NoCycle => {
             ("hole positions without a cycle".into(), "no cycle is in force to be made here".into())
         }
@@ -279,6 +284,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::CallExpanded { name, times } => (
             format!("program {} written out {times} {}", quoted(name), plural(u64::from(*times), "time")),
             "where it is called".into(),
+        ),
+        Fault::Flattened { blocks } => (
+            format!("executed, and written as {blocks} straight blocks"),
+            "variables, loops, jumps and subprograms are gone".into(),
         ),
         Fault::SkipLevelLost { level } => (
             format!("block-skip level {level} lost"),

@@ -7,6 +7,7 @@
 mod arcs;
 mod ask;
 mod centre_path;
+mod code;
 mod compensation;
 mod conduct;
 mod corner;
@@ -19,6 +20,7 @@ mod polar;
 mod run;
 mod slots;
 mod speed;
+mod term;
 mod thread;
 mod tilt;
 

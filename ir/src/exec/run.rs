@@ -1,13 +1,24 @@
-//! Execution of a program that is kept whole: calls and repetitions, one statement at a time.
+//! Execution of a program that is kept whole: calls, repetitions, variables and jumps, one statement at a time.
 
+use std::ops::Range;
+use std::rc::Rc;
+
+use super::code::{Again, At, Called, Code, Step};
+use super::term::{Place, Variables, Why};
 use super::{Event, Exec};
+use crate::arguments;
+use crate::canon::FeedMode;
 use crate::diag::{Diagnostic, Fault};
-use crate::program::{Control, Op, Program, Stmt};
+use crate::expr::Expr;
+use crate::num::{Num, ONE, Unit};
+use crate::program::{Coord, Op, Program, Stmt};
+use crate::source::Span;
+use crate::value::Value;
 
 /// Deepest nesting of calls and repetitions.
 const DEEPEST: usize = 64;
 
-/// Most statements of one run; a program that needs more does not come to an end.
+/// Most steps of one run; a program that needs more does not come to an end.
 const MOST_STEPS: u64 = 2_000_000_000;
 
 /// How far a run has come.
@@ -22,32 +33,76 @@ pub enum Progress {
 /// A run of a whole program from its first statement.
 #[derive(Clone, Debug)]
 pub struct Runner<'p> {
-    program: &'p Program,
-    stack: Vec<Level<'p>>,
+    code: Rc<Code<'p>>,
+    /// The next step.
+    at: At,
+    /// Calls in force; the first is the main procedure.
+    calls: Vec<Frame>,
+    /// Further turns of the bodies that are counted and open.
+    turns: Vec<u64>,
+    /// Blocks that are executed again.
+    blocks: Vec<Blocks>,
+    /// Where those of them that are the innermost end, if the present call executes them.
+    end: At,
+    variables: Variables,
+    /// Statements with what was computed for them last.
+    now: Vec<Stmt>,
     steps: u64,
 }
 
 #[derive(Clone, Debug)]
-struct Level<'p> {
-    body: &'p [Stmt],
-    next: usize,
-    /// Further turns after this one.
-    again: u64,
-    /// Whether a return ends it.
-    call: bool,
+struct Frame {
+    entry: At,
+    back: At,
+    /// Further times after this one.
+    again: u32,
+    /// How many bodies were open, and places of variables in use, where it was called.
+    turns: usize,
+    base: usize,
+    parameters: Rc<[Place]>,
+    /// What they are given, each time.
+    given: Rc<[Value]>,
 }
+
+#[derive(Clone, Copy, Debug)]
+struct Blocks {
+    begin: At,
+    end: At,
+    back: At,
+    again: u32,
+    /// In which call.
+    call: usize,
+    /// How many bodies that are counted were open there, of all and of the procedure's own.
+    turns: usize,
+    counted: u32,
+}
+
+/// No step.
+const NOWHERE: At = At::MAX;
 
 impl<'p> Runner<'p> {
     /// Ready to run the main procedure.
     pub fn new(program: &'p Program) -> Runner<'p> {
-        let body = program.procedures.first().map_or(&[][..], |p| &p.body);
-        Runner { program, stack: vec![Level { body, next: 0, again: 0, call: false }], steps: 0 }
+        let code = Code::new(program);
+        let (parameters, given) = (Rc::new([]), Rc::new([]));
+        let main = Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, parameters, given };
+        Runner {
+            at: 0,
+            calls: vec![main],
+            turns: Vec::new(),
+            blocks: Vec::new(),
+            end: NOWHERE,
+            variables: Variables::new(&code.names),
+            now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
+            steps: 0,
+            code: Rc::new(code),
+        }
     }
 
     /// Executes statements until at least `enough` events are in `out`, or the program is over.
     ///
     /// # Errors
-    /// As of [`Exec::step`]; an unknown or endless call.
+    /// As of [`Exec::step`] and [`Runner::next`].
     pub fn run(
         &mut self,
         exec: &mut Exec,
@@ -63,108 +118,355 @@ impl<'p> Runner<'p> {
         Ok(Progress::More)
     }
 
-    /// Goes through calls and repetitions to the next statement that is to be executed by itself;
-    /// the caller executes it. `None` is the program's end.
+    /// Goes through calls, repetitions, jumps and assignments to the next statement that is to be executed by
+    /// itself, its arguments computed; the caller executes it. `None` is the program's end.
     ///
     /// # Errors
-    /// An unknown or endless call, or control that is not executed.
-    pub fn next(&mut self, exec: &Exec) -> Result<Option<&'p Stmt>, Diagnostic> {
+    /// A call or label that there is not, a call without an end, an expression without a value.
+    pub fn next(&mut self, exec: &Exec) -> Result<Option<&Stmt>, Diagnostic> {
+        // The steps are shared, so that they can be read while the rest changes.
+        let code = Rc::clone(&self.code);
         loop {
             if exec.ended() {
                 return Ok(None);
             }
-            let Some(level) = self.stack.last_mut() else {
-                exec.no_open_corner()?;
-                return Ok(None);
-            };
-            let Some(stmt) = level.body.get(level.next) else {
-                if level.again > 0 {
-                    level.again -= 1;
-                    level.next = 0;
-                } else {
-                    self.stack.pop();
-                }
+            if self.at == self.end {
+                self.end_of_blocks();
                 continue;
-            };
-            level.next += 1;
+            }
+            let step = &code.steps[self.at as usize];
+            self.at += 1;
             self.steps += 1;
+            let stmt = match step {
+                Step::Do(stmt)
+                | Step::Compute(stmt, _)
+                | Step::Assign(stmt, _)
+                | Step::Unskipped(stmt, _)
+                | Step::Unless(stmt, ..)
+                | Step::UnlessCounted(stmt, ..)
+                | Step::Count(stmt, _)
+                | Step::Turns(stmt, ..)
+                | Step::Goto(stmt, _)
+                | Step::Call(stmt, _)
+                | Step::Return(stmt)
+                | Step::Blocks(stmt, ..) => *stmt,
+                Step::Jump(to) => {
+                    self.at = *to;
+                    continue;
+                }
+                Step::Again(to) => {
+                    self.another_turn(*to);
+                    continue;
+                }
+                Step::End => {
+                    if self.leave() {
+                        continue;
+                    }
+                    exec.no_open_corner()?;
+                    return Ok(None);
+                }
+            };
+            let span = stmt.span;
             if self.steps > MOST_STEPS {
-                return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_STEPS }, stmt.span));
+                return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_STEPS }, span));
             }
             if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
+                if let Step::Unskipped(_, to) = step {
+                    self.at = *to;
+                }
                 continue;
             }
-            if matches!(stmt.op, Op::Call(_) | Op::Return | Op::RepeatBlocks(_) | Op::Control(_)) {
-                exec.no_open_corner()?;
-            }
-            match &stmt.op {
-                Op::Call(call) => {
-                    let Some(callee) = self.program.procedures.iter().skip(1).find(|p| p.name == call.name)
-                    else {
-                        return Err(Diagnostic::new(
-                            Fault::CallUnknown { name: call.name.clone() },
-                            stmt.span,
-                        ));
+            match step {
+                Step::Do(_) => return Ok(Some(stmt)),
+                Step::Compute(_, at) => {
+                    if self.compute(*at as usize, exec)? {
+                        return Ok(Some(&self.now[*at as usize]));
+                    }
+                }
+                Step::Assign(_, to) => {
+                    let (place, term) = &**to;
+                    let value = self.variables.value(term).map_err(|why| self.no_value(why, span))?;
+                    let Some(place) = place else {
+                        let what = "a variable of the control's own that is set".into();
+                        return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
                     };
-                    if call.times > 0 {
-                        self.push(&callee.body, u64::from(call.times - 1), true, stmt)?;
+                    self.variables.set(*place, value);
+                }
+                Step::Unskipped(..) | Step::Jump(_) | Step::Again(_) | Step::End => {}
+                Step::Unless(_, condition, to) => {
+                    let value = self.variables.value(condition).map_err(|why| self.no_value(why, span))?;
+                    if !value.holds() {
+                        self.at = *to;
                     }
                 }
-                Op::Return => {
-                    while let Some(level) = self.stack.last_mut() {
-                        if level.call {
-                            level.next = level.body.len();
-                            break;
-                        }
-                        if self.stack.len() == 1 {
-                            let what = "a return of the main program".into();
-                            return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
-                        }
-                        self.stack.pop();
+                Step::UnlessCounted(_, counter, to) => {
+                    let [count, end, pace] = [counter.place, counter.end, counter.pace]
+                        .map(|place| self.variables.get(place).number());
+                    if if pace < 0.0 { count < end } else { count > end } {
+                        self.at = *to;
                     }
                 }
-                Op::RepeatBlocks(repeat) => {
-                    let (body, at) = (level.body, level.next - 1);
-                    let Some(blocks) = again(body, at, &repeat.from, repeat.to.as_deref()) else {
-                        let name = repeat.from.clone();
-                        return Err(Diagnostic::new(Fault::LabelUnknown { name }, stmt.span));
-                    };
-                    if repeat.times > 0 {
-                        self.push(blocks, u64::from(repeat.times - 1), false, stmt)?;
+                Step::Count(_, counter) => {
+                    let [count, pace] =
+                        [counter.place, counter.pace].map(|place| self.variables.get(place).number());
+                    self.variables.set(counter.place, Value::Number(count + pace));
+                }
+                Step::Turns(_, times, to) => {
+                    exec.no_open_corner()?;
+                    let times = self.variables.value(times).map_err(|why| self.no_value(why, span))?.number();
+                    if times < 0.0 || times != times.trunc() || times > MOST_STEPS as f64 {
+                        return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
+                    }
+                    if times == 0.0 {
+                        self.at = *to;
+                    } else {
+                        self.turns.push(times as u64 - 1);
                     }
                 }
-                Op::Control(control) => match &**control {
-                    Control::Repeat { times, body } => match times.literal().and_then(|n| n.whole()) {
-                        Some(0) => {}
-                        Some(n) if n > 0 => self.push(body, n as u64 - 1, false, stmt)?,
-                        Some(_) | None => exec.not_executed("a computed repetition", stmt.span)?,
-                    },
-                    Control::Loop { .. }
-                    | Control::While { .. }
-                    | Control::For { .. }
-                    | Control::If { .. } => exec.not_executed("control of the program's flow", stmt.span)?,
-                },
-                _ => return Ok(Some(stmt)),
+                Step::Goto(_, to) => {
+                    exec.no_open_corner()?;
+                    self.jump(*to, stmt)?;
+                }
+                Step::Call(_, called) => {
+                    exec.no_open_corner()?;
+                    self.call(called, span)?;
+                }
+                Step::Return(_) => {
+                    exec.no_open_corner()?;
+                    if !self.leave() {
+                        let what = "a return of the main program".into();
+                        return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
+                    }
+                }
+                Step::Blocks(_, again) => {
+                    exec.no_open_corner()?;
+                    self.again(again, stmt)?;
+                }
             }
         }
     }
 
-    fn push(&mut self, body: &'p [Stmt], again: u64, call: bool, at: &Stmt) -> Result<(), Diagnostic> {
-        if self.stack.len() >= DEEPEST {
-            let name = match &at.op {
-                Op::Call(call) => call.name.clone(),
-                _ => "".into(),
-            };
-            return Err(Diagnostic::new(Fault::CallRecursive { name }, at.span));
+    /// How many steps it has made.
+    pub(crate) fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    #[cold]
+    fn no_value(&self, why: Why, span: Span) -> Diagnostic {
+        Diagnostic::new(self.code.names.fault(why), span)
+    }
+
+    fn another_turn(&mut self, to: At) {
+        match self.turns.last_mut() {
+            Some(left) if *left > 0 => {
+                *left -= 1;
+                self.at = to;
+            }
+            Some(_) | None => {
+                self.turns.pop();
+            }
         }
-        self.stack.push(Level { body, next: 0, again, call });
+    }
+
+    fn deep(&self, name: &str, span: Span) -> Result<(), Diagnostic> {
+        if self.calls.len() + self.blocks.len() + self.turns.len() >= DEEPEST {
+            return Err(Diagnostic::new(Fault::CallRecursive { name: name.into() }, span));
+        }
         Ok(())
     }
+
+    fn call(&mut self, called: &Called, span: Span) -> Result<(), Diagnostic> {
+        let name = &called.call.name;
+        let Some(entry) = called.entry else {
+            return Err(Diagnostic::new(Fault::CallUnknown { name: name.clone() }, span));
+        };
+        if called.call.times == 0 {
+            return Ok(());
+        }
+        self.deep(name, span)?;
+        let given: Result<Rc<[Value]>, Why> =
+            called.arguments.iter().map(|term| self.variables.value(term)).collect();
+        let given = given.map_err(|why| self.no_value(why, span))?;
+        let frame = Frame {
+            entry,
+            back: self.at,
+            again: called.call.times - 1,
+            turns: self.turns.len(),
+            base: self.variables.base,
+            parameters: called.parameters.clone(),
+            given,
+        };
+        self.variables.base = self.variables.locals.len();
+        self.enter(&frame);
+        self.calls.push(frame);
+        self.end = NOWHERE;
+        Ok(())
+    }
+
+    /// Gives a call its locals, new ones each time, and its parameters.
+    fn enter(&mut self, frame: &Frame) {
+        let base = self.variables.base;
+        self.variables.locals.truncate(base);
+        self.variables.locals.resize(base + self.code.names.count, Value::Vacant);
+        for (place, value) in frame.parameters.iter().zip(&*frame.given) {
+            self.variables.set(*place, *value);
+        }
+        self.at = frame.entry;
+    }
+
+    /// Ends the present call; `false` is the main procedure.
+    fn leave(&mut self) -> bool {
+        let Some(mut frame) = self.calls.pop() else { return false };
+        if frame.back == NOWHERE {
+            self.calls.push(frame);
+            return false;
+        }
+        self.turns.truncate(frame.turns);
+        let depth = self.calls.len();
+        self.blocks.retain(|blocks| blocks.call <= depth);
+        if frame.again > 0 {
+            frame.again -= 1;
+            self.enter(&frame);
+            self.calls.push(frame);
+        } else {
+            self.variables.locals.truncate(self.variables.base);
+            self.variables.base = frame.base;
+            self.at = frame.back;
+        }
+        self.find_end();
+        true
+    }
+
+    fn jump(&mut self, to: Option<(At, u32)>, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let Some((to, counted)) = to else {
+            let Op::Goto(label) = &stmt.op else { return Ok(()) };
+            return Err(Diagnostic::new(Fault::LabelUnknown { name: label.clone() }, stmt.span));
+        };
+        let inner = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
+        if inner.is_some_and(|blocks| !(blocks.begin..blocks.end).contains(&to)) {
+            let what = "a jump out of blocks that are executed again".into();
+            return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+        }
+        let open = match (inner, self.calls.last()) {
+            (Some(blocks), _) => blocks.turns + counted.saturating_sub(blocks.counted) as usize,
+            (None, Some(frame)) => frame.turns + counted as usize,
+            (None, None) => 0,
+        };
+        self.turns.truncate(open);
+        self.at = to;
+        Ok(())
+    }
+
+    fn again(&mut self, again: &Again, stmt: &Stmt) -> Result<(), Diagnostic> {
+        let Some((begin, end)) = again.steps else {
+            let Op::RepeatBlocks(repeat) = &stmt.op else { return Ok(()) };
+            return Err(Diagnostic::new(Fault::LabelUnknown { name: repeat.from.clone() }, stmt.span));
+        };
+        if again.times > 0 && begin < end {
+            self.deep("", stmt.span)?;
+            let (call, turns) = (self.calls.len(), self.turns.len());
+            let left = again.times - 1;
+            let counted = again.counted;
+            self.blocks.push(Blocks { begin, end, back: self.at, again: left, call, turns, counted });
+            self.at = begin;
+            self.end = end;
+        }
+        Ok(())
+    }
+
+    fn end_of_blocks(&mut self) {
+        let Some(blocks) = self.blocks.last_mut() else { return };
+        if blocks.again > 0 {
+            blocks.again -= 1;
+            self.at = blocks.begin;
+        } else {
+            self.at = blocks.back;
+            self.blocks.pop();
+            self.find_end();
+        }
+    }
+
+    fn find_end(&mut self) {
+        let here = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
+        self.end = here.map_or(NOWHERE, |blocks| blocks.end);
+    }
+
+    /// Computes a statement's arguments; `false` where nothing is left of it.
+    fn compute(&mut self, at: usize, exec: &Exec) -> Result<bool, Diagnostic> {
+        let code = Rc::clone(&self.code);
+        let computed = &code.computed[at];
+        let (stmt, now) = (computed.stmt, &mut self.now[at]);
+        let variables = &self.variables;
+        let fault = |fault| Diagnostic::new(fault, stmt.span);
+        let mut terms = computed.terms.iter();
+        match (&stmt.op, &mut now.op) {
+            (Op::StraightFeed(from), Op::StraightFeed(to))
+            | (Op::StraightTraverse(from), Op::StraightTraverse(to))
+            | (Op::Position(from), Op::Position(to))
+            | (Op::Hole(from), Op::Hole(to)) => {
+                for ((axis, word), term) in from.to.axes.iter().enumerate().zip(terms) {
+                    if let (Some(word), Some(term)) = (word, term) {
+                        let value = variables.value(term).map_err(|why| fault(code.names.fault(why)))?;
+                        let unit = if axis < 3 { Unit::Entry } else { Unit::Degree };
+                        let value = literal(value, unit).map_err(fault)?;
+                        to.to.axes[axis] =
+                            value.map(|n| Coord { value: Expr::Num(n), distance: word.distance });
+                    }
+                }
+                return Ok(true);
+            }
+            _ => {}
+        }
+        now.op = stmt.op.clone();
+        let per_time = exec.state.feed_mode == FeedMode::InverseTime;
+        let rate = matches!(now.op, Op::SetFeedRate(_));
+        let mut left = true;
+        let droppable = matches!(now.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
+        arguments::each(&mut now.op, &mut |argument, unit| {
+            let Some(Some(term)) = terms.next() else { return Ok(()) };
+            let value = variables.value(term).map_err(|why| fault(code.names.fault(why)))?;
+            let unit = if rate && per_time { Unit::One } else { unit };
+            match literal(value, unit).map_err(fault)? {
+                Some(n) => argument.set(Expr::Num(n)),
+                None => match argument {
+                    arguments::Argument::Word(word) => *word = None,
+                    arguments::Argument::Optional(place) => *place = None,
+                    arguments::Argument::Value(_) if droppable => left = false,
+                    arguments::Argument::Value(_) => {
+                        let what = "a word without a value that cannot be left out".into();
+                        return Err(fault(Fault::NotExecuted { what }));
+                    }
+                },
+            }
+            Ok(())
+        })?;
+        Ok(left)
+    }
+}
+
+/// A value as a literal, to a billionth (of an inch, which nobody knows it is not, to ten); nothing is none.
+fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
+    let Value::Number(n) = value else { return Ok(None) };
+    let out_of_range = || Fault::OutOfRange { word: "".into() };
+    if n == n.trunc() && n.abs() < 1e15 {
+        return Ok(Some(Num { mantissa: n as i64, scale: 0, point: unit != Unit::One, unit }));
+    }
+    let scale = if unit == Unit::Entry { 8 } else { 9 };
+    let scaled = n * if unit == Unit::Entry { ONE as f64 / 10.0 } else { ONE as f64 };
+    if scaled.abs() >= 9e18 {
+        return Err(out_of_range());
+    }
+    Ok(Some(Num { mantissa: scaled.round() as i64, scale, point: true, unit }))
 }
 
 /// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of
 /// another label's block.
 pub(crate) fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str>) -> Option<&'p [Stmt]> {
+    blocks_again(body, at, from, to).map(|blocks| &body[blocks])
+}
+
+/// Their places in the body.
+pub(super) fn blocks_again(body: &[Stmt], at: usize, from: &str, to: Option<&str>) -> Option<Range<usize>> {
     let label =
         |name: &str| body[..at].iter().rposition(|s| matches!(&s.op, Op::Label(label) if **label == *name));
     let start = label(from)?;
@@ -179,5 +481,5 @@ pub(crate) fn again<'p>(body: &'p [Stmt], at: usize, from: &str, to: Option<&str
             last + 1 + block
         }
     };
-    Some(&body[start..end])
+    Some(start..end)
 }

@@ -25,6 +25,7 @@ pub mod expand_repeats;
 pub mod expand_turns;
 pub mod feed_unit;
 pub mod feed_with_cycle;
+pub mod flatten;
 pub mod flatten_facts;
 pub mod fold_cycles;
 pub mod fold_patterns;
@@ -127,6 +128,12 @@ pub struct Pass {
 
 /// All passes, in the order in which they are run.
 pub const PASSES: &[Pass] = &[
+    // Only when asked for: behind it there is nothing that computes or decides.
+    Pass {
+        name: "flatten",
+        about: "executes what computes and decides, and writes straight blocks",
+        run: flatten::run,
+    },
     // Before the calls are written out: what callers disagree about may be all that is missing.
     Pass {
         name: "specialise-procedures",

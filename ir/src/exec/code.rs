@@ -1,0 +1,324 @@
+//! A program made ready to be run: its procedures as steps one behind the other, between which control goes.
+//!
+//! Names of procedures, labels and variables are looked up here, once. Not here: running (`run`).
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use super::term::{Names, Place, Term};
+use crate::arguments;
+use crate::expr::Expr;
+use crate::program::{Call, Control, Op, Procedure, Program, Stmt};
+
+/// The place of a step in [`Code::steps`].
+pub(super) type At = u32;
+
+/// A step. One stands for each statement, so it is kept small.
+#[derive(Clone, Debug)]
+pub(super) enum Step<'p> {
+    /// A statement that is executed by itself.
+    Do(&'p Stmt),
+    /// One of which arguments are computed first: its place in [`Code::computed`].
+    Compute(&'p Stmt, u32),
+    /// A value for a variable; without a place it is one of the control's own.
+    Assign(&'p Stmt, Box<(Option<Place>, Term)>),
+    /// Goes there, past a body, while the switch of the statement's level is on.
+    Unskipped(&'p Stmt, At),
+    /// Goes there unless this holds.
+    Unless(&'p Stmt, Box<Term>, At),
+    /// Goes there if a counter is beyond its end.
+    UnlessCounted(&'p Stmt, Box<Counter>, At),
+    /// Adds the pace to the counter.
+    Count(&'p Stmt, Box<Counter>),
+    /// Begins a body that is executed so many times; behind it, there.
+    Turns(&'p Stmt, Box<Term>, At),
+    /// Another turn of the body that begins there, if any are left.
+    Again(At),
+    /// Goes there.
+    Jump(At),
+    /// A jump of the program to a step, in so many open bodies that are counted; `None` is a label that it
+    /// does not have.
+    Goto(&'p Stmt, Option<(At, u32)>),
+    /// A call.
+    Call(&'p Stmt, Box<Called<'p>>),
+    /// Back to the caller.
+    Return(&'p Stmt),
+    /// Steps that are executed again.
+    Blocks(&'p Stmt, Box<Again>),
+    /// The end of a procedure.
+    End,
+}
+
+/// A counter, and where its end and its pace are kept.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Counter {
+    pub(super) place: Place,
+    pub(super) end: Place,
+    pub(super) pace: Place,
+}
+
+/// Steps that are executed again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Again {
+    /// From one to before another; `None` is a label that there is not.
+    pub(super) steps: Option<(At, At)>,
+    pub(super) times: u32,
+    /// How many bodies of the procedure that are counted are open there.
+    pub(super) counted: u32,
+}
+
+/// What a call calls.
+#[derive(Clone, Debug)]
+pub(super) struct Called<'p> {
+    pub(super) call: &'p Call,
+    /// Where it begins; `None` is a procedure that the program does not have, or that has not as many
+    /// parameters.
+    pub(super) entry: Option<At>,
+    /// Values of its parameters.
+    pub(super) arguments: Vec<Term>,
+    /// Where it has them.
+    pub(super) parameters: Rc<[Place]>,
+}
+
+/// A statement of which arguments are computed.
+#[derive(Clone, Debug)]
+pub(super) struct Computed<'p> {
+    pub(super) stmt: &'p Stmt,
+    /// In the order of [`arguments::each`]; what is written has none.
+    pub(super) terms: Box<[Option<Term>]>,
+}
+
+/// A program made ready.
+#[derive(Clone, Debug)]
+pub(super) struct Code<'p> {
+    pub(super) steps: Vec<Step<'p>>,
+    pub(super) computed: Vec<Computed<'p>>,
+    pub(super) names: Names,
+}
+
+/// Where a label stands: its step, the bodies that it is in, and how many of them are counted.
+type Labels<'p> = HashMap<&'p str, Vec<(At, Vec<u32>, u32)>>;
+
+struct Maker<'p> {
+    code: Code<'p>,
+    /// Procedures by name, each with where it begins.
+    entries: HashMap<&'p str, (At, &'p Procedure)>,
+    calls: Vec<At>,
+    // Of the procedure at hand.
+    labels: Labels<'p>,
+    jumps: Vec<(At, &'p str, Vec<u32>)>,
+    /// Bodies that are open, each by its number.
+    bodies: Vec<u32>,
+    counted: u32,
+    next_body: u32,
+}
+
+impl<'p> Code<'p> {
+    pub(super) fn new(program: &'p Program) -> Code<'p> {
+        let length = program.procedures.iter().map(|p| p.body.len() + 1).sum();
+        let code = Code { steps: Vec::with_capacity(length), computed: Vec::new(), names: Names::default() };
+        let mut maker = Maker {
+            code,
+            entries: HashMap::new(),
+            calls: Vec::new(),
+            labels: HashMap::new(),
+            jumps: Vec::new(),
+            bodies: Vec::new(),
+            counted: 0,
+            next_body: 0,
+        };
+        for (place, procedure) in program.procedures.iter().enumerate() {
+            if place > 0 {
+                let here = maker.here();
+                maker.entries.entry(&procedure.name).or_insert((here, procedure));
+            }
+            maker.procedure(procedure);
+        }
+        if program.procedures.is_empty() {
+            maker.code.steps.push(Step::End);
+        }
+        maker.join_calls();
+        maker.code
+    }
+}
+
+impl<'p> Maker<'p> {
+    fn procedure(&mut self, procedure: &'p Procedure) {
+        self.labels.clear();
+        self.jumps.clear();
+        self.body(&procedure.body);
+        self.code.steps.push(Step::End);
+        for (at, name, from) in std::mem::take(&mut self.jumps) {
+            let there = self.labels.get(name).map_or(&[][..], |labels| labels);
+            // Into a body there is no way but its beginning.
+            let mut reached = there.iter().filter(|(_, bodies, _)| from.starts_with(bodies));
+            let forward = reached.clone().find(|(to, ..)| *to > at);
+            let found = forward.or_else(|| reached.next()).map(|(to, _, counted)| (*to, *counted));
+            if let Step::Goto(_, to) = &mut self.code.steps[at as usize] {
+                *to = found;
+            }
+        }
+    }
+
+    fn join_calls(&mut self) {
+        let Code { steps, names, .. } = &mut self.code;
+        for at in std::mem::take(&mut self.calls) {
+            if let Step::Call(_, called) = &mut steps[at as usize]
+                && let Some((entry, procedure)) = self.entries.get(&*called.call.name)
+                && called.arguments.len() <= procedure.parameters.len()
+            {
+                let places = procedure.parameters.iter().map(|parameter| names.place(parameter).ok());
+                if let Some(places) = places.collect() {
+                    called.parameters = places;
+                    called.entry = Some(*entry);
+                }
+            }
+        }
+    }
+
+    fn here(&self) -> At {
+        At::try_from(self.code.steps.len()).unwrap_or(At::MAX)
+    }
+
+    fn body(&mut self, body: &'p [Stmt]) {
+        self.bodies.push(self.next_body);
+        self.next_body += 1;
+        // Where each statement begins.
+        let mut begins = Vec::with_capacity(body.len());
+        for (place, stmt) in body.iter().enumerate() {
+            begins.push(self.here());
+            self.stmt(stmt, body, place, &begins);
+        }
+        self.bodies.pop();
+    }
+
+    fn stmt(&mut self, stmt: &'p Stmt, body: &'p [Stmt], place: usize, begins: &[At]) {
+        let at = self.here();
+        let step = match &stmt.op {
+            Op::Control(control) => return self.control(stmt, control),
+            Op::Assign(to, value) => {
+                let to = self.code.names.place(to).ok();
+                Step::Assign(stmt, Box::new((to, self.code.names.term(value))))
+            }
+            Op::Goto(label) => {
+                self.jumps.push((at, label, self.bodies.clone()));
+                Step::Goto(stmt, None)
+            }
+            Op::Label(name) => {
+                self.labels.entry(name).or_default().push((at, self.bodies.clone(), self.counted));
+                Step::Do(stmt)
+            }
+            Op::Call(call) => {
+                let arguments = call.arguments.iter().map(|value| self.code.names.term(value)).collect();
+                self.calls.push(at);
+                Step::Call(stmt, Box::new(Called { call, entry: None, arguments, parameters: Rc::new([]) }))
+            }
+            Op::Return => Step::Return(stmt),
+            Op::RepeatBlocks(repeat) => {
+                let blocks = super::run::blocks_again(body, place, &repeat.from, repeat.to.as_deref());
+                let steps = blocks.map(|blocks| (begins[blocks.start], begins[blocks.end]));
+                Step::Blocks(stmt, Box::new(Again { steps, times: repeat.times, counted: self.counted }))
+            }
+            op if arguments::computed(op) => {
+                let mut terms = Vec::new();
+                let names = &mut self.code.names;
+                arguments::each(&mut op.clone(), &mut |argument, _| {
+                    let node = argument.expr().filter(|e| matches!(e, Expr::Node(_)));
+                    terms.push(node.map(|e| names.term(e)));
+                    Ok::<(), std::convert::Infallible>(())
+                })
+                .unwrap_or_else(|never| match never {});
+                self.code.computed.push(Computed { stmt, terms: terms.into() });
+                Step::Compute(stmt, self.code.computed.len() as u32 - 1)
+            }
+            _ => Step::Do(stmt),
+        };
+        self.code.steps.push(step);
+    }
+
+    fn control(&mut self, stmt: &'p Stmt, control: &'p Control) {
+        let switch = stmt.skip.map(|_| self.push(Step::Unskipped(stmt, 0)));
+        match control {
+            Control::Repeat { times, body } => {
+                let times = self.code.names.term(times);
+                let head = self.push(Step::Turns(stmt, Box::new(times), 0));
+                self.counted += 1;
+                self.body(body);
+                self.counted -= 1;
+                self.push(Step::Again(head + 1));
+                self.ends_here(head);
+            }
+            Control::Loop { body } => {
+                let head = self.here();
+                self.body(body);
+                self.push(Step::Jump(head));
+            }
+            Control::While { condition, body } => {
+                let condition = self.code.names.term(condition);
+                let head = self.push(Step::Unless(stmt, Box::new(condition), 0));
+                self.body(body);
+                self.push(Step::Jump(head));
+                self.ends_here(head);
+            }
+            Control::For { variable, from, to, step, body } => {
+                let place = self.code.names.place(variable).ok();
+                let end = Place::Local(self.code.names.unnamed());
+                let pace = Place::Local(self.code.names.unnamed());
+                for (place, value) in [(place, from), (Some(end), to), (Some(pace), step)] {
+                    let value = self.code.names.term(value);
+                    self.push(Step::Assign(stmt, Box::new((place, value))));
+                }
+                // One of the control's own is refused where it is set.
+                let counter = Box::new(Counter { place: place.unwrap_or(end), end, pace });
+                let head = self.push(Step::UnlessCounted(stmt, counter.clone(), 0));
+                self.body(body);
+                self.push(Step::Count(stmt, counter));
+                self.push(Step::Jump(head));
+                self.ends_here(head);
+            }
+            Control::If { condition, then, otherwise } => {
+                let condition = self.code.names.term(condition);
+                let head = self.push(Step::Unless(stmt, Box::new(condition), 0));
+                self.body(then);
+                if otherwise.is_empty() {
+                    self.ends_here(head);
+                } else {
+                    let over = self.push(Step::Jump(0));
+                    self.ends_here(head);
+                    self.body(otherwise);
+                    self.ends_here(over);
+                }
+            }
+        }
+        if let Some(switch) = switch {
+            self.ends_here(switch);
+        }
+    }
+
+    fn push(&mut self, step: Step<'p>) -> At {
+        self.code.steps.push(step);
+        self.here() - 1
+    }
+
+    /// Lets a step that goes somewhere go to what comes next.
+    fn ends_here(&mut self, at: At) {
+        let here = self.here();
+        match &mut self.code.steps[at as usize] {
+            Step::Unskipped(_, to)
+            | Step::Unless(_, _, to)
+            | Step::UnlessCounted(_, _, to)
+            | Step::Turns(_, _, to)
+            | Step::Jump(to) => *to = here,
+            Step::Do(_)
+            | Step::Compute(..)
+            | Step::Assign(..)
+            | Step::Count(..)
+            | Step::Again(_)
+            | Step::Goto(..)
+            | Step::Call(..)
+            | Step::Return(_)
+            | Step::Blocks(..)
+            | Step::End => {}
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Expressions made ready to be computed: variables are places in memory, literals binary numbers.
+//!
+//! Not here: what operators and functions mean (`value`).
+
+use std::collections::HashMap;
+
+use crate::diag::Fault;
+use crate::expr::{Binary, Expr, Function, Node, Unary, Var};
+use crate::num::{Num, POW10, Unit};
+use crate::value::{self, Value, Wrong};
+
+/// An expression made ready.
+#[derive(Clone, Debug)]
+pub(super) enum Term {
+    Number(f64),
+    Vacant,
+    Read(Place),
+    /// Something of the control itself, which is not executed.
+    System(Box<str>),
+    /// A literal that says its own unit: what it counts here is not said.
+    Measured,
+    Unary(Unary, Box<Term>),
+    Binary(Binary, Box<[Term; 2]>),
+    Of(Function, Box<Term>),
+    OfTwo(Function, Box<[Term; 2]>),
+    /// A function with another number of arguments than it has.
+    Miscounted,
+}
+
+/// Where a variable is kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    /// In the locals of the call.
+    Local(usize),
+    /// Among those that all procedures see.
+    Shared(usize),
+}
+
+/// Why an expression has no value.
+#[derive(Clone, Debug)]
+pub(super) enum Why {
+    Wrong(Wrong),
+    /// The variable was not set by the program.
+    Unset(usize),
+    System(Box<str>),
+    Measured,
+}
+
+/// Names of variables, and their places.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Names {
+    locals: HashMap<Box<str>, usize>,
+    shared: HashMap<Var, usize>,
+    /// Places of locals in a call, those without a name included.
+    pub(super) count: usize,
+}
+
+impl Names {
+    /// The place of a variable; `Err` is the name of one of the control's own.
+    pub(super) fn place(&mut self, var: &Var) -> Result<Place, Box<str>> {
+        match var {
+            Var::Local(name) => Ok(Place::Local(match self.locals.get(name) {
+                Some(place) => *place,
+                None => {
+                    let place = self.unnamed();
+                    self.locals.insert(name.clone(), place);
+                    place
+                }
+            })),
+            Var::Common(_) | Var::Retentive(_) => {
+                let next = self.shared.len();
+                Ok(Place::Shared(*self.shared.entry(var.clone()).or_insert(next)))
+            }
+            Var::System(name) => Err(name.clone()),
+        }
+    }
+
+    /// A further local, without a name.
+    pub(super) fn unnamed(&mut self) -> usize {
+        self.count += 1;
+        self.count - 1
+    }
+
+    /// How many variables all procedures see.
+    pub(super) fn shared(&self) -> usize {
+        self.shared.len()
+    }
+
+    /// Why an expression has no value, in words of the user's.
+    pub(super) fn fault(&self, why: Why) -> Fault {
+        match why {
+            Why::Wrong(wrong) => Fault::NoValue { what: wrong.words().into() },
+            Why::Unset(place) => {
+                let var = self.shared.iter().find(|(_, at)| **at == place).map(|(var, _)| var.name());
+                Fault::VariableUnset { name: var.unwrap_or_default().into() }
+            }
+            Why::System(name) => Fault::NotExecuted { what: format!("the system variable {name}").into() },
+            Why::Measured => {
+                Fault::NotExecuted { what: "a literal with a unit of its own in an expression".into() }
+            }
+        }
+    }
+
+    /// An expression made ready.
+    pub(super) fn term(&mut self, e: &Expr) -> Term {
+        let node = match e {
+            Expr::Num(n) if n.unit == Unit::One => return Term::Number(real(*n)),
+            Expr::Num(_) => return Term::Measured,
+            Expr::Node(node) => &**node,
+        };
+        match node {
+            Node::Vacant => Term::Vacant,
+            Node::Var(var) => match self.place(var) {
+                Ok(place) => Term::Read(place),
+                Err(name) => Term::System(name),
+            },
+            Node::Unary(operator, a) => Term::Unary(*operator, Box::new(self.term(a))),
+            Node::Binary(operator, a, b) => Term::Binary(*operator, Box::new([self.term(a), self.term(b)])),
+            Node::Call(f, arguments) => match &arguments[..] {
+                [a] if f.arguments() == 1 => Term::Of(*f, Box::new(self.term(a))),
+                [a, b] if f.arguments() == 2 => Term::OfTwo(*f, Box::new([self.term(a), self.term(b)])),
+                _ => Term::Miscounted,
+            },
+        }
+    }
+}
+
+fn real(n: Num) -> f64 {
+    n.mantissa as f64 / POW10[usize::from(n.scale.min(18))] as f64
+}
+
+/// Variables while a program runs.
+#[derive(Clone, Debug)]
+pub(super) struct Variables {
+    /// Those of all calls in force, one after the other.
+    pub(super) locals: Vec<Value>,
+    /// Where those of the present call begin.
+    pub(super) base: usize,
+    shared: Vec<Option<Value>>,
+}
+
+impl Variables {
+    pub(super) fn new(names: &Names) -> Variables {
+        Variables { locals: vec![Value::Vacant; names.count], base: 0, shared: vec![None; names.shared()] }
+    }
+
+    pub(super) fn set(&mut self, place: Place, value: Value) {
+        match place {
+            Place::Local(at) => self.locals[self.base + at] = value,
+            Place::Shared(at) => self.shared[at] = Some(value),
+        }
+    }
+
+    /// The value of one that is set; else nothing.
+    pub(super) fn get(&self, place: Place) -> Value {
+        match place {
+            Place::Local(at) => self.locals[self.base + at],
+            Place::Shared(at) => self.shared[at].unwrap_or(Value::Vacant),
+        }
+    }
+
+    #[inline]
+    pub(super) fn value(&self, term: &Term) -> Result<Value, Why> {
+        Ok(match term {
+            Term::Number(n) => Value::Number(*n),
+            Term::Vacant => Value::Vacant,
+            Term::Read(Place::Local(at)) => self.locals[self.base + at],
+            Term::Read(Place::Shared(at)) => self.shared[*at].ok_or(Why::Unset(*at))?,
+            Term::Unary(operator, a) => value::unary(*operator, self.value(a)?).map_err(Why::Wrong)?,
+            Term::Binary(operator, both) => {
+                let [a, b] = &**both;
+                value::binary(*operator, self.value(a)?, self.value(b)?).map_err(Why::Wrong)?
+            }
+            Term::Of(f, a) => value::function(*f, &[self.value(a)?]).map_err(Why::Wrong)?,
+            Term::OfTwo(f, both) => {
+                let [a, b] = &**both;
+                value::function(*f, &[self.value(a)?, self.value(b)?]).map_err(Why::Wrong)?
+            }
+            Term::System(name) => return Err(Why::System(name.clone())),
+            Term::Measured => return Err(Why::Measured),
+            Term::Miscounted => return Err(Why::Wrong(Wrong::Arguments)),
+        })
+    }
+}

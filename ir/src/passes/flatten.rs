@@ -1,0 +1,119 @@
+//! `flatten`: executes what computes and decides, and writes the straight blocks that come of it.
+//!
+//! Subprograms, loops, jumps and variables are gone afterwards; cycles and patterns are kept as they are executed.
+//! Numbers are rounded to the target's digits. Comments stand wherever their blocks are executed. Refused are
+//! flow and variables in blocks that a switch can take out, and programs that do not come to an end.
+
+use std::collections::HashSet;
+
+use super::expand_calls::settle;
+use super::walk::Walk;
+use super::{MOST_STATEMENTS, Target};
+use crate::arguments::{self, Argument};
+use crate::diag::{Diagnostic, Fault};
+use crate::exec::{Exec, Runner};
+use crate::expr::Expr;
+use crate::kinds::flow;
+use crate::num::{Num, POW10, Unit};
+use crate::program::{Control, Op, Procedure, Program, Stmt};
+use crate::track::Tracker;
+use crate::world::World;
+
+/// Executes the program; only a main procedure of straight blocks is left.
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+    if let Err(fault) = program.procedures.iter().try_for_each(|p| no_switch(&p.body)) {
+        return diags.push(fault);
+    }
+    let mut walk = Walk::new(entry.clone());
+    match straight(program, target, &mut walk) {
+        Ok(body) => {
+            if let Some(first) = body.first() {
+                let blocks = body.iter().filter(|stmt| !stmt.joined).count() as u64;
+                diags.push(Diagnostic::new(Fault::Flattened { blocks }, first.span));
+            }
+            let title = program.procedures.first().and_then(|main| main.title.clone());
+            let name = program.procedures.first().map(|main| main.name.clone()).unwrap_or_default();
+            program.procedures = vec![Procedure { name, title, parameters: Vec::new(), body }];
+        }
+        Err(fault) => diags.push(fault),
+    }
+}
+
+/// The blocks that are executed, one after the other.
+fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<Stmt>, Diagnostic> {
+    let mut out: Vec<Stmt> = Vec::new();
+    let mut numbered = HashSet::new();
+    // What is executed depends on nothing of the machine; what a feed counts depends on the program.
+    let mut exec = Exec::new(&World::generate(0, &Default::default()), 0);
+    let mut runner = Runner::new(program);
+    let mut steps = 0;
+    loop {
+        let Some(stmt) = runner.next(&exec)? else { return Ok(out) };
+        let mut stmt = stmt.clone();
+        let before = std::mem::replace(&mut steps, runner.steps());
+        // Behind a step that has left nothing a block begins anew.
+        stmt.joined &= steps == before + 1 && !out.is_empty();
+        stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
+        let over = matches!(stmt.op, Op::ProgramEnd) && stmt.skip.is_none();
+        if let Op::SetFeedMode(_) = stmt.op {
+            exec.step(&stmt, &mut Vec::new())?;
+        }
+        if matches!(stmt.op, Op::Label(_)) {
+            continue;
+        }
+        round(&mut stmt, target)?;
+        walk.enter(stmt.skip);
+        settle(&mut stmt.op, &walk.at);
+        walk.step(&stmt);
+        if out.len() >= MOST_STATEMENTS {
+            let what = "more blocks than a program may grow to".into();
+            return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        }
+        out.push(stmt);
+        if over {
+            return Ok(out);
+        }
+    }
+}
+
+/// Rounds what was computed to the target's digits.
+fn round(stmt: &mut Stmt, target: &Target) -> Result<(), Diagnostic> {
+    arguments::each(&mut stmt.op, &mut |argument: Argument, unit| {
+        let Some(n) = argument.expr().and_then(Expr::literal) else { return Ok(()) };
+        let decimals = target.decimals;
+        if n.scale < 8 || unit == Unit::One {
+            return Ok(());
+        }
+        if n.scale <= decimals {
+            argument.set(Expr::Num(n.trimmed()));
+            return Ok(());
+        }
+        let by = POW10[usize::from(n.scale - decimals)];
+        let half = if n.mantissa < 0 { -by / 2 } else { by / 2 };
+        let mantissa = n.mantissa.saturating_add(half) / by;
+        argument.set(Expr::Num(Num { mantissa, scale: decimals, point: true, unit: n.unit }.trimmed()));
+        Ok(())
+    })
+}
+
+/// Whether a switch of the control can decide which way the program goes.
+fn no_switch(body: &[Stmt]) -> Result<(), Diagnostic> {
+    for stmt in body {
+        if stmt.skip.is_some() && matches!(stmt.op, flow!() | Op::Assign(..)) {
+            let what = "a block that can be skipped and decides what is executed, written out".into();
+            return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        }
+        let Op::Control(control) = &stmt.op else { continue };
+        match &**control {
+            Control::Repeat { body, .. }
+            | Control::Loop { body }
+            | Control::While { body, .. }
+            | Control::For { body, .. } => no_switch(body)?,
+            Control::If { then, otherwise, .. } => {
+                no_switch(then)?;
+                no_switch(otherwise)?;
+            }
+        }
+    }
+    Ok(())
+}

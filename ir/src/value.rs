@@ -1,0 +1,205 @@
+//! What an expression is worth: the meaning of its operators and functions.
+//!
+//! Numbers are binary floats of 64 bits, as in the controls that compute; angles are degrees. What a control
+//! rounds or compares in a way of its own its front-end says with the functions here. Not here: which value a
+//! variable has.
+
+use crate::expr::{Binary, Function, Unary};
+
+/// What an expression is worth, or a variable holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Value {
+    /// Nothing: the variable was never set. As an operand it counts as zero, but `==` and `!=` tell it from
+    /// zero (Fanuc's `#0`; Mitsubishi M700V manual, "undefined variables").
+    Vacant,
+    /// A number. A comparison is worth 1 where it holds, else 0.
+    Number(f64),
+}
+
+/// Why an expression is worth nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wrong {
+    /// A division, or a remainder, by zero.
+    DivisionByZero,
+    /// A function of a number for which it is not defined.
+    NotDefined,
+    /// More than a number can hold.
+    TooLarge,
+    /// A function has another number of arguments.
+    Arguments,
+}
+
+impl Wrong {
+    /// In words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Wrong::DivisionByZero => "a division by zero",
+            Wrong::NotDefined => "a function of a number for which it is not defined",
+            Wrong::TooLarge => "a number that is too large",
+            Wrong::Arguments => "a function of another number of arguments",
+        }
+    }
+}
+
+impl Value {
+    /// As an operand.
+    #[inline]
+    pub fn number(self) -> f64 {
+        match self {
+            Value::Vacant => 0.0,
+            Value::Number(n) => n,
+        }
+    }
+
+    /// As a condition: whether it is anything but zero.
+    #[inline]
+    pub fn holds(self) -> bool {
+        self.number() != 0.0
+    }
+}
+
+fn finite(n: f64) -> Result<Value, Wrong> {
+    if n.is_finite() { Ok(Value::Number(n)) } else { Err(Wrong::TooLarge) }
+}
+
+const fn truth(holds: bool) -> Result<Value, Wrong> {
+    Ok(Value::Number(if holds { 1.0 } else { 0.0 }))
+}
+
+/// An operator with one operand.
+///
+/// # Errors
+/// None of those that there are.
+#[inline]
+pub fn unary(operator: Unary, a: Value) -> Result<Value, Wrong> {
+    match operator {
+        Unary::Negate => Ok(Value::Number(-a.number())),
+        Unary::Not => truth(!a.holds()),
+    }
+}
+
+/// An operator with two operands. `and`, `or` and `xor` are those of conditions; `mod` leaves the remainder of a
+/// division whose quotient is cut off towards zero.
+///
+/// # Errors
+/// As of [`Wrong`].
+#[inline]
+pub fn binary(operator: Binary, left: Value, right: Value) -> Result<Value, Wrong> {
+    let (a, b) = (left.number(), right.number());
+    match operator {
+        Binary::Add => finite(a + b),
+        Binary::Subtract => finite(a - b),
+        Binary::Multiply => finite(a * b),
+        Binary::Divide | Binary::Modulo if b == 0.0 => Err(Wrong::DivisionByZero),
+        Binary::Divide => finite(a / b),
+        Binary::Modulo => finite(a % b),
+        Binary::Power => {
+            let n = a.powf(b);
+            if n.is_nan() { Err(Wrong::NotDefined) } else { finite(n) }
+        }
+        Binary::Equal => truth(left == right),
+        Binary::NotEqual => truth(left != right),
+        Binary::Less => truth(a < b),
+        Binary::LessOrEqual => truth(a <= b),
+        Binary::Greater => truth(a > b),
+        Binary::GreaterOrEqual => truth(a >= b),
+        Binary::And => truth(left.holds() && right.holds()),
+        Binary::Or => truth(left.holds() || right.holds()),
+        Binary::Xor => truth(left.holds() != right.holds()),
+    }
+}
+
+impl Function {
+    /// How many arguments it has.
+    pub const fn arguments(self) -> usize {
+        match self {
+            Function::Atan2 => 2,
+            Function::Sin
+            | Function::Cos
+            | Function::Tan
+            | Function::Asin
+            | Function::Acos
+            | Function::Sqrt
+            | Function::Abs
+            | Function::Round
+            | Function::Floor
+            | Function::Ceiling
+            | Function::Truncate
+            | Function::Ln
+            | Function::Exp => 1,
+        }
+    }
+}
+
+/// A function. `asin` and `atan2` give -90 to 90 and more than -180 to 180 degrees, `acos` 0 to 180; `atan2` has
+/// the second axis first; `round` goes to the nearest whole number, halves away from zero, `floor` down,
+/// `ceiling` up, `truncate` towards zero.
+///
+/// # Errors
+/// As of [`Wrong`].
+#[inline]
+pub fn function(function: Function, arguments: &[Value]) -> Result<Value, Wrong> {
+    let (a, b) = match (arguments, function.arguments()) {
+        ([a], 1) => (a.number(), 0.0),
+        ([a, b], 2) => (a.number(), b.number()),
+        _ => return Err(Wrong::Arguments),
+    };
+    let n = match function {
+        Function::Sin => a.to_radians().sin(),
+        Function::Cos => a.to_radians().cos(),
+        Function::Tan => a.to_radians().tan(),
+        Function::Asin => a.asin().to_degrees(),
+        Function::Acos => a.acos().to_degrees(),
+        Function::Atan2 if a == 0.0 && b == 0.0 => f64::NAN,
+        Function::Atan2 => a.atan2(b).to_degrees(),
+        Function::Sqrt => a.sqrt(),
+        Function::Abs => a.abs(),
+        Function::Round => a.round(),
+        Function::Floor => a.floor(),
+        Function::Ceiling => a.ceil(),
+        Function::Truncate => a.trunc(),
+        Function::Ln if a == 0.0 => f64::NAN,
+        Function::Ln => a.ln(),
+        Function::Exp => a.exp(),
+    };
+    if n.is_nan() { Err(Wrong::NotDefined) } else { finite(n) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_counts_as_zero_but_is_not_equal_to_it() {
+        let zero = Value::Number(0.0);
+        assert_eq!(binary(Binary::Add, Value::Vacant, Value::Number(1.0)), Ok(Value::Number(1.0)));
+        assert_eq!(binary(Binary::Add, Value::Vacant, Value::Vacant), Ok(zero));
+        assert_eq!(binary(Binary::Equal, Value::Vacant, zero), Ok(zero));
+        assert_eq!(binary(Binary::Equal, Value::Vacant, Value::Vacant), Ok(Value::Number(1.0)));
+        assert_eq!(binary(Binary::NotEqual, zero, Value::Vacant), Ok(Value::Number(1.0)));
+        assert_eq!(binary(Binary::GreaterOrEqual, Value::Vacant, zero), Ok(Value::Number(1.0)));
+    }
+
+    #[test]
+    fn what_has_no_value_is_refused() {
+        let (one, zero) = (Value::Number(1.0), Value::Number(0.0));
+        assert_eq!(binary(Binary::Divide, one, zero), Err(Wrong::DivisionByZero));
+        assert_eq!(binary(Binary::Modulo, one, Value::Vacant), Err(Wrong::DivisionByZero));
+        assert_eq!(function(Function::Sqrt, &[Value::Number(-1.0)]), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Asin, &[Value::Number(1.5)]), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Ln, &[zero]), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Atan2, &[zero, zero]), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Atan2, &[one]), Err(Wrong::Arguments));
+        assert_eq!(function(Function::Exp, &[Value::Number(1000.0)]), Err(Wrong::TooLarge));
+    }
+
+    #[test]
+    fn rounding_goes_where_its_name_says() {
+        let of = |f, n| function(f, &[Value::Number(n)]).map(Value::number);
+        assert_eq!(of(Function::Round, -2.5), Ok(-3.0));
+        assert_eq!(of(Function::Floor, -2.5), Ok(-3.0));
+        assert_eq!(of(Function::Ceiling, -2.5), Ok(-2.0));
+        assert_eq!(of(Function::Truncate, -2.5), Ok(-2.0));
+        assert_eq!(binary(Binary::Modulo, Value::Number(-7.0), Value::Number(3.0)), Ok(Value::Number(-1.0)));
+    }
+}
