@@ -88,6 +88,10 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
             if s.turned != 0 {
                 text += ", a rotary axis the other way round";
             }
+            let from_one_side = |axis: &Axis| s.one_side >> *axis as u8 & 1 == 1;
+            for axis in Axis::ALL.into_iter().filter(from_one_side) {
+                text += &format!(", {} from its one side", axis.letter() as char);
+            }
         }
         Aspect::Feed => text += &format!(" at F{}", number(event.rate)),
         Aspect::Kind | Aspect::End(_) | Aspect::Arc | Aspect::Length => {

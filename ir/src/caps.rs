@@ -75,6 +75,8 @@ pub struct Caps {
     pub machine_rapid: bool,
     /// Probing moves, by [`Caps::probe`].
     pub probes: [bool; 4],
+    /// Rapid moves that do not go straight, by [`Detour`].
+    pub detours: [bool; 2],
     /// Points of the machine that have a word.
     pub references: References,
     /// Whether a rapid move to such a point can go by another point first.
@@ -509,7 +511,8 @@ impl Caps {
             | drilling!()
             | polar!()
             | flow!()
-            | Op::Probe(_) => true,
+            | Op::Probe(_)
+            | Op::Detour(_) => true,
         }
     }
 

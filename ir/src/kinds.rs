@@ -81,6 +81,7 @@ macro_rules! frames {
             | $crate::program::Op::UseToolCentrePoint(_)
             | $crate::program::Op::UseMachineCoordinates { .. }
             | $crate::program::Op::Probe(_)
+            | $crate::program::Op::Detour(_)
     };
 }
 

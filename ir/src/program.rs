@@ -17,7 +17,9 @@ mod polar;
 
 pub use arc::{Arc, ArcForm, Centre, CentreFrom, Shape};
 pub use frame::{Frame, FrameSlot, FrameStep, Slot, Tilt, Toward};
-pub use machine::{CutterRadius, Data, DataMode, Probe, Reference, ReferencePoint, ToolLength, ToolValue};
+pub use machine::{
+    CutterRadius, Data, DataMode, Detour, Probe, Reference, ReferencePoint, ToolLength, ToolValue,
+};
 pub use polar::{Polar, PoleFrom, PoleWords, SetPole};
 
 use crate::canon::{
@@ -254,6 +256,8 @@ pub enum Op {
     /// `PROBE`: the straight move at feed that follows in this block is NIST's `STRAIGHT_PROBE`: it ends where
     /// the probe says so. Where that is, along the axes that it names, no program knows.
     Probe(Probe),
+    /// `DETOUR`: the rapid straight move that follows in this block goes another way than straight.
+    Detour(Detour),
     /// `USE_TOOL_CENTRE_POINT`: whether points are those of the tool's tip, which the control keeps there
     /// while rotary axes turn the tool or the work. Moves nothing. Where the axes stand in the program's
     /// coordinates behind it, the machine alone knows.
@@ -438,6 +442,7 @@ impl Op {
             Op::OrientToolAxis(_) => "ORIENT_TOOL_AXIS",
             Op::UseMachineCoordinates { .. } => "USE_MACHINE_COORDINATES",
             Op::Probe(_) => "PROBE",
+            Op::Detour(_) => "DETOUR",
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => "SET_OFFSET_DATA",
                 Data::Tool { .. } => "SET_TOOL_DATA",

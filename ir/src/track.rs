@@ -3,16 +3,19 @@
 //! An abstract execution in program coordinates: an axis is known or it is not. For passes and
 //! back-ends, which have no world. Nothing is taken for granted beyond the entry facts given.
 
+mod frames;
+mod intermediate;
+
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
 use crate::cycle::{Cycle, CycleKind, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
-use crate::kinds::{conduct, flow, miscellaneous};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous};
 use crate::num::Nanos;
 use crate::places::{Here, Places};
 use crate::polar::{self, About, Pole};
 use crate::program::{
-    Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Polar, SetPole, Shape, Slot, Stmt,
+    Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Polar, SetPole, Shape, Stmt,
 };
 use crate::round::{Around, round};
 
@@ -49,6 +52,10 @@ pub struct Tracker {
     pub raw_length: bool,
     /// Whether the next straight move at feed is a probing one.
     pub probing: bool,
+    /// Whether the next rapid straight move goes another way than straight.
+    pub detour: bool,
+    /// By way of which points axes went to points of the machine.
+    pub intermediate: intermediate::Intermediate,
     /// The pole of polar words.
     pub pole: Pole,
     /// Whether it is not known.
@@ -307,6 +314,8 @@ impl Tracker {
         self.local_lost |= other.local_lost || self.local != other.local;
         self.raw |= other.raw;
         self.probing |= other.probing;
+        self.detour |= other.detour;
+        self.intermediate.join(&other.intermediate);
         self.pole_lost |= other.pole_lost || self.pole != other.pole;
         self.compensated |= other.compensated;
         self.tilted |= other.tilted;
@@ -314,6 +323,9 @@ impl Tracker {
 
     /// Executes an operation, whatever the block-skip switches say.
     pub fn apply(&mut self, op: &Op) {
+        if matches!(op, frames!() | machine!()) {
+            self.lose_intermediate(op);
+        }
         match op {
             Op::StraightTraverse(m) => self.go(&m.to, Motion::Traverse),
             Op::StraightFeed(m) => self.go(&m.to, Motion::Feed),
@@ -418,6 +430,7 @@ impl Tracker {
             }
             Op::OrientToolAxis(_) => self.position = [None; AXES],
             Op::Probe(_) => self.probing = true,
+            Op::Detour(_) => self.detour = true,
             Op::UseMachineCoordinates { length } => {
                 self.raw = true;
                 self.raw_length = *length;
@@ -426,6 +439,7 @@ impl Tracker {
                 if !reference.via.is_empty() {
                     self.position = self.target(&reference.via);
                 }
+                self.note_intermediate(reference);
                 self.lose(&reference.axes);
                 if reference.axes[Axis::Z as usize]
                     && !reference.keeps_length
@@ -512,82 +526,6 @@ impl Tracker {
         }
     }
 
-    /// Empties a slot of the coordinate chain.
-    fn clear_frame(&mut self, slot: FrameSlot) {
-        match slot {
-            FrameSlot::Local => {
-                self.shift_locally(&[Some(0); AXES]);
-                self.local_lost = false;
-            }
-            FrameSlot::Tilt => {
-                if self.tilted {
-                    self.position[..3].fill(None);
-                }
-                self.tilted = false;
-            }
-            FrameSlot::Chain if self.chained => {
-                self.position = [None; AXES];
-                self.chained = false;
-                self.framed = self.turned;
-            }
-            FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror if self.turned => {
-                // Whatever else turns is still in force.
-                self.position = [None; AXES];
-            }
-            FrameSlot::Shift
-            | FrameSlot::Rotation
-            | FrameSlot::Scale
-            | FrameSlot::Mirror
-            | FrameSlot::Polar
-            | FrameSlot::Chain => {}
-        }
-    }
-
-    /// Fills a slot of the coordinate chain.
-    fn set_slot(&mut self, slot: &Slot) {
-        match slot {
-            Slot::Shift { origin: false, axes } => {
-                let to = std::array::from_fn(|i| match &axes[i] {
-                    None => Some(self.local[i]),
-                    Some(word) => self.nanos(word),
-                });
-                self.shift_locally(&to);
-            }
-            Slot::Shift { origin: true, axes } => {
-                self.modes.no_origin_shift = None;
-                for (at, word) in self.position.iter_mut().zip(axes.iter()) {
-                    if word.is_some() || self.turned {
-                        *at = None;
-                    }
-                }
-            }
-            Slot::Tilt(_) => {
-                self.position[..3].fill(None);
-                self.tilted = true;
-            }
-            Slot::Rotation { .. } | Slot::Scale { .. } | Slot::Mirror(_) | Slot::NoMirror(_) => {
-                self.position = [None; AXES];
-                self.turned = true;
-                self.framed = true;
-            }
-        }
-    }
-
-    /// Another local shift: where the axes stand is counted from there.
-    fn shift_locally(&mut self, to: &[Option<Nanos>; AXES]) {
-        let from = std::mem::replace(&mut self.local, to.map(Option::unwrap_or_default));
-        let known = to.iter().all(Option::is_some);
-        if self.turned || self.chained || self.local_lost || !known {
-            self.position = [None; AXES];
-            self.local_lost |= !known;
-            return;
-        }
-        for (i, at) in self.position.iter_mut().enumerate() {
-            let by = self.local[i].wrapping_sub(from[i]);
-            *at = at.and_then(|at| at.checked_sub(by));
-        }
-    }
-
     #[inline]
     fn go(&mut self, to: &Point, motion: Motion) {
         if std::mem::take(&mut self.raw) {
@@ -595,6 +533,7 @@ impl Tracker {
         } else {
             self.position = self.target(to);
         }
+        self.detour = false;
         if std::mem::take(&mut self.probing) {
             self.lose(&std::array::from_fn(|axis| to.axes[axis].is_some()));
         }

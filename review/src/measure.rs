@@ -128,7 +128,7 @@ impl Measure {
             | bit(s.tool != t.tool, bits::TOOL)
             | bit((s.flood, s.mist) != (t.flood, t.mist), bits::COOLANT)
             | bit(s.compensation != t.compensation, bits::COMPENSATION)
-            | bit(frame || turned || (s.tip, s.tilted, s.turned) != (t.tip, t.tilted, t.turned), bits::FRAME)
+            | bit(frame || turned || s.ways() != t.ways(), bits::FRAME)
     }
 }
 

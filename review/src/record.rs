@@ -149,14 +149,48 @@ pub struct Still {
     pub tip: bool,
     pub tilted: bool,
     pub turned: u8,
+    pub one_side: u8,
+}
+
+impl Still {
+    /// By whose points, and on which ways, axes go.
+    pub fn ways(&self) -> (bool, bool, u8, u8) {
+        (self.tip, self.tilted, self.turned, self.one_side)
+    }
 }
 
 impl From<State> for Still {
     fn from(s: State) -> Still {
         // How blocks stand between moves is a matter of the text.
         let compensation = Compensation { gap: false, ..s.compensation };
-        let State { tool, speed, limit, spindle, spindle_mode, flood, mist, tip, tilted, turned, .. } = s;
-        Still { tool, speed, limit, spindle, spindle_mode, flood, mist, compensation, tip, tilted, turned }
+        let State {
+            tool,
+            speed,
+            limit,
+            spindle,
+            spindle_mode,
+            flood,
+            mist,
+            tip,
+            tilted,
+            turned,
+            one_side,
+            ..
+        } = s;
+        Still {
+            tool,
+            speed,
+            limit,
+            spindle,
+            spindle_mode,
+            flood,
+            mist,
+            compensation,
+            tip,
+            tilted,
+            turned,
+            one_side,
+        }
     }
 }
 

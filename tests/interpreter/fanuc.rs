@@ -35,6 +35,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         motion: modes.motion,
         cycle: None,
         kept: Kept::default(),
+        by_point: [None; 6],
         initial: 0.0,
         initial_known: false,
         return_initial: modes.return_initial,
@@ -67,6 +68,8 @@ struct Control {
     motion: u32,
     cycle: Option<u32>,
     kept: Kept,
+    /// By way of which point of the work each axis went to a point of the machine last.
+    by_point: [Option<f64>; 6],
     initial: f64,
     /// Whether the program has said where that is.
     initial_known: bool,
@@ -236,7 +239,7 @@ impl Control {
                 95 => self.m.count_feed(Per::Turn),
                 g @ (96 | 97) if g == 97 || !self.haas => self.m.count_speed(g == 96),
                 g @ (43 | 49) => length = Some(g),
-                g @ (28 | 30 | 31) => machine = Some(g),
+                g @ (28..=31 | 60) => machine = Some(g),
                 53 => machine = Some(53),
                 g @ 54..=59 => self.m.use_offset(g - 53),
                 g @ 110..=129 if self.haas => self.m.use_offset(g - 103),

@@ -29,6 +29,8 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         edge: None,
         machine_once: false,
         probing: None,
+        kept: [None; 6],
+        by_kept: false,
         without_length: false,
         tangent: None,
         pole: moves::Pole::default(),
@@ -92,6 +94,9 @@ struct Control {
     machine_once: bool,
     /// The next straight move at feed probes: away from a contact, and whether finding nothing is an error.
     probing: Option<(bool, bool)>,
+    /// By way of which points axes went to a point of the machine, and whether the next move goes by them.
+    kept: [Option<f64>; 6],
+    by_kept: bool,
     /// Whether that is without the tool's length.
     without_length: bool,
     /// Direction in which the last move at feed ended, in program coordinates.
@@ -403,6 +408,8 @@ impl Control {
                 let says = |word: &str| a.iter().any(|t| matches!(t, Token::Name(n) if n == word));
                 self.probing = Some((says("no-contact"), says("or-error")));
             }
+            // From which side an end is come to is not looked at.
+            "DETOUR" => self.by_kept = a.iter().any(|t| matches!(t, Token::Name(n) if n == "intermediate")),
             "GO_TO_REFERENCE" => self.reference(a)?,
             "USE_TOOL_EDGE" => {
                 let edge = self.first(a)? as u32;

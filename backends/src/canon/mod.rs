@@ -358,6 +358,7 @@ impl Writer {
             | Op::SetPosition(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::UseToolLength(_)

@@ -168,6 +168,7 @@ fn rank(op: &Op) -> u8 {
         | Op::OrientToolAxis(_)
         | Op::UseMachineCoordinates { .. }
         | Op::Probe(_)
+        | Op::Detour(_)
         | Op::GoToReference(_)
         | Op::SetData(_)
         | Op::SetPole(_)
@@ -410,6 +411,7 @@ impl Printer<'_> {
             | Op::ClearFrame(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::GoToReference(_)

@@ -42,6 +42,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetPosition(_)
         | Op::UseMachineCoordinates { .. }
         | Op::Probe(_)
+        | Op::Detour(_)
         | Op::GoToReference(_)
         | Op::SetData(_)
         | Op::SetPole(_)
@@ -172,6 +173,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             put(if probe.away { "no-contact" } else { "contact" }, out);
             put(if probe.error { ", or-error" } else { "" }, out);
         }
+        Op::Detour(detour) => put(detour.name(), out),
         Op::GoToReference(r) => machine::reference(r, out),
         Op::SetData(d) => machine::data(d, out),
         Op::UseToolLength(length) => match &**length {

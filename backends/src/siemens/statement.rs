@@ -156,6 +156,7 @@ impl Writer {
                 Err(cannot("machine coordinates without the tool's length"))
             }
             Op::Probe(_) => Err(cannot("a probing move")),
+            Op::Detour(_) => Err(cannot("a rapid move by a detour")),
             Op::GoToReference(_) => Err(cannot("a move to the reference point")),
             Op::SetData(_) => Err(cannot("values of tables")),
             Op::UseToolLength(_) => Err(cannot("a tool's length by its value")),

@@ -8,7 +8,7 @@ use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
 use ncc_ir::caps::CycleForm;
-use ncc_ir::program::{CentreFrom, FrameSlot, Probe, ReferencePoint};
+use ncc_ir::program::{CentreFrom, Detour, FrameSlot, Probe, ReferencePoint};
 
 use super::data::DataCode;
 use super::number::Format;
@@ -192,6 +192,7 @@ pub(crate) struct Codes {
     pub references: Vec<(ReferencePoint, Code, Option<Letter>)>,
     /// Probing moves, each with whether its code stays in force as a motion's does.
     pub probes: Vec<(Probe, ProbeCode)>,
+    pub detours: [Option<Code>; 2],
     /// Tables that values are put into.
     pub tables: Vec<DataCode>,
     /// A length by its value: in place of the one in force, added to it.
@@ -589,6 +590,7 @@ impl Codes {
                     Some((probe, ProbeCode { code, stays, own_feed: row.own_feed }))
                 })
                 .collect(),
+            detours: Detour::ALL.map(|detour| code(Meaning::Detour(detour))),
             tables: find.tables(),
             stated_length: [false, true].map(|added| code(Meaning::UseToolLength { added })),
             store_position: [1, 2].map(|place| code(Meaning::StorePosition(place))),

@@ -120,6 +120,8 @@ pub struct Writer {
     machine: Option<codes::Code>,
     /// The next straight move at feed is a probing one, by this code.
     probe: Option<codes::ProbeCode>,
+    /// The next rapid straight move is one by a detour, by this code.
+    detour: Option<codes::Code>,
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     told_corner: bool,
@@ -200,6 +202,7 @@ impl Writer {
             turned_in: None,
             machine: None,
             probe: None,
+            detour: None,
             corner: None,
             told_corner: false,
             labels: repeat::Labels::default(),

@@ -61,6 +61,7 @@ impl Setting {
             | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::StartCutterRadiusCompensation { .. }

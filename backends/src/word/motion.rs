@@ -37,11 +37,12 @@ impl Writer {
         };
         let code = code.ok_or_else(|| cannot("a straight move"))?;
         let probe = self.probe.take().filter(|_| !rapid);
-        let code = probe.map_or(code, |probe| probe.code);
+        let detour = self.detour.take().filter(|_| rapid);
+        let code = detour.or(probe.map(|probe| probe.code)).unwrap_or(code);
         let mut inserted = Inserted::default();
         self.need_distance(to.to.axes.iter().flatten(), &mut inserted)?;
         let need = self.point_need(Need::new(Rank::Motion), &to.to)?;
-        let says = to.said || probe.is_some() || self.force.motion != Some(motion);
+        let says = to.said || probe.is_some() || detour.is_some() || self.force.motion != Some(motion);
         let need = if says { need.code(Some(code)) } else { need };
         let machine = self.machine.take();
         let need = if machine.is_some() { need.code(machine) } else { need };
@@ -53,6 +54,8 @@ impl Writer {
             self.block.code(Part::Motion, &code);
         }
         match probe {
+            // Whether it stays in force is a parameter of some controls.
+            None if detour.is_some() => self.force.motion = None,
             None => self.force.motion = Some(motion),
             Some(probe) if probe.stays => self.force.motion = None,
             Some(_) => {}

@@ -92,6 +92,11 @@ impl Writer {
                 self.probe = Some(found.ok_or_else(|| cannot("a probing move"))?.1);
                 Ok(())
             }
+            Op::Detour(detour) => {
+                let code = codes.detours[*detour as usize];
+                self.detour = Some(code.ok_or_else(|| cannot("a rapid move by a detour"))?);
+                Ok(())
+            }
             // It is said with the length that follows.
             Op::UseToolCentrePoint(on) if codes.tip.is_some() || !on => {
                 self.tip = *on;

@@ -318,6 +318,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             let error = if probe.error { ", or-error" } else { "" };
             one(&format!("PROBE({sought}{error}) & said STRAIGHT_FEED(X 12.345mm, Z -6.7mm)"))
         }
+        Meaning::Detour(detour) => {
+            let said = format!("DETOUR({}) & said STRAIGHT_TRAVERSE(X 12.345mm, Y -6.7mm)", detour.name());
+            vec![Said::new(said).after("GO_TO_REFERENCE(home, X, Y, via(X 1mm, Y 2mm))")]
+        }
         Meaning::GoToReference { point, keeps_length } => {
             let keeps = if keeps_length { ", keeps-length" } else { "" };
             let points = match point {

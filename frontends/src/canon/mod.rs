@@ -159,6 +159,7 @@ impl State {
             | Op::SetPosition(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::GoToReference(_)
             | Op::SetData(_)
             | Op::UseToolLength(_)

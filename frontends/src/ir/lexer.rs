@@ -7,7 +7,7 @@ use logos::{Lexer, Logos};
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Op, Text, ToolValue};
+use ncc_ir::program::{Detour, Op, Text, ToolValue};
 
 use crate::canon::text::unquote;
 
@@ -280,6 +280,12 @@ pub(crate) enum Token {
     GoToReference,
     #[token("PROBE")]
     Probe,
+    #[token("DETOUR")]
+    Detour,
+    #[token("one-side", |_| Detour::OneSide)]
+    #[token("intermediate", |_| Detour::Intermediate)]
+    /// A way that is not straight.
+    Way(Detour),
     #[token("contact")]
     Contact,
     #[token("no-contact")]

@@ -18,6 +18,7 @@ mod compensation;
 mod corner;
 mod cycle;
 mod data;
+mod detour;
 pub(crate) mod facts;
 pub(crate) mod fast;
 mod frame;

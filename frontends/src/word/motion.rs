@@ -74,6 +74,14 @@ impl Lower {
         }
         let machine = find(|m| matches!(m, Meaning::UseMachineCoordinates { .. }));
         let reference = find(|m| matches!(m, Meaning::GoToReference { .. }));
+        if let Some(code) = find(|m| matches!(m, Meaning::Detour(_))) {
+            let other = cycle.or(pattern).or(machine).or(reference).or(motion.map(|(code, _)| code));
+            if let Some(other) = other {
+                let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
+                return self.fault(fault, other.span, out);
+            }
+            return self.by_detour(code, block, words, src, out);
+        }
         if let (Some(code), Some(_)) = (machine, self.state.thread) {
             let name = "machine coordinates while a thread's code is in force".into();
             return self.fault(Fault::NotSupported { code: src.text(code.span), name }, code.span, out);

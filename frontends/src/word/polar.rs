@@ -149,6 +149,7 @@ impl Lower {
             | Meaning::UseMachineCoordinates { .. }
             | Meaning::GoToReference { .. }
             | Meaning::StraightProbe(_)
+            | Meaning::Detour(_)
             | Meaning::Pattern
             | Meaning::Call
             | Meaning::Return => true,

@@ -271,6 +271,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::UseMachineCoordinates { .. }
         | Meaning::GoToReference { .. }
         | Meaning::StraightProbe(_)
+        | Meaning::Detour(_)
         | Meaning::StraightTraverse
         | Meaning::StraightFeed
         | Meaning::SynchronisedFeed(_)

@@ -4,7 +4,7 @@ use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, S
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
-use ncc_ir::program::{FrameSlot, PoleFrom, Probe, ReferencePoint};
+use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
 
 use crate::cycles::{CycleRow, PatternRow};
 use crate::meaning::{Meaning, Thread};
@@ -151,6 +151,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             let meaning = Meaning::StraightProbe(Probe { away: at / 2 == 1, error: at % 2 == 1 });
             everything || says(meaning) || names(NameMeaning::Code(meaning))
         }),
+        detours: Detour::ALL.map(|detour| everything || says(Meaning::Detour(detour))),
         references: if everything {
             References::ALL
         } else {

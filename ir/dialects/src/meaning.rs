@@ -6,7 +6,7 @@ use std::str::FromStr;
 use ncc_ir::canon::{
     AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
 };
-use ncc_ir::program::{CentreFrom, FrameSlot, PoleFrom, Probe, ReferencePoint};
+use ncc_ir::program::{CentreFrom, Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
 use serde::{Deserialize, Deserializer};
 
 /// What a G or M code means. Spelled as in the text form of the IR, with its argument after a
@@ -64,6 +64,9 @@ pub enum Meaning {
         point: ReferencePoint,
         keeps_length: bool,
     },
+    /// A rapid straight move to the block's words that goes another way. One from one side stays in force where a
+    /// parameter of the control says so: bare axis words behind it are refused.
+    Detour(Detour),
     /// Puts values into the table of the row of `[[data]]` that a word of the block names.
     SetData,
     /// Where the axes stand becomes the stored position of this number.
@@ -194,6 +197,8 @@ impl fmt::Display for Meaning {
             Meaning::StraightProbe(Probe { away: false, error: true }) => "STRAIGHT_PROBE or-error",
             Meaning::StraightProbe(Probe { away: true, error: false }) => "STRAIGHT_PROBE away",
             Meaning::StraightProbe(Probe { away: true, error: true }) => "STRAIGHT_PROBE away or-error",
+            Meaning::Detour(Detour::OneSide) => "DETOUR one-side",
+            Meaning::Detour(Detour::Intermediate) => "DETOUR intermediate",
             Meaning::UseMachineCoordinates { length: true, rapid: false } => "USE_MACHINE_COORDINATES",
             Meaning::UseMachineCoordinates { length: true, rapid: true } => "USE_MACHINE_COORDINATES rapid",
             Meaning::UseMachineCoordinates { length: false, rapid: false } => {
@@ -323,6 +328,8 @@ impl FromStr for Meaning {
             ("STRAIGHT_PROBE", "or-error") => Meaning::StraightProbe(Probe { away: false, error: true }),
             ("STRAIGHT_PROBE", "away") => Meaning::StraightProbe(Probe { away: true, error: false }),
             ("STRAIGHT_PROBE", "away or-error") => Meaning::StraightProbe(Probe { away: true, error: true }),
+            ("DETOUR", "one-side") => Meaning::Detour(Detour::OneSide),
+            ("DETOUR", "intermediate") => Meaning::Detour(Detour::Intermediate),
             ("USE_MACHINE_COORDINATES", "") => Meaning::UseMachineCoordinates { length: true, rapid: false },
             ("USE_MACHINE_COORDINATES", "no-length") => {
                 Meaning::UseMachineCoordinates { length: false, rapid: false }

@@ -173,8 +173,8 @@ impl Exec {
     /// Makes the arc; the position is already that of its end.
     fn go_round(&mut self, way: Way, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let Way { plane, turn, turns, before, centre } = way;
-        if self.probing.take().is_some() {
-            return self.not_executed("an arc as a probing move", span);
+        if self.probing.take().is_some() || self.detour.take().is_some() {
+            return self.not_executed("an arc as a probing move, or by a detour", span);
         }
         let (first, second, _) = plane.axes();
         let (f, s) = (first as usize, second as usize);

@@ -310,6 +310,7 @@ impl Exec {
                 Some("a point of the machine under cutter radius compensation")
             }
             Op::Probe(_) => Some("probing under cutter radius compensation"),
+            Op::Detour(_) => Some("a rapid move by a detour under cutter radius compensation"),
             Op::SynchronisedFeed(_) => Some("a thread under cutter radius compensation"),
             Op::ChangeTool => Some("a tool change under cutter radius compensation"),
             Op::UseToolLengthOffset(entry) => {

@@ -154,6 +154,20 @@ impl Exec {
         Ok(())
     }
 
+    /// Tells a function that moves nothing, where functions are told.
+    #[inline]
+    pub(super) fn tell(
+        &mut self,
+        what: Attribute,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        if !self.narrating {
+            return Ok(());
+        }
+        self.emit(Kind::Attribute(what), span, out)
+    }
+
     /// A length of the path mode or of advice; none is 0.
     fn length_within(&self, length: &Option<Expr>, span: Span) -> Result<i32, Diagnostic> {
         let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
@@ -176,6 +190,7 @@ impl Exec {
             && self.heading == other.heading
             && self.raw == other.raw
             && self.probing == other.probing
+            && self.detour == other.detour
             && self.pole == other.pole
             && self.after_stop == other.after_stop
             && self.ways == other.ways
@@ -206,6 +221,7 @@ impl Exec {
         self.heading = other.heading;
         self.raw = other.raw;
         self.probing = other.probing;
+        self.detour = other.detour;
         self.pole = other.pole;
         self.after_stop = other.after_stop;
         self.ways = other.ways;

@@ -153,6 +153,9 @@ impl Exec {
         if self.probing.is_some() {
             return not_told("a probing move at a corner", span);
         }
+        if self.detour.is_some() {
+            return not_told("a rapid move by a detour at a corner", span);
+        }
         if self.centre_path.is_some() && self.contour.watched {
             return not_told("a corner of a contour whose compensation is worked out", span);
         }

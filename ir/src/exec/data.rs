@@ -6,11 +6,11 @@
 //! use may be another's.
 
 use super::{Exec, Kind, Length, Stored, Z};
-use crate::canon::same_point;
+use crate::canon::{AXES, Distance, Motion, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
 use crate::num::{Nanos, ONE};
-use crate::program::{Data, DataMode, Reference, ReferencePoint, ToolValue};
+use crate::program::{Coord, Data, DataMode, Detour, Point, Reference, ReferencePoint, ToolValue};
 use crate::source::Span;
 
 impl Exec {
@@ -32,6 +32,7 @@ impl Exec {
         let mut machine = self.machine();
         for (axis, goes) in to.axes.iter().enumerate() {
             if *goes {
+                self.intermediate[axis] = Some([self.position[axis], machine[axis]]);
                 machine[axis] = point[axis];
             }
         }
@@ -43,6 +44,68 @@ impl Exec {
             self.waiting = Some(Length::Left);
         }
         Ok(())
+    }
+
+    /// A rapid straight move that goes another way than straight. By the intermediate point it goes where that is
+    /// the same place of the work and of the machine as when it was said: which of them a control keeps is not
+    /// relied on.
+    #[cold]
+    pub(super) fn go_by_detour(
+        &mut self,
+        to: &Point,
+        feed: bool,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let Some(detour) = self.detour.take() else { return Ok(()) };
+        if feed || self.raw.is_some() || self.probing.is_some() || self.state.tilted {
+            let what = "a detour of anything but a rapid move in the program's coordinates";
+            return self.not_executed(what, span);
+        }
+        let named: [bool; AXES] = std::array::from_fn(|axis| to.axes[axis].is_some());
+        match detour {
+            Detour::Intermediate => {
+                let counts = |word: &Coord| word.distance.or(self.modes.distance) == Distance::Incremental;
+                if to.axes.iter().flatten().any(counts) {
+                    let what = "incremental words of a return by the intermediate point";
+                    return self.not_executed(what, span);
+                }
+                if named[Z] {
+                    self.take_up_length();
+                }
+                let axes = || named.iter().enumerate().filter(|(_, named)| **named).map(|(axis, _)| axis);
+                for axis in axes() {
+                    let Some([at, _]) = self.intermediate[axis] else {
+                        let what = "a return by an intermediate point that nothing has said";
+                        return self.not_executed(what, span);
+                    };
+                    self.position[axis] = at;
+                }
+                let machine = self.machine();
+                if axes().any(|axis| self.intermediate[axis].is_some_and(|[_, place]| place != machine[axis]))
+                {
+                    let what = "a return by a point that other coordinates have said";
+                    return self.not_executed(what, span);
+                }
+                self.emit_move(false, span, out)?;
+                self.straight(to, false, span, out)
+            }
+            Detour::OneSide => {
+                let before = self.position;
+                self.set_axes(to, span)?;
+                if before != self.position {
+                    self.heading = super::Heading::From(before);
+                }
+                self.modes.motion = Motion::Traverse;
+                self.said |= super::MOTION;
+                self.cycle = None;
+                self.last = self.machine();
+                self.state.one_side = named.iter().rev().fold(0, |bits, named| bits << 1 | u8::from(*named));
+                let done = self.emit(Kind::Traverse, span, out);
+                self.state.one_side = 0;
+                done
+            }
+        }
     }
 
     /// A straight move at feed to the present position, which ends where the probe says so.

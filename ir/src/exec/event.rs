@@ -235,6 +235,8 @@ pub struct State {
     /// Which of A, B and C turn the other way round than their angles say, two bits each: 1 towards greater
     /// ones, 2 towards smaller ones.
     pub turned: u8,
+    /// Which axes come to the end of this move from one side, always the same; a bit each, X first.
+    pub one_side: u8,
     /// Flood coolant.
     pub flood: bool,
     /// Mist coolant.
@@ -256,6 +258,7 @@ impl Default for State {
             feed_mode: FeedMode::PerMinute,
             path: None,
             turned: 0,
+            one_side: 0,
             tip: false,
             tilted: false,
             flood: false,
@@ -295,6 +298,7 @@ impl State {
             && self.flood == other.flood
             && self.mist == other.mist
             && (self.tip, self.tilted) == (other.tip, other.tilted)
+            && (self.turned, self.one_side) == (other.turned, other.one_side)
             && self.path == other.path
             && self.compensation == other.compensation
             && self.advice == other.advice

@@ -246,6 +246,11 @@ impl Present for Now<'_> {
 }
 
 impl Exec {
+    /// Whether the next command of Z takes up a length other than the one in force.
+    pub(super) fn another_length_waits(&self) -> bool {
+        self.waiting.is_some_and(|length| self.length_of(length) != self.length_of(self.modes.length))
+    }
+
     pub(super) fn set_frame(&mut self, frame: &Frame, span: Span) -> Result<(), Diagnostic> {
         let mut frames = self.slots();
         if !frame.added {

@@ -41,7 +41,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
-use crate::program::{Coord, FrameSlot, Op, Point, Probe, Slot, Stmt};
+use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
 use crate::source::Span;
 use crate::world::{Sideways, World};
 use arcs::Heading;
@@ -83,6 +83,10 @@ pub struct Exec {
     raw: Option<bool>,
     /// The next straight move at feed ends where the probe says so.
     probing: Option<Probe>,
+    /// The next rapid straight move goes another way than straight.
+    detour: Option<Detour>,
+    /// By way of which point each axis went to a point of the machine last: of the program, and of the machine.
+    intermediate: Box<[Option<[Nanos; 2]>; AXES]>,
     /// About which polar points are.
     pole: Pole,
     /// The length that the next Z takes up.
@@ -166,6 +170,8 @@ impl Exec {
             ways: None,
             raw: None,
             probing: None,
+            detour: None,
+            intermediate: Box::default(),
             pole: Pole::ZERO,
             waiting: None,
             contour: Contour::default(),
@@ -347,11 +353,6 @@ impl Exec {
         }
     }
 
-    /// Whether the next command of Z takes up a length other than the one in force.
-    fn another_length_waits(&self) -> bool {
-        self.waiting.is_some_and(|length| self.length_of(length) != self.length_of(self.modes.length))
-    }
-
     fn fault<T>(&self, fault: Fault, span: Span) -> Result<T, Diagnostic> {
         Err(Diagnostic::new(fault, span))
     }
@@ -521,6 +522,9 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
+        if self.detour.is_some() {
+            return self.go_by_detour(to, feed, span, out);
+        }
         let before = self.position;
         if let Some(length) = self.raw.take() {
             self.place_in_machine(to, length, span)?;
@@ -540,15 +544,6 @@ impl Exec {
             return self.emit(if feed { Kind::Feed } else { Kind::Traverse }, span, out);
         }
         self.emit_move(feed, span, out)
-    }
-
-    /// Tells a function that moves nothing, where functions are told.
-    #[inline]
-    fn tell(&mut self, what: Attribute, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        if !self.narrating {
-            return Ok(());
-        }
-        self.emit(Kind::Attribute(what), span, out)
     }
 
     /// Everything but plain moves and feeds.
@@ -617,6 +612,7 @@ impl Exec {
             Op::SetPosition(axes) => self.set_position(axes, span)?,
             Op::UseMachineCoordinates { length } => self.raw = Some(*length),
             Op::Probe(probe) => self.probing = Some(*probe),
+            Op::Detour(detour) => self.detour = Some(*detour),
             Op::GoToReference(reference) => self.go_to_reference(reference, span, out)?,
             Op::SetData(data) => self.set_data(data, span, out)?,
             Op::SetPole(set) => self.set_pole(set, span)?,

@@ -63,7 +63,7 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if self.raw.is_some() || self.probing.is_some() {
+        if self.raw.is_some() || self.probing.is_some() || self.detour.is_some() {
             return self.not_executed("polar words in machine coordinates", span);
         }
         let plane = self.plane_of(polar.plane);

@@ -18,8 +18,9 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if self.raw.take().is_some() || self.probing.take().is_some() {
-            return self.not_executed("a thread in machine coordinates, or as a probing move", span);
+        if self.raw.take().is_some() || self.probing.take().is_some() || self.detour.take().is_some() {
+            return self
+                .not_executed("a thread in machine coordinates, as a probing move or by a detour", span);
         }
         let stated = self.stated_pitch(&m.pitch, span)?;
         let (began, turns) = (self.position, self.state.spindle);

@@ -222,6 +222,7 @@ impl Exec {
             | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::GoToReference(_)
             | Op::SetFeedRate(_)
             | Op::Position(_)
@@ -258,6 +259,7 @@ impl Exec {
                 Some("a point of the machine under tool centre point control")
             }
             Op::Probe(_) => Some("probing under tool centre point control"),
+            Op::Detour(_) => Some("a rapid move by a detour under tool centre point control"),
             Op::ChangeTool => Some("a tool change under tool centre point control"),
             Op::UseLengthUnits(units) if (*units == Units::Inch) != self.modes.inch => {
                 Some("other units under tool centre point control")

@@ -136,6 +136,7 @@ fn over_one(
         | Op::SetSlot(_)
         | Op::UseToolCentrePoint(_)
         | Op::Probe(_)
+        | Op::Detour(_)
         | Op::UseMachineCoordinates { .. }
         | Op::OrientToolAxis(_)
         | Op::SetPole(_)

@@ -171,6 +171,7 @@ impl Converter<'_> {
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd

@@ -81,6 +81,7 @@ fn goes_nowhere(walk: &Walk, m: &Move) -> bool {
         && walk.at.cycle.is_none()
         && !walk.at.cycle_in_doubt
         && !walk.at.raw
+        && !walk.at.detour
         && !walk.waiting;
     free && Axis::ALL.into_iter().all(|axis| m.to.get(axis).is_none() || stands(walk, m, axis))
 }
@@ -95,7 +96,7 @@ fn stands(walk: &Walk, m: &Move, axis: Axis) -> bool {
 fn shorten(walk: &Walk, stmt: &mut Stmt) {
     let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = &mut stmt.op else { return };
     // Under compensation a control looks at what the words name.
-    if walk.at.raw || walk.at.probing || walk.at.compensated {
+    if walk.at.raw || walk.at.probing || walk.at.detour || walk.at.compensated {
         return;
     }
     let needed = |axis: &Axis| *axis == Axis::Z && walk.waiting;

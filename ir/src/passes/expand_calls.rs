@@ -315,6 +315,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::UseToolCentrePoint(_)
         | Op::OrientToolAxis(_)
         | Op::Probe(_)
+        | Op::Detour(_)
         | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd

@@ -10,7 +10,7 @@
 //! machine whose length nobody has said anew, where the target keeps it for certain.
 
 use super::walk::Walk;
-use super::write::{Rebuild, unit_of};
+use super::write::{Rebuild, at as at_place, traverse, unit_of};
 use super::{Target, each_body};
 use crate::canon::{Axis, Distance, Fact};
 use crate::caps::{Caps, TiltForm};
@@ -18,7 +18,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::flow;
 use crate::num::Num;
-use crate::program::{Coord, Move, Op, Point, Probe, Program, Reference, ReferencePoint, Slot, Stmt};
+use crate::program::{Coord, Detour, Move, Op, Point, Probe, Program, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -31,12 +31,14 @@ pub(super) struct State {
     lost: Option<Span>,
     /// A move in machine coordinates comes next in this block, with the tool's length or without.
     machine: Option<Stmt>,
+    /// A return by the intermediate point comes next in this block, in moves of its own.
+    intermediate: Option<Stmt>,
 }
 
 impl State {
     /// Whether something waits for the statements that come.
     pub(super) fn is_busy(&self) -> bool {
-        self.put_off.is_some() || self.lost.is_some() || self.machine.is_some()
+        self.put_off.is_some() || self.lost.is_some() || self.machine.is_some() || self.intermediate.is_some()
     }
 }
 
@@ -92,6 +94,20 @@ fn take(
                 (false, _) => "a probing move of this kind",
             };
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+        }
+        Op::Detour(Detour::OneSide) if !caps.detours[Detour::OneSide as usize] => {
+            let what = "positioning from one side: how far beyond is the machine's".into();
+            diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+        }
+        Op::Detour(Detour::Intermediate) if !caps.detours[Detour::Intermediate as usize] => {
+            walk.step(&stmt);
+            state.intermediate = Some(stmt);
+            return;
+        }
+        Op::StraightTraverse(m) if state.intermediate.is_some() => {
+            if let Some(detour) = state.intermediate.take() {
+                stmt = by_intermediate(detour, m, walk, stmt.clone(), made, diags);
+            }
         }
         Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|own| own != *length) => {
             walk.step(&stmt);
@@ -216,6 +232,33 @@ fn in_other_form(
         }
     }
     made.push(machine);
+}
+
+/// The move to the intermediate point; what is left to be said is the rest of the way, in a block of its own.
+fn by_intermediate(
+    detour: Stmt,
+    to: &Move,
+    walk: &mut Walk,
+    mut rest: Stmt,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) -> Stmt {
+    let Some(points) = walk.at.intermediate(&to.to) else {
+        let what = "a return by an intermediate point that is not known here".into();
+        diags.push(Diagnostic::new(Fault::CannotSay { what }, detour.span));
+        return rest;
+    };
+    let mut via = Point::default();
+    for (axis, at) in Axis::ALL.into_iter().zip(points) {
+        if let Some(at) = at {
+            via.set(axis, at_place(at, axis, walk.unit()));
+        }
+    }
+    let first = Stmt { op: traverse(via), comment: None, ..detour };
+    walk.step(&first);
+    made.push(first);
+    (rest.joined, rest.number) = (false, None);
+    rest
 }
 
 /// A move to the machine's zero as one in machine coordinates.

@@ -30,6 +30,7 @@ macro_rules! unnumbered {
             | Op::SetSlot(_)
             | Op::SetPosition(_)
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::UseToolCentrePoint(_)

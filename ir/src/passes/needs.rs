@@ -101,6 +101,7 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(
         MACHINE,
         caps.probes == [true; 4]
+            && caps.detours == [true; 2]
             && caps.machine_coordinates
             && caps.machine_length.is_none()
             && data
@@ -137,7 +138,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::UseToolLengthOffset(_) => LENGTH | TABLE | AT_ONCE,
         Op::UseToolEdge { .. } => LENGTH | EDGE | AT_ONCE,
         Op::ChangeTool => TABLE,
-        Op::UseMachineCoordinates { .. } | Op::Probe(_) => MACHINE,
+        Op::UseMachineCoordinates { .. } | Op::Probe(_) | Op::Detour(_) => MACHINE,
         Op::GoToReference(_) | Op::SetData(_) => MACHINE,
         Op::UseToolLength(_) => MACHINE | LENGTH | TABLE | AT_ONCE,
         Op::SetOriginOffsets(_) => WORK,

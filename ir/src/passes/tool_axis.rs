@@ -247,6 +247,7 @@ pub(super) fn over(
             | Op::SetFrame(_)
             | Op::SetPosition(_)
             | Op::Probe(_)
+            | Op::Detour(_)
             | Op::UseMachineCoordinates { .. }
             | Op::GoToReference(_)
             | Op::SetData(_)

@@ -102,7 +102,7 @@ impl Walk {
                 }
             };
             let plain = stmt.skip.is_none() && self.skipped.is_none() && !self.waiting && !self.at.raw;
-            let plain = plain && !self.at.probing;
+            let plain = plain && !self.at.probing && !self.at.detour;
             if !(plain && last.note(to, motion)) {
                 self.take(&mut last);
                 self.step(stmt);

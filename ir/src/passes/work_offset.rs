@@ -62,6 +62,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | tooling!()
         | Op::SetOriginOffsets(_)
         | Op::Probe(_)
+        | Op::Detour(_)
         | Op::ClearFrame(_)
         | Op::SetFeedRate(_)
         | Op::EndCycle

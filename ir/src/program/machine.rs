@@ -34,6 +34,32 @@ pub struct Reference {
     pub keeps_length: bool,
 }
 
+/// Which other way than straight a rapid move goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Detour {
+    /// Unidirectional positioning: the axes that the move names come to its end from one side, always the same, if
+    /// need be from beyond it, and also where they stand there already. The side, and how far beyond, are the
+    /// machine's.
+    OneSide,
+    /// Return from a point of the machine: the axes that the move names go to the point by way of which they went
+    /// to it last ([`Reference::via`], or where they stood), and from there to the end of the move, whose words
+    /// count from program zero.
+    Intermediate,
+}
+
+impl Detour {
+    /// All of them.
+    pub const ALL: [Detour; 2] = [Detour::OneSide, Detour::Intermediate];
+
+    /// Its name in texts.
+    pub fn name(self) -> &'static str {
+        match self {
+            Detour::OneSide => "one-side",
+            Detour::Intermediate => "intermediate",
+        }
+    }
+}
+
 /// What a probing move looks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Probe {

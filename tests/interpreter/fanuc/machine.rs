@@ -24,6 +24,30 @@ impl Control {
         alone
     }
 
+    /// G29: by rapid to where the axes named went to the reference point from, counted from the work's zero of now,
+    /// and on to the words. G60: by rapid; how the end is come to is not looked at, and a move to where it stands is
+    /// one all the same.
+    fn by_detour(&mut self, code: u32, named: [Option<f64>; 6]) -> Result<(), Halt> {
+        if self.m.beside.is_some() || named == [None; 6] {
+            return self.m.halt("G29 or G60 without axes, or under compensation");
+        }
+        if code == 29 {
+            let mut by = self.m.at;
+            for axis in 0..6 {
+                if named[axis].is_some() {
+                    let Some(kept) = self.by_point[axis] else { return self.m.halt("G29 without G28") };
+                    by[axis] = kept + self.m.shift(axis);
+                }
+            }
+            if by != self.m.at {
+                self.m.traverse(by);
+            }
+        }
+        let to = self.m.target(named)?;
+        self.m.traverse(to);
+        Ok(())
+    }
+
     /// G53, G28 and G30: all rapid; what is left of a tool's length by G28 is not looked at.
     pub(super) fn machine_point(&mut self, code: u32, words: &[Word]) -> Result<(), Halt> {
         if self.cycle.is_some() {
@@ -34,6 +58,9 @@ impl Control {
             // A skip signal ends the block, which is the only one that it is for.
             let to = self.m.target(named)?;
             return self.m.probe(to, false, false);
+        }
+        if matches!(code, 29 | 60) {
+            return self.by_detour(code, named);
         }
         let mut to = self.m.at;
         if code == 53 {
@@ -49,6 +76,11 @@ impl Control {
                 self.m.traverse(way);
             }
             to = way;
+            for axis in 0..6 {
+                if named[axis].is_some() {
+                    self.by_point[axis] = Some(way[axis] - self.m.shift(axis));
+                }
+            }
             let point = match code {
                 28 => [0.0; 6],
                 _ => (self.m.setup.reference)(number(words, 'P').map_or(2, |(p, _)| p as u32)),

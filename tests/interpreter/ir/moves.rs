@@ -139,6 +139,17 @@ impl Control {
     }
 
     pub(super) fn go(&mut self, a: &[Token]) -> Result<(), Halt> {
+        if std::mem::take(&mut self.by_kept) {
+            let (_, named) = self.target(a)?;
+            let mut by = self.m.at;
+            for axis in (0..6).filter(|axis| named[*axis]) {
+                let Some(kept) = self.kept[axis] else { return self.m.halt("no intermediate point") };
+                by[axis] = kept + self.m.shift(axis);
+            }
+            if by != self.m.at {
+                self.m.traverse(by);
+            }
+        }
         let from = self.here();
         let (to, named) = self.target(a)?;
         let machine = self.machine(to);
@@ -190,6 +201,7 @@ impl Control {
             if let Token::Name(name) = token
                 && let Some(axis) = AXES.iter().position(|a| a == name)
             {
+                self.kept[axis] = Some(to[axis] - self.m.shift(axis));
                 to[axis] = point[axis];
                 self.m.settled[axis] = false;
             }

@@ -384,6 +384,8 @@ fn simple() -> BoxedStrategy<Op> {
         Op::SetSpindleMode(SpindleMode::Surface),
         Op::UseMachineCoordinates { length: true },
         Op::UseMachineCoordinates { length: false },
+        Op::Detour(Detour::OneSide),
+        Op::Detour(Detour::Intermediate),
         Op::Probe(Probe { away: false, error: false }),
         Op::Probe(Probe { away: true, error: false }),
         Op::Probe(Probe { away: false, error: true }),

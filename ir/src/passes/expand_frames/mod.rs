@@ -500,6 +500,9 @@ impl Frames<'_> {
             Op::Probe(_) if self.set.chain != Chain::NONE => {
                 return Err(cannot("probing in a frame that is worked in"));
             }
+            Op::Detour(_) if self.set.chain != Chain::NONE => {
+                return Err(cannot("a rapid move by a detour in a frame that is worked in"));
+            }
             polar!() if self.set.chain != Chain::NONE => {
                 return Err(cannot("a point by radius and angle in a frame that is worked in"));
             }

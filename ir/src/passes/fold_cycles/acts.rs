@@ -50,7 +50,7 @@ impl<'s> Acts<'s> {
     pub(super) fn next(&mut self) -> Option<Act> {
         loop {
             let stmt = self.stmts.get(self.read)?;
-            if stmt.skip.is_some() || self.at.raw || self.at.probing {
+            if stmt.skip.is_some() || self.at.raw || self.at.probing || self.at.detour {
                 return None;
             }
             let act = match &stmt.op {
