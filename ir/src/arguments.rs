@@ -146,6 +146,7 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         | Op::ClearFrame(_)
         | Op::UseMachineCoordinates { .. }
         | Op::Probe(_)
+        | Op::Detour(_)
         | Op::UseToolCentrePoint(_)
         | Op::OrientToolAxis(_)
         | Op::StopCutterRadiusCompensation
