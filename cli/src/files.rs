@@ -141,6 +141,18 @@ impl Source {
         }
     }
 
+    /// Whether there are bytes at its beginning that no text contains.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    pub fn is_no_text(&mut self) -> Result<bool, Problem> {
+        self.rewind()?;
+        let mut beginning = Vec::new();
+        let read = (&mut self.file).take(1 << 16).read_to_end(&mut beginning);
+        read.map_err(|e| Problem::file("read", &self.shown, &e))?;
+        Ok(beginning.contains(&0))
+    }
+
     /// Goes back to the start.
     ///
     /// # Errors

@@ -350,6 +350,14 @@ pub(crate) fn recognise(
             message: format!("{} is empty", source.shown),
             help: vec!["there is no program in it to read".to_owned()],
         }),
+        Guess::Unsure(_) if source.is_no_text()? => Err(Problem {
+            exit: Exit::Refused,
+            message: format!("{} is not a part program", source.shown),
+            help: vec![
+                "there are bytes in it that no text contains; was it saved as UTF-16, or is it another file?"
+                    .to_owned(),
+            ],
+        }),
         Guess::Unsure(fits) => {
             let mut help: Vec<String> = fits
                 .iter()

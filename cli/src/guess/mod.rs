@@ -14,6 +14,8 @@ use ncc_dialects::{Dialect, Family, Meaning, Role};
 
 /// How much of the text is looked at.
 const BEGINNING: u64 = 1 << 16;
+/// What an editor may put before a text in UTF-8; the readers pass over it.
+const MARK: &[u8] = b"\xEF\xBB\xBF";
 /// So many letters without a number, one after the other, are no block in any dialect.
 const WORDS_OF_A_TEXT: u32 = 5;
 
@@ -70,7 +72,8 @@ pub fn guess(
         // The last line may be cut.
         text.truncate(text.iter().rposition(|b| *b == b'\n').unwrap_or(0));
     }
-    let found = dialects.into_iter().map(|dialect| (dialect, evidence(dialect, &text)));
+    let text = text.strip_prefix(MARK).unwrap_or(&text);
+    let found = dialects.into_iter().map(|dialect| (dialect, evidence(dialect, text)));
     Ok(judge(found.collect()))
 }
 
@@ -329,6 +332,9 @@ mod tests {
     #[test]
     fn each_is_recognised() {
         assert_eq!(id("%\nO1 (A)\nG21 G90\nG0 X1. (B)\nM30\n%\n"), Some("fanuc"));
+        // As an editor saves it that marks texts in UTF-8.
+        assert_eq!(id("\u{feff}%\nO1 (A)\nG21 G90\nG0 X1. (B)\nM30\n%\n"), Some("fanuc"));
+        assert_eq!(id("\u{feff};A\nG71\nT1M6\nO1S500M3\nGZ0\nM2\n"), Some("mach9"));
         assert_eq!(id("%\n(A)\nG21 G90\nG0 X1. (B)\nM2\n%\n"), Some("linuxcnc"));
         assert_eq!(id(";A\nG71\nT1M6\nO1S500M3\nGZ0\nM2\n"), Some("mach9"));
         assert_eq!(id("STRAIGHT_FEED(1.0, 2.0, 3.0)\nPROGRAM_END()\n"), Some("canon"));

@@ -153,6 +153,32 @@ fn an_empty_file_is_no_riddle() {
     ncc(folder, &["auto", "to", "fanuc", "empty.cn"]).exits(2).says("cannot be told for certain");
 }
 
+#[test]
+fn what_is_no_text_is_named_as_that() {
+    let folder = folder();
+    let folder = folder.path();
+    let wide: Vec<u8> = "%\nO1\nG0 X1.\nM30\n%\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [&b"\0\0\0\0"[..], b"\x7fELF\x02\x01\0\0G0 X1.\n", &wide] {
+        fs::write(folder.join("other.nc"), bytes).unwrap();
+        for line in ["auto to fanuc other.nc", "check other.nc", "fmt other.nc", "time other.nc"] {
+            let words: Vec<&str> = line.split(' ').collect();
+            ncc(folder, &words).exits(1).says("other.nc is not a part program");
+        }
+        ncc(folder, &["diff", "other.nc", "other.nc"]).exits(5).says("other.nc is not a part program");
+    }
+}
+
+/// A program that an editor has marked as UTF-8 is recognised as it is read.
+#[test]
+fn a_mark_before_the_text_is_no_part_of_it() {
+    let folder = folder();
+    let folder = folder.path();
+    let marked = [b"\xEF\xBB\xBF", &fs::read(folder.join("good.cn")).unwrap()[..]].concat();
+    fs::write(folder.join("marked.cn"), marked).unwrap();
+    ncc(folder, &["auto", "to", "fanuc", "marked.cn"]).exits(0).says("read as mach9");
+    ncc(folder, &["diff", "good.cn", "marked.cn"]).exits(0);
+}
+
 #[cfg(unix)]
 #[test]
 fn what_must_not_be_written_is_left_as_it_is() {

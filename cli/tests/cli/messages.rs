@@ -24,6 +24,18 @@ fn the_case_study_reads_well() {
     expect("teste-summary.txt", &done.err);
 }
 
+/// What a way of taking corners does to the feed is not lost among numbers that are rounded.
+#[test]
+fn corners_are_told_by_what_they_do() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let told = ncc(&root, &["fanuc", "to", "siemens", "corpus/fanuc/corner-override.nc"]).exits(0);
+    let told = told.says("  corners      the feed, not lowered at inner corners of a contour (line");
+    let told = told.says("               the feed, which can be held and overridden (line");
+    assert!(!told.err.contains("  rounded"), "{}", told.err);
+    let all = ncc(&root, &["fanuc", "to", "siemens", "corpus/fanuc/corner-override.nc", "-v"]).exits(0);
+    all.says("goes round them at the whole feed").says("leave feed hold and override alone");
+}
+
 #[test]
 fn an_error_shows_the_place_and_the_mend() {
     let folder = folder();
