@@ -197,7 +197,7 @@ impl Checker {
         match &stmt.op {
             Op::UseMachineCoordinates { .. } => self.seen.raw = true,
             Op::StopCutterRadiusCompensation => self.seen.switch_off(LeftOn::Compensation),
-            Op::ClearFrame(FrameSlot::Shift) => {
+            Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(false) => {
                 self.seen.switch_off(LeftOn::Frame);
             }
             _ => {}
@@ -228,6 +228,7 @@ impl Checker {
                     self.seen.machine[..3].fill(false);
                 }
             }
+            Op::UseOriginShift(_) => self.forget_program(),
             Op::UseToolCentrePoint(_) => {
                 self.forget_program();
                 self.seen.machine[..3].fill(false);

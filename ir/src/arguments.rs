@@ -148,6 +148,7 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         | Op::Probe(_)
         | Op::Detour(_)
         | Op::UseToolCentrePoint(_)
+        | Op::UseOriginShift(_)
         | Op::OrientToolAxis(_)
         | Op::StopCutterRadiusCompensation
         | Op::ExactStop

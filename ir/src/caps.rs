@@ -59,6 +59,8 @@ pub struct Caps {
     pub local_shift: bool,
     /// A shift of the origin, by the coordinates that the present point gets.
     pub origin_shift: bool,
+    /// Words that suspend a shift of the origin and take it up again.
+    pub suspends_shift: bool,
     /// A shift of the origin, axis by axis.
     pub stated_shift: bool,
     /// A rotation in the plane about a point.
@@ -479,6 +481,7 @@ impl Caps {
         match op {
             Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => self.frames,
             Op::SetPosition(_) => self.origin_shift,
+            Op::UseOriginShift(_) => self.suspends_shift,
             Op::SetSlot(slot) => match **slot {
                 Slot::Shift { origin: true, .. } => self.stated_shift,
                 Slot::Shift { origin: false, .. } => self.local_shift,
@@ -522,6 +525,7 @@ impl Caps {
             && self.local_shift
             && self.origin_shift
             && self.stated_shift
+            && self.suspends_shift
             && self.rotation
             && self.scale
             && self.mirror

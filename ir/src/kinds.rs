@@ -78,6 +78,7 @@ macro_rules! frames {
             | $crate::program::Op::SetFrame(_)
             | $crate::program::Op::SetSlot(_)
             | $crate::program::Op::SetPosition(_)
+            | $crate::program::Op::UseOriginShift(_)
             | $crate::program::Op::UseToolCentrePoint(_)
             | $crate::program::Op::UseMachineCoordinates { .. }
             | $crate::program::Op::Probe(_)

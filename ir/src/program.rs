@@ -247,6 +247,9 @@ pub enum Op {
     /// `SET_POSITION`: from here on, the present point has these coordinates in the work offset with the
     /// shift of the origin, which is changed so; the local shift of the axes named is over.
     SetPosition(Box<[Option<Expr>; AXES]>),
+    /// `USE_ORIGIN_SHIFT`: off, there is no shift of the origin from here on, and its numbers are kept; on, it
+    /// is again what it was then. What is said of it in between takes the place of what was kept.
+    UseOriginShift(bool),
     /// `USE_MACHINE_COORDINATES`: words of the straight move that follows in this block are machine
     /// coordinates; work offset and frames are off for it.
     UseMachineCoordinates {
@@ -438,6 +441,7 @@ impl Op {
             }
             Op::SetSlot(slot) => slot.name(),
             Op::SetPosition(_) => "SET_POSITION",
+            Op::UseOriginShift(_) => "USE_ORIGIN_SHIFT",
             Op::UseToolCentrePoint(_) => "USE_TOOL_CENTRE_POINT",
             Op::OrientToolAxis(_) => "ORIENT_TOOL_AXIS",
             Op::UseMachineCoordinates { .. } => "USE_MACHINE_COORDINATES",

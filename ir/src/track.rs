@@ -5,6 +5,9 @@
 
 mod frames;
 mod intermediate;
+mod known;
+
+use known::{Known, Polarly, Turning};
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
 use crate::cycle::{Cycle, CycleKind, Pattern};
@@ -12,12 +15,12 @@ use crate::expr::Expr;
 use crate::geometry;
 use crate::kinds::{conduct, flow, frames, machine, miscellaneous};
 use crate::num::Nanos;
-use crate::places::{Here, Places};
-use crate::polar::{self, About, Pole};
+use crate::places::Places;
+use crate::polar::{self, Pole};
 use crate::program::{
     Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Polar, SetPole, Shape, Stmt,
 };
-use crate::round::{Around, round};
+use crate::round::round;
 
 /// State of the abstract execution.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -60,6 +63,8 @@ pub struct Tracker {
     pub pole: Pole,
     /// Whether it is not known.
     pub pole_lost: bool,
+    /// Whether no numbers of a shift of the origin are kept that are not in force.
+    pub none_suspended: bool,
     /// Whether cutter radius compensation may be on.
     pub compensated: bool,
     /// Whether points may be those of the tool's tip, or of a tilted plane.
@@ -81,81 +86,6 @@ pub struct InForce {
     pub return_plane: Option<Nanos>,
     /// Whether it has made a hole since its call.
     pub drilled: bool,
-}
-
-/// What is known of where holes are.
-struct Known<'t> {
-    at: &'t Tracker,
-    axes: [Axis; 2],
-}
-
-impl Here for Known<'_> {
-    type Unknown = ();
-
-    fn at(&self, side: usize) -> Result<Nanos, ()> {
-        self.at.position[self.axes[side] as usize].ok_or(())
-    }
-
-    fn word(&self, word: &Coord, side: usize) -> Result<Nanos, ()> {
-        self.at.resolve(word, self.at.position[self.axes[side] as usize]).ok_or(())
-    }
-
-    fn after(&self, word: &Coord, _: usize, last: Nanos) -> Result<Nanos, ()> {
-        self.at.resolve(word, Some(last)).ok_or(())
-    }
-
-    fn value(&self, value: &Expr) -> Result<Nanos, ()> {
-        self.at.nanos(value).ok_or(())
-    }
-
-    fn out_of_range(&self) {}
-}
-
-/// What is known of an arc by its angle.
-struct Turning<'t>(&'t Tracker);
-
-impl Around for Turning<'_> {
-    type Unknown = ();
-
-    fn value(&self, value: &Expr) -> Result<Nanos, ()> {
-        self.0.nanos(value).ok_or(())
-    }
-
-    fn via(&self, _: &Point) -> Result<[Nanos; 2], ()> {
-        Err(())
-    }
-
-    fn heading(&self) -> Result<[f64; 2], ()> {
-        Err(())
-    }
-}
-
-/// What is known of a polar point.
-struct Polarly<'t>(&'t Tracker);
-
-impl About for Polarly<'_> {
-    type Unknown = ();
-
-    fn value(&self, value: &Expr) -> Result<Nanos, ()> {
-        self.0.nanos(value).ok_or(())
-    }
-
-    fn is_increment(&self, distance: Fact<Distance>) -> Result<bool, ()> {
-        let distance = distance.known().or(self.0.modes.distance).ok_or(())?;
-        Ok(distance == Distance::Incremental)
-    }
-
-    fn here(&self, axis: Axis) -> Result<Nanos, ()> {
-        self.0.position[axis as usize].ok_or(())
-    }
-
-    fn pole(&self) -> Result<Pole, ()> {
-        if self.0.pole_lost { Err(()) } else { Ok(self.0.pole) }
-    }
-
-    fn missing(&self, _: &'static str) {}
-
-    fn out_of_range(&self, _: &'static str) {}
 }
 
 impl Tracker {
@@ -316,6 +246,7 @@ impl Tracker {
         self.probing |= other.probing;
         self.detour |= other.detour;
         self.intermediate.join(&other.intermediate);
+        self.none_suspended &= other.none_suspended;
         self.pole_lost |= other.pole_lost || self.pole != other.pole;
         self.compensated |= other.compensated;
         self.tilted |= other.tilted;
@@ -388,15 +319,23 @@ impl Tracker {
                 }
             }
             Op::ClearFrame(FrameSlot::Shift) => {
-                if self.modes.no_origin_shift != Some(true) {
-                    self.modes.no_origin_shift = Some(true);
-                    self.position = [None; AXES];
-                }
+                self.none_suspended = true;
+                self.end_origin_shift();
+            }
+            Op::UseOriginShift(false) => {
+                self.none_suspended &= self.modes.no_origin_shift == Some(true);
+                self.end_origin_shift();
+            }
+            Op::UseOriginShift(true) => {
+                self.modes.no_origin_shift = None;
+                self.position = [None; AXES];
+                self.none_suspended = true;
             }
             Op::ClearFrame(slot) => self.clear_frame(*slot),
             Op::SetSlot(slot) => self.set_slot(slot),
             Op::SetPosition(axes) => {
                 self.modes.no_origin_shift = None;
+                self.none_suspended = true;
                 for (axis, word) in axes.iter().enumerate() {
                     if let Some(word) = word {
                         self.position[axis] = self.nanos(word);

@@ -381,12 +381,23 @@ impl Control {
             "CLEAR_FRAME" if self.word(a)? == "tilt" => self.m.leave_plane()?,
             "CLEAR_FRAME" if self.word(a)? != "chain" => {
                 match self.word(a)? {
-                    "shift" => self.m.slots.origin = [0.0; 6],
+                    "shift" => (self.m.slots.origin, self.m.slots.aside) = ([0.0; 6], None),
                     "local" => self.m.slots.local = [0.0; 6],
                     "rotation" => self.m.slots.rotation = None,
                     "scale" => self.m.slots.scale = None,
                     "mirror" => self.m.slots.mirror = [None; 3],
                     _ => return self.m.halt("another frame"),
+                }
+                self.m.use_slots([true; 6]);
+            }
+            "USE_ORIGIN_SHIFT" => {
+                match (self.word(a)?, self.m.slots.aside) {
+                    ("off", aside) => {
+                        let origin = std::mem::take(&mut self.m.slots.origin);
+                        self.m.slots.aside = aside.filter(|_| origin == [0.0; 6]).or(Some(origin));
+                    }
+                    (_, Some(aside)) => (self.m.slots.origin, self.m.slots.aside) = (aside, None),
+                    (_, None) => {}
                 }
                 self.m.use_slots([true; 6]);
             }

@@ -22,6 +22,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         m: Machine::new(setup),
         motion: None,
         absolute_centre: false,
+        shift_numbers: None,
         return_initial: modes.return_initial,
         initial: None,
         kept: Kept::default(),
@@ -89,6 +90,8 @@ struct Control {
     /// Motion code in force, tenths; none after G80.
     motion: Option<u32>,
     absolute_centre: bool,
+    /// The numbers kept for G92.3; none is known of what an earlier program has left there.
+    shift_numbers: Option<Place>,
     return_initial: bool,
     /// Level along the normal axis where the tool stood before the series of cycles in force, in
     /// program coordinates.
@@ -122,7 +125,7 @@ impl Words {
 /// Modal groups of G codes; codes of none stand alone.
 const GROUPS: [&[u32]; 13] = [
     &[0, 10, 20, 30, 330, 331, 382, 383, 384, 385, 730, 740, 800, 810, 820, 830, 840, 850, 860, 890],
-    &[40, 100, 280, 281, 300, 301, 520, 530, 920, 921, 922],
+    &[40, 100, 280, 281, 300, 301, 520, 530, 920, 921, 922, 923],
     &[170, 180, 190],
     &[200, 210],
     &[400, 410, 411, 420, 421],
@@ -425,13 +428,22 @@ impl Control {
                         self.m.slots.origin[axis] += now - value;
                     }
                 }
+                self.shift_numbers = Some(self.m.slots.origin);
             }
             Some(520) => {
+                // While other numbers are kept than are in force, what G52 keeps is not said.
+                let alike = self.shift_numbers == Some(self.m.slots.origin);
                 for (origin, word) in self.m.slots.origin.iter_mut().zip(axes) {
                     *origin = word.unwrap_or(*origin);
                 }
+                self.shift_numbers = alike.then_some(self.m.slots.origin);
             }
-            Some(921 | 922) => self.m.slots.origin = [0.0; 6],
+            Some(921) => (self.m.slots.origin, self.shift_numbers) = ([0.0; 6], Some([0.0; 6])),
+            Some(922) => self.m.slots.origin = [0.0; 6],
+            Some(923) => match self.shift_numbers {
+                Some(numbers) => self.m.slots.origin = numbers,
+                None => return self.m.halt("G92.3 with numbers of an earlier program"),
+            },
             Some(code @ (280 | 300)) => {
                 let way = self.target(axes);
                 if way != self.m.at {

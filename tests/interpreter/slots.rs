@@ -11,6 +11,8 @@ use super::{Halt, Machine, Place};
 pub(super) struct Slots {
     /// G92.
     pub(super) origin: Place,
+    /// What is put aside of it.
+    pub(super) aside: Option<Place>,
     /// G52.
     pub(super) local: Place,
     /// G68: axes of the plane, centre, degrees.

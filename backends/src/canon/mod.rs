@@ -356,6 +356,7 @@ impl Writer {
             | Op::Advise(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
             | Op::Detour(_)

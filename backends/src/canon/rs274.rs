@@ -164,6 +164,7 @@ fn rank(op: &Op) -> u8 {
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::SetPosition(_)
+        | Op::UseOriginShift(_)
         | Op::UseToolCentrePoint(_)
         | Op::OrientToolAxis(_)
         | Op::UseMachineCoordinates { .. }
@@ -367,7 +368,7 @@ impl Printer<'_> {
                 let _ = writeln!(self.out, "SET_G92_OFFSET({zeros})");
                 self.call("SET_XY_ROTATION(0.0000)");
             }
-            Op::ClearFrame(FrameSlot::Shift) => {
+            Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) => {
                 let _ = writeln!(self.out, "SET_G92_OFFSET({zeros})");
             }
             Op::UseToolLengthOffset(entry) if entry.literal().is_some_and(|n| n.is_zero()) => {

@@ -40,6 +40,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::SetPosition(_)
+        | Op::UseOriginShift(_)
         | Op::UseMachineCoordinates { .. }
         | Op::Probe(_)
         | Op::Detour(_)
@@ -129,7 +130,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         Op::ClearFrame(s) => put(slot(*s), out),
         Op::SetFrame(f) => frame(f, out),
         Op::SetSlot(s) => filled(s, out),
-        Op::UseToolCentrePoint(on) => put(if *on { "on" } else { "off" }, out),
+        Op::UseToolCentrePoint(on) | Op::UseOriginShift(on) => put(if *on { "on" } else { "off" }, out),
         Op::OrientToolAxis(toward) => put(toward.map_or("", |toward| toward.name()), out),
         Op::StartCutterRadiusCompensation { side, radius } => machine::compensation(*side, radius, out),
         Op::SetPosition(words) => axis_words(&words[..], "", out),

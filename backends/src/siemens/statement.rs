@@ -142,7 +142,9 @@ impl Writer {
                 self.alone(&format!("{}()", row.name), sink)
             }
             Op::ClearFrame(FrameSlot::Chain) => self.clear_frames(sink),
-            Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => self.words.statement(stmt, sink),
+            Op::ClearFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) | Op::UseOriginShift(_) => {
+                self.words.statement(stmt, sink)
+            }
             Op::SetFrame(frame) => self.frame(frame, span, sink),
             Op::UseMachineCoordinates { length: true } => {
                 self.raw = true;

@@ -173,6 +173,8 @@ pub(crate) struct Codes {
     /// No work offset.
     pub no_origin: Option<Code>,
     pub no_shift: Option<Code>,
+    /// A shift of the origin suspended, and taken up again.
+    pub origin_shift: [Option<Code>; 2],
     /// What fills the slots of the coordinate chain.
     pub frames: FrameCodes,
     /// Takes up a length with control of the tool's tip.
@@ -553,6 +555,7 @@ impl Codes {
             origins: (1..=last).map(|n| find.origin(n)).collect(),
             no_origin: code(Meaning::SetOriginOffsets(0)),
             no_shift: code(Meaning::ClearFrame(FrameSlot::Shift)),
+            origin_shift: [false, true].map(|on| code(Meaning::UseOriginShift(on))),
             frames: find.frames(),
             tip: code(Meaning::UseToolCentrePoint(true)),
             no_compensation: code(Meaning::StopCutterRadiusCompensation),

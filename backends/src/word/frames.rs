@@ -75,6 +75,13 @@ impl Writer {
         self.filled(code, &self.along(axes)?, &[], Inserted::default(), span, sink)
     }
 
+    /// Suspends the shift of the origin, or takes it up again.
+    pub(crate) fn origin_shift(&mut self, on: bool, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let what = if on { "an origin shift taken up again" } else { "an origin shift suspended" };
+        let code = self.codes.origin_shift[usize::from(on)].ok_or_else(|| cannot(what))?;
+        self.filled(code, &[], &[], Inserted::default(), span, sink)
+    }
+
     /// Turns the tool upright on a tilted plane.
     pub(crate) fn upright(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.frames.upright;

@@ -57,6 +57,7 @@ impl Setting {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::UseMachineCoordinates { .. }

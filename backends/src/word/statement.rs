@@ -82,6 +82,7 @@ impl Writer {
             Op::SetFrame(_) => Err(cannot("a frame")),
             Op::SetSlot(slot) => self.slot(slot, span, sink),
             Op::SetPosition(axes) => self.present_point(&axes[..], span, sink),
+            Op::UseOriginShift(on) => self.origin_shift(*on, span, sink),
             Op::UseMachineCoordinates { length } => {
                 let code = codes.machine[usize::from(*length)];
                 self.machine = Some(code.ok_or_else(|| cannot("machine coordinates"))?);

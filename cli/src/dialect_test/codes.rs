@@ -304,6 +304,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             }
             _ => one("USE_TOOL_CENTRE_POINT(on)"),
         },
+        Meaning::UseOriginShift(false) => one("USE_ORIGIN_SHIFT(off)"),
+        Meaning::UseOriginShift(true) => {
+            vec![Said::new("USE_ORIGIN_SHIFT(on)").after("SET_POSITION(X 1mm)\nUSE_ORIGIN_SHIFT(off)")]
+        }
         Meaning::UseToolCentrePoint(false) => one("USE_TOOL_CENTRE_POINT(off)"),
         Meaning::SetMirror => one("SET_MIRROR(X 12.5mm)"),
         Meaning::ClearMirror => vec![Said::new("CLEAR_MIRROR(X)").after("SET_MIRROR(X 12.5mm)")],

@@ -376,6 +376,6 @@ fn note(op: &Op, has: &mut Has) {
     } else {
         has.messages |= matches!(op, Op::Message(_));
         has.inches |= matches!(op, Op::UseLengthUnits(Units::Inch));
-        has.clears_shift |= matches!(op, Op::ClearFrame(FrameSlot::Shift));
+        has.clears_shift |= matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_));
     }
 }

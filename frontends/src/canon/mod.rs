@@ -157,6 +157,7 @@ impl State {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
             | Op::Detour(_)

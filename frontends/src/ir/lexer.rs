@@ -248,6 +248,8 @@ pub(crate) enum Token {
     Pole,
     #[token("SET_TILT")]
     SetTilt,
+    #[token("USE_ORIGIN_SHIFT")]
+    UseOriginShift,
     #[token("USE_TOOL_CENTRE_POINT")]
     UseTip,
     #[token("ORIENT_TOOL_AXIS")]

@@ -57,6 +57,47 @@ impl<T: PartialEq> Know<T> {
     }
 }
 
+/// Whose the numbers are that a control keeps of a shift of the origin, to take it up again.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum Kept {
+    /// Some may be an earlier program's.
+    #[default]
+    Unknown,
+    /// This program's, and the shift in force has them.
+    InForce,
+    /// This program's, and the shift may be suspended.
+    Suspended,
+}
+
+impl Kept {
+    /// After the shift has been taken up again, or suspended.
+    pub(super) fn used(self, on: bool) -> Kept {
+        match (self, on) {
+            (Kept::Unknown, _) => Kept::Unknown,
+            (_, true) => Kept::InForce,
+            (_, false) => Kept::Suspended,
+        }
+    }
+
+    /// After some axes got a shift by their words: what is kept then of the others while the shift is
+    /// suspended, no source tells.
+    pub(super) fn stated(self) -> Kept {
+        match self {
+            Kept::InForce => Kept::InForce,
+            Kept::Unknown | Kept::Suspended => Kept::Unknown,
+        }
+    }
+
+    /// After a block that may have been skipped; `before` is what was before it.
+    fn join(&mut self, before: Kept) {
+        *self = match (*self, before) {
+            (Kept::Unknown, _) | (_, Kept::Unknown) => Kept::Unknown,
+            (Kept::InForce, Kept::InForce) => Kept::InForce,
+            (Kept::Suspended, _) | (_, Kept::Suspended) => Kept::Suspended,
+        };
+    }
+}
+
 /// A cycle in force, with the words that stay in force with it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Active {
@@ -98,6 +139,7 @@ pub(super) struct State {
     /// Whether any length offset was said.
     pub(super) length_offset: Know<()>,
     pub(super) no_shift: Know<bool>,
+    pub(super) shift_kept: Kept,
     /// What bare axis words do outside cycles.
     pub(super) motion: Know<Motion>,
     /// A cycle has ended without a motion code: whether the motion before it is in force again is
@@ -156,6 +198,7 @@ impl State {
             work_offset: Know::Lost,
             length_offset: Know::Lost,
             no_shift: Know::Lost,
+            shift_kept: Kept::Unknown,
             motion: Know::Lost,
             after_cycle: false,
             no_motion: false,
@@ -192,6 +235,7 @@ impl State {
         self.work_offset.join(before.work_offset);
         self.length_offset.join(before.length_offset);
         self.no_shift.join(before.no_shift);
+        self.shift_kept.join(before.shift_kept);
         self.motion.join(before.motion);
         self.feed.join(before.feed);
         self.tool.join(before.tool);

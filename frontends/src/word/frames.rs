@@ -13,7 +13,7 @@ use ncc_ir::program::{Coord, FrameSlot, Op, Point, Slot};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::facts::InForce;
+use super::facts::{InForce, Kept};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
 use crate::Batch;
@@ -69,6 +69,9 @@ impl Lower {
         }
         let op = match code.meaning {
             Meaning::SetShift(origin) => {
+                if origin {
+                    self.state.shift_kept = self.state.shift_kept.stated();
+                }
                 let axes = self.frame_axes(code, words, src, out);
                 axes.map(|axes| Op::SetSlot(Box::new(Slot::Shift { origin, axes: Box::new(axes) })))
             }
@@ -76,6 +79,7 @@ impl Lower {
                 if words.get(b'Z').is_some() && self.level_open() {
                     self.refuse_level(code.span, out);
                 }
+                self.state.shift_kept = Kept::InForce;
                 let axes = self.frame_axes(code, words, src, out);
                 axes.map(|axes| Op::SetPosition(Box::new(axes)))
             }

@@ -13,7 +13,7 @@ use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::{Block, Value, Word};
-use super::facts::{InForce, Know};
+use super::facts::{InForce, Kept, Know};
 use super::frames::is_frame;
 use super::lower::Lower;
 use super::sort::{Code, RANK_AFTER, RANK_MOTION, RANK_WORDS, Words};
@@ -151,7 +151,16 @@ impl Lower {
             }
             Meaning::SetCentreMode(from) => self.set_centre_mode(from, out),
             Meaning::SetOriginOffsets(offset) => self.state.work_offset = Know::Said(offset),
-            Meaning::ClearFrame(FrameSlot::Shift) => self.state.no_shift = Know::Said(true),
+            Meaning::ClearFrame(FrameSlot::Shift) => {
+                self.state.no_shift = Know::Said(true);
+                self.state.shift_kept = Kept::InForce;
+            }
+            Meaning::UseOriginShift(on) => {
+                if !on {
+                    self.state.no_shift = Know::Said(true);
+                }
+                self.state.shift_kept = self.state.shift_kept.used(on);
+            }
             Meaning::StraightTraverse => self.set_motion(Motion::Traverse),
             Meaning::StraightFeed => self.set_motion(Motion::Feed),
             Meaning::ArcFeed(turn) => self.set_motion(Motion::Arc(turn)),
@@ -184,6 +193,10 @@ impl Lower {
         }
         if let (Meaning::SetOriginOffsets(_), false) = (code.meaning, self.now.failed) {
             self.check_shut(code, out);
+        }
+        if let (Meaning::UseOriginShift(true), Kept::Unknown) = (code.meaning, self.state.shift_kept) {
+            let name = "an origin shift of an earlier program taken up again".into();
+            self.fault(Fault::NotSupported { code: code.row.code.as_str().into(), name }, code.span, out);
         }
         if let (Meaning::SelectPlane(plane), InForce::Active(active)) = (code.meaning, &self.state.cycle)
             && active.plane.known() != Some(plane)
@@ -461,6 +474,7 @@ pub(crate) fn setting(meaning: Meaning) -> Option<Op> {
         Meaning::SetFeedMode(mode) => Op::SetFeedMode(mode),
         Meaning::SetOriginOffsets(offset) => Op::SetOriginOffsets(offset),
         Meaning::ClearFrame(slot) => Op::ClearFrame(slot),
+        Meaning::UseOriginShift(on) => Op::UseOriginShift(on),
         Meaning::SetReturnLevel(level) => Op::SetReturnLevel(level),
         Meaning::SetSpindleMode(mode) => Op::SetSpindleMode(mode),
         Meaning::SetMotionControlMode(mode) => Op::SetMotionControlMode(Box::new(PathControl::plain(mode))),

@@ -145,6 +145,7 @@ impl Lower {
             | Meaning::SetMirror
             | Meaning::ClearMirror
             | Meaning::ClearFrame(_)
+            | Meaning::UseOriginShift(_)
             | Meaning::SetOriginOffsets(_)
             | Meaning::UseMachineCoordinates { .. }
             | Meaning::GoToReference { .. }

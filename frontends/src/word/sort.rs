@@ -241,7 +241,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::SetOriginOffsets(_) => 5,
         // Behind the plane that it is in.
         Meaning::PolarWords(_) | Meaning::SetPole(_) => 9,
-        Meaning::ClearFrame(_) => 6,
+        Meaning::ClearFrame(_) | Meaning::UseOriginShift(_) => 6,
         Meaning::SetReturnLevel(_) | Meaning::SetCentreMode(_) => 7,
         Meaning::StopCutterRadiusCompensation => 8,
         Meaning::SetMotionControlMode(_) | Meaning::Advise(..) | Meaning::Overrides(_) => 9,

@@ -135,6 +135,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         local_shift: everything || says(Meaning::SetShift(false)),
         stated_shift: everything || says(Meaning::SetShift(true)),
         origin_shift: everything || says(Meaning::SetPosition),
+        suspends_shift: everything
+            || says(Meaning::UseOriginShift(false)) && says(Meaning::UseOriginShift(true)),
         rotation: everything || says(Meaning::SetRotation) && says(Meaning::ClearFrame(FrameSlot::Rotation)),
         scale: everything || says(Meaning::SetScale) && says(Meaning::ClearFrame(FrameSlot::Scale)),
         mirror: everything || says(Meaning::SetMirror) && says(Meaning::ClearMirror),

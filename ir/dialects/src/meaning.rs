@@ -33,6 +33,8 @@ pub enum Meaning {
     SetShift(bool),
     /// The present point gets the block's axis words as coordinates.
     SetPosition,
+    /// The shift of the origin is suspended (`false`), or taken up again as it was.
+    UseOriginShift(bool),
     /// Rotation in the plane about the block's axis words; the row's first word is the angle.
     SetRotation,
     /// Factors about the block's axis words; the row's first word is one for all axes, the next three
@@ -185,6 +187,8 @@ impl fmt::Display for Meaning {
             Meaning::SetShift(true) => "SET_SHIFT shift",
             Meaning::SetShift(false) => "SET_SHIFT local",
             Meaning::SetPosition => "SET_POSITION",
+            Meaning::UseOriginShift(true) => "USE_ORIGIN_SHIFT on",
+            Meaning::UseOriginShift(false) => "USE_ORIGIN_SHIFT off",
             Meaning::SetRotation => "SET_ROTATION",
             Meaning::SetScale => "SET_SCALE",
             Meaning::SetMirror => "SET_MIRROR",
@@ -316,6 +320,8 @@ impl FromStr for Meaning {
             ("SET_SHIFT", "shift") => Meaning::SetShift(true),
             ("SET_SHIFT", "local") => Meaning::SetShift(false),
             ("SET_POSITION", "") => Meaning::SetPosition,
+            ("USE_ORIGIN_SHIFT", "on") => Meaning::UseOriginShift(true),
+            ("USE_ORIGIN_SHIFT", "off") => Meaning::UseOriginShift(false),
             ("SET_ROTATION", "") => Meaning::SetRotation,
             ("SET_SCALE", "") => Meaning::SetScale,
             ("SET_MIRROR", "") => Meaning::SetMirror,

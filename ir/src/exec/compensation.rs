@@ -294,7 +294,7 @@ impl Exec {
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => {
                 Some("another frame under cutter radius compensation")
             }
-            Op::ClearFrame(_)
+            Op::ClearFrame(_) | Op::UseOriginShift(_)
                 if self.chain.is_some()
                     || self.slots.is_some()
                     || self.modes.shifted
@@ -341,6 +341,7 @@ impl Exec {
             | Op::UseLengthUnits(_)
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
+            | Op::UseOriginShift(_)
             | Op::UseToolCentrePoint(_)
             | Op::SetDistanceMode(_)
             | Op::SetFeedMode(_)

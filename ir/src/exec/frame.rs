@@ -269,6 +269,10 @@ impl Exec {
     /// Fills a slot.
     pub(super) fn set_slot(&mut self, slot: &Slot, span: Span) -> Result<(), Diagnostic> {
         let mut frames = self.slots();
+        if matches!(slot, Slot::Shift { origin: true, .. }) && frames.suspended.is_some() {
+            // What becomes of the numbers kept for the other axes, no source tells.
+            self.said &= !super::SHIFT_STORED;
+        }
         frames.set(slot, &Now { exec: self, span })?;
         self.use_slots(frames);
         Ok(())
@@ -281,6 +285,7 @@ impl Exec {
             return self
                 .not_executed("coordinates of the present point in a frame that turns or scales", span);
         }
+        self.said |= super::SHIFT_STORED;
         let shift = self.origin_shift();
         if self.offset_turned {
             if frames.chain() != Chain::NONE {
@@ -290,6 +295,7 @@ impl Exec {
             for (axis, word) in axes.iter().enumerate() {
                 let Some(word) = word else { continue };
                 let at = self.position[axis].wrapping_sub(self.value(word, span)?);
+                frames.suspended = None;
                 frames.origin[axis] = Some(shift[axis].wrapping_add(at));
             }
             self.use_slots(frames);
@@ -304,11 +310,31 @@ impl Exec {
     pub(super) fn clear_slot(&mut self, slot: FrameSlot) {
         if slot == FrameSlot::Shift {
             self.modes.shifted = false;
-            self.said |= super::SHIFT;
+            self.said |= super::SHIFT | super::SHIFT_STORED;
         }
         let mut frames = self.slots();
         frames.clear(slot);
         self.use_slots(frames);
+    }
+
+    /// Suspends the shift of the origin, or takes it up again.
+    ///
+    /// # Errors
+    /// Not every number of it is this program's: what an earlier one has left in store, the control alone knows.
+    pub(super) fn use_origin_shift(&mut self, on: bool, span: Span) -> Result<(), Diagnostic> {
+        let mut frames = self.slots();
+        if on {
+            if self.said & super::SHIFT_STORED == 0 {
+                return self.not_executed("an origin shift of which an earlier program has numbers", span);
+            }
+            self.modes.shifted |= frames.resume();
+        } else {
+            frames.suspend(self.modes.shifted);
+            self.modes.shifted = false;
+            self.said |= super::SHIFT;
+        }
+        self.use_slots(frames);
+        Ok(())
     }
 
     /// Turns the work offset in force, with the shift of the origin and all frames in it; 0 is not turned.

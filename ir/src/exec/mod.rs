@@ -139,6 +139,8 @@ const WORK: u16 = 32;
 const LENGTH: u16 = 64;
 const SHIFT: u16 = 128;
 const FEED_MODE: u16 = 256;
+/// The numbers kept of a shift of the origin are the program's own, all of them.
+const SHIFT_STORED: u16 = 512;
 
 impl Exec {
     /// A control at power-on in a world, with these block-skip switches on (bit n is level n).
@@ -610,6 +612,7 @@ impl Exec {
             Op::UseToolCentrePoint(on) => self.use_tip(*on, span)?,
             Op::OrientToolAxis(toward) => self.orient_tool_axis(*toward, span, out)?,
             Op::SetPosition(axes) => self.set_position(axes, span)?,
+            Op::UseOriginShift(on) => self.use_origin_shift(*on, span)?,
             Op::UseMachineCoordinates { length } => self.raw = Some(*length),
             Op::Probe(probe) => self.probing = Some(*probe),
             Op::Detour(detour) => self.detour = Some(*detour),

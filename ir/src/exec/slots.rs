@@ -28,11 +28,20 @@ pub(crate) struct Scale {
     pub(crate) factors: [Nanos; 3],
 }
 
+/// A shift of the origin that is not in force and comes back as it was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Suspended {
+    origin: [Option<Nanos>; AXES],
+    /// Whether what an earlier program left over was in force with it.
+    left_over: bool,
+}
+
 /// What all slots hold.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Frames {
     /// Shift of the origin, of axes of which a program has said it; the others have what was left over.
     pub(crate) origin: [Option<Nanos>; AXES],
+    pub(crate) suspended: Option<Suspended>,
     pub(crate) local: [Nanos; AXES],
     pub(crate) rotation: Option<Rotation>,
     pub(crate) scale: Option<Scale>,
@@ -62,6 +71,7 @@ pub(crate) trait Present {
 impl Frames {
     pub(crate) const NONE: Frames = Frames {
         origin: [None; AXES],
+        suspended: None,
         local: [0; AXES],
         rotation: None,
         scale: None,
@@ -161,6 +171,7 @@ impl Frames {
                     let Some(word) = word else { continue };
                     let value = now.value(word)?;
                     if *origin {
+                        self.suspended = None;
                         self.origin[i] = Some(value);
                     } else {
                         self.local[i] = value;
@@ -257,10 +268,28 @@ impl Frames {
             if let Some(word) = word {
                 self.local[i] = 0;
                 let own = self.steps.shift()[i];
+                self.suspended = None;
                 self.origin[i] = Some(shift[i] + now.work(i)? - own - now.value(word)?);
             }
         }
         Ok(())
+    }
+
+    /// There is no shift of the origin from here on, until [`Frames::resume`]; a shift that is suspended
+    /// already stays so. `left_over` says whether one of an earlier program is in force.
+    pub(crate) fn suspend(&mut self, left_over: bool) {
+        let origin = std::mem::replace(&mut self.origin, [None; AXES]);
+        if left_over || origin != [None; AXES] {
+            self.suspended = Some(Suspended { origin, left_over });
+        }
+    }
+
+    /// The shift of the origin is again what it was when it was suspended; without one, nothing changes.
+    /// `true` says that what an earlier program left over is in force again.
+    pub(crate) fn resume(&mut self) -> bool {
+        let Some(Suspended { origin, left_over }) = self.suspended.take() else { return false };
+        self.origin = origin;
+        left_over
     }
 
     /// Whether it does more than to move the origin.
@@ -274,7 +303,7 @@ impl Frames {
     /// Empties a slot.
     pub(crate) fn clear(&mut self, slot: FrameSlot) {
         match slot {
-            FrameSlot::Shift => self.origin = [None; AXES],
+            FrameSlot::Shift => (self.origin, self.suspended) = ([None; AXES], None),
             FrameSlot::Local => self.local = [0; AXES],
             FrameSlot::Rotation => self.rotation = None,
             FrameSlot::Scale => self.scale = None,

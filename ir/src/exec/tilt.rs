@@ -209,7 +209,10 @@ impl Exec {
             Op::SetOriginOffsets(offset) => *offset != self.modes.work_offset,
             Op::SetFrame(_) | Op::SetPosition(_) => true,
             Op::SetSlot(slot) => !matches!(**slot, Slot::Tilt(_)),
-            Op::ClearFrame(FrameSlot::Shift) => self.modes.shifted,
+            // One that is suspended alone is taken up again.
+            Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) => {
+                self.modes.shifted || self.slots.is_some()
+            }
             Op::SetData(data) => match **data {
                 Data::Offset { offset, .. } => offset == self.modes.work_offset,
                 Data::Tool { .. } => self.state.tip,
@@ -271,6 +274,7 @@ impl Exec {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::SetData(_)
             | Op::SelectTool(_)
             | Op::SelectToolByName(_)

@@ -37,6 +37,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
                 Op::SetFrame(_)
                     | Op::SetSlot(_)
                     | Op::SetPosition(_)
+                    | Op::UseOriginShift(_)
                     | Op::ClearFrame(_)
                     | Op::SetOriginOffsets(_)
             )

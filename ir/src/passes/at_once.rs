@@ -132,6 +132,7 @@ fn over_one(
         | Op::ChangeTool
         | Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
+        | Op::UseOriginShift(_)
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::UseToolCentrePoint(_)

@@ -169,6 +169,7 @@ impl Converter<'_> {
             | Op::SetOriginOffsets(_)
             | Op::ClearFrame(_)
             | Op::UseToolCentrePoint(_)
+            | Op::UseOriginShift(_)
             | Op::OrientToolAxis(_)
             | Op::Probe(_)
             | Op::Detour(_)

@@ -47,7 +47,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk) {
                 Op::StraightTraverse(m) => {
                     walk.at.modes.motion == Some(Motion::Traverse) && goes_nowhere(walk, m)
                 }
-                other => is_in_force(&said.at.modes, other),
+                other => is_in_force(&said.at, other),
             };
         if !needless && stmt.skip.is_none() {
             shorten(walk, &mut stmt);
@@ -62,7 +62,8 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk) {
 }
 
 /// Whether a setting is in force already.
-fn is_in_force(modes: &Modes, op: &Op) -> bool {
+fn is_in_force(at: &Tracker, op: &Op) -> bool {
+    let modes = &at.modes;
     match op {
         Op::UseLengthUnits(units) => modes.units == Some(*units),
         Op::SetDistanceMode(distance) => modes.distance == Some(*distance),
@@ -70,7 +71,7 @@ fn is_in_force(modes: &Modes, op: &Op) -> bool {
         Op::SetFeedMode(mode) => modes.feed_mode == Some(*mode),
         Op::SetReturnLevel(level) => modes.return_level == Some(*level),
         Op::SetOriginOffsets(offset) => modes.work_offset == Some(*offset),
-        Op::ClearFrame(FrameSlot::Shift) => modes.no_origin_shift == Some(true),
+        Op::ClearFrame(FrameSlot::Shift) => at.none_suspended && modes.no_origin_shift == Some(true),
         _ => false,
     }
 }

@@ -313,6 +313,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         Op::SetOriginOffsets(_)
         | Op::ClearFrame(_)
         | Op::UseToolCentrePoint(_)
+        | Op::UseOriginShift(_)
         | Op::OrientToolAxis(_)
         | Op::Probe(_)
         | Op::Detour(_)

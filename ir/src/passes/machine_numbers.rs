@@ -29,6 +29,7 @@ macro_rules! unnumbered {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::Probe(_)
             | Op::Detour(_)
             | Op::UseMachineCoordinates { .. }

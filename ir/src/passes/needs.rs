@@ -142,7 +142,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::GoToReference(_) | Op::SetData(_) => MACHINE,
         Op::UseToolLength(_) => MACHINE | LENGTH | TABLE | AT_ONCE,
         Op::SetOriginOffsets(_) => WORK,
-        Op::ClearFrame(FrameSlot::Shift) => SHIFT | FRAME,
+        Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) => SHIFT | FRAME,
         Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) | Op::ClearFrame(FrameSlot::Tilt) => TOOL_AXIS,
         Op::SetSlot(slot) if matches!(**slot, Slot::Tilt(_)) => TOOL_AXIS,
         Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,

@@ -246,6 +246,7 @@ pub(super) fn over(
             | Op::ClearFrame(_)
             | Op::SetFrame(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::Probe(_)
             | Op::Detour(_)
             | Op::UseMachineCoordinates { .. }

@@ -71,6 +71,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | Op::SetFrame(_)
         | Op::SetSlot(_)
         | Op::SetPosition(_)
+        | Op::UseOriginShift(_)
         | Op::SynchronisedFeed(_)
         | Op::ArcFeed(_)
         | Op::ArcForm(_)

@@ -6,6 +6,14 @@ use crate::num::Nanos;
 use crate::program::{FrameSlot, Slot};
 
 impl Tracker {
+    /// There is no shift of the origin any more: from where coordinates count then, no program knows.
+    pub(super) fn end_origin_shift(&mut self) {
+        if self.modes.no_origin_shift != Some(true) {
+            self.modes.no_origin_shift = Some(true);
+            self.position = [None; AXES];
+        }
+    }
+
     /// Empties a slot of the coordinate chain.
     pub(super) fn clear_frame(&mut self, slot: FrameSlot) {
         match slot {

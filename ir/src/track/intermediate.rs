@@ -35,6 +35,7 @@ impl Tracker {
             | Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::SetPosition(_)
+            | Op::UseOriginShift(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_) => true,
             _ => false,

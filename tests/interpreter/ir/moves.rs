@@ -434,12 +434,14 @@ impl Control {
         match (name, angle) {
             ("SET_SHIFT", None) if kind == "local" => self.m.slots.shift_locally(axes),
             ("SET_SHIFT", None) => {
+                self.m.slots.aside = None;
                 for (origin, value) in self.m.slots.origin.iter_mut().zip(axes) {
                     *origin = value.unwrap_or(*origin);
                 }
             }
             ("SET_POSITION", None) => {
                 let mut slots = self.m.slots.clone();
+                slots.aside = None;
                 slots.set_position(&self.m, at, axes)?;
                 self.m.slots = slots;
             }

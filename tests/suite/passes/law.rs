@@ -262,7 +262,8 @@ fn slot() -> impl Strategy<Value = Op> {
         1 => any::<[bool; 2]>().prop_map(|[x, y]| Slot::NoMirror([x, y, false])),
     ];
     let position = words().prop_map(move |axes| Op::SetPosition(shift(axes)));
-    prop_oneof![5 => slot.prop_map(|slot| Op::SetSlot(Box::new(slot))), 1 => position]
+    let aside = any::<bool>().prop_map(Op::UseOriginShift);
+    prop_oneof![15 => slot.prop_map(|slot| Op::SetSlot(Box::new(slot))), 3 => position, 2 => aside]
 }
 
 /// Statements that stand together.

@@ -390,6 +390,8 @@ fn simple() -> BoxedStrategy<Op> {
         Op::Probe(Probe { away: true, error: false }),
         Op::Probe(Probe { away: false, error: true }),
         Op::Probe(Probe { away: true, error: true }),
+        Op::UseOriginShift(true),
+        Op::UseOriginShift(false),
         Op::UseToolCentrePoint(true),
         Op::UseToolCentrePoint(false),
         Op::OrientToolAxis(None),

@@ -81,6 +81,7 @@ pub(super) fn concerns(op: &Op, caps: &Caps) -> bool {
         _ if tilts(op) => false,
         Op::SetFrame(_) | Op::ClearFrame(FrameSlot::Chain) => !caps.frames,
         Op::SetSlot(_) | Op::SetPosition(_) => true,
+        Op::UseOriginShift(_) => !caps.suspends_shift,
         Op::ClearFrame(slot) => *slot != FrameSlot::Shift,
         _ => false,
     }
@@ -97,7 +98,10 @@ fn tilts(op: &Op) -> bool {
 
 /// Whether any procedure of a program sets a frame that the target cannot say as it is.
 pub(super) fn has_frames(program: &Program, caps: &Caps) -> bool {
-    let sets = |op: &Op| matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_)) && !tilts(op);
+    let sets = |op: &Op| {
+        let frame = matches!(op, Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_));
+        frame && !tilts(op) || *op == Op::UseOriginShift(true)
+    };
     let unsaid = |s: &Stmt| sets(&s.op) && !caps.says_frame(&s.op);
     program.procedures.iter().flat_map(|p| &p.body).any(unsaid) || takes_origin_back(program, caps)
 }
@@ -105,7 +109,7 @@ pub(super) fn has_frames(program: &Program, caps: &Caps) -> bool {
 /// Whether a subprogram sets or ends a shift of the origin that the target ends by the present point only:
 /// where that is, and whether a shift is in force, is known without calls.
 pub(super) fn shifts_origin_in_calls(program: &Program, caps: &Caps) -> bool {
-    let shifts = |op: &Op| sets_origin(op) || *op == Op::ClearFrame(FrameSlot::Shift);
+    let shifts = |op: &Op| sets_origin(op) || ends_origin(op);
     takes_origin_back(program, caps)
         && program.procedures.iter().skip(1).flat_map(|p| &p.body).any(|s| shifts(&s.op))
 }
@@ -113,16 +117,18 @@ pub(super) fn shifts_origin_in_calls(program: &Program, caps: &Caps) -> bool {
 /// Whether a program ends a shift of the origin for which the target has no word.
 fn takes_origin_back(program: &Program, caps: &Caps) -> bool {
     let any = |of: fn(&Op) -> bool| program.procedures.iter().flat_map(|p| &p.body).any(|s| of(&s.op));
-    caps.origin_shift
-        && !caps.clears_shift
-        && any(sets_origin)
-        && any(|op| *op == Op::ClearFrame(FrameSlot::Shift))
+    caps.origin_shift && !caps.clears_shift && any(sets_origin) && any(ends_origin)
+}
+
+/// Whether there is no shift of the origin behind a statement.
+fn ends_origin(op: &Op) -> bool {
+    matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(false))
 }
 
 /// Whether a statement shifts the origin.
 fn sets_origin(op: &Op) -> bool {
     match op {
-        Op::SetPosition(_) => true,
+        Op::SetPosition(_) | Op::UseOriginShift(true) => true,
         Op::SetSlot(slot) => matches!(**slot, Slot::Shift { origin: true, .. }),
         _ => false,
     }
@@ -213,19 +219,27 @@ impl Frames<'_> {
         let is_change = match &stmt.op {
             op if tilts(op) => false,
             Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => true,
-            Op::ClearFrame(FrameSlot::Shift) => self.set.lost || self.set.slots.origin != [None; AXES],
+            Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) => {
+                let slots = &self.set.slots;
+                self.set.lost || slots.origin != [None; AXES] || slots.suspended.is_some()
+            }
             Op::ClearFrame(_) => true,
             _ => false,
         };
+        let shift = Op::ClearFrame(FrameSlot::Shift);
+        // Without words for it, a shift that is suspended is over, and set anew where it is taken up again.
+        let said = match &stmt.op {
+            Op::UseOriginShift(false) if !self.target.caps.suspends_shift => shift.clone(),
+            op => op.clone(),
+        };
         if is_change {
-            match self.change(&stmt) {
+            match self.change(&stmt, &said) {
                 Ok((told, mut ops)) => {
                     if told {
                         diags.push(Diagnostic::new(Fault::FramesExpanded, stmt.span));
                     }
                     // What an earlier program left is another's business.
-                    let shift = Op::ClearFrame(FrameSlot::Shift);
-                    if stmt.op == shift && !ops.contains(&shift) {
+                    if said == shift && !ops.contains(&shift) {
                         ops.push(shift.clone());
                     }
                     // That word is left out where the target has none (`origin_shift`).
@@ -240,6 +254,10 @@ impl Frames<'_> {
             }
             return made.leave_out(stmt);
         }
+        if stmt.op == Op::UseOriginShift(true) && !self.target.caps.suspends_shift {
+            return made.leave_out(stmt);
+        }
+        stmt.op = said;
         if self.is_shut(&stmt.op) {
             let span = stmt.span;
             if let Err(fault) = self.outside(stmt, made) {
@@ -309,21 +327,21 @@ impl Frames<'_> {
     }
 
     /// Other frames; `true` if they are some that were not reported.
-    fn change(&mut self, stmt: &Stmt) -> Result<(bool, Vec<Op>), Fault> {
-        let sets = !matches!(stmt.op, Op::ClearFrame(_));
+    fn change(&mut self, stmt: &Stmt, said: &Op) -> Result<(bool, Vec<Op>), Fault> {
+        let sets = !matches!(said, Op::ClearFrame(_));
         let caps = &self.target.caps;
         let as_it_stands =
-            caps.says_frame(&stmt.op) && self.set.chain == Chain::NONE && self.set.said == self.set.slots;
+            caps.says_frame(said) && self.set.chain == Chain::NONE && self.set.said == self.set.slots;
         if as_it_stands && !caps.frames && (self.set.lost || stmt.skip.is_some()) {
             self.set.lost = true;
             self.inner.at.position = [None; AXES];
-            return Ok((false, vec![stmt.op.clone()]));
+            return Ok((false, vec![said.clone()]));
         }
         if self.set.lost || stmt.skip.is_some() && (sets || self.set.slots != Slots::NONE) {
             return Err(cannot("a frame in a block that can be skipped"));
         }
         if self.chained {
-            match &stmt.op {
+            match said {
                 // A chain that begins anew leaves nothing of the one before.
                 Op::SetFrame(frame) if !frame.added => self.chained = false,
                 Op::ClearFrame(FrameSlot::Chain) => self.chained = false,
@@ -346,11 +364,20 @@ impl Frames<'_> {
             Op::SetSlot(slot) => slots.set(slot, &now)?,
             Op::SetPosition(axes) => slots.set_position(axes, &now.shift, &now)?,
             Op::ClearFrame(slot) => slots.clear(*slot),
+            Op::UseOriginShift(false) => slots.suspend(false),
+            Op::UseOriginShift(true) => {
+                slots.resume();
+                if slots == before && !caps.suspends_shift {
+                    return Ok((false, Vec::new()));
+                }
+            }
             _ => return Ok((false, Vec::new())),
         }
-        let fresh = before == Slots::NONE || matches!(&stmt.op, Op::SetFrame(f) if !f.added);
+        let fresh = before == Slots::NONE
+            || stmt.op == Op::UseOriginShift(true)
+            || matches!(&stmt.op, Op::SetFrame(f) if !f.added);
         let new = shifted(&slots);
-        let said = self.say(&stmt.op, &slots, &new)?;
+        let said = self.say(said, &slots, &new)?;
         let (ops, worked_in) = match said {
             Some(ops) => (ops, Chain::NONE),
             None => (self.unsay()?, new.clone()),
@@ -426,7 +453,7 @@ impl Frames<'_> {
         }
         let here = self.set.whole.place_known(&self.inner.at.position);
         let unit = self.inner.unit();
-        let mut axes = std::array::from_fn(|_| None);
+        let mut axes = [const { None }; AXES];
         let mut left = slots.clone();
         for (i, axis) in Axis::ALL.into_iter().enumerate() {
             if self.set.said.origin[i].is_none() {
@@ -438,6 +465,9 @@ impl Frames<'_> {
             let at = here[i].ok_or(Fault::PositionUnknown { axis: axis.letter() as char })?;
             axes[i] = Some(Expr::Num(exact(at, unit_of(axis, unit))));
             left.local[i] = 0;
+        }
+        if axes == [const { None }; AXES] {
+            return Ok(Vec::new());
         }
         let mut ops = vec![Op::SetPosition(Box::new(axes))];
         ops.extend(frame_forms::between(&left, slots, &self.target.caps, unit));
