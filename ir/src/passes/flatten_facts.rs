@@ -4,11 +4,13 @@
 //! centre from zero. Modes that only decide how words are read are left out.
 
 use super::walk::Walk;
-use super::write::{at, exact, rebuild, unit_of};
+use super::write::{exact, rebuild, unit_of};
 use super::{Target, each_body};
 use crate::canon::{Axis, Fact, Motion};
+use crate::cycle::absolute;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
+use crate::num::{Nanos, Num, Unit};
 use crate::program::{Arc, Centre, CentreFrom, Op, Point, Program, Stmt};
 use crate::track::Tracker;
 
@@ -77,16 +79,16 @@ fn flatten(stmt: &mut Stmt, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
 #[inline]
 fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
     for (axis, word) in Axis::ALL.into_iter().zip(&mut to.axes) {
-        let absolute = word.as_ref().is_some_and(|w| super::write::is_absolute(w, walk.at.modes.distance));
+        let from_zero = word.as_ref().is_some_and(|w| super::write::is_absolute(w, walk.at.modes.distance));
         match walk.at.position[axis as usize] {
-            _ if absolute => {
+            _ if from_zero => {
                 if let Some(word) = word {
                     word.distance = Fact::Known(crate::canon::Distance::Absolute);
                 }
             }
             // Its length would be taken up by the word.
             Some(_) if axis == Axis::Z && word.is_none() && walk.waiting => {}
-            Some(nanos) => *word = Some(at(nanos, axis, walk.unit())),
+            Some(nanos) => *word = Some(absolute(whole(nanos, unit_of(axis, walk.unit())))),
             None if word.is_some() => {
                 return Err(Fault::PositionUnknown { axis: axis.letter() as char });
             }
@@ -94,6 +96,13 @@ fn name_all(to: &mut Point, walk: &Walk) -> Result<(), Fault> {
         }
     }
     Ok(())
+}
+
+/// The literal of a position that is rounded once, by the target: in millimetres where no digits say it in
+/// inches, because what is rounded to finer digits first may come out another.
+fn whole(nanos: Nanos, unit: Unit) -> Num {
+    let n = exact(nanos, unit);
+    if unit != Unit::Inch || n.nanos(true) == Some(nanos) { n } else { exact(nanos, Unit::Mm) }
 }
 
 fn centre_from_zero(arc: &mut Arc, walk: &Walk) -> Result<(), Fault> {
@@ -116,7 +125,7 @@ fn centre_from_zero(arc: &mut Arc, walk: &Walk) -> Result<(), Fault> {
     };
     let mut words: [Option<Expr>; 3] = [None, None, None];
     for (axis, nanos) in [first, second].into_iter().zip(centre) {
-        words[axis as usize] = Some(exact(nanos, unit_of(axis, walk.unit())).into());
+        words[axis as usize] = Some(whole(nanos, unit_of(axis, walk.unit())).into());
     }
     arc.centre = Centre::Point { words, from: CentreFrom::Zero };
     Ok(())
