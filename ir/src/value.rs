@@ -50,42 +50,33 @@ impl Value {
             Value::Number(n) => n,
         }
     }
-
-    /// As a condition: whether it is anything but zero.
-    #[inline]
-    pub fn holds(self) -> bool {
-        self.number() != 0.0
-    }
 }
 
-fn finite(n: f64) -> Result<Value, Wrong> {
-    if n.is_finite() { Ok(Value::Number(n)) } else { Err(Wrong::TooLarge) }
+fn finite(n: f64) -> Result<f64, Wrong> {
+    if n.is_finite() { Ok(n) } else { Err(Wrong::TooLarge) }
 }
 
-const fn truth(holds: bool) -> Result<Value, Wrong> {
-    Ok(Value::Number(if holds { 1.0 } else { 0.0 }))
+const fn truth(holds: bool) -> f64 {
+    if holds { 1.0 } else { 0.0 }
 }
 
 /// An operator with one operand.
-///
-/// # Errors
-/// None of those that there are.
 #[inline]
-pub fn unary(operator: Unary, a: Value) -> Result<Value, Wrong> {
+pub fn unary(operator: Unary, a: f64) -> f64 {
     match operator {
-        Unary::Negate => Ok(Value::Number(-a.number())),
-        Unary::Not => truth(!a.holds()),
+        Unary::Negate => -a,
+        Unary::Not => truth(a == 0.0),
     }
 }
 
 /// An operator with two operands. `and`, `or` and `xor` are those of conditions; `mod` leaves the remainder of a
-/// division whose quotient is cut off towards zero.
+/// division whose quotient is cut off towards zero. `==` and `!=` are of values, not of these numbers, where one
+/// may be [`Value::Vacant`].
 ///
 /// # Errors
 /// As of [`Wrong`].
 #[inline]
-pub fn binary(operator: Binary, left: Value, right: Value) -> Result<Value, Wrong> {
-    let (a, b) = (left.number(), right.number());
+pub fn binary(operator: Binary, a: f64, b: f64) -> Result<f64, Wrong> {
     match operator {
         Binary::Add => finite(a + b),
         Binary::Subtract => finite(a - b),
@@ -97,15 +88,15 @@ pub fn binary(operator: Binary, left: Value, right: Value) -> Result<Value, Wron
             let n = a.powf(b);
             if n.is_nan() { Err(Wrong::NotDefined) } else { finite(n) }
         }
-        Binary::Equal => truth(left == right),
-        Binary::NotEqual => truth(left != right),
-        Binary::Less => truth(a < b),
-        Binary::LessOrEqual => truth(a <= b),
-        Binary::Greater => truth(a > b),
-        Binary::GreaterOrEqual => truth(a >= b),
-        Binary::And => truth(left.holds() && right.holds()),
-        Binary::Or => truth(left.holds() || right.holds()),
-        Binary::Xor => truth(left.holds() != right.holds()),
+        Binary::Equal => Ok(truth(a == b)),
+        Binary::NotEqual => Ok(truth(a != b)),
+        Binary::Less => Ok(truth(a < b)),
+        Binary::LessOrEqual => Ok(truth(a <= b)),
+        Binary::Greater => Ok(truth(a > b)),
+        Binary::GreaterOrEqual => Ok(truth(a >= b)),
+        Binary::And => Ok(truth(a != 0.0 && b != 0.0)),
+        Binary::Or => Ok(truth(a != 0.0 || b != 0.0)),
+        Binary::Xor => Ok(truth((a != 0.0) != (b != 0.0))),
     }
 }
 
@@ -131,19 +122,14 @@ impl Function {
     }
 }
 
-/// A function. `asin` and `atan2` give -90 to 90 and more than -180 to 180 degrees, `acos` 0 to 180; `atan2` has
-/// the second axis first; `round` goes to the nearest whole number, halves away from zero, `floor` down,
-/// `ceiling` up, `truncate` towards zero.
+/// A function, of two numbers where it has two arguments. `asin` and `atan2` give -90 to 90 and more than -180 to 180
+/// degrees, `acos` 0 to 180; `atan2` has the second axis first; `round` goes to the nearest whole number, halves away
+/// from zero, `floor` down, `ceiling` up, `truncate` towards zero.
 ///
 /// # Errors
 /// As of [`Wrong`].
 #[inline]
-pub fn function(function: Function, arguments: &[Value]) -> Result<Value, Wrong> {
-    let (a, b) = match (arguments, function.arguments()) {
-        ([a], 1) => (a.number(), 0.0),
-        ([a, b], 2) => (a.number(), b.number()),
-        _ => return Err(Wrong::Arguments),
-    };
+pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
     let n = match function {
         Function::Sin => a.to_radians().sin(),
         Function::Cos => a.to_radians().cos(),
@@ -170,36 +156,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_counts_as_zero_but_is_not_equal_to_it() {
-        let zero = Value::Number(0.0);
-        assert_eq!(binary(Binary::Add, Value::Vacant, Value::Number(1.0)), Ok(Value::Number(1.0)));
-        assert_eq!(binary(Binary::Add, Value::Vacant, Value::Vacant), Ok(zero));
-        assert_eq!(binary(Binary::Equal, Value::Vacant, zero), Ok(zero));
-        assert_eq!(binary(Binary::Equal, Value::Vacant, Value::Vacant), Ok(Value::Number(1.0)));
-        assert_eq!(binary(Binary::NotEqual, zero, Value::Vacant), Ok(Value::Number(1.0)));
-        assert_eq!(binary(Binary::GreaterOrEqual, Value::Vacant, zero), Ok(Value::Number(1.0)));
-    }
-
-    #[test]
     fn what_has_no_value_is_refused() {
-        let (one, zero) = (Value::Number(1.0), Value::Number(0.0));
-        assert_eq!(binary(Binary::Divide, one, zero), Err(Wrong::DivisionByZero));
-        assert_eq!(binary(Binary::Modulo, one, Value::Vacant), Err(Wrong::DivisionByZero));
-        assert_eq!(function(Function::Sqrt, &[Value::Number(-1.0)]), Err(Wrong::NotDefined));
-        assert_eq!(function(Function::Asin, &[Value::Number(1.5)]), Err(Wrong::NotDefined));
-        assert_eq!(function(Function::Ln, &[zero]), Err(Wrong::NotDefined));
-        assert_eq!(function(Function::Atan2, &[zero, zero]), Err(Wrong::NotDefined));
-        assert_eq!(function(Function::Atan2, &[one]), Err(Wrong::Arguments));
-        assert_eq!(function(Function::Exp, &[Value::Number(1000.0)]), Err(Wrong::TooLarge));
+        assert_eq!(binary(Binary::Divide, 1.0, 0.0), Err(Wrong::DivisionByZero));
+        assert_eq!(binary(Binary::Modulo, 1.0, 0.0), Err(Wrong::DivisionByZero));
+        assert_eq!(function(Function::Sqrt, -1.0, 0.0), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Asin, 1.5, 0.0), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Ln, 0.0, 0.0), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Atan2, 0.0, 0.0), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Exp, 1000.0, 0.0), Err(Wrong::TooLarge));
+        assert_eq!(binary(Binary::Power, -8.0, 0.5), Err(Wrong::NotDefined));
     }
 
     #[test]
     fn rounding_goes_where_its_name_says() {
-        let of = |f, n| function(f, &[Value::Number(n)]).map(Value::number);
+        let of = |f, n| function(f, n, 0.0);
         assert_eq!(of(Function::Round, -2.5), Ok(-3.0));
         assert_eq!(of(Function::Floor, -2.5), Ok(-3.0));
         assert_eq!(of(Function::Ceiling, -2.5), Ok(-2.0));
         assert_eq!(of(Function::Truncate, -2.5), Ok(-2.0));
-        assert_eq!(binary(Binary::Modulo, Value::Number(-7.0), Value::Number(3.0)), Ok(Value::Number(-1.0)));
+        assert_eq!(binary(Binary::Modulo, -7.0, 3.0), Ok(-1.0));
     }
 }

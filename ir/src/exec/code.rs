@@ -167,7 +167,7 @@ impl<'p> Maker<'p> {
                 && let Some((entry, procedure)) = self.entries.get(&*called.call.name)
                 && called.arguments.len() <= procedure.parameters.len()
             {
-                let places = procedure.parameters.iter().map(|parameter| names.place(parameter).ok());
+                let places = procedure.parameters.iter().map(|parameter| names.place(parameter));
                 if let Some(places) = places.collect() {
                     called.parameters = places;
                     called.entry = Some(*entry);
@@ -197,7 +197,7 @@ impl<'p> Maker<'p> {
         let step = match &stmt.op {
             Op::Control(control) => return self.control(stmt, control),
             Op::Assign(to, value) => {
-                let to = self.code.names.place(to).ok();
+                let to = self.code.names.place(to);
                 Step::Assign(stmt, Box::new((to, self.code.names.term(value))))
             }
             Op::Goto(label) => {
@@ -261,7 +261,7 @@ impl<'p> Maker<'p> {
                 self.ends_here(head);
             }
             Control::For { variable, from, to, step, body } => {
-                let place = self.code.names.place(variable).ok();
+                let place = self.code.names.place(variable);
                 let end = Place::Local(self.code.names.unnamed());
                 let pace = Place::Local(self.code.names.unnamed());
                 for (place, value) in [(place, from), (Some(end), to), (Some(pace), step)] {

@@ -194,8 +194,8 @@ impl<'p> Runner<'p> {
                 }
                 Step::Unskipped(..) | Step::Jump(_) | Step::Again(_) | Step::End => {}
                 Step::Unless(_, condition, to) => {
-                    let value = self.variables.value(condition).map_err(|why| self.no_value(why, span))?;
-                    if !value.holds() {
+                    let value = self.variables.number(condition).map_err(|why| self.no_value(why, span))?;
+                    if value == 0.0 {
                         self.at = *to;
                     }
                 }
@@ -213,7 +213,7 @@ impl<'p> Runner<'p> {
                 }
                 Step::Turns(_, times, to) => {
                     exec.no_open_corner()?;
-                    let times = self.variables.value(times).map_err(|why| self.no_value(why, span))?.number();
+                    let times = self.variables.number(times).map_err(|why| self.no_value(why, span))?;
                     if times < 0.0 || times != times.trunc() || times > MOST_STEPS as f64 {
                         return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
                     }
@@ -307,7 +307,7 @@ impl<'p> Runner<'p> {
     fn enter(&mut self, frame: &Frame) {
         let base = self.variables.base;
         self.variables.locals.truncate(base);
-        self.variables.locals.resize(base + self.code.names.count, Value::Vacant);
+        self.variables.locals.resize(base + self.code.names.count as usize, Value::Vacant);
         for (place, value) in frame.parameters.iter().zip(&*frame.given) {
             self.variables.set(*place, *value);
         }
@@ -444,19 +444,22 @@ impl<'p> Runner<'p> {
     }
 }
 
-/// A value as a literal, to a billionth (of an inch, which nobody knows it is not, to ten); nothing is none.
+/// A value as a literal, to a billionth, or where it may be of an inch to a hundred-millionth; nothing is none.
 fn literal(value: Value, unit: Unit) -> Result<Option<Num>, Fault> {
     let Value::Number(n) = value else { return Ok(None) };
-    let out_of_range = || Fault::OutOfRange { word: "".into() };
-    if n == n.trunc() && n.abs() < 1e15 {
-        return Ok(Some(Num { mantissa: n as i64, scale: 0, point: unit != Unit::One, unit }));
+    if unit == Unit::One && n == n.trunc() && n.abs() < 1e15 {
+        return Ok(Some(Num::int(n as i64, unit)));
     }
-    let scale = if unit == Unit::Entry { 8 } else { 9 };
-    let scaled = n * if unit == Unit::Entry { ONE as f64 / 10.0 } else { ONE as f64 };
+    let (scale, scaled) = match unit {
+        Unit::Entry => (8, n * (ONE as f64 / 10.0)),
+        Unit::One | Unit::Mm | Unit::Inch | Unit::Degree | Unit::Second => (9, n * ONE as f64),
+    };
     if scaled.abs() >= 9e18 {
-        return Err(out_of_range());
+        return Err(Fault::OutOfRange { word: "".into() });
     }
-    Ok(Some(Num { mantissa: scaled.round() as i64, scale, point: true, unit }))
+    // Half away from zero.
+    let mantissa = (scaled + 0.5f64.copysign(scaled)) as i64;
+    Ok(Some(Num { mantissa, scale, point: true, unit }))
 }
 
 /// The blocks that a repetition at `at` executes again: from its label to itself, or to the end of

@@ -15,8 +15,8 @@ pub(super) enum Term {
     Number(f64),
     Vacant,
     Read(Place),
-    /// Something of the control itself, which is not executed.
-    System(Box<str>),
+    /// Something of the control itself, which is not executed: its place among [`Names::system`].
+    System(u32),
     /// A literal that says its own unit: what it counts here is not said.
     Measured,
     Unary(Unary, Box<Term>),
@@ -31,35 +31,37 @@ pub(super) enum Term {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     /// In the locals of the call.
-    Local(usize),
+    Local(u32),
     /// Among those that all procedures see.
-    Shared(usize),
+    Shared(u32),
 }
 
 /// Why an expression has no value.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Why {
     Wrong(Wrong),
     /// The variable was not set by the program.
-    Unset(usize),
-    System(Box<str>),
+    Unset(u32),
+    System(u32),
     Measured,
 }
 
 /// Names of variables, and their places.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
-    locals: HashMap<Box<str>, usize>,
-    shared: HashMap<Var, usize>,
+    locals: HashMap<Box<str>, u32>,
+    shared: HashMap<Var, u32>,
+    /// Those of the control's own.
+    system: Vec<Box<str>>,
     /// Places of locals in a call, those without a name included.
-    pub(super) count: usize,
+    pub(super) count: u32,
 }
 
 impl Names {
-    /// The place of a variable; `Err` is the name of one of the control's own.
-    pub(super) fn place(&mut self, var: &Var) -> Result<Place, Box<str>> {
+    /// The place of a variable; one of the control's own has none.
+    pub(super) fn place(&mut self, var: &Var) -> Option<Place> {
         match var {
-            Var::Local(name) => Ok(Place::Local(match self.locals.get(name) {
+            Var::Local(name) => Some(Place::Local(match self.locals.get(name) {
                 Some(place) => *place,
                 None => {
                     let place = self.unnamed();
@@ -68,15 +70,15 @@ impl Names {
                 }
             })),
             Var::Common(_) | Var::Retentive(_) => {
-                let next = self.shared.len();
-                Ok(Place::Shared(*self.shared.entry(var.clone()).or_insert(next)))
+                let next = self.shared.len() as u32;
+                Some(Place::Shared(*self.shared.entry(var.clone()).or_insert(next)))
             }
-            Var::System(name) => Err(name.clone()),
+            Var::System(_) => None,
         }
     }
 
     /// A further local, without a name.
-    pub(super) fn unnamed(&mut self) -> usize {
+    pub(super) fn unnamed(&mut self) -> u32 {
         self.count += 1;
         self.count - 1
     }
@@ -94,7 +96,10 @@ impl Names {
                 let var = self.shared.iter().find(|(_, at)| **at == place).map(|(var, _)| var.name());
                 Fault::VariableUnset { name: var.unwrap_or_default().into() }
             }
-            Why::System(name) => Fault::NotExecuted { what: format!("the system variable {name}").into() },
+            Why::System(at) => {
+                let name = self.system.get(at as usize).map_or("", |name| name);
+                Fault::NotExecuted { what: format!("the system variable {name}").into() }
+            }
             Why::Measured => {
                 Fault::NotExecuted { what: "a literal with a unit of its own in an expression".into() }
             }
@@ -111,8 +116,11 @@ impl Names {
         match node {
             Node::Vacant => Term::Vacant,
             Node::Var(var) => match self.place(var) {
-                Ok(place) => Term::Read(place),
-                Err(name) => Term::System(name),
+                Some(place) => Term::Read(place),
+                None => {
+                    self.system.push(var.name().into());
+                    Term::System(self.system.len() as u32 - 1)
+                }
             },
             Node::Unary(operator, a) => Term::Unary(*operator, Box::new(self.term(a))),
             Node::Binary(operator, a, b) => Term::Binary(*operator, Box::new([self.term(a), self.term(b)])),
@@ -141,42 +149,68 @@ pub(super) struct Variables {
 
 impl Variables {
     pub(super) fn new(names: &Names) -> Variables {
-        Variables { locals: vec![Value::Vacant; names.count], base: 0, shared: vec![None; names.shared()] }
+        let locals = vec![Value::Vacant; names.count as usize];
+        Variables { locals, base: 0, shared: vec![None; names.shared()] }
     }
 
     pub(super) fn set(&mut self, place: Place, value: Value) {
         match place {
-            Place::Local(at) => self.locals[self.base + at] = value,
-            Place::Shared(at) => self.shared[at] = Some(value),
+            Place::Local(at) => self.locals[self.base + at as usize] = value,
+            Place::Shared(at) => self.shared[at as usize] = Some(value),
         }
     }
 
     /// The value of one that is set; else nothing.
     pub(super) fn get(&self, place: Place) -> Value {
-        match place {
-            Place::Local(at) => self.locals[self.base + at],
-            Place::Shared(at) => self.shared[at].unwrap_or(Value::Vacant),
-        }
+        self.read(place).unwrap_or(Value::Vacant)
     }
 
     #[inline]
+    fn read(&self, place: Place) -> Result<Value, Why> {
+        match place {
+            Place::Local(at) => Ok(self.locals[self.base + at as usize]),
+            Place::Shared(at) => self.shared[at as usize].ok_or(Why::Unset(at)),
+        }
+    }
+
+    /// What an expression is worth.
     pub(super) fn value(&self, term: &Term) -> Result<Value, Why> {
         Ok(match term {
-            Term::Number(n) => Value::Number(*n),
             Term::Vacant => Value::Vacant,
-            Term::Read(Place::Local(at)) => self.locals[self.base + at],
-            Term::Read(Place::Shared(at)) => self.shared[*at].ok_or(Why::Unset(*at))?,
-            Term::Unary(operator, a) => value::unary(*operator, self.value(a)?).map_err(Why::Wrong)?,
+            Term::Read(place) => self.read(*place)?,
+            Term::Number(_)
+            | Term::System(_)
+            | Term::Measured
+            | Term::Unary(..)
+            | Term::Binary(..)
+            | Term::Of(..)
+            | Term::OfTwo(..)
+            | Term::Miscounted => Value::Number(self.number(term)?),
+        })
+    }
+
+    /// The same as an operand, which is all that most need of it.
+    pub(super) fn number(&self, term: &Term) -> Result<f64, Why> {
+        Ok(match term {
+            Term::Number(n) => *n,
+            Term::Vacant => 0.0,
+            Term::Read(place) => self.read(*place)?.number(),
+            Term::Unary(operator, a) => value::unary(*operator, self.number(a)?),
+            Term::Binary(operator @ (Binary::Equal | Binary::NotEqual), both) => {
+                let [a, b] = &**both;
+                let same = self.value(a)? == self.value(b)?;
+                f64::from(u8::from(same == (*operator == Binary::Equal)))
+            }
             Term::Binary(operator, both) => {
                 let [a, b] = &**both;
-                value::binary(*operator, self.value(a)?, self.value(b)?).map_err(Why::Wrong)?
+                value::binary(*operator, self.number(a)?, self.number(b)?).map_err(Why::Wrong)?
             }
-            Term::Of(f, a) => value::function(*f, &[self.value(a)?]).map_err(Why::Wrong)?,
+            Term::Of(f, a) => value::function(*f, self.number(a)?, 0.0).map_err(Why::Wrong)?,
             Term::OfTwo(f, both) => {
                 let [a, b] = &**both;
-                value::function(*f, &[self.value(a)?, self.value(b)?]).map_err(Why::Wrong)?
+                value::function(*f, self.number(a)?, self.number(b)?).map_err(Why::Wrong)?
             }
-            Term::System(name) => return Err(Why::System(name.clone())),
+            Term::System(at) => return Err(Why::System(*at)),
             Term::Measured => return Err(Why::Measured),
             Term::Miscounted => return Err(Why::Wrong(Wrong::Arguments)),
         })

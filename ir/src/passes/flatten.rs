@@ -81,10 +81,10 @@ fn round(stmt: &mut Stmt, target: &Target) -> Result<(), Diagnostic> {
     arguments::each(&mut stmt.op, &mut |argument: Argument, unit| {
         let Some(n) = argument.expr().and_then(Expr::literal) else { return Ok(()) };
         let decimals = target.decimals;
-        if n.scale < 8 || unit == Unit::One {
+        if n.scale < 8 {
             return Ok(());
         }
-        if n.scale <= decimals {
+        if n.scale <= decimals || unit == Unit::One {
             argument.set(Expr::Num(n.trimmed()));
             return Ok(());
         }
