@@ -70,7 +70,15 @@ pub fn told(job: &Job, name: &str, text: &[u8], diagnostics: &[Diagnostic], how:
 /// # Errors
 /// It has errors.
 pub fn read(dialect: &str, text: &[u8]) -> Result<Program, String> {
-    let mut reader = Reader::new(settings(dialect), true);
+    read_as(settings(dialect), text)
+}
+
+/// Reads a user's text for a machine with these choices.
+///
+/// # Errors
+/// It has errors.
+pub fn read_as(settings: Settings, text: &[u8]) -> Result<Program, String> {
+    let mut reader = Reader::new(settings, true);
     let mut batch = Batch::default();
     reader.read(text, 0, &mut batch);
     reader.finish(&mut batch);

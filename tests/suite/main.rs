@@ -16,6 +16,7 @@ mod fmt;
 mod fold;
 mod laws;
 mod machines;
+mod options;
 mod pages;
 mod pairs;
 mod passes;

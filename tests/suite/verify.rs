@@ -165,6 +165,35 @@ fn pages_are_equal_in_every_dialect() {
     failures.finish();
 }
 
+/// Programs of one control in which one word is another: its machine does something else, though points and
+/// feeds are the same.
+#[test]
+fn another_word_is_another_cut() {
+    let path = "%\nO0001\nG21 G17 G90 G94 G54\nT1 M06\nS1000 M03\nG00 X0. Y0. Z5.\nG64\n@\nG01 X10. F100.\nY10.\nM30\n%\n";
+    let rotary = "%_N_A_MPF\nG710 G17 G90 G94 G54\nT1 M6\nD1\nS1000 M3\nG0 X0 Y0 Z5 C0\nC=DC(90)\n@\nG1 X10 F100\nM30\n";
+    let programs = [
+        ("fanuc", path, ["G61", "G62", "G63", "G64"].as_slice()),
+        // The long way round, and the short one.
+        ("siemens", rotary, &["C=ACP(10)", "C=ACN(10)"]),
+        ("siemens", rotary, &["C=DC(200)", "C=ACN(200)"]),
+    ];
+    let mut failures = Failures::default();
+    for (dialect, text, words) in programs {
+        let job = job(dialect, dialect, "word");
+        for a in words {
+            for b in words {
+                let [one, other] = [a, b].map(|word| text.replace('@', word));
+                let found = verify(&job, one.as_bytes(), other.as_bytes());
+                let expected = if a == b { Word::Equal } else { Word::Different };
+                if found.verdict() != expected {
+                    failures.add(format!("{dialect}: {a} and {b}"), first(&value(&found)));
+                }
+            }
+        }
+    }
+    failures.finish();
+}
+
 fn form(dialect: &str) -> words::Form {
     let dialect = builtin(dialect).expect("a dialect");
     match dialect.family {

@@ -52,10 +52,8 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        let own = |c: &Code| c.span.start == code.span.start || c.row.code.starts_with('M');
-        if let Some(other) = functions.iter().find(|c| !own(c) && motion_of(c.meaning).is_none()) {
-            let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
-            return self.fault(fault, other.span, out);
+        if !self.stands_beside(code, functions, true, src, out) {
+            return;
         }
         if matches!(code.meaning, Meaning::SetShift(_) | Meaning::SetPosition) {
             self.check_shut(code, out);
@@ -93,6 +91,26 @@ impl Lower {
         if let (Some(op), false) = (op, self.now.failed) {
             self.push(code.span, op, out);
         }
+    }
+
+    /// Whether nothing else in the block takes the words of a code: M codes may stand beside it, and a motion
+    /// where that is said. The first other one is refused.
+    pub(super) fn stands_beside(
+        &mut self,
+        code: &Code,
+        functions: &[Code],
+        motion: bool,
+        src: Source,
+        out: &mut Batch,
+    ) -> bool {
+        let may_stand = |c: &Code| match motion_of(c.meaning) {
+            Some(_) => motion,
+            None => c.span.start == code.span.start || c.row.code.starts_with('M'),
+        };
+        let Some(other) = functions.iter().find(|c| !may_stand(c)) else { return true };
+        let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
+        self.fault(fault, other.span, out);
+        false
     }
 
     fn no_frame(&mut self, code: &Code, why: &str, out: &mut Batch) {

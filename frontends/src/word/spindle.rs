@@ -9,7 +9,7 @@ use ncc_ir::program::Op;
 
 use super::Source;
 use super::lower::Lower;
-use super::sort::{Code, Words, motion_of};
+use super::sort::{Code, Words};
 use crate::Batch;
 
 /// The option that says whose coordinate is the radius of a surface speed.
@@ -66,10 +66,8 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        let own = |c: &Code| c.span.start == code.span.start || c.row.code.starts_with('M');
-        if let Some(other) = functions.iter().find(|c| !own(c) || motion_of(c.meaning).is_some()) {
-            let fault = Fault::CodesExclude { first: src.text(code.span), second: src.text(other.span) };
-            return self.fault(fault, other.span, out);
+        if !self.stands_beside(code, functions, false, src, out) {
+            return;
         }
         if self.has_axis_word(words) {
             let name = "coordinates and a limit of the spindle in one block".into();

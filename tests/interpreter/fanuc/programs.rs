@@ -26,12 +26,17 @@ pub(super) fn programs(text: &str) -> Vec<Program> {
             continue;
         }
         let mut bare = String::new();
-        let mut inside = false;
+        let (mut inside, mut named) = (false, false);
         for c in line.chars() {
             match c {
                 '(' => inside = true,
                 ')' => inside = false,
                 _ if inside || c.is_whitespace() => {}
+                '<' | '>' => {
+                    named = c == '<';
+                    bare.push(c);
+                }
+                _ if named => bare.push(c),
                 _ => bare.push(c.to_ascii_uppercase()),
             }
         }

@@ -17,6 +17,9 @@ fn the_first_spindle_and_tools_by_name() {
         after_head("S1=900 M1=3\nT=\"DRILL 8.5\"\nT1=4\n"),
         ["S900", "& StartSpindleClockwise", "SelectToolByName(\"DRILL 8.5\")", "T4"]
     );
+    let angle = after_head("SPOS[1]=90\nSPOS[1]=DC(212.5)\n");
+    assert_eq!(angle.len(), 2);
+    assert_eq!(angle, after_head("SPOS=90\nSPOS=DC(212.5)\n"));
     assert_eq!(after_head("SETMS(1)\nSETMS\n"), ["NoEffect(\"SETMS\")", "NoEffect(\"SETMS\")"]);
 }
 
