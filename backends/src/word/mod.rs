@@ -225,6 +225,7 @@ impl Writer {
         let mut sink = Sink { out, diags };
         self.take_for_granted(assumed);
         self.number_labels(stmts);
+        self.look_ahead(stmts);
         self.body(stmts, &mut sink);
     }
 

@@ -4,7 +4,7 @@
 //! granted; a fact that neither knows is left out. Comments that come before wait behind it.
 
 use ncc_dialects::SafeStart;
-use ncc_ir::canon::Modes;
+use ncc_ir::canon::{Axis, Distance, Fact, Modes};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
@@ -25,6 +25,9 @@ pub(crate) struct Preamble {
     further: Vec<Code>,
     /// Whether anything was absorbed.
     any: bool,
+    /// Whether the first way along Z is so far from where the axis stands, and no length is said before it: whether
+    /// it is longer by a length that it takes up, or cancels, is a setting of the control.
+    up_from_here: bool,
     /// Number of the first absorbed block.
     number: Option<u32>,
     /// Comments and blank lines.
@@ -78,6 +81,20 @@ impl Writer {
         Ok(true)
     }
 
+    /// Looks for what the safe start must not state.
+    pub(crate) fn look_ahead(&mut self, stmts: &[Stmt]) {
+        let Some(preamble) = &mut self.preamble else { return };
+        let ops = stmts.iter().map(|stmt| stmt.op.unwrapped());
+        let lengths = |op: &Op| {
+            matches!(op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
+        };
+        let first = ops.take_while(|op| !lengths(op)).find_map(|op| {
+            let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = op else { return None };
+            m.to.get(Axis::Z)
+        });
+        preamble.up_from_here = first.is_some_and(|z| z.distance == Fact::Known(Distance::Incremental));
+    }
+
     /// Writes the safe start and what waits behind it, before the first event.
     pub(crate) fn start(&mut self, sink: &mut Sink) {
         // What stands in the block at hand belongs to comments that come before.
@@ -104,6 +121,8 @@ impl Writer {
                 SafeStart::Distance => distance.map(Setting::Distance),
                 SafeStart::FeedMode => feed_mode.map(Setting::FeedMode),
                 SafeStart::NoCompensation => Some(Setting::NoCompensation),
+                // Taken for granted instead, as it is for the source.
+                SafeStart::NoLengthOffset if preamble.up_from_here => None,
                 SafeStart::NoLengthOffset => Some(Setting::NoLength),
                 SafeStart::NoCycle => Some(Setting::NoCycle),
                 SafeStart::Centre => {

@@ -89,9 +89,13 @@ impl Lower {
         if to.axes.iter().flatten().any(|word| word.distance == Fact::Known(Distance::Incremental)) {
             return refuse("incremental word in machine coordinates");
         }
-        let motion = match self.motion(block, out) {
-            Err(()) => return,
-            Ok(motion) => motion,
+        // Where such a move is always a rapid, none need have been said before.
+        let motion = match rapid && !said {
+            true => None,
+            false => match self.motion(block, out) {
+                Err(()) => return,
+                Ok(motion) => motion,
+            },
         };
         let feeds = match motion {
             Some(Motion::Feed) if rapid && said => {

@@ -348,7 +348,8 @@ impl Seen {
             plain => plain,
         });
         let tolerance = AdviceKind::PathTolerance.bits();
-        let lengths = self.path && state.path.is_some_and(seen);
+        // An exact stop of one move leaves the lengths of the mode around it as they are, without a use for them.
+        let lengths = self.path && state.path.is_some_and(|mode| seen(mode) && mode != PathMode::ExactStop);
         State {
             path: path.filter(|_| self.path),
             advice: state.advice & self.advice,
