@@ -47,9 +47,24 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 /// # Panics
 /// The corpus cannot be read.
 pub fn of(dialect: &'static str) -> Vec<Program> {
-    files(&root().join("corpus").join(dialect))
+    under("corpus", dialect)
+}
+
+/// The programs of a dialect that compute: no target takes them as they are.
+///
+/// # Panics
+/// They cannot be read.
+pub fn computing(dialect: &'static str) -> Vec<Program> {
+    under("tests/computing", dialect)
+}
+
+fn under(folder: &str, dialect: &'static str) -> Vec<Program> {
+    let expected = |path: &PathBuf| path.extension().is_some_and(|e| e == "flat" || e == "stderr");
+    let folder = root().join(folder).join(dialect);
+    let found = if folder.is_dir() { files(&folder) } else { Vec::new() };
+    found
         .into_iter()
-        .filter(|path| path.is_file())
+        .filter(|path| path.is_file() && !expected(path))
         .map(|path| Program {
             dialect,
             name: part(path.file_stem()),

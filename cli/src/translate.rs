@@ -17,7 +17,7 @@ use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::unknown_calls;
+use ncc_ir::valid::{computing, unknown_calls};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
@@ -34,6 +34,9 @@ pub(crate) const PECK_CLEARANCE: &str = "peck_clearance";
 
 /// Option of a dialect: lift of its chip-breaking cycle.
 pub(crate) const BREAK_LIFT: &str = "break_lift";
+
+/// Pass that executes what is computed.
+const FLATTEN: &str = "flatten";
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -288,6 +291,10 @@ impl<'j> Line<'j> {
             self.take(unknown, Told::Reader);
             return Ok(());
         }
+        if let Some(fault) = computing(&source).filter(|_| !self.takes_computed()) {
+            self.take(vec![fault], Told::Reader);
+            return Ok(());
+        }
         let mut program = source.clone();
         if let Some(main) = program.procedures.first_mut() {
             self.state_given(&mut main.body);
@@ -300,6 +307,10 @@ impl<'j> Line<'j> {
             passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
+        if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
+            self.take(found, Told::Writer);
+            return Ok(());
+        }
         let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         let there = self.taken_there(main, &assumed, &mut found);
         self.renumbering.run(&mut program, &mut found);
@@ -330,6 +341,15 @@ impl<'j> Line<'j> {
         });
         self.trace = trace;
         self.output.push(&text)
+    }
+
+    /// Whether what comes behind reading takes what is computed: a target that can say everything, as it is; or
+    /// the pass that executes it.
+    fn takes_computed(&self) -> bool {
+        match self.job.passes.first() {
+            Some(pass) => pass.name == FLATTEN,
+            None => self.job.to.dialect.can.everything && self.folder.is_none(),
+        }
     }
 
     /// The text written so far, with what was asked beside it; notes where it comes from.

@@ -94,6 +94,8 @@ pub enum Function {
     Sqrt,
     Abs,
     Round,
+    RoundTo,
+    RoundUp,
     Floor,
     Ceiling,
     Truncate,

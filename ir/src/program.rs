@@ -535,6 +535,8 @@ pub struct Call {
     pub times: u32,
     /// Arguments, for a procedure with parameters.
     pub arguments: Vec<Expr>,
+    /// Whether the procedure has its caller's local variables (Fanuc's `M98`); else it has its own (`G65`).
+    pub shared: bool,
 }
 
 /// Structured control.

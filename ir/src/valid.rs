@@ -2,8 +2,41 @@
 //!
 //! Not here: what only execution can find, such as calls without an end.
 
+use crate::arguments;
 use crate::diag::{Diagnostic, Fault};
 use crate::program::{Control, Op, Program, Stmt};
+
+/// The first statement that is computed, or decides, when the program runs. A body that is executed a number of
+/// times that is written is neither.
+pub fn computing(program: &Program) -> Option<Diagnostic> {
+    let found = program.procedures.iter().find_map(|procedure| computes(&procedure.body));
+    found.or_else(|| {
+        let with_parameters = program.procedures.iter().find(|p| !p.parameters.is_empty())?;
+        let at = with_parameters.body.first()?.span;
+        Some(Diagnostic::new(Fault::Computes { what: "a subprogram with parameters" }, at))
+    })
+}
+
+fn computes(body: &[Stmt]) -> Option<Diagnostic> {
+    body.iter().find_map(|stmt| {
+        let what = match &stmt.op {
+            Op::Assign(..) => "an assignment",
+            Op::Control(control) => match &**control {
+                Control::If { .. } => "a decision",
+                Control::Repeat { times, body } if times.literal().is_some() => return computes(body),
+                Control::Repeat { .. }
+                | Control::Loop { .. }
+                | Control::While { .. }
+                | Control::For { .. } => "a loop",
+            },
+            Op::Goto(_) => "a jump",
+            Op::Call(call) if !call.arguments.is_empty() => "a call with arguments",
+            op if arguments::computed(op) => "a word with a variable or an expression",
+            _ => return None,
+        };
+        Some(Diagnostic::new(Fault::Computes { what }, stmt.span))
+    })
+}
 
 /// Calls of procedures that the program does not have, in the order of its text.
 pub fn unknown_calls(program: &Program) -> Vec<Diagnostic> {

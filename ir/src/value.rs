@@ -104,7 +104,7 @@ impl Function {
     /// How many arguments it has.
     pub const fn arguments(self) -> usize {
         match self {
-            Function::Atan2 => 2,
+            Function::Atan2 | Function::RoundTo => 2,
             Function::Sin
             | Function::Cos
             | Function::Tan
@@ -113,6 +113,7 @@ impl Function {
             | Function::Sqrt
             | Function::Abs
             | Function::Round
+            | Function::RoundUp
             | Function::Floor
             | Function::Ceiling
             | Function::Truncate
@@ -124,7 +125,8 @@ impl Function {
 
 /// A function, of two numbers where it has two arguments. `asin` and `atan2` give -90 to 90 and more than -180 to 180
 /// degrees, `acos` 0 to 180; `atan2` has the second axis first; `round` goes to the nearest whole number, halves away
-/// from zero, `floor` down, `ceiling` up, `truncate` towards zero.
+/// from zero, `floor` down, `ceiling` up, `truncate` towards zero, `roundup` away from zero (Fanuc's `FUP`). `roundto`
+/// rounds, halves away from zero, to as many digits behind the point as its second argument says.
 ///
 /// # Errors
 /// As of [`Wrong`].
@@ -141,6 +143,12 @@ pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
         Function::Sqrt => a.sqrt(),
         Function::Abs => a.abs(),
         Function::Round => a.round(),
+        Function::RoundTo if b == b.trunc() && (0.0..=9.0).contains(&b) => {
+            let by = 10_f64.powi(b as i32);
+            (a * by).round() / by
+        }
+        Function::RoundTo => f64::NAN,
+        Function::RoundUp => a.abs().ceil().copysign(a),
         Function::Floor => a.floor(),
         Function::Ceiling => a.ceil(),
         Function::Truncate => a.trunc(),
@@ -174,6 +182,11 @@ mod tests {
         assert_eq!(of(Function::Floor, -2.5), Ok(-3.0));
         assert_eq!(of(Function::Ceiling, -2.5), Ok(-2.0));
         assert_eq!(of(Function::Truncate, -2.5), Ok(-2.0));
+        assert_eq!(of(Function::RoundUp, -2.1), Ok(-3.0));
+        assert_eq!(of(Function::RoundUp, 2.1), Ok(3.0));
+        assert_eq!(function(Function::RoundTo, 12.3456, 3.0), Ok(12.346));
+        assert_eq!(function(Function::RoundTo, -0.5, 0.0), Ok(-1.0));
+        assert_eq!(function(Function::RoundTo, 1.0, 0.5), Err(Wrong::NotDefined));
         assert_eq!(binary(Binary::Modulo, -7.0, 3.0), Ok(-1.0));
     }
 }

@@ -26,7 +26,9 @@ fn built_in_dictionaries_read_back() {
                 .code
                 .iter()
                 .filter(|c| {
-                    c.means.is_none_or(|m| !matches!(m.to_string().as_str(), "START_CYCLE" | "PATTERN"))
+                    c.means.is_none_or(|m| {
+                        !matches!(m.to_string().as_str(), "START_CYCLE" | "PATTERN" | "CALL_MACRO")
+                    })
                 })
                 .map(|c| ("code", c.code.clone()))
                 .chain(dialect.cycle.iter().map(|c| ("cycle", c.code.clone())))

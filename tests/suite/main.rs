@@ -5,6 +5,7 @@
 
 mod beside;
 mod check;
+mod computing;
 mod cycles;
 mod dialects;
 mod dictionary_form;

@@ -1,4 +1,5 @@
-//! Every row of a dictionary is met by a program: what has a meaning by one of the corpus, what is refused
+//! Every row of a dictionary is met by a program: what has a meaning by one of the corpus, or of those that
+//! compute, what is refused
 //! by a block made for it.
 //!
 //! A row that a dictionary has from the one it builds on, unchanged, may be met there.
@@ -16,7 +17,7 @@ use ncc_tests::{corpus, translate};
 fn words(dialect: &'static Dialect) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
     let mut pieces: Vec<Piece> = Vec::new();
-    for program in corpus::of(&dialect.id) {
+    for program in corpus::of(&dialect.id).into_iter().chain(corpus::computing(&dialect.id)) {
         let mut lines = Lines::new(Settings::new(dialect));
         for line in program.text.split(|byte| *byte == b'\n') {
             let line = line.strip_suffix(b"\r").unwrap_or(line);

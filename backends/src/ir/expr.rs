@@ -118,6 +118,8 @@ fn function(f: Function) -> &'static str {
         Function::Sqrt => "sqrt",
         Function::Abs => "abs",
         Function::Round => "round",
+        Function::RoundTo => "roundto",
+        Function::RoundUp => "roundup",
         Function::Floor => "floor",
         Function::Ceiling => "ceiling",
         Function::Truncate => "truncate",

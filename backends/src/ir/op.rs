@@ -375,6 +375,9 @@ fn call(c: &Call, out: &mut Vec<u8>) {
         put(", times ", out);
         whole(u64::from(c.times), out);
     }
+    if c.shared {
+        put(", shared", out);
+    }
     further(&c.arguments, out);
 }
 

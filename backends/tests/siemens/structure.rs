@@ -7,7 +7,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::program::{Call, Control, Move, Op, RepeatBlocks};
 
 fn call(name: &str, times: u32) -> Op {
-    Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new() }))
+    Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new(), shared: false }))
 }
 
 fn sub(name: &str, body: Vec<Op>) -> Procedure {

@@ -240,7 +240,7 @@ fn patterns_stay_patterns() {
 
 #[test]
 fn a_cycle_is_called_up_before_a_subprogram_of_positions() {
-    let call = Op::Call(Box::new(Call { name: "1002".into(), times: 1, arguments: vec![] }));
+    let call = Op::Call(Box::new(Call { name: "1002".into(), times: 1, arguments: vec![], shared: false }));
     let stmts = lines(vec![rapid("X0."), drill("-6.", Some("100.")), call, Op::EndCycle]);
     assert_eq!(clean("fanuc", &stmts), "G00 X0.\nG99 G81 Z-6. R3. F100. K0\nM98 P1002\nG80\n");
 }

@@ -388,8 +388,8 @@ fn block_numbers() {
 fn subprograms_follow_the_main_program() {
     let main = lines(vec![
         rapid("X0."),
-        Op::Call(Box::new(Call { name: "12".into(), times: 1, arguments: vec![] })),
-        Op::Call(Box::new(Call { name: "12".into(), times: 5, arguments: vec![] })),
+        Op::Call(Box::new(Call { name: "12".into(), times: 1, arguments: vec![], shared: false })),
+        Op::Call(Box::new(Call { name: "12".into(), times: 5, arguments: vec![], shared: false })),
         rapid_on("X1."),
         Op::ProgramEnd,
     ]);
@@ -406,7 +406,7 @@ fn subprograms_follow_the_main_program() {
     assert_eq!(diags, []);
     refused("mach9", &main);
     let call = |name: &str, times| {
-        lines(vec![Op::Call(Box::new(Call { name: name.into(), times, arguments: vec![] }))])
+        lines(vec![Op::Call(Box::new(Call { name: name.into(), times, arguments: vec![], shared: false }))])
     };
     refused("fanuc", &call("12345", 1));
     refused("fanuc", &call("holes", 1));

@@ -13,7 +13,7 @@ use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
 use ncc_frontends::{Batch, Flow, REFUSED, Reader, flow};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Exec, Runner};
-use ncc_ir::program::{Op, Procedure, Program, Stmt, Text};
+use ncc_ir::program::{Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::chunks::{Chunk, Chunks};
@@ -60,6 +60,8 @@ pub(super) fn drive(job: &Job, limits: Limits, skip: u16, source: &mut Source) -
     }
     drive.reader.finish(&mut drive.batch);
     drive.take_diagnostics();
+    let bodies = || drive.batch.procedures.iter().map(|p| &p.body).chain([&drive.batch.stmts]);
+    drive.jumps |= bodies().any(|body| jumps_in(body));
     if drive.jumps {
         let mut text = Vec::new();
         source.file.seek(SeekFrom::Start(0))?;
@@ -96,6 +98,9 @@ struct Drive<'d> {
     missing_at: BTreeSet<u32>,
     /// Whether the text has jumps.
     jumps: bool,
+    /// Blocks that jumps can name, and places of jumps that lead nowhere: by the text alone.
+    labels: BTreeSet<String>,
+    nowhere: BTreeSet<u32>,
     subprogram: bool,
     not_text: bool,
     /// One past the last byte that was read.
@@ -126,6 +131,8 @@ impl<'d> Drive<'d> {
             after_end: None,
             missing_at: BTreeSet::new(),
             jumps: false,
+            labels: BTreeSet::new(),
+            nowhere: BTreeSet::new(),
             subprogram: false,
             not_text: false,
             end: 0,
@@ -137,10 +144,18 @@ impl<'d> Drive<'d> {
         let mut jumps = Jumps::default();
         flow(&self.job.from, text, &mut |piece| match piece {
             Flow::Program => jumps.program(),
-            Flow::Block { label, at, says, frames } => jumps.block(label, at, says, frames),
+            Flow::Block { label, at, says, frames } => {
+                self.labels.extend(label.clone());
+                jumps.block(label, at, says, frames);
+            }
             Flow::Jump { to, at, always, quiet } => jumps.jump(to, at, always, quiet),
         });
-        jumps.finish().into_iter().for_each(|finding| self.checker.add(finding));
+        for finding in jumps.finish() {
+            if let What::JumpNowhere { .. } = finding.what {
+                self.nowhere.insert(finding.span.start);
+            }
+            self.checker.add(finding);
+        }
     }
 
     /// A piece of the source.
@@ -267,6 +282,12 @@ impl<'d> Drive<'d> {
                 }
                 return;
             }
+            // What the text has stands in a block that was not read, or in a loop.
+            Fault::LabelUnknown { name }
+                if self.labels.contains(&**name) || self.nowhere.contains(&span.start) =>
+            {
+                return;
+            }
             Fault::LabelUnknown { name } => {
                 return self.checker.add(Finding::new(What::JumpNowhere { name: name.clone() }, *span));
             }
@@ -320,6 +341,21 @@ impl<'d> Drive<'d> {
             untold: self.untold,
         }
     }
+}
+
+/// Whether statements jump.
+fn jumps_in(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Goto(_) => true,
+        Op::Control(control) => match &**control {
+            Control::Repeat { body, .. }
+            | Control::Loop { body }
+            | Control::While { body, .. }
+            | Control::For { body, .. } => jumps_in(body),
+            Control::If { then, otherwise, .. } => jumps_in(then) || jumps_in(otherwise),
+        },
+        _ => false,
+    })
 }
 
 /// The row of a code as it is written: `G42`, `g2`.

@@ -288,6 +288,12 @@ impl Look<'_> {
                     None => {}
                 }
             }
+            if row.means == Some(Meaning::CallMacro)
+                && let Some(p) = row.words.bytes().next().and_then(word)
+            {
+                self.found.calls.insert((self.scope, p.value));
+                known.push(p.start);
+            }
             if row.means == Some(Meaning::Call) {
                 let packed = 10u32.checked_pow(self.dialect.program.packed_call_digits).filter(|p| *p > 1);
                 // As the front-end takes them: the first letter names the program.
@@ -309,10 +315,9 @@ impl Look<'_> {
             words.iter().filter(is_code).map(|w| row(w).and_then(|row| row.means)).collect();
         let strange = means.iter().any(Option::is_none)
             || pieces.windows(2).any(|p| p[0].text(line) == b"G" && p[1].text(line).contains(&b'.'));
-        let uses_letters = means
-            .iter()
-            .flatten()
-            .any(|m| matches!(m, Meaning::StartCycle | Meaning::Pattern | Meaning::Call));
+        let uses_letters = means.iter().flatten().any(|m| {
+            matches!(m, Meaning::StartCycle | Meaning::Pattern | Meaning::Call | Meaning::CallMacro)
+        });
         for w in words {
             let row = self.dialect.address_row(w.letter);
             let number = self.dialect.block.number == Some(w.letter as char);

@@ -175,6 +175,9 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
     if dialect.program.macros && code.iter().any(|b| b"#[=".contains(b)) {
         return;
     }
+    if dialect.program.macros && is_flow(&code) {
+        return;
+    }
     let mut at = 0;
     let mut alone = 0;
     while at < code.len() {
@@ -312,6 +315,21 @@ fn tenths(value: &str) -> Option<u32> {
     let (whole, tenth) = value.split_once('.').unwrap_or((value, ""));
     let number = |digits: &str| if digits.is_empty() { Some(0) } else { digits.parse::<u32>().ok() };
     number(whole)?.checked_mul(10)?.checked_add(number(tenth).filter(|t| *t < 10)?)
+}
+
+/// Whether a line without variables is one of a macro language: a jump, or where a loop begins or ends.
+fn is_flow(code: &[u8]) -> bool {
+    let code = code.trim_ascii().to_ascii_uppercase();
+    let code = match code.strip_prefix(b"N") {
+        Some(rest) => {
+            let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+            rest[digits..].trim_ascii_start()
+        }
+        None => &code[..],
+    };
+    [&b"GOTO"[..], b"END", b"DO"].iter().any(|word| {
+        code.strip_prefix(*word).is_some_and(|rest| rest.trim_ascii().first().is_some_and(u8::is_ascii_digit))
+    })
 }
 
 #[cfg(test)]

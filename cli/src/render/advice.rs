@@ -116,6 +116,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("see which values its variables have there; a control stops with an alarm")
         }
         Fault::VariableUnset { .. } => own("set the variable before it is read"),
+        Fault::Computes { .. } => {
+            own("`--pass flatten` executes the program, and writes the blocks that come of it")
+        }
         Fault::NoCycle => own("call the cycle up before the positions"),
         Fault::CycleUpsideDown => own("check the signs of the bottom and of the retract plane"),
         Fault::EntryFactNeeded { .. } => own("say it in the subprogram itself"),

@@ -289,6 +289,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NoSpeed
         | Fault::NoValue { .. }
         | Fault::VariableUnset { .. }
+        | Fault::Computes { .. }
         | Fault::NoCycle
         | Fault::CycleUpsideDown
         | Fault::EntryFactNeeded { .. }

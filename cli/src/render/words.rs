@@ -146,6 +146,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("variable {name} is read and was never set"),
             "what it holds, the control alone knows".into(),
         ),
+        Fault::Computes { what } => (
+            format!("what is computed when the program runs is not written for {to}"),
+            format!("this is {what}"),
+        ),
         Fault::NoCycle => {
             ("hole positions without a cycle".into(), "no cycle is in force to be made here".into())
         }

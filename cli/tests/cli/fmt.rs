@@ -105,12 +105,13 @@ fn links_stay_links_and_what_is_protected_stays() {
 fn a_program_that_cannot_be_executed_is_told_as_such() {
     let folder = folder();
     let folder = folder.path();
-    let text = b"%\nO1\nG21 G17 G90 G94 G54\n#1=1\nwhile[#1LT5]do1\nG0X#1\n#1=#1+1\nEND1\nM30\n%\n";
+    let text = b"%\nO1\nG21 G17 G90 G94 G54\n#1=BIN[1]\nwhile[#1LT5]do1\nG0X#1\n#1=#1+1\nEND1\nM30\n%\n";
     write(folder, "macro.nc", text);
     fmt(folder, &["--executed", "fanuc:macro.nc"]).exits(1).says("left as it is");
     assert_eq!(read(folder, "macro.nc"), text);
     fmt(folder, &["fanuc:macro.nc"]).exits(0).says("no more was shown");
-    let expected = b"%\nO1\nG21 G17 G90 G94 G54\n#1=1\nWHILE[#1LT5]DO1\nG00 X#1\n#1=#1+1\nEND1\nM30\n%\n";
+    let expected =
+        b"%\nO1\nG21 G17 G90 G94 G54\n#1=BIN[1]\nWHILE[#1LT5]DO1\nG00 X#1\n#1=#1+1\nEND1\nM30\n%\n";
     assert_eq!(read(folder, "macro.nc"), expected);
 }
 

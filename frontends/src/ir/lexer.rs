@@ -544,6 +544,8 @@ pub(crate) enum Token {
     Serpentine,
     #[token("times")]
     TimesWord,
+    #[token("shared")]
+    Shared,
     #[token("motion")]
     Motion,
     #[token("traverse")]
@@ -593,6 +595,8 @@ pub(crate) enum Token {
     #[token("sqrt", |_| Function::Sqrt)]
     #[token("abs", |_| Function::Abs)]
     #[token("round", |_| Function::Round)]
+    #[token("roundto", |_| Function::RoundTo)]
+    #[token("roundup", |_| Function::RoundUp)]
     #[token("floor", |_| Function::Floor)]
     #[token("ceiling", |_| Function::Ceiling)]
     #[token("truncate", |_| Function::Truncate)]

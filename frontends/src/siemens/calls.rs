@@ -220,7 +220,11 @@ impl Lower {
         }
         out.whole = true;
         let times = times as u32;
-        self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new() })), out);
+        self.push(
+            at,
+            Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new(), shared: false })),
+            out,
+        );
         // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
         let cycle = std::mem::take(&mut self.state.cycle);
         let motion = self.state.motion;

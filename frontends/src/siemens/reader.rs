@@ -168,7 +168,7 @@ impl Reader {
     fn plain(&mut self, src: Source, out: &mut Batch) -> bool {
         let is_number = |word: &Word| match word.value {
             Value::Number(d) => !d.point && d.mantissa >= 0 && u32::try_from(d.mantissa).is_ok(),
-            Value::None => false,
+            Value::None | Value::Computed(_) => false,
         };
         // A block number comes first, and calls have their zeros.
         let number = self.words.iter().position(|w| w.letter == b'N');

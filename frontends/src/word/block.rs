@@ -5,8 +5,10 @@
 
 use lalrpop_util::{ParseError, lalrpop_mod};
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Expr, Node, Unary};
 use ncc_ir::source::Span;
 
+use super::formula::{self, Formula, Piece, Statement};
 use super::token::{Refusal, Signs, Token, Tokens};
 
 lalrpop_mod!(
@@ -43,6 +45,11 @@ impl Digits {
         }
         Some(digits)
     }
+
+    /// As a whole number without a point.
+    pub(super) fn whole(self) -> Option<u32> {
+        u32::try_from(self.mantissa).ok().filter(|_| !self.point)
+    }
 }
 
 /// Eighteen nines.
@@ -55,6 +62,8 @@ pub(crate) enum Value {
     None,
     /// A number, with its sign in the mantissa.
     Number(Digits),
+    /// What is computed: its place in [`Block::exprs`].
+    Computed(u16),
 }
 
 /// A word: a letter and what follows it. Its span is in the source.
@@ -81,6 +90,10 @@ pub(crate) struct Block {
     pub(crate) span: Span,
     /// Names of programs, in their brackets.
     pub(crate) names: Vec<Span>,
+    /// What words have that are computed.
+    pub(crate) exprs: Vec<Expr>,
+    /// Its statement of the macro language.
+    pub(crate) statement: Option<Statement>,
     /// What is refused already by its form.
     pub(crate) faults: Vec<(Fault, Span)>,
     /// Comments as the lexer leaves them.
@@ -95,6 +108,7 @@ impl Block {
             && self.comments.is_empty()
             && self.names.is_empty()
             && self.faults.is_empty()
+            && self.statement.is_none()
     }
 
     pub(super) fn clear(&mut self) {
@@ -103,6 +117,8 @@ impl Block {
         self.tail = None;
         self.comments.clear();
         self.names.clear();
+        self.exprs.clear();
+        self.statement = None;
         self.faults.clear();
     }
 }
@@ -114,14 +130,21 @@ pub(crate) struct Sink<'s> {
     base: u32,
     /// Letter of the block number.
     number: u8,
+    /// Whether the macro language is read.
+    computes: bool,
+    /// What is refused within a word or a statement.
+    refused: Vec<(usize, usize)>,
+    /// Statements and parts of them, and where they stand.
+    pieces: Vec<Piece>,
+    stand: (usize, usize),
 }
 
 /// What a word's value is to the grammar.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Read {
     Number(Digits, bool),
-    /// A variable or an expression.
-    Computed,
+    /// A variable or an expression, and whether a minus stands before it.
+    Computed(Formula, bool),
     /// A program's name.
     Name,
 }
@@ -147,7 +170,10 @@ impl Sink<'_> {
                 let mantissa = if negative { -digits.mantissa } else { digits.mantissa };
                 Value::Number(Digits { mantissa, ..digits })
             }
-            Some(Read::Computed) => return self.macro_language(start, end),
+            Some(Read::Computed(formula, negative)) => match self.computed(start, end, formula, negative) {
+                Some(value) => value,
+                None => return,
+            },
             Some(Read::Name) => {
                 let code = self.text(start, end);
                 return self.fault(
@@ -170,6 +196,90 @@ impl Sink<'_> {
     /// A word behind a comma: its letter is kept as a small one.
     pub(crate) fn comma_word(&mut self, start: usize, end: usize, letter: u8, read: Read) {
         self.word(start, end, letter.to_ascii_lowercase(), Some(read));
+    }
+
+    /// A word's value; `None` is refused by name.
+    fn computed(&mut self, start: usize, end: usize, formula: Formula, negative: bool) -> Option<Value> {
+        if formula.condition {
+            self.refused.push((start, end));
+        }
+        let place = u16::try_from(self.block.exprs.len()).ok()?;
+        if self.settle(start, end) {
+            return None;
+        }
+        self.block.exprs.push(match negative {
+            true => Expr::Node(Box::new(Node::Unary(Unary::Negate, formula.expr))),
+            false => formula.expr,
+        });
+        Some(Value::Computed(place))
+    }
+
+    /// An expression; one that has no meaning, or none that is known, is refused with what it is part of.
+    pub(crate) fn made(&mut self, start: usize, end: usize, formula: Option<Formula>) -> Formula {
+        formula.unwrap_or_else(|| {
+            self.refused.push((start, end));
+            Formula::nothing()
+        })
+    }
+
+    /// A statement, or a part of one; `None` is refused by name.
+    pub(crate) fn piece(&mut self, start: usize, end: usize, piece: Option<Piece>) {
+        if piece.is_none() {
+            self.refused.push((start, end));
+        }
+        if self.pieces.is_empty() {
+            self.stand.0 = start;
+        }
+        self.stand.1 = end;
+        self.settle(start, end);
+        self.pieces.push(piece.unwrap_or(Piece::Refused));
+    }
+
+    /// A condition, and what depends on it.
+    pub(crate) fn condition(&mut self, start: usize, end: usize, of: Formula, piece: fn(Expr) -> Piece) {
+        let found = (of.condition || !self.refused.is_empty()).then(|| piece(of.expr));
+        self.piece(start, end, found);
+    }
+
+    /// An assignment; what is no variable, or nothing, takes no value.
+    pub(crate) fn assign(&mut self, start: usize, end: usize, to: Option<u32>, value: Formula) {
+        let to = to.filter(|to| *to > 0 && !value.condition).map(formula::variable);
+        self.piece(start, end, to.map(|to| Piece::Assign(to, value.expr)));
+    }
+
+    /// Reports what is refused of a word or a statement; `true` if anything is.
+    fn settle(&mut self, start: usize, end: usize) -> bool {
+        if !self.computes {
+            self.refused.clear();
+            self.macro_language(start, end);
+            return true;
+        }
+        let mut refused = std::mem::take(&mut self.refused);
+        // What is refused because of its part is told by that.
+        let parts = refused.clone();
+        refused.retain(|whole| {
+            !parts.iter().any(|part| part != whole && part.0 >= whole.0 && part.1 <= whole.1)
+        });
+        refused.dedup();
+        for (start, end) in &refused {
+            self.macro_language(*start, *end);
+        }
+        !refused.is_empty()
+    }
+
+    /// Makes a statement of the pieces. Beside it, nothing stands in its block but the block's number.
+    fn finish(&mut self) {
+        let (start, end) = self.stand;
+        let pieces = std::mem::take(&mut self.pieces);
+        if pieces.is_empty() || !self.computes {
+            return;
+        }
+        let refused = pieces.iter().any(|piece| matches!(piece, Piece::Refused));
+        let beside = self.block.words.iter().any(|word| word.letter != self.number);
+        self.block.statement = formula::statement(pieces);
+        if beside || self.block.statement.is_none() && !refused {
+            self.macro_language(start, end);
+        }
     }
 
     /// A part of the macro language: refused by name, the whole piece as its text.
@@ -206,12 +316,24 @@ pub(super) fn parse(line: &[u8], from: usize, base: u32, signs: Signs, block: &m
     let mut comments = std::mem::take(&mut block.aside);
     comments.clear();
     let mut tokens = Tokens::new(line, from, signs, &mut comments);
-    let mut sink = Sink { block, line, base, number: signs.number };
+    let mut sink = Sink {
+        block,
+        line,
+        base,
+        number: signs.number,
+        computes: signs.computes,
+        refused: Vec::new(),
+        pieces: Vec::new(),
+        stand: (0, 0),
+    };
     let result = grammar::BlockParser::new().parse(&mut sink, tokens.by_ref());
     let next = tokens.next_block();
-    if let Err(error) = result {
-        let (fault, start, end) = refusal(error, line);
-        sink.fault(fault, start, end);
+    match result {
+        Ok(()) => sink.finish(),
+        Err(error) => {
+            let (fault, start, end) = refusal(error, line);
+            sink.fault(fault, start, end);
+        }
     }
     let end = next.unwrap_or(line.len());
     block

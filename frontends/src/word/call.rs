@@ -67,7 +67,8 @@ impl Lower {
             return self.fault(Fault::OutOfRange { word: name }, word, out);
         }
         out.whole = true;
-        self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new() })), out);
+        let shared = self.shares();
+        self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new(), shared })), out);
         self.state = State::lost();
     }
 

@@ -10,6 +10,7 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::Side;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{CutterRadius, Op};
 
 use super::Source;
@@ -33,10 +34,10 @@ impl Lower {
             return self.by_diameter(code, side, words, src, out);
         }
         let radius = match words.take(letter) {
-            Some(word) => match self.entry(&word, src, out) {
+            Some(word) => match self.entry(&word, words, src, out) {
                 Some(entry) => {
-                    self.state.radius_entry = Know::Said(entry);
-                    CutterRadius::Entry(Expr::Num(entry))
+                    self.state.radius_entry = entry.literal().map_or(Know::Lost, Know::Said);
+                    CutterRadius::Entry(entry)
                 }
                 None => return,
             },
@@ -88,8 +89,8 @@ impl Lower {
             return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
         }
         let _ = words.take(letter);
-        if let Some(entry) = self.entry(&word, src, out) {
-            self.state.radius_entry = Know::Said(entry);
+        if let Some(entry) = self.whole(&word, src, out) {
+            self.state.radius_entry = Know::Said(Num::int(i64::from(entry), Unit::One));
         }
     }
 }

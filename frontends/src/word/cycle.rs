@@ -14,7 +14,7 @@ use ncc_ir::program::{Coord, Move, Op, Pitch};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::Value;
+use super::block::{Value, Word};
 use super::facts::{Active, InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
@@ -34,6 +34,9 @@ impl Lower {
             return self.lead(&word, src, out);
         }
         self.rely_on_feed_mode(word.span, out);
+        if let Value::Computed(_) = word.value {
+            return self.computed_feed(&word, motion, words, src, out);
+        }
         let Some(mut num) = self.number(&word, Quantity::Feed, src, out) else {
             return;
         };
@@ -67,6 +70,19 @@ impl Lower {
         }
         self.state.cycle_feed = None;
         self.push(word.span, Op::SetFeedRate(Expr::Num(num)), out);
+    }
+
+    /// A feed that is computed; not of a cycle, which would say it anew where its variables may be others.
+    fn computed_feed(&mut self, word: &Word, motion: &[Code], words: &Words, src: Source, out: &mut Batch) {
+        use ncc_dialects::Meaning::StartCycle;
+        let cycle = motion.iter().any(|c| c.meaning == StartCycle);
+        if cycle || matches!(&self.state.cycle, InForce::Active(active) if active.feed.is_some()) {
+            return self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+        }
+        let Some(value) = self.amount(word, Quantity::Feed, words, src, out) else { return };
+        self.state.feed = Know::Said(());
+        self.state.cycle_feed = None;
+        self.push(word.span, Op::SetFeedRate(value), out);
     }
 
     /// Calls a cycle up, and makes its first hole if the dialect does.
@@ -384,8 +400,8 @@ impl Lower {
     ) -> Given {
         let mut level = |lower: &mut Lower, letter: char| {
             let word = words.take(letter as u8)?;
-            let num = lower.number(&word, Quantity::Length, src, out)?;
-            Some(Coord { value: Expr::Num(num), distance })
+            let value = lower.amount(&word, Quantity::Length, words, src, out)?;
+            Some(Coord { value, distance })
         };
         let depth = level(self, depth_letter);
         let retract = level(self, row.retract);

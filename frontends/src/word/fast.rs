@@ -87,6 +87,7 @@ impl Lower {
             || state.thread.is_some()
             || self.level_open()
             || self.ended
+            || self.computes.jumps
         {
             return None;
         }

@@ -175,7 +175,7 @@ impl Reader {
         };
         let number = match word.value {
             Value::Number(d) if !d.point && d.mantissa > 0 => u32::try_from(d.mantissa).ok(),
-            Value::Number(_) | Value::None => None,
+            Value::Number(_) | Value::Computed(_) | Value::None => None,
         };
         let Some(number) = number else {
             out.report(Fault::OutOfRange { word: src.text(word.span) }, word.span);
@@ -247,6 +247,7 @@ impl Reader {
         if self.frame.closed {
             return;
         }
+        self.lower.open_loops(out);
         let in_sub = self.lower.sub.is_some();
         let expected = in_sub || self.frame.blocks;
         if expected && !self.lower.ended && !self.frame.faulty {

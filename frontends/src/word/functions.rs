@@ -7,7 +7,6 @@ use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl};
 use ncc_ir::source::Span;
 
@@ -288,14 +287,14 @@ impl Lower {
     /// Speed and tool words.
     fn speed_and_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(word) = words.take(self.roles.speed)
-            && let Some(num) = self.number(&word, Quantity::Speed, src, out)
+            && let Some(value) = self.amount(&word, Quantity::Speed, words, src, out)
         {
-            self.push(word.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
+            self.push(word.span, Op::SetSpindleSpeed(value), out);
         }
         if let Some(word) = words.take(self.roles.tool) {
             self.state.tool = Know::Said(());
-            if let Some(num) = self.entry(&word, src, out) {
-                self.push(word.span, Op::SelectTool(Expr::Num(num)), out);
+            if let Some(value) = self.entry(&word, words, src, out) {
+                self.push(word.span, Op::SelectTool(value), out);
             }
         }
     }
@@ -313,9 +312,12 @@ impl Lower {
     }
 
     /// A number of a table's entry, or of a tool: whole, not negative.
-    pub(super) fn entry(&mut self, word: &Word, src: Source, out: &mut Batch) -> Option<Num> {
+    pub(super) fn entry(&mut self, word: &Word, words: &Words, src: Source, out: &mut Batch) -> Option<Expr> {
+        if let Value::Computed(_) = word.value {
+            return self.amount(word, Quantity::Integer, words, src, out);
+        }
         let whole = self.whole(word, src, out)?;
-        Some(Num::int(i64::from(whole), ncc_ir::num::Unit::One))
+        Some(Expr::int(i64::from(whole)))
     }
 
     /// A code that stands for itself, before or after the motion.
@@ -376,8 +378,8 @@ impl Lower {
                     let code_text = code.row.code.as_str().into();
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
                 };
-                match self.number(&word, quantity, src, out) {
-                    Some(num) => Op::Dwell(Expr::Num(num)),
+                match self.amount(&word, quantity, words, src, out) {
+                    Some(value) => Op::Dwell(value),
                     None => return,
                 }
             }
@@ -454,14 +456,14 @@ impl Lower {
     ) {
         self.state.length_offset = Know::Said(());
         self.state.level_open = true;
-        let Some(num) = self.entry(word, src, out) else {
+        let Some(entry) = self.entry(word, words, src, out) else {
             return;
         };
         let with_z = words.get(b'Z').is_some();
         if self.assume && !with_z && !std::mem::replace(&mut self.reported.offset_with_z, true) {
             out.report(Fault::AssumedOffsetWithZ, span);
         }
-        self.push(span, Op::UseToolLengthOffset(Expr::Num(num)), out);
+        self.push(span, Op::UseToolLengthOffset(entry), out);
     }
 }
 

@@ -16,6 +16,7 @@ use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::Block;
+use super::computing::Computes;
 use super::facts::{InForce, Know, State};
 use super::fast::Fast;
 use super::number::{CentreSeen, UnitsSeen};
@@ -49,6 +50,7 @@ pub(super) struct Lower {
     pub(super) sub: Option<Procedure>,
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
+    pub(super) computes: Computes,
     /// What plain moves need; `None` if a block must be looked at.
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
@@ -103,7 +105,7 @@ pub(super) struct Now {
     /// Whether the code that ends a cycle has had its effect.
     pub(super) cycle_ended: bool,
     /// Length of the target before the block.
-    mark: usize,
+    pub(super) mark: usize,
     /// Whether the block says a feed.
     pub(super) fed: bool,
     /// Feed of a cycle's own block.
@@ -159,6 +161,7 @@ impl Lower {
             centre_seen: CentreSeen::default(),
             sub: None,
             ended: false,
+            computes: Computes::default(),
             fast: None,
             now: Now::default(),
             codes: Vec::new(),
@@ -171,6 +174,7 @@ impl Lower {
 
     /// Lowers a block.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        self.in_loop(out);
         let before = (block.skip != 0).then(|| self.state.clone());
         let level = (block.skip != 0).then_some(block.skip);
         self.now = Now {
@@ -193,15 +197,23 @@ impl Lower {
         }
         let mut codes = std::mem::take(&mut self.codes);
         codes.clear();
-        let mut words = Words { all: &block.words, at: [0; 26], left: 0 };
+        let mut words = Words { all: &block.words, exprs: &block.exprs, at: [0; 26], left: 0 };
         // A block that is none by its form is not asked for its meaning.
-        if !self.now.refused {
+        let called = self.macro_code(block).filter(|_| !self.now.refused);
+        if let Some(code) = &called {
+            self.macro_call(code, block, src, out);
+        } else if !self.now.refused {
             self.sort_words(block, &mut codes, &mut words, src, out);
             self.check_tail(block, &codes, out);
         }
-        if !self.now.refused {
+        if called.is_some() {
+            // It is all that its block says.
+        } else if !self.now.refused {
+            self.jumped_to(block, out);
             self.message(block, src, out);
-            if !self.repetition(block, &codes, &mut words, src, out) {
+            if let Some(statement) = &block.statement {
+                self.statement(statement, block, out);
+            } else if !self.repetition(block, &codes, &mut words, src, out) {
                 self.functions(block, &codes, &mut words, level, src, out);
             }
             if !self.now.failed {
@@ -211,6 +223,9 @@ impl Lower {
                 self.fault(Fault::WordUnused { word: name }, span, out);
             }
         } else {
+            if let Some(statement) = &block.statement {
+                self.statement(statement, block, out);
+            }
             // The modes that it says still count.
             for code in &codes {
                 self.set_mode(code.meaning, out);

@@ -15,18 +15,21 @@ mod again;
 pub(crate) mod block;
 mod call;
 mod compensation;
+mod computing;
 mod corner;
 mod cycle;
 mod data;
 mod detour;
 pub(crate) mod facts;
 pub(crate) mod fast;
+mod formula;
 mod frame;
 mod frames;
 pub(crate) mod functions;
 pub(crate) mod jumps;
 pub(crate) mod lower;
 mod machine;
+mod macro_call;
 mod motion;
 pub(crate) mod number;
 mod pattern;
@@ -123,6 +126,7 @@ impl Reader {
             return self.not_text(Span::new(at, at + 1), out);
         }
         self.keep(text, base);
+        self.lower.look_ahead(text, out);
         let from = self.lower.target(out).len();
         self.lines(text, base, out);
         self.kept(from, out);
@@ -173,6 +177,7 @@ impl Reader {
         if !self.frame.is_binary {
             self.end_of_program(out);
             self.end_of_text(out);
+            self.lower.computes.give_parameters(&mut out.procedures);
         }
     }
 
@@ -265,12 +270,22 @@ impl Reader {
         (found || named).then_some((start, line.trim_ascii_end().len()))
     }
 
+    /// Whether a block behind the end can be reached all the same, since it has a number that jumps may name.
+    fn reached_again(&mut self) -> bool {
+        let numbered = self.block.words.first().is_some_and(|word| word.letter == self.signs.number);
+        let again = self.lower.computes.jumps && numbered && self.signs.number != 0;
+        if again {
+            self.lower.ended = false;
+        }
+        again
+    }
+
     /// A block, whichever way it was read.
     fn meaning(&mut self, src: Source, out: &mut Batch) {
         if self.program_word(src, out) {
             return;
         }
-        if self.lower.ended {
+        if self.lower.ended && !self.reached_again() {
             return self.after_end(src, out);
         }
         self.frame.blocks |= !self.block.words.is_empty() || self.block.skip != 0;

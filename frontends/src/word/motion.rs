@@ -10,6 +10,7 @@ use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
 use ncc_ir::source::Span;
 
 use super::Source;
+use super::block::Value;
 use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, Words, motion_of};
@@ -206,10 +207,17 @@ impl Lower {
                 continue;
             };
             if let Some(word) = words.take(letter) {
+                if let Value::Computed(_) = word.value
+                    && (self.state.unplaced != 0 || self.level_open())
+                {
+                    // Whether the word is there at all must be known.
+                    self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+                    continue;
+                }
                 let distance = self.distance(word.span, out);
                 let quantity = self.quantity_of(axis, row.quantity);
-                if let Some(num) = self.number(&word, quantity, src, out) {
-                    to.set(axis, Coord { value: Expr::Num(num), distance });
+                if let Some(value) = self.amount(&word, quantity, words, src, out) {
+                    to.set(axis, Coord { value, distance });
                 }
             }
         }
@@ -263,7 +271,7 @@ impl Lower {
                 continue;
             }
             if let Some(word) = words.take(letter) {
-                centre[place] = self.number(&word, Quantity::Length, src, out).map(Expr::Num);
+                centre[place] = self.amount(&word, Quantity::Length, words, src, out);
             }
         }
         let by_centre = centre.iter().any(Option::is_some);
@@ -275,8 +283,8 @@ impl Lower {
                 if no_way(plane, &to) && self.now.polar == [None; 2] {
                     self.fault(Fault::ArcRadiusNoWay, block, out);
                 }
-                match self.number(&word, Quantity::Length, src, out) {
-                    Some(num) => Centre::Radius(Expr::Num(num)),
+                match self.amount(&word, Quantity::Length, words, src, out) {
+                    Some(value) => Centre::Radius(value),
                     None => return,
                 }
             }

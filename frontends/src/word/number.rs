@@ -41,7 +41,7 @@ fn centre_open() -> Fault {
 }
 
 impl Lower {
-    /// The literal of a word; `None` if it is refused (reported).
+    /// The literal of a word; `None` if it is refused (reported), as what is computed is.
     pub(super) fn number(
         &mut self,
         word: &Word,
@@ -52,6 +52,9 @@ impl Lower {
         let digits = match word.value {
             Value::Number(digits) => digits,
             Value::None => Digits { mantissa: 0, scale: 0, point: false },
+            Value::Computed(_) => {
+                return self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+            }
         };
         let rules = self.rules[quantity as usize];
         if rules.unsigned && digits.mantissa < 0 {
@@ -176,7 +179,12 @@ impl Lower {
     }
 
     /// The units whose increment a number without a point counts.
-    fn units_of_increment(&mut self, units: Fact<Units>, at: Span, out: &mut Batch) -> Option<Units> {
+    pub(super) fn units_of_increment(
+        &mut self,
+        units: Fact<Units>,
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Units> {
         if let Fact::Known(units) = units {
             return Some(units);
         }

@@ -67,10 +67,11 @@ fn block(tokens: &mut Tokens, dialect: &Dialect, into: &mut Vec<Piece>) -> bool 
             | Token::Goto
             | Token::Do
             | Token::End
-            | Token::Function
-            | Token::Compare
-            | Token::Or
-            | Token::And => PieceKind::Key,
+            | Token::Function(_)
+            | Token::Atan
+            | Token::Compare(_)
+            | Token::Or(_)
+            | Token::And(_) => PieceKind::Key,
             Token::Plus
             | Token::Minus
             | Token::Star

@@ -6,6 +6,7 @@
 use ncc_dialects::{CodeRow, Dialect, Meaning, Role};
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
 use ncc_ir::source::Span;
 
 use super::Source;
@@ -68,6 +69,8 @@ pub(super) struct Code {
 #[derive(Debug)]
 pub(super) struct Words<'b> {
     pub(super) all: &'b [Word],
+    /// What of them is computed.
+    pub(super) exprs: &'b [Expr],
     /// Index plus one, by letter.
     pub(super) at: [u16; 26],
     /// Letters that are still to be used, a bit each.
@@ -179,11 +182,15 @@ impl Lower {
     /// Looks a code up.
     fn code(&mut self, at: usize, word: &Word, codes: &mut Vec<Code>, src: Source, out: &mut Batch) {
         let dialect = self.settings.dialect;
+        if let Value::Computed(_) = word.value {
+            self.now.refused = true;
+            return self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+        }
         let tenths = match word.value {
             Value::None => Some(0),
             Value::Number(d) if d.scale == 0 => d.mantissa.checked_mul(10),
             Value::Number(d) if d.scale == 1 => Some(d.mantissa),
-            Value::Number(_) => None,
+            Value::Number(_) | Value::Computed(_) => None,
         };
         let tenths = tenths.and_then(|t| u32::try_from(t).ok());
         let Some(row) = tenths.and_then(|t| dialect.code_row(word.letter, t)) else {
@@ -281,7 +288,7 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::CoolantOff => 31,
         Meaning::ProgramStop | Meaning::OptionalProgramStop => 32,
         Meaning::ProgramEnd => 33,
-        Meaning::Call | Meaning::Return => 34,
+        Meaning::Call | Meaning::CallMacro | Meaning::Return => 34,
     }
 }
 

@@ -7,6 +7,7 @@
 use logos::Logos;
 use ncc_dialects::Dialect;
 use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Binary, Function};
 
 use super::block::Digits;
 
@@ -27,8 +28,10 @@ pub(super) struct Signs {
     pub(super) number: u8,
     /// Signs that stand for the letters of radius and angle; 0 for none.
     polar: [u8; 2],
-    /// Whether variables and expressions are read (to be refused by name).
+    /// Whether the control has variables and expressions.
     macros: bool,
+    /// Whether what they mean is known; else they are refused by name.
+    pub(super) computes: bool,
 }
 
 impl Signs {
@@ -43,6 +46,7 @@ impl Signs {
             number: dialect.block.number.map_or(0, |c| c as u8),
             polar: dialect.polar.signs().unwrap_or_default(),
             macros: dialect.program.macros,
+            computes: dialect.program.macro_b,
         }
     }
 }
@@ -92,12 +96,15 @@ pub(crate) enum Token {
     End,
     /// Output of text and setting of names: the rest of the block.
     Print,
-    Function,
-    Compare,
+    /// A function; `None` is one that is refused by name.
+    Function(Option<Function>),
+    /// The function of two arguments with a division sign between them.
+    Atan,
+    Compare(Binary),
     /// OR and XOR.
-    Or,
+    Or(Binary),
     /// AND and MOD.
-    And,
+    And(Binary),
 }
 
 /// Why there is no block.
@@ -126,35 +133,35 @@ const STATEMENTS: &[(&[u8], Token)] = &[
 
 /// Words of the macro language that stand in expressions, longest first.
 const OPERATORS: &[(&[u8], Token)] = &[
-    (b"ROUND", Token::Function),
-    (b"ASIN", Token::Function),
-    (b"ACOS", Token::Function),
-    (b"ATAN", Token::Function),
-    (b"SQRT", Token::Function),
-    (b"SIN", Token::Function),
-    (b"COS", Token::Function),
-    (b"TAN", Token::Function),
-    (b"ABS", Token::Function),
-    (b"FIX", Token::Function),
-    (b"FUP", Token::Function),
-    (b"EXISTS", Token::Function),
-    (b"EXP", Token::Function),
-    (b"POW", Token::Function),
-    (b"BIN", Token::Function),
-    (b"BCD", Token::Function),
-    (b"ADP", Token::Function),
-    (b"PRM", Token::Function),
-    (b"LN", Token::Function),
-    (b"XOR", Token::Or),
-    (b"OR", Token::Or),
-    (b"AND", Token::And),
-    (b"MOD", Token::And),
-    (b"EQ", Token::Compare),
-    (b"NE", Token::Compare),
-    (b"GT", Token::Compare),
-    (b"GE", Token::Compare),
-    (b"LT", Token::Compare),
-    (b"LE", Token::Compare),
+    (b"ROUND", Token::Function(Some(Function::Round))),
+    (b"ASIN", Token::Function(Some(Function::Asin))),
+    (b"ACOS", Token::Function(Some(Function::Acos))),
+    (b"ATAN", Token::Atan),
+    (b"SQRT", Token::Function(Some(Function::Sqrt))),
+    (b"SIN", Token::Function(Some(Function::Sin))),
+    (b"COS", Token::Function(Some(Function::Cos))),
+    (b"TAN", Token::Function(Some(Function::Tan))),
+    (b"ABS", Token::Function(Some(Function::Abs))),
+    (b"FIX", Token::Function(Some(Function::Truncate))),
+    (b"FUP", Token::Function(Some(Function::RoundUp))),
+    (b"EXISTS", Token::Function(None)),
+    (b"EXP", Token::Function(Some(Function::Exp))),
+    (b"POW", Token::Function(None)),
+    (b"BIN", Token::Function(None)),
+    (b"BCD", Token::Function(None)),
+    (b"ADP", Token::Function(None)),
+    (b"PRM", Token::Function(None)),
+    (b"LN", Token::Function(Some(Function::Ln))),
+    (b"XOR", Token::Or(Binary::Xor)),
+    (b"OR", Token::Or(Binary::Or)),
+    (b"AND", Token::And(Binary::And)),
+    (b"MOD", Token::And(Binary::Modulo)),
+    (b"EQ", Token::Compare(Binary::Equal)),
+    (b"NE", Token::Compare(Binary::NotEqual)),
+    (b"GT", Token::Compare(Binary::Greater)),
+    (b"GE", Token::Compare(Binary::GreaterOrEqual)),
+    (b"LT", Token::Compare(Binary::Less)),
+    (b"LE", Token::Compare(Binary::LessOrEqual)),
 ];
 
 /// The tokens of one block.

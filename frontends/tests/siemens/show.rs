@@ -113,7 +113,9 @@ impl Show<'_> {
             Item::Word(Word { letter, value: Number::Number(n), .. }) => {
                 format!("{}{}", char::from(*letter), digits(*n))
             }
-            Item::Word(Word { letter, value: Number::None, .. }) => char::from(*letter).to_string(),
+            Item::Word(Word { letter, value: Number::None | Number::Computed(_), .. }) => {
+                char::from(*letter).to_string()
+            }
             Item::Set { place, value, .. } => format!("{} = {}", self.place(place), self.value(value)),
             Item::Name(called) => self.called(called),
         }

@@ -141,28 +141,77 @@ fn the_macro_language_is_refused_by_name() {
             "{piece}"
         );
     };
-    refused("#1=5.\n", "#1=5.");
-    refused("N99#3000=121(TOO LONG)\n", "#3000=121");
-    refused("G0 X#1 Y2.\n", "X#1");
-    refused("X - [ #20 - #4 ]\n", "X - [ #20 - #4 ]");
-    refused("G1 F[1500./2]\n", "F[1500./2]");
-    refused("/GOTO22\n", "GOTO22");
+    refused("G0 X#[#1+2] Y2.\n", "#[#1+2]");
+    refused("G0 X##1\n", "##1");
+    refused("X[#1.]\n", "#1.");
+    refused("G#1\n", "G#1");
+    refused("M[#1+3]\n", "M[#1+3]");
+    refused("G10 L2 P1 X#1\n", "X#1");
+    refused("G92 X#1\n", "X#1");
+    refused("G81 X1. Z-1. R1. F#9\n", "F#9");
+    refused("G83 X1. Z-1. R1. Q#17\n", "Q#17");
+    refused("X[#1 EQ 2]\n", "X[#1 EQ 2]");
+    refused("F[ROUND[#1]]\n", "F[ROUND[#1]]");
     refused("GOTO#140\n", "GOTO#140");
-    refused("END1\n", "END1");
-    refused("DO 2\n", "DO 2");
+    refused("GOTO[#1+1]\n", "GOTO[#1+1]");
     refused("DPRNT[X#100[53]*Y]\n", "DPRNT[X#100[53]*Y]");
-    refused("#1=ATAN[#2]/[-#3+SIN[30.]*2] OR #5\n", "#1=ATAN[#2]/[-#3+SIN[30.]*2] OR #5");
-    refused("#[#1+2]=POW[2,3]\n", "#[#1+2]=POW[2,3]");
-    refused("#1=#[_DATE]\n", "#1=#[_DATE]");
-    let all = |piece| faults("fanuc", piece).join(" ");
-    assert_eq!(all("IF[#1 EQ #0]THEN #1=2\n").matches("MacroLanguage").count(), 3);
-    assert_eq!(all("WH[[#1GT0]AND[#2LE5]]DO1\n").matches("MacroLanguage").count(), 2);
-    assert_eq!(all("IF[#01EQ[-1]]GOTO9\n").matches("MacroLanguage").count(), 2);
-    assert_eq!(all("N1 #29=1 GOTO10\n").matches("MacroLanguage").count(), 2);
+    refused("#0=5\n", "#0=5");
+    refused("#[#1+2]=3\n", "#[#1+2]=3");
+    refused("#1=#[_DATE]\n", "_DATE");
+    refused("#1=POW[2,3]\n", "POW[2,3]");
+    refused("#1=2*ATAN[3]\n", "ATAN[3]");
+    refused("#1=BIN[#2]+1\n", "BIN[#2]");
+    // On numbers, bit by bit.
+    refused("#1=[#2 AND 7]*2\n", "#2 AND 7");
+    refused("#1=[#2 EQ 7]\n", "#1=[#2 EQ 7]");
+    refused("#1=[#2 EQ 7]+1\n", "[#2 EQ 7]+1");
+    refused("IF[#1]GOTO5\n", "IF[#1]");
+    refused("IF[[#1 EQ 1] AND #2]GOTO5\n", "[#1 EQ 1] AND #2");
+    refused("IF[#1 EQ 1]#2=3\n", "IF[#1 EQ 1]#2=3");
+    refused("IF[#1 EQ 1]THEN X5.\n", "IF[#1 EQ 1]THEN");
+    refused("WHILE[#1 EQ 1]\n", "WHILE[#1 EQ 1]");
+    refused("X5. #1=5\n", "#1=5");
+    refused("N1 #29=1 GOTO10\n", "#29=1 GOTO10");
+    refused("#1=2 #2=3\n", "#1=2 #2=3");
+    refused("G65 P9000 A[ROUND[#1]]\n", "A[ROUND[#1]]");
+    // Of other controls nothing of it is known.
+    for id in ["haas", "linuxcnc"] {
+        assert_eq!(faults(id, "X[#1+2]\n"), ["MacroLanguage { what: 'X[#1+2]' } at 'X[#1+2]'"], "{id}");
+        assert_eq!(faults(id, "#1=#2 AND 7\n").len(), 1, "{id}");
+    }
     assert_eq!(
-        faults("fanuc", "G65 P9000 A1. I1. I2. T5\n")[0],
-        "NotSupported { code: 'G65', name: 'macro call' } at 'G65'"
+        faults("fanuc", "G66 P9000 A1.\n")[0],
+        "NotSupported { code: 'G66', name: 'modal macro call' } at 'G66'"
     );
+}
+
+#[test]
+fn loops_and_macro_calls_that_are_none() {
+    let one = |piece: &str, wanted: &str| assert_eq!(faults("fanuc", piece), [wanted], "{piece}");
+    one("END1\n", "NotSupported { code: 'END1', name: 'end of no loop' } at 'END1'");
+    one("DO 2\nX1.\n", "NotSupported { code: 'DO2', name: 'loop without its end' } at 'DO 2'");
+    one("DO4\nEND4\n", "NotSupported { code: 'DO4', name: 'loop of another number' } at 'DO4'");
+    one(
+        "DO1\nDO1\nEND1\nEND1\n",
+        "NotSupported { code: 'DO1', name: 'loop within one of its number' } at 'DO1'",
+    );
+    let crossing = "WHILE[#1 LT 5]DO1\nDO2\nEND1\nEND2\n";
+    let wanted = "NotSupported { code: 'END1', name: 'end of a loop within the loop 2' } at 'END1'";
+    assert_eq!(faults("fanuc", crossing)[0], wanted);
+    one(
+        "/WHILE[#1 LT 5]DO1\nX1.\nEND1\n",
+        "NotSupported { code: 'END1', name: 'loop whose head or end can be skipped' } at 'END1'",
+    );
+    // A head that is refused is one slip.
+    one("WHILE[BIN[#1] LT 5]DO1\nX1.\nEND1\n", "MacroLanguage { what: 'BIN[#1]' } at 'BIN[#1]'");
+    one("G65 A1.\n", "WordMissing { code: 'G65', word: 'P' } at 'G65'");
+    one(
+        "G65 P9000 E5\n",
+        "NotSupported { code: 'E5', name: 'argument without a decimal point, of an address whose increment is the machine's' } at 'E5'",
+    );
+    one("G65 P9000 X1. X2.\n", "WordTwice { letter: 'X' } at 'X2.'");
+    one("G65 P9000 G1 X1.\n", "WordUnused { word: 'G1' } at 'G1'");
+    one("G65 P9000 A\n", "WordWithoutNumber { letter: 'A' } at 'A'");
 }
 
 #[test]

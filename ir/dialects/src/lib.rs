@@ -33,5 +33,7 @@ pub use names::*;
 pub use power_on::*;
 pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
-pub use settings::{CYCLE_APPROACH, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING};
+pub use settings::{
+    ANGLE_RANGE, CYCLE_APPROACH, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
+};
 pub use stored::{DataKind, DataRow, RADIUS_DATA, ValueName, ValueWord};

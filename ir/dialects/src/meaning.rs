@@ -128,6 +128,7 @@ pub enum Meaning {
     OptionalProgramStop,
     ProgramEnd,
     Call,
+    CallMacro,
     Return,
 }
 
@@ -274,6 +275,7 @@ impl fmt::Display for Meaning {
             Meaning::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Meaning::ProgramEnd => "PROGRAM_END",
             Meaning::Call => "CALL",
+            Meaning::CallMacro => "CALL_MACRO",
             Meaning::Return => "RETURN",
         })
     }
@@ -428,6 +430,7 @@ impl FromStr for Meaning {
             ("OPTIONAL_PROGRAM_STOP", "") => Meaning::OptionalProgramStop,
             ("PROGRAM_END", "") => Meaning::ProgramEnd,
             ("CALL", "") => Meaning::Call,
+            ("CALL_MACRO", "") => Meaning::CallMacro,
             ("RETURN", "") => Meaning::Return,
             _ => return Err(format!("no meaning: {text}")),
         })

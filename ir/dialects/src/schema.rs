@@ -141,9 +141,12 @@ pub struct ProgramRules {
     pub title: bool,
     /// Whether further programs in the text are subprograms.
     pub subprograms: bool,
-    /// Whether the control has variables, expressions and jumps (macro language). They are not
-    /// translated; where there are none, their signs are no words at all.
+    /// Whether the control has variables, expressions and jumps (macro language). Where there are none,
+    /// their signs are no words at all.
     pub macros: bool,
+    /// Whether they mean what those of a custom macro B mean: then they are read; else they are refused by
+    /// name.
+    pub macro_b: bool,
     /// Words that make the control's own flow of a block that begins with the program number: `sub`,
     /// `call`, `while`. Such a block is refused by name.
     pub flow: Vec<String>,

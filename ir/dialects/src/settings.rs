@@ -16,6 +16,10 @@ pub const CYCLE_APPROACH: &str = "cycle_approach";
 /// Option of a dictionary: what tapping is without a code that makes it rigid, `chuck` or `rigid`.
 pub const TAPPING: &str = "tapping";
 
+/// Option of a dictionary: in which range arcs of sines and tangents are, `turn` from 0 (the sine's 270 to 90
+/// degrees) or `half` a turn to each side (the sine's -90 to 90).
+pub const ANGLE_RANGE: &str = "angle_range";
+
 /// Option of a dictionary: the letter of the number of repetitions in a cycle's block.
 pub const REPEAT_WORD: &str = "repeat_word";
 

@@ -11,7 +11,7 @@ use crate::canon::FeedMode;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Num, ONE, Unit};
-use crate::program::{Coord, Op, Program, Stmt};
+use crate::program::{Centre, Coord, Op, Program, Stmt};
 use crate::source::Span;
 use crate::value::Value;
 
@@ -59,6 +59,8 @@ struct Frame {
     /// How many bodies were open, and places of variables in use, where it was called.
     turns: usize,
     base: usize,
+    /// Whether it has its caller's locals.
+    shared: bool,
     parameters: Rc<[Place]>,
     /// What they are given, each time.
     given: Rc<[Value]>,
@@ -85,7 +87,8 @@ impl<'p> Runner<'p> {
     pub fn new(program: &'p Program) -> Runner<'p> {
         let code = Code::new(program);
         let (parameters, given) = (Rc::new([]), Rc::new([]));
-        let main = Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, parameters, given };
+        let main =
+            Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, shared: false, parameters, given };
         Runner {
             at: 0,
             calls: vec![main],
@@ -293,21 +296,26 @@ impl<'p> Runner<'p> {
             again: called.call.times - 1,
             turns: self.turns.len(),
             base: self.variables.base,
+            shared: called.call.shared,
             parameters: called.parameters.clone(),
             given,
         };
-        self.variables.base = self.variables.locals.len();
+        if !frame.shared {
+            self.variables.base = self.variables.locals.len();
+        }
         self.enter(&frame);
         self.calls.push(frame);
         self.end = NOWHERE;
         Ok(())
     }
 
-    /// Gives a call its locals, new ones each time, and its parameters.
+    /// Gives a call its locals, new ones each time if it has its own, and its parameters.
     fn enter(&mut self, frame: &Frame) {
-        let base = self.variables.base;
-        self.variables.locals.truncate(base);
-        self.variables.locals.resize(base + self.code.names.count as usize, Value::Vacant);
+        if !frame.shared {
+            let base = self.variables.base;
+            self.variables.locals.truncate(base);
+            self.variables.locals.resize(base + self.code.names.count as usize, Value::Vacant);
+        }
         for (place, value) in frame.parameters.iter().zip(&*frame.given) {
             self.variables.set(*place, *value);
         }
@@ -329,8 +337,10 @@ impl<'p> Runner<'p> {
             self.enter(&frame);
             self.calls.push(frame);
         } else {
-            self.variables.locals.truncate(self.variables.base);
-            self.variables.base = frame.base;
+            if !frame.shared {
+                self.variables.locals.truncate(self.variables.base);
+                self.variables.base = frame.base;
+            }
             self.at = frame.back;
         }
         self.find_end();
@@ -413,6 +423,11 @@ impl<'p> Runner<'p> {
                             value.map(|n| Coord { value: Expr::Num(n), distance: word.distance });
                     }
                 }
+                let makes_holes = matches!(stmt.op, Op::Hole(_) | Op::Position(_));
+                if makes_holes && to.to.axes.iter().all(Option::is_none) {
+                    let what = "a position of which no word has a value".into();
+                    return Err(fault(Fault::NotExecuted { what }));
+                }
                 return Ok(true);
             }
             _ => {}
@@ -420,12 +435,19 @@ impl<'p> Runner<'p> {
         now.op = stmt.op.clone();
         let per_time = exec.state.feed_mode == FeedMode::InverseTime;
         let rate = matches!(now.op, Op::SetFeedRate(_));
+        let positive = rate || matches!(now.op, Op::SetSpindleSpeed(_) | Op::SelectTool(_) | Op::Dwell(_));
         let mut left = true;
         let droppable = matches!(now.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
         arguments::each(&mut now.op, &mut |argument, unit| {
             let Some(Some(term)) = terms.next() else { return Ok(()) };
             let value = variables.value(term).map_err(|why| fault(code.names.fault(why)))?;
             let unit = if rate && per_time { Unit::One } else { unit };
+            if positive && value != Value::Vacant && value.number() < 0.0
+                || rate && value == Value::Number(0.0)
+            {
+                let what = "a feed, a speed, a time or a number that is not positive".into();
+                return Err(fault(Fault::NotExecuted { what }));
+            }
             match literal(value, unit).map_err(fault)? {
                 Some(n) => argument.set(Expr::Num(n)),
                 None => match argument {
@@ -440,6 +462,12 @@ impl<'p> Runner<'p> {
             }
             Ok(())
         })?;
+        if let Op::ArcFeed(arc) = &now.op
+            && let Centre::Point { words, .. } = &arc.centre
+            && words.iter().all(Option::is_none)
+        {
+            return Err(fault(Fault::ArcWithoutCentre));
+        }
         Ok(left)
     }
 }

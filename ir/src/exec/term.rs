@@ -173,11 +173,22 @@ impl Variables {
         }
     }
 
-    /// What an expression is worth.
+    /// What an expression is worth. With another sign, or rounded to some digits, nothing stays nothing: a word
+    /// `X-#1` is left out where `X#1` is.
     pub(super) fn value(&self, term: &Term) -> Result<Value, Why> {
         Ok(match term {
             Term::Vacant => Value::Vacant,
             Term::Read(place) => self.read(*place)?,
+            Term::Unary(Unary::Negate, a) => match self.value(a)? {
+                Value::Vacant => Value::Vacant,
+                Value::Number(n) => Value::Number(-n),
+            },
+            Term::OfTwo(f @ Function::RoundTo, both) => match self.value(&both[0])? {
+                Value::Vacant => Value::Vacant,
+                Value::Number(n) => {
+                    Value::Number(value::function(*f, n, self.number(&both[1])?).map_err(Why::Wrong)?)
+                }
+            },
             Term::Number(_)
             | Term::System(_)
             | Term::Measured

@@ -71,7 +71,7 @@ impl<'a> Inliner<'a> {
                 Op::Call(call) => {
                     let call = std::mem::replace(
                         &mut **call,
-                        Call { name: "".into(), times: 0, arguments: Vec::new() },
+                        Call { name: "".into(), times: 0, arguments: Vec::new(), shared: false },
                     );
                     let (span, skip) = (stmt.span, stmt.skip);
                     made.leave_out(stmt);

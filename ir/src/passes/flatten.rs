@@ -10,6 +10,7 @@ use super::expand_calls::settle;
 use super::walk::Walk;
 use super::{MOST_STATEMENTS, Target};
 use crate::arguments::{self, Argument};
+use crate::canon::Units;
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::{Exec, Runner};
 use crate::expr::Expr;
@@ -47,6 +48,7 @@ fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<S
     let mut exec = Exec::new(&World::generate(0, &Default::default()), 0);
     let mut runner = Runner::new(program);
     let mut steps = 0;
+    let mut inches = walk.at.modes.units == Some(Units::Inch);
     loop {
         let Some(stmt) = runner.next(&exec)? else { return Ok(out) };
         let mut stmt = stmt.clone();
@@ -58,10 +60,15 @@ fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<S
         if let Op::SetFeedMode(_) = stmt.op {
             exec.step(&stmt, &mut Vec::new())?;
         }
+        if let Op::UseLengthUnits(units) = stmt.op {
+            inches = units == Units::Inch;
+        }
         if matches!(stmt.op, Op::Label(_)) {
+            // What follows in its block begins that anew.
+            steps = 0;
             continue;
         }
-        round(&mut stmt, target)?;
+        round(&mut stmt, target, inches)?;
         walk.enter(stmt.skip);
         settle(&mut stmt.op, &walk.at);
         walk.step(&stmt);
@@ -76,11 +83,11 @@ fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<S
     }
 }
 
-/// Rounds what was computed to the target's digits.
-fn round(stmt: &mut Stmt, target: &Target) -> Result<(), Diagnostic> {
+/// Rounds what was computed to the target's digits; a length in inches has one more.
+fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnostic> {
     arguments::each(&mut stmt.op, &mut |argument: Argument, unit| {
         let Some(n) = argument.expr().and_then(Expr::literal) else { return Ok(()) };
-        let decimals = target.decimals;
+        let decimals = target.decimals + u8::from(inches && n.unit == Unit::Entry);
         if n.scale < 8 {
             return Ok(());
         }

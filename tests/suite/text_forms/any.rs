@@ -64,7 +64,10 @@ fn binary() -> impl Strategy<Value = Binary> {
 
 fn function() -> impl Strategy<Value = Function> {
     use Function::*;
-    select(vec![Sin, Cos, Tan, Asin, Acos, Atan2, Sqrt, Abs, Round, Floor, Ceiling, Truncate, Ln, Exp])
+    select(vec![
+        Sin, Cos, Tan, Asin, Acos, Atan2, Sqrt, Abs, Round, RoundTo, RoundUp, Floor, Ceiling, Truncate, Ln,
+        Exp,
+    ])
 }
 
 pub(super) fn expr() -> impl Strategy<Value = Expr> {
@@ -503,8 +506,9 @@ fn simple() -> BoxedStrategy<Op> {
         name().prop_map(Op::Goto),
         name().prop_map(Op::Label),
         (var(), expr()).prop_map(|(v, e)| Op::Assign(v, e)),
-        (name(), 0u32..4, prop::collection::vec(expr(), 0..3))
-            .prop_map(|(name, times, arguments)| Op::Call(Box::new(Call { name, times, arguments }))),
+        (name(), 0u32..4, prop::collection::vec(expr(), 0..3), any::<bool>()).prop_map(
+            |(name, times, arguments, shared)| Op::Call(Box::new(Call { name, times, arguments, shared }))
+        ),
     ];
     prop_oneof![bare, setting, valued, motion, other].boxed()
 }

@@ -209,7 +209,7 @@ fn what_the_stream_cannot_say_is_refused() {
         Op::SetFrame(Box::new(Frame { added: true, step: FrameStep::Mirror([true, false, false]) })),
         Op::UseMachineCoordinates { length: true },
         Op::Control(Box::new(Control::Loop { body: vec![] })),
-        Op::Call(Box::new(Call { name: "1".into(), times: 1, arguments: vec![] })),
+        Op::Call(Box::new(Call { name: "1".into(), times: 1, arguments: vec![], shared: false })),
     ] {
         let (text, diags) = refused(op);
         assert_eq!(text, "");

@@ -1,0 +1,371 @@
+//! Lowering of what is computed: words with expressions, assignments, jumps, loops and macro calls.
+//!
+//! Where a program can come to from elsewhere (a block that jumps name, the head of a loop, behind its end) every
+//! fact is lost, as behind a call. A word whose variable was never set is left out when the program runs.
+//!
+//! Not here: which expressions there are (`formula`), and what they are worth.
+
+use ncc_dialects::{ANGLE_RANGE, Quantity};
+use ncc_ir::canon::Units;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Binary, Expr, Function, Node};
+use ncc_ir::num::Unit;
+use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::block::{Block, Value, Word};
+use super::facts::{InForce, State};
+use super::formula::Statement;
+use super::lower::Lower;
+use super::macro_call::parameters;
+use super::number::unit_of;
+use super::sort::Words;
+use crate::Batch;
+
+/// Deepest nesting of loops (16-C, custom macro: numbers 1 to 3).
+const MOST_LOOPS: usize = 3;
+
+/// What the text computes, as far as read.
+#[derive(Debug, Default)]
+pub(super) struct Computes {
+    /// Whether it has variables.
+    variables: bool,
+    /// Whether blocks with numbers may be jumped to.
+    pub(super) jumps: bool,
+    /// Whether there were such blocks before that was known.
+    unnamed: bool,
+    loops: Vec<Open>,
+    /// How many arguments programs are called with, by their names.
+    called: Vec<(Text, usize)>,
+}
+
+/// A loop that has not ended.
+#[derive(Debug)]
+struct Open {
+    number: u32,
+    condition: Option<Expr>,
+    /// Where its body begins; `None` until a further block is read.
+    at: Option<usize>,
+    block: Span,
+    skip: Option<u8>,
+    label: Option<u32>,
+}
+
+/// The name by which jumps know the block of a number.
+fn label(number: u32) -> Text {
+    format!("N{number}").into()
+}
+
+impl Computes {
+    /// A program is called with so many arguments.
+    pub(super) fn calls(&mut self, name: &str, arguments: usize) {
+        match self.called.iter_mut().find(|(other, _)| **other == *name) {
+            Some((_, most)) => *most = (*most).max(arguments),
+            None => self.called.push((name.into(), arguments)),
+        }
+    }
+
+    /// The text is over: what is called with arguments has them as its first local variables.
+    pub(super) fn give_parameters(&self, procedures: &mut [Procedure]) {
+        for (name, most) in &self.called {
+            for procedure in procedures.iter_mut().filter(|procedure| procedure.name == *name) {
+                procedure.parameters = parameters(*most);
+            }
+        }
+    }
+}
+
+impl Lower {
+    /// Looks through text that is to be read for what is computed in it.
+    pub(super) fn look_ahead(&mut self, text: &[u8], out: &mut Batch) {
+        if !self.settings.dialect.program.macro_b {
+            return;
+        }
+        if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
+            self.computes.variables = true;
+            for stmt in out.stmts.iter_mut().chain(out.procedures.iter_mut().flat_map(|p| &mut p.body)) {
+                share(stmt);
+            }
+            self.sub.iter_mut().flat_map(|p| &mut p.body).for_each(share);
+        }
+        if !self.computes.jumps && text.windows(4).any(|word| word.eq_ignore_ascii_case(b"GOTO")) {
+            self.computes.jumps = true;
+            out.whole = true;
+            self.refresh();
+        }
+        let number = self.settings.dialect.block.number.map_or(0, |c| c as u8);
+        if !self.computes.jumps {
+            self.computes.unnamed |= memchr::memchr2(number, number.to_ascii_lowercase(), text).is_some();
+        }
+    }
+
+    /// Whether a call has its caller's variables to itself.
+    pub(super) fn shares(&self) -> bool {
+        self.computes.variables
+    }
+
+    /// A block begins: the body of a loop that was opened before it does so here.
+    pub(super) fn in_loop(&mut self, out: &mut Batch) {
+        if self.computes.loops.last().is_some_and(|open| open.at.is_none()) {
+            let at = self.target(out).len();
+            if let Some(open) = self.computes.loops.last_mut() {
+                open.at = Some(at);
+            }
+        }
+    }
+
+    /// A block with a number that jumps may name.
+    pub(super) fn jumped_to(&mut self, block: &Block, out: &mut Batch) {
+        let Some(number) = self.now.number.filter(|_| self.computes.jumps) else { return };
+        self.state = State::lost();
+        let skip = self.now.skip.take();
+        self.push(block.span, Op::Label(label(number)), out);
+        self.now.skip = skip;
+    }
+
+    /// A statement of the macro language.
+    pub(super) fn statement(&mut self, statement: &Statement, block: &Block, out: &mut Batch) {
+        out.whole = true;
+        let span = block.span;
+        if self.now.failed {
+            // A loop whose head is refused has its end all the same.
+            if let Statement::Do(_, number) = statement {
+                self.open(*number, None, span);
+            }
+            if let Statement::End(_) = statement {
+                self.computes.loops.pop();
+            }
+            return;
+        }
+        match statement {
+            Statement::Assign(to, value) => {
+                let value = self.value(value, span, out);
+                self.assigned(span, out);
+                self.push(span, Op::Assign(to.clone(), value), out);
+            }
+            Statement::Goto(condition, to) => {
+                if self.computes.unnamed {
+                    let code = format!("GOTO {to}").into();
+                    let name = "jump in a text whose first part has numbered blocks, and is long".into();
+                    return self.fault(Fault::NotSupported { code, name }, span, out);
+                }
+                let jump = Op::Goto(label(*to));
+                match condition {
+                    None => self.push(span, jump, out),
+                    Some(condition) => self.decide(condition, jump, span, out),
+                }
+            }
+            Statement::Then(condition, to, value) => {
+                let value = self.value(value, span, out);
+                self.assigned(span, out);
+                self.decide(condition, Op::Assign(to.clone(), value), span, out);
+            }
+            Statement::Do(condition, number) => {
+                let twice = self.computes.loops.iter().any(|open| open.number == *number);
+                if !(1..=3).contains(number) || twice || self.computes.loops.len() >= MOST_LOOPS {
+                    let name = if twice { "loop within one of its number" } else { "loop of another number" };
+                    let code = format!("DO{number}").into();
+                    self.fault(Fault::NotSupported { code, name: name.into() }, span, out);
+                }
+                let condition = condition.as_ref().map(|c| self.value(c, span, out));
+                self.now.silent = true;
+                self.open(*number, condition, span);
+                self.state = State::lost();
+            }
+            Statement::End(number) => self.end_loop(*number, span, out),
+        }
+    }
+
+    fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
+        let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
+        self.computes.loops.push(Open { number, condition, at: None, block, skip, label });
+    }
+
+    fn end_loop(&mut self, number: u32, span: Span, out: &mut Batch) {
+        let found = self.computes.loops.pop();
+        let Some(Open { at: Some(at), number: own, condition, block, skip, label }) = found else {
+            let code = format!("END{number}").into();
+            return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);
+        };
+        let code = format!("END{number}").into();
+        if own != number {
+            let name = format!("end of a loop within the loop {own}").into();
+            return self.fault(Fault::NotSupported { code, name }, span, out);
+        }
+        if skip.is_some() || self.now.skip.is_some() {
+            let name = "loop whose head or end can be skipped".into();
+            return self.fault(Fault::NotSupported { code, name }, span, out);
+        }
+        let stmts = self.target(out);
+        let mut body = stmts.split_off(at.min(stmts.len()));
+        if let Some(first) = body.first_mut() {
+            first.joined = false;
+        }
+        let control = match condition {
+            Some(condition) => Control::While { condition, body },
+            None => Control::Loop { body },
+        };
+        // The statement is the whole loop, and stands where its head does.
+        self.now.mark = self.now.mark.min(at);
+        let own = std::mem::replace(&mut self.now.number, label);
+        self.push(block, Op::Control(Box::new(control)), out);
+        self.now.number = own;
+        self.separate(out);
+        self.state = State::lost();
+    }
+
+    /// The end of a program: a loop that is still open has none.
+    pub(super) fn open_loops(&mut self, out: &mut Batch) {
+        for open in std::mem::take(&mut self.computes.loops) {
+            let code = format!("DO{}", open.number).into();
+            out.report(Fault::NotSupported { code, name: "loop without its end".into() }, open.block);
+            self.now.failed = true;
+        }
+    }
+
+    fn decide(&mut self, condition: &Expr, then: Op, span: Span, out: &mut Batch) {
+        let condition = self.value(condition, span, out);
+        let then = vec![Stmt::new(span, then)];
+        let control = Control::If { condition, then, otherwise: Vec::new() };
+        self.push(span, Op::Control(Box::new(control)), out);
+    }
+
+    /// A variable gets another value: what has been computed from variables and is not said yet must not be
+    /// said with it.
+    fn assigned(&mut self, span: Span, out: &mut Batch) {
+        if let InForce::Active(active) = &self.state.cycle
+            && [&active.depth, &active.retract].iter().any(|word| word.value.literal().is_none())
+        {
+            if self.state.cycle_feed.is_some() {
+                let name =
+                    "assignment between the call-up of a cycle with variables and its first hole".into();
+                self.fault(Fault::NotSupported { code: "#".into(), name }, span, out);
+            }
+            self.state.cycle = InForce::Lost;
+        }
+    }
+
+    /// An expression outside words.
+    pub(super) fn value(&mut self, expr: &Expr, at: Span, out: &mut Batch) -> Expr {
+        let mut expr = expr.clone();
+        self.mean(&mut expr, &|a| Node::Call(Function::Round, vec![a]), at, out);
+        expr
+    }
+
+    /// A word's value, written or computed; `None` if it is refused (reported).
+    pub(super) fn amount(
+        &mut self,
+        word: &Word,
+        quantity: Quantity,
+        words: &Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        let Value::Computed(place) = word.value else {
+            return self.number(word, quantity, src, out).map(Expr::Num);
+        };
+        let mut expr = words.exprs[usize::from(place)].clone();
+        let digits = self.digits(word, quantity, src, out)?;
+        out.whole = true;
+        // The control rounds what an address gets to the least increment of it (16-C, custom macro, referencing
+        // variables; 96-8000: three digits, four of inches), and so does ROUND within an address.
+        let Some(digits) = digits else {
+            if has_round(&expr) {
+                return self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+            }
+            self.mean(&mut expr, &|a| Node::Call(Function::Round, vec![a]), word.span, out);
+            return Some(expr);
+        };
+        let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
+        self.mean(&mut expr, &rounded, word.span, out);
+        let value = Expr::Node(Box::new(rounded(expr)));
+        Some(match quantity {
+            Quantity::Milliseconds => {
+                Expr::Node(Box::new(Node::Binary(Binary::Divide, value, Expr::int(1000))))
+            }
+            _ => value,
+        })
+    }
+
+    /// To how many digits a word of this quantity is rounded; none of a feed, whose increment is the machine's.
+    fn digits(
+        &mut self,
+        word: &Word,
+        quantity: Quantity,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Option<u8>> {
+        let rules = self.rules[quantity as usize];
+        Some(match quantity {
+            Quantity::Length => {
+                let units = self.units(word.span, out);
+                debug_assert!(unit_of(units) != Unit::One);
+                Some(match rules.increment_inch.filter(|inch| *inch != rules.increment) {
+                    None => rules.increment,
+                    Some(inch) => match self.units_of_increment(units, word.span, out)? {
+                        Units::Mm => rules.increment,
+                        Units::Inch => inch,
+                    },
+                })
+            }
+            Quantity::Angle | Quantity::Seconds => Some(rules.increment),
+            Quantity::Feed => {
+                self.units(word.span, out);
+                None
+            }
+            Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => Some(0),
+            Quantity::Factor => {
+                return self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
+            }
+        })
+    }
+
+    /// Puts in what `ROUND` means where an expression stands, and in which range angles are.
+    fn mean(&mut self, expr: &mut Expr, round: &dyn Fn(Expr) -> Node, at: Span, out: &mut Batch) {
+        let Expr::Node(node) = expr else { return };
+        match &mut **node {
+            Node::Var(_) | Node::Vacant => {}
+            Node::Unary(_, a) => self.mean(a, round, at, out),
+            Node::Binary(_, a, b) => {
+                self.mean(a, round, at, out);
+                self.mean(b, round, at, out);
+            }
+            Node::Call(function, arguments) => {
+                let function = *function;
+                arguments.iter_mut().for_each(|a| self.mean(a, round, at, out));
+                if function == Function::Round
+                    && let Some(a) = arguments.pop()
+                {
+                    **node = round(a);
+                } else if matches!(function, Function::Asin | Function::Atan2)
+                    && self.option(ANGLE_RANGE, at, out) != "half"
+                {
+                    // From 0 on; an arc's sine is then never between 90 and 270 degrees.
+                    let turn = || Expr::int(360);
+                    let angle = std::mem::replace(expr, Expr::int(0));
+                    let more = Expr::Node(Box::new(Node::Binary(Binary::Add, angle, turn())));
+                    *expr = Expr::Node(Box::new(Node::Binary(Binary::Modulo, more, turn())));
+                }
+            }
+        }
+    }
+}
+
+/// Whether anything is rounded in an expression.
+pub(super) fn has_round(expr: &Expr) -> bool {
+    let Expr::Node(node) = expr else { return false };
+    match &**node {
+        Node::Var(_) | Node::Vacant => false,
+        Node::Unary(_, a) => has_round(a),
+        Node::Binary(_, a, b) => has_round(a) || has_round(b),
+        Node::Call(function, arguments) => *function == Function::Round || arguments.iter().any(has_round),
+    }
+}
+
+/// Gives the calls in a statement their caller's variables.
+fn share(stmt: &mut Stmt) {
+    if let Op::Call(call) = &mut stmt.op {
+        call.shared = true;
+    }
+}

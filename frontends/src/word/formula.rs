@@ -1,0 +1,153 @@
+//! Expressions and statements of the macro language, as the grammar makes them.
+//!
+//! Operands of `AND`, `OR` and `XOR` are conditions here: on numbers they work bit by bit, which is refused by
+//! name. A condition is no number, and a number is no condition (16-C, custom macro: a condition stands in the
+//! brackets of `IF` and `WHILE`; other controls store it, and none says as what).
+//!
+//! Not here: what rounding and angles mean where an expression stands (`computing`).
+
+use ncc_ir::expr::{Binary, Expr, Function, Node, Var};
+use ncc_ir::num::{Num, Unit};
+
+use super::block::Digits;
+
+/// Deepest nesting of an expression.
+const DEEPEST: u32 = 64;
+
+/// An expression with what the grammar must know of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Formula {
+    pub(crate) expr: Expr,
+    /// Whether it holds or not, in place of a number.
+    pub(crate) condition: bool,
+    depth: u32,
+}
+
+/// A statement, or a part of one, in the order of the text.
+#[derive(Clone, Debug)]
+pub(crate) enum Piece {
+    Assign(Var, Expr),
+    If(Expr),
+    Then,
+    Goto(u32),
+    While(Expr),
+    Do(u32),
+    End(u32),
+    /// What is refused already.
+    Refused,
+}
+
+/// The statement of a block.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Statement {
+    Assign(Var, Expr),
+    /// A jump to a block number, if this holds.
+    Goto(Option<Expr>, u32),
+    /// An assignment, if this holds.
+    Then(Expr, Var, Expr),
+    /// A loop with its number begins; without a condition it is endless.
+    Do(Option<Expr>, u32),
+    /// It ends.
+    End(u32),
+}
+
+impl Formula {
+    fn new(expr: Expr, depth: u32, condition: bool) -> Formula {
+        Formula { expr, condition, depth }
+    }
+
+    /// A literal.
+    pub(crate) fn number(digits: Digits) -> Formula {
+        let Digits { mantissa, scale, point } = digits;
+        Formula::new(Expr::Num(Num { mantissa, scale, point, unit: Unit::One }), 0, false)
+    }
+
+    /// What stands for an expression that is refused.
+    pub(crate) fn nothing() -> Formula {
+        Formula::new(Expr::int(0), 0, false)
+    }
+
+    /// A variable by its number; `#0` is nothing.
+    pub(crate) fn variable(number: u32) -> Formula {
+        let node = match number {
+            0 => Node::Vacant,
+            number => Node::Var(variable(number)),
+        };
+        Formula::new(Expr::Node(Box::new(node)), 0, false)
+    }
+
+    /// The negative of an operand: of nothing it is zero, as of every calculation.
+    pub(crate) fn negative(self) -> Option<Formula> {
+        match self.expr {
+            Expr::Num(n) if !self.condition => {
+                Some(Formula::new(Expr::Num(Num { mantissa: -n.mantissa, ..n }), 0, false))
+            }
+            _ => Formula::binary(Binary::Subtract, Formula::nothing(), self),
+        }
+    }
+
+    /// Two operands; `None` is what has no meaning, or none that is known.
+    pub(crate) fn binary(operator: Binary, a: Formula, b: Formula) -> Option<Formula> {
+        let logical = matches!(operator, Binary::And | Binary::Or | Binary::Xor);
+        let compares = matches!(
+            operator,
+            Binary::Equal
+                | Binary::NotEqual
+                | Binary::Less
+                | Binary::LessOrEqual
+                | Binary::Greater
+                | Binary::GreaterOrEqual
+        );
+        let depth = a.depth.max(b.depth) + 1;
+        if a.condition != logical || b.condition != logical || depth > DEEPEST {
+            return None;
+        }
+        let node = Node::Binary(operator, a.expr, b.expr);
+        Some(Formula::new(Expr::Node(Box::new(node)), depth, logical || compares))
+    }
+
+    /// A function of numbers; `None` is one that is not read, or of another number of arguments.
+    pub(crate) fn call(function: Option<Function>, arguments: Vec<Formula>) -> Option<Formula> {
+        let function = function.filter(|f| f.arguments() == arguments.len())?;
+        let depth = arguments.iter().map(|a| a.depth).max().unwrap_or(0) + 1;
+        if depth > DEEPEST || arguments.iter().any(|a| a.condition) {
+            return None;
+        }
+        let arguments = arguments.into_iter().map(|a| a.expr).collect();
+        Some(Formula::new(Expr::Node(Box::new(Node::Call(function, arguments))), depth, false))
+    }
+}
+
+/// A variable that has a number: `#1` to `#33` are local, `#100` to `#199` common, `#500` to `#999` are kept when
+/// the control is off; any other is the control's own (16-C, custom macro, types of variables).
+pub(crate) fn variable(number: u32) -> Var {
+    match number {
+        1..=33 => Var::Local(number.to_string().into()),
+        100..=199 => Var::Common(number.to_string().into()),
+        500..=999 => Var::Retentive(number.to_string().into()),
+        _ => Var::System(format!("#{number}").into()),
+    }
+}
+
+/// The statement that pieces make together; `None` is none that is known.
+pub(crate) fn statement(pieces: Vec<Piece>) -> Option<Statement> {
+    let mut pieces = pieces.into_iter();
+    let all = [pieces.next(), pieces.next(), pieces.next()];
+    if pieces.next().is_some() {
+        return None;
+    }
+    Some(match all {
+        [Some(Piece::Assign(to, value)), None, None] => Statement::Assign(to, value),
+        [Some(Piece::Goto(to)), None, None] => Statement::Goto(None, to),
+        [Some(Piece::If(condition)), Some(Piece::Goto(to)), None] => Statement::Goto(Some(condition), to),
+        [Some(Piece::If(condition)), Some(Piece::Then), Some(Piece::Assign(to, value))] => {
+            Statement::Then(condition, to, value)
+        }
+        [Some(Piece::While(condition)), Some(Piece::Do(number)), None] => {
+            Statement::Do(Some(condition), number)
+        }
+        [Some(Piece::Do(number)), None, None] => Statement::Do(None, number),
+        [Some(Piece::End(number)), None, None] => Statement::End(number),
+        _ => return None,
+    })
+}

@@ -1,0 +1,24 @@
+%
+O4011 (VARIABLES THAT WERE NEVER SET)
+G21 G17 G90 G94 G40 G49 G80
+T1 M6
+G54 G0 X0 Y0 S1000 M3
+G43 H1 Z5.
+#2 = 7.
+G0 X#1 Y#2 (Y ALONE)
+G0 X-#1 Y3. (Y ALONE)
+G0 X[#1 + 4.] Y[#1 * 5] (4, 0)
+#3 = #1
+IF [#3 EQ #0] THEN #4 = 11.
+IF [#3 EQ 0] THEN #5 = 99.
+IF [#3 NE 0] THEN #6 = 12.
+IF [#3 GE 0] THEN #7 = 13.
+#8 = #1 + 0
+IF [#8 EQ #0] THEN #5 = 98.
+IF [#8 EQ 0] THEN #9 = 14.
+G0 X#4 Y#5 Z#6 (X AND Z)
+G0 X#7 Y#9
+#4 = #0
+G1 X#4 Y1. F200.
+M30
+%
