@@ -33,9 +33,9 @@ pub(super) enum Step<'p> {
     /// Begins a body that is executed so many times; behind it, there.
     Turns(&'p Stmt, Box<Term>, At),
     /// Another turn of the body that begins there, if any are left.
-    Again(At),
+    Again(&'p Stmt, At),
     /// Goes there.
-    Jump(At),
+    Jump(&'p Stmt, At),
     /// A jump of the program to a step, in so many open bodies that are counted; `None` is a label that it
     /// does not have.
     Goto(&'p Stmt, Option<(At, u32)>),
@@ -245,19 +245,19 @@ impl<'p> Maker<'p> {
                 self.counted += 1;
                 self.body(body);
                 self.counted -= 1;
-                self.push(Step::Again(head + 1));
+                self.push(Step::Again(stmt, head + 1));
                 self.ends_here(head);
             }
             Control::Loop { body } => {
                 let head = self.here();
                 self.body(body);
-                self.push(Step::Jump(head));
+                self.push(Step::Jump(stmt, head));
             }
             Control::While { condition, body } => {
                 let condition = self.code.names.term(condition);
                 let head = self.push(Step::Unless(stmt, Box::new(condition), 0));
                 self.body(body);
-                self.push(Step::Jump(head));
+                self.push(Step::Jump(stmt, head));
                 self.ends_here(head);
             }
             Control::For { variable, from, to, step, body } => {
@@ -273,7 +273,7 @@ impl<'p> Maker<'p> {
                 let head = self.push(Step::UnlessCounted(stmt, counter.clone(), 0));
                 self.body(body);
                 self.push(Step::Count(stmt, counter));
-                self.push(Step::Jump(head));
+                self.push(Step::Jump(stmt, head));
                 self.ends_here(head);
             }
             Control::If { condition, then, otherwise } => {
@@ -283,7 +283,7 @@ impl<'p> Maker<'p> {
                 if otherwise.is_empty() {
                     self.ends_here(head);
                 } else {
-                    let over = self.push(Step::Jump(0));
+                    let over = self.push(Step::Jump(stmt, 0));
                     self.ends_here(head);
                     self.body(otherwise);
                     self.ends_here(over);
@@ -308,12 +308,12 @@ impl<'p> Maker<'p> {
             | Step::Unless(_, _, to)
             | Step::UnlessCounted(_, _, to)
             | Step::Turns(_, _, to)
-            | Step::Jump(to) => *to = here,
+            | Step::Jump(_, to) => *to = here,
             Step::Do(_)
             | Step::Compute(..)
             | Step::Assign(..)
             | Step::Count(..)
-            | Step::Again(_)
+            | Step::Again(..)
             | Step::Goto(..)
             | Step::Call(..)
             | Step::Return(_)

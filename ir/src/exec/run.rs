@@ -21,6 +21,9 @@ const DEEPEST: usize = 64;
 /// Most steps of one run; a program that needs more does not come to an end.
 const MOST_STEPS: u64 = 2_000_000_000;
 
+/// Most of them between two statements that are executed by themselves.
+const MOST_IDLE: u64 = 10_000_000;
+
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
@@ -129,6 +132,7 @@ impl<'p> Runner<'p> {
     pub fn next(&mut self, exec: &Exec) -> Result<Option<&Stmt>, Diagnostic> {
         // The steps are shared, so that they can be read while the rest changes.
         let code = Rc::clone(&self.code);
+        let before = self.steps;
         loop {
             if exec.ended() {
                 return Ok(None);
@@ -152,15 +156,9 @@ impl<'p> Runner<'p> {
                 | Step::Goto(stmt, _)
                 | Step::Call(stmt, _)
                 | Step::Return(stmt)
-                | Step::Blocks(stmt, ..) => *stmt,
-                Step::Jump(to) => {
-                    self.at = *to;
-                    continue;
-                }
-                Step::Again(to) => {
-                    self.another_turn(*to);
-                    continue;
-                }
+                | Step::Blocks(stmt, ..)
+                | Step::Jump(stmt, _)
+                | Step::Again(stmt, _) => *stmt,
                 Step::End => {
                     if self.leave() {
                         continue;
@@ -172,6 +170,9 @@ impl<'p> Runner<'p> {
             let span = stmt.span;
             if self.steps > MOST_STEPS {
                 return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_STEPS }, span));
+            }
+            if self.steps - before > MOST_IDLE {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_IDLE }, span));
             }
             if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
                 if let Step::Unskipped(_, to) = step {
@@ -195,7 +196,9 @@ impl<'p> Runner<'p> {
                     };
                     self.variables.set(*place, value);
                 }
-                Step::Unskipped(..) | Step::Jump(_) | Step::Again(_) | Step::End => {}
+                Step::Jump(_, to) => self.at = *to,
+                Step::Again(_, to) => self.another_turn(*to),
+                Step::Unskipped(..) | Step::End => {}
                 Step::Unless(_, condition, to) => {
                     let value = self.variables.number(condition).map_err(|why| self.no_value(why, span))?;
                     if value == 0.0 {
