@@ -291,7 +291,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::Flattened { blocks } => (
             format!("executed, and written as {blocks} straight blocks"),
-            "variables, loops, jumps and subprograms are gone".into(),
+            "variables, loops, jumps and subprograms are gone, with the comments beside them".into(),
         ),
         Fault::SkipLevelLost { level } => (
             format!("block-skip level {level} lost"),
