@@ -77,7 +77,7 @@ pub struct Caps {
     pub machine_rapid: bool,
     /// Probing moves, by [`Caps::probe`].
     pub probes: [bool; 4],
-    /// Rapid moves that do not go straight, by [`Detour`].
+    /// Rapid moves that do not go straight, by [`Detour`](crate::program::Detour).
     pub detours: [bool; 2],
     /// Points of the machine that have a word.
     pub references: References,
