@@ -240,7 +240,8 @@ impl Control<'_> {
         if stroke <= 0.0 || reference - stroke < depth - 1e-9 {
             return self.m.halt("alarm 61107: the first depth");
         }
-        if a.or_zero(7) != 0.0 || ![None, Some(1.0)].contains(&a.number(10)) {
+        // What is left out comes as zero, which is none of a factor's values.
+        if a.or_zero(7) != 0.0 || ![0.0, 1.0].contains(&a.or_zero(10)) {
             return self.m.halt("DAM or FRF");
         }
         if ![None, Some(3.0), Some(0.0)].contains(&a.number(12)) {
