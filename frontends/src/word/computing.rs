@@ -9,7 +9,7 @@ use ncc_dialects::{ANGLE_RANGE, Quantity};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Node};
-use ncc_ir::num::Unit;
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -19,7 +19,7 @@ use super::facts::{InForce, State};
 use super::formula::Statement;
 use super::lower::Lower;
 use super::macro_call::parameters;
-use super::number::unit_of;
+use super::number::{spell, unit_of};
 use super::sort::Words;
 use crate::Batch;
 
@@ -277,6 +277,12 @@ impl Lower {
             self.mean(&mut expr, &|a| Node::Call(Function::Round, vec![a]), word.span, out);
             return Some(expr);
         };
+        let counted = matches!(quantity, Quantity::Length | Quantity::Angle);
+        if counted && self.assume && !std::mem::replace(&mut self.reported.increment, true) {
+            let parameter = "increment to which computed words are rounded".into();
+            let value = spell(Num { mantissa: 1, scale: digits, point: true, unit: Unit::One }).into();
+            out.report(Fault::AssumedParameter { parameter, value }, word.span);
+        }
         let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
         self.mean(&mut expr, &rounded, word.span, out);
         let value = Expr::Node(Box::new(rounded(expr)));

@@ -74,6 +74,8 @@ pub(super) struct Dwells {
 pub(super) struct Reported {
     /// Quantities of numbers without a point, a bit each.
     pub(super) bare: u8,
+    /// That computed lengths and angles are rounded to an increment.
+    pub(super) increment: bool,
     pub(super) after_cycle: bool,
     pub(super) offset_with_z: bool,
     pub(super) skip: bool,
