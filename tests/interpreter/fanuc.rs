@@ -3,10 +3,13 @@
 //! point, L for repetition, five digits, work offsets G110 to G129.
 
 mod machine;
+mod macro_b;
 mod polar;
 mod programs;
 mod tilt;
+mod words;
 
+use macro_b::{Go, Variables, jump, loops};
 use programs::{Program, programs, without_name};
 
 use super::{Corner, Cut, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
@@ -44,6 +47,8 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         polar: None,
         radius: None,
         lead: None,
+        variables: Variables::default(),
+        steps: 0,
         haas,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
@@ -83,6 +88,10 @@ struct Control {
     radius: Option<u32>,
     /// Of G33.
     lead: Option<f64>,
+    /// Of the macro language.
+    variables: Variables,
+    /// How many blocks were run.
+    steps: u32,
     haas: bool,
 }
 
@@ -97,54 +106,27 @@ fn number(words: &[Word], letter: char) -> Option<(f64, bool)> {
 impl Control {
     /// Runs blocks; true when the program has ended for good.
     fn program(&mut self, blocks: &[(usize, String)], all: &[Program]) -> Result<bool, Halt> {
-        for (line, block) in blocks {
+        let loops = loops(blocks)?;
+        let mut at = 0;
+        while let Some((line, block)) = blocks.get(at) {
             self.m.line = *line;
-            match self.block(block, all)? {
-                Next::Block => {}
-                Next::Back => return Ok(false),
-                Next::End => return Ok(true),
+            at = match self.statement(block)? {
+                Go::Not => match self.block(block, all)? {
+                    Next::Block => at + 1,
+                    Next::Back => return Ok(false),
+                    Next::End => return Ok(true),
+                },
+                Go::On => at + 1,
+                Go::To(number) => jump(blocks, &loops, at, number).or_else(|why| self.m.halt(why))?,
+                Go::Behind => loops.iter().find(|l| l.0 == at).map_or(at, |l| l.1) + 1,
+                Go::Again => loops.iter().find(|l| l.1 == at).map_or(at, |l| l.0),
+            };
+            self.steps += 1;
+            if self.steps > 2_000_000 {
+                return self.m.halt("a program without an end");
             }
         }
         Ok(false)
-    }
-
-    fn words(&self, block: &str) -> Result<Option<Vec<Word>>, Halt> {
-        let mut words = Vec::new();
-        let mut rest = block;
-        while let Some(mut letter) = rest.chars().next() {
-            rest = &rest[1..];
-            // A letter after a comma is kept as a small one.
-            let comma = letter == ',';
-            if comma {
-                (letter, rest) = (rest.chars().next().unwrap_or(' '), rest.get(1..).unwrap_or(""));
-            }
-            if letter == '/' {
-                let level = rest.chars().next().and_then(|c| c.to_digit(10)).filter(|n| *n > 0);
-                if level.is_some() {
-                    rest = &rest[1..];
-                }
-                let on = self.m.setup.skip[level.unwrap_or(1) as usize];
-                match (on, words.is_empty()) {
-                    (true, true) => return Ok(None),
-                    (true, false) => return Ok(Some(words)),
-                    (false, _) => continue,
-                }
-            }
-            if !letter.is_ascii_uppercase() {
-                return self.m.halt(format!("unexpected {letter}"));
-            }
-            let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(rest.len());
-            let text = &rest[..end];
-            rest = &rest[end..];
-            let Ok(value) = text.parse::<f64>() else {
-                return self.m.halt(format!("no number: {letter}{text}"));
-            };
-            if letter != 'N' {
-                let letter = if comma { letter.to_ascii_lowercase() } else { letter };
-                words.push((letter, value, text.contains('.')));
-            }
-        }
-        Ok(Some(words))
     }
 
     /// A length, in millimetres: without a point it counts 0.001 mm or 0.0001 inch.
@@ -167,7 +149,11 @@ impl Control {
 
     fn block(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
         let (block, called) = without_name(block);
-        let Some(words) = self.words(&block)? else { return Ok(Next::Block) };
+        let Some(raw) = self.words(&block)? else { return Ok(Next::Block) };
+        if raw.iter().any(|word| *word == ('G', "65")) {
+            return self.macro_call(&raw, called.as_deref(), all);
+        }
+        let words = self.values(&raw).or_else(|why| self.m.halt(why))?;
         if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGMrc".contains(w.0)) {
             return self.m.halt(format!("the word {letter}"));
         }
@@ -565,7 +551,10 @@ impl Control {
             return self.m.halt(format!("{other} in a cycle"));
         }
         // K0, on a Haas L0, stores the data and makes no hole.
-        let times = number(words, repeat).map_or(1, |(k, _)| k as u32);
+        let times = match number(words, repeat) {
+            Some((k, _)) if k.fract() != 0.0 => return self.m.halt("a part of a hole"),
+            k => k.map_or(1, |(k, _)| k as u32),
+        };
         let mut axes = self.axis_words(words);
         let r = self.length(words, 'R');
         if axes.iter().all(Option::is_none) && r.is_none() {

@@ -11,7 +11,8 @@ use ncc::render::human::Loudness;
 use ncc::rewrite::pass;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
-use ncc_tests::translate::{job, rendered, stopping, told, translate};
+use ncc_tests::plain::{self, Tolerance};
+use ncc_tests::translate::{self, job, rendered, stopping, told, translate};
 
 /// The programs of a dialect, by name.
 fn programs(dialect: &'static str) -> Vec<(String, Vec<u8>)> {
@@ -101,6 +102,32 @@ fn what_cannot_be_executed_is_refused_at_its_place() {
         failures.check(&name, expect::file(&folder.join(format!("{stem}.stderr")), said.as_bytes()));
         if outcome.release.is_ok() || stopping(&job, &outcome).is_empty() {
             failures.add(&name, "released");
+        }
+    }
+    failures.finish();
+}
+
+/// The second interpreter runs them too, and finds the compiler's moves, in three worlds; and so it does in what
+/// was written of them.
+#[test]
+fn the_second_interpreter_agrees() {
+    let mut failures = Failures::default();
+    for from in ["fanuc"] {
+        for program in corpus::computing(from) {
+            let what = format!("{from}/{}", program.file);
+            let Some(read) = failures.check(&what, translate::read(from, &program.text)) else { continue };
+            for world in [0, 1, 2].map(plain::world) {
+                for skip in [0, 0x7fe] {
+                    let start = world.start.map(|n| n as f64 / 1e9);
+                    let second = plain::second(from, &program.text, plain::setup(&world, skip));
+                    let result = second.and_then(|machine| {
+                        let events = translate::execute(&read, &world, skip)?;
+                        let (a, b) = (plain::of_machine(&machine, start), plain::of_events(&events, start));
+                        plain::compare(&a, &b, Tolerance::SAME)
+                    });
+                    failures.check(format!("{what} world {} skip {skip:b}", world.seed), result);
+                }
+            }
         }
     }
     failures.finish();

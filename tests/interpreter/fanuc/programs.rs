@@ -89,20 +89,25 @@ impl Control {
             (Some(p), None, None) => (1, p.to_string()),
             _ => return self.m.halt("M98 without P, or with P and a name"),
         };
+        for _ in 0..times {
+            if let Next::End = self.run(&name, all)? {
+                return Ok(Next::End);
+            }
+        }
+        Ok(Next::Block)
+    }
+
+    /// Runs a program of the text once.
+    pub(super) fn run(&mut self, name: &str, all: &[Program]) -> Result<Next, Halt> {
         let Some(program) = all.iter().skip(1).find(|program| program.name == name) else {
             return self.m.halt(format!("no program {name}"));
         };
         if self.depth == 4 {
             return self.m.halt("calls five deep");
         }
-        for _ in 0..times {
-            self.depth += 1;
-            let ended = self.program(&program.blocks, all)?;
-            self.depth -= 1;
-            if ended {
-                return Ok(Next::End);
-            }
-        }
-        Ok(Next::Block)
+        self.depth += 1;
+        let ended = self.program(&program.blocks, all)?;
+        self.depth -= 1;
+        Ok(if ended { Next::End } else { Next::Block })
     }
 }

@@ -1,0 +1,66 @@
+//! A block taken apart into words: letters, and the text of their values.
+
+use super::super::Halt;
+use super::Control;
+
+impl Control {
+    /// The words of a block, or nothing where it is skipped; a letter after a comma is kept as a small one.
+    pub(super) fn words<'b>(&self, block: &'b str) -> Result<Option<Vec<(char, &'b str)>>, Halt> {
+        let mut words = Vec::new();
+        let mut rest = block;
+        while let Some(mut letter) = rest.chars().next() {
+            rest = &rest[1..];
+            let comma = letter == ',';
+            if comma {
+                (letter, rest) = (rest.chars().next().unwrap_or(' '), rest.get(1..).unwrap_or(""));
+            }
+            if letter == '/' {
+                let level = rest.chars().next().and_then(|c| c.to_digit(10)).filter(|n| *n > 0);
+                if level.is_some() {
+                    rest = &rest[1..];
+                }
+                let on = self.m.setup.skip[level.unwrap_or(1) as usize];
+                match (on, words.is_empty()) {
+                    (true, true) => return Ok(None),
+                    (true, false) => return Ok(Some(words)),
+                    (false, _) => continue,
+                }
+            }
+            if !letter.is_ascii_uppercase() {
+                return self.m.halt(format!("unexpected {letter}"));
+            }
+            let end = end_of_value(rest);
+            let (text, behind) = rest.split_at(end);
+            rest = behind;
+            if letter != 'N' {
+                words.push((if comma { letter.to_ascii_lowercase() } else { letter }, text));
+            } else if text.parse::<f64>().is_err() {
+                return self.m.halt(format!("no number: {letter}{text}"));
+            }
+        }
+        Ok(Some(words))
+    }
+}
+
+/// How long the value at the front of a text is: a number, a variable, or a bracket, each with its sign.
+fn end_of_value(text: &str) -> usize {
+    let signs = text.find(|c: char| !"+-".contains(c)).unwrap_or(text.len());
+    let bare = &text[signs..];
+    let number =
+        |text: &str| text.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(text.len());
+    let bracket = |text: &str| {
+        let mut depth = 0;
+        let over = |c: char| {
+            depth += i32::from(c == '[') - i32::from(c == ']');
+            depth == 0
+        };
+        text.find(over).map_or(text.len(), |at| at + 1)
+    };
+    signs
+        + match bare.strip_prefix('#') {
+            Some(behind) if behind.starts_with('[') => 1 + bracket(behind),
+            Some(behind) => 1 + behind.find(|c: char| !c.is_ascii_digit()).unwrap_or(behind.len()),
+            None if bare.starts_with('[') => bracket(bare),
+            None => number(bare),
+        }
+}
