@@ -150,7 +150,7 @@ impl Control {
     fn block(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
         let (block, called) = without_name(block);
         let Some(raw) = self.words(&block)? else { return Ok(Next::Block) };
-        if raw.iter().any(|word| *word == ('G', "65")) {
+        if raw.contains(&('G', "65")) {
             return self.macro_call(&raw, called.as_deref(), all);
         }
         let words = self.values(&raw).or_else(|why| self.m.halt(why))?;

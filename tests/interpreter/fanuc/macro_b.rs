@@ -23,11 +23,14 @@ pub(super) enum Rounding {
     Open,
 }
 
+/// Local variables of a level by their numbers; place 0 is not used.
+type Locals = [Option<f64>; 34];
+
 /// The variables of a control.
 #[derive(Clone, Debug)]
 pub(super) struct Variables {
-    /// The local ones of each level of macro calls, the present one last; place 0 is not used.
-    local: Vec<[Option<f64>; 34]>,
+    /// The local ones of each level of macro calls, the present one last.
+    local: Vec<Locals>,
     /// Those that all programs share, as far as they were set.
     shared: BTreeMap<u32, Option<f64>>,
 }
@@ -394,7 +397,7 @@ impl Control {
     }
 
     /// The program, how often, and its first variables.
-    fn arguments(&self, raw: &[(char, &str)]) -> Result<(Option<u32>, u32, [Option<f64>; 34]), String> {
+    fn arguments(&self, raw: &[(char, &str)]) -> Result<(Option<u32>, u32, Locals), String> {
         let (mut program, mut times) = (None, 1);
         let mut local = [None; 34];
         let (mut set, mut last) = (0, None);
