@@ -3,7 +3,10 @@
 //! Nearly every argument of a real program is a literal, so a literal is stored inline and
 //! everything else behind a box. What an expression is worth is in `value`.
 
+use std::borrow::Cow;
+
 use crate::num::{Num, Unit};
+use crate::system::System;
 
 /// An argument.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,15 +41,16 @@ pub enum Var {
     Common(Box<str>),
     /// Survives power-off.
     Retentive(Box<str>),
-    /// Something of the control itself, named by its meaning.
-    System(Box<str>),
+    /// Something of the control itself, by its meaning.
+    System(System),
 }
 
 impl Var {
     /// Its name, without its kind.
-    pub fn name(&self) -> &str {
+    pub fn name(&self) -> Cow<'_, str> {
         match self {
-            Var::Local(name) | Var::Common(name) | Var::Retentive(name) | Var::System(name) => name,
+            Var::Local(name) | Var::Common(name) | Var::Retentive(name) => Cow::Borrowed(name),
+            Var::System(system) => Cow::Owned(system.to_string()),
         }
     }
 }

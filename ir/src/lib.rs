@@ -26,6 +26,7 @@ pub mod polar;
 pub mod program;
 pub mod round;
 pub mod source;
+pub mod system;
 pub mod track;
 pub mod valid;
 pub mod value;

@@ -130,18 +130,19 @@ fn function(f: Function) -> &'static str {
 
 /// Writes a variable: its kind, and its name, in quotation marks if it is not plain.
 pub(super) fn var(v: &Var, out: &mut Vec<u8>) {
-    let (kind, name) = match v {
-        Var::Local(name) => ("local:", name),
-        Var::Common(name) => ("common:", name),
-        Var::Retentive(name) => ("retentive:", name),
-        Var::System(name) => ("system:", name),
+    let kind = match v {
+        Var::Local(_) => "local:",
+        Var::Common(_) => "common:",
+        Var::Retentive(_) => "retentive:",
+        Var::System(_) => "system:",
     };
+    let name = v.name();
     out.extend_from_slice(kind.as_bytes());
     let plain = |b: u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'.' | b'$');
     if !name.is_empty() && name.bytes().all(plain) {
         out.extend_from_slice(name.as_bytes());
     } else {
-        quote(name, out);
+        quote(&name, out);
     }
 }
 

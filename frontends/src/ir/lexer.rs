@@ -8,6 +8,7 @@ use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Detour, Op, Text, ToolValue};
+use ncc_ir::system::System;
 
 use crate::canon::text::unquote;
 
@@ -660,6 +661,6 @@ fn variable(lexer: &mut Lexer<'_, Token>) -> Result<Var, LexFault> {
         "local" => Var::Local(name),
         "common" => Var::Common(name),
         "retentive" => Var::Retentive(name),
-        _ => Var::System(name),
+        _ => Var::System(System::named(&name)),
     })
 }

@@ -8,6 +8,7 @@
 
 use ncc_ir::expr::{Binary, Expr, Function, Node, Var};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::system::System;
 
 use super::block::Digits;
 
@@ -125,7 +126,7 @@ pub(crate) fn variable(number: u32) -> Var {
         1..=33 => Var::Local(number.to_string().into()),
         100..=199 => Var::Common(number.to_string().into()),
         500..=999 => Var::Retentive(number.to_string().into()),
-        _ => Var::System(format!("#{number}").into()),
+        _ => Var::System(System::Other(format!("#{number}").into())),
     }
 }
 

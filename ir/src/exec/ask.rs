@@ -4,12 +4,13 @@
 
 use super::frame::Chain;
 use super::holes::InForce;
-use super::{Exec, Length, State};
-use crate::canon::{AXES, Distance, Motion, Plane};
+use super::{Exec, Length, SHIFT_STORED, SHIFT_TAKEN_UP, State, Z};
+use crate::canon::{AXES, Axis, Distance, FeedMode, Motion, Plane, Spindle, SpindleMode, Turn, Units};
 use crate::expr::Expr;
-use crate::num::Nanos;
+use crate::num::{Nanos, ONE};
 use crate::program::Coord;
 use crate::source::Span;
+use crate::system::System;
 
 impl Exec {
     /// A point of the machine in the program's coordinates, as the frames are now.
@@ -105,5 +106,85 @@ impl Exec {
     /// Plane of arcs and hole positions in force.
     pub fn plane(&self) -> Plane {
         self.modes.plane
+    }
+
+    /// What the program gets that asks for a value of the control's own; `None` is what is not known here, or not
+    /// the same on every control at this place: where the tool stands beside a contour or at a corner that is not
+    /// made yet, or along Z while a length waits to be taken up; a feed that was said in the other unit.
+    pub fn answer(&self, asked: &System) -> Option<f64> {
+        let holds = |holds: bool| Some(f64::from(u8::from(holds)));
+        match asked {
+            System::EndPoint(axis) => {
+                let at = *axis as usize;
+                let settled = self.stands() && !(at == Z && self.waiting.is_some());
+                settled.then(|| self.counted(self.position[at], *axis, None))
+            }
+            System::MachinePoint(axis) => {
+                self.stands().then(|| self.counted(self.machine()[*axis as usize], *axis, None))
+            }
+            System::WorkOffset { number, axis, unit } => {
+                Some(self.counted(self.world.work_offset(*number)[*axis as usize], *axis, *unit))
+            }
+            System::WorkTurn(number) => Some(self.counted(self.world.work_turn(*number), Axis::C, None)),
+            System::WorkOffsetNumber => Some(f64::from(self.modes.work_offset)),
+            System::OriginShift { axis, unit } => {
+                let kept = self.kept_shift(*axis as usize)?;
+                Some(self.counted(kept, *axis, *unit))
+            }
+            System::OriginShifted => {
+                holds(self.modes.shifted || self.said & SHIFT_TAKEN_UP != 0 || self.is_shifted())
+            }
+            System::ToolLength if self.waiting.is_some() => None,
+            System::ToolLength => Some(self.counted(self.length_of(self.modes.length), Axis::Z, None)),
+            System::Tool => (self.state.tool >= 0).then_some(self.state.tool as f64),
+            System::SelectedTool => (self.selected >= 0).then_some(self.selected as f64),
+            System::Feed if self.state.feed_mode == FeedMode::InverseTime => None,
+            System::Feed => {
+                (self.feed_inch == Some(self.modes.inch)).then(|| self.counted(self.feed, Axis::X, None))
+            }
+            System::Speed if self.state.spindle_mode == SpindleMode::Surface => None,
+            System::Speed => Some(self.state.speed as f64 / ONE as f64),
+            System::Units(units) => holds((*units == Units::Inch) == self.modes.inch),
+            System::Distance(distance) => holds(*distance == self.modes.distance),
+            System::Plane(plane) => holds(*plane == self.modes.plane),
+            System::FeedMode(mode) => holds(*mode == self.state.feed_mode),
+            System::ReturnLevel(level) => holds(*level == self.modes.return_level),
+            System::Turning(turn) => holds(
+                self.state.spindle
+                    == match turn {
+                        Turn::Clockwise => Spindle::Clockwise,
+                        Turn::Counterclockwise => Spindle::Counterclockwise,
+                    },
+            ),
+            System::SurfaceSpeed => holds(self.state.spindle_mode == SpindleMode::Surface),
+            System::Flood => holds(self.state.flood),
+            System::Mist => holds(self.state.mist),
+            System::Other(_) => None,
+        }
+    }
+
+    /// Whether the tool stands where the last move has said.
+    fn stands(&self) -> bool {
+        !self.contour.watched && self.corner.is_none() && !self.is_tilted()
+    }
+
+    /// A length in the unit in force, or in another; an angle in degrees.
+    fn counted(&self, nanos: Nanos, axis: Axis, unit: Option<Units>) -> f64 {
+        let inch = unit.map_or(self.modes.inch, |unit| unit == Units::Inch);
+        let one = if inch && !axis.is_rotary() { 25.4 * ONE as f64 } else { ONE as f64 };
+        nanos as f64 / one
+    }
+
+    /// The number kept of the shift of the origin along an axis; `None` where an earlier program may have left it.
+    fn kept_shift(&self, axis: usize) -> Option<Nanos> {
+        if self.said & SHIFT_STORED == 0 && self.world.seed != 0 {
+            return None;
+        }
+        let kept = self.slots.as_ref().and_then(|slots| slots.suspended_shift(axis));
+        Some(kept.unwrap_or_else(|| self.origin_shift()[axis]))
+    }
+
+    fn is_shifted(&self) -> bool {
+        self.slots.as_ref().is_some_and(|slots| slots.origin.iter().any(Option::is_some))
     }
 }

@@ -8,11 +8,32 @@ use crate::canon::{Axis, Distance, PathMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::{moves, polar};
-use crate::num::ONE;
+use crate::num::{Nanos, ONE};
 use crate::program::{Op, Stmt};
 use crate::source::Span;
+use crate::world::Sideways;
 
 impl Exec {
+    /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
+    pub fn set_peck_clearance(&mut self, clearance: Nanos) {
+        self.world.peck_clearance = clearance;
+    }
+
+    /// Sets the control's own lift of the chip-breaking cycle, in nanos of a millimetre.
+    pub fn set_break_lift(&mut self, lift: Nanos) {
+        self.world.break_lift = lift;
+    }
+
+    /// Sets the angle at which the control stops the spindle where nothing else is said, degrees in nanos.
+    pub fn set_orientation(&mut self, angle: Nanos) {
+        self.world.orientation = angle;
+    }
+
+    /// Sets the direction in which the control shifts a tool off the wall of a bore.
+    pub fn set_bore_shift(&mut self, direction: Sideways) {
+        self.world.bore_shift = direction;
+    }
+
     /// Sets what an operation says of conduct; any other says nothing of it.
     pub(super) fn conduct(&mut self, op: &Op, span: Span) -> Result<(), Diagnostic> {
         match op {

@@ -311,6 +311,7 @@ impl Exec {
         if slot == FrameSlot::Shift {
             self.modes.shifted = false;
             self.said |= super::SHIFT | super::SHIFT_STORED;
+            self.said &= !super::SHIFT_TAKEN_UP;
         }
         let mut frames = self.slots();
         frames.clear(slot);
@@ -328,10 +329,12 @@ impl Exec {
                 return self.not_executed("an origin shift of which an earlier program has numbers", span);
             }
             self.modes.shifted |= frames.resume();
+            self.said |= super::SHIFT_TAKEN_UP;
         } else {
             frames.suspend(self.modes.shifted);
             self.modes.shifted = false;
             self.said |= super::SHIFT;
+            self.said &= !super::SHIFT_TAKEN_UP;
         }
         self.use_slots(frames);
         Ok(())

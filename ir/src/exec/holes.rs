@@ -205,7 +205,9 @@ impl Exec {
             None => None,
         };
         let feed = cycle.feed.as_ref().map(|f| self.value(f, span)).transpose()?;
-        self.feed = feed.unwrap_or(self.feed);
+        if let Some(feed) = feed {
+            (self.feed, self.feed_inch) = (feed, Some(self.modes.inch));
+        }
         self.modes.motion = Motion::Cycle;
         self.cycle = Some(InForce {
             plane,

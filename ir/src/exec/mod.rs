@@ -43,7 +43,7 @@ use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
 use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
 use crate::source::Span;
-use crate::world::{Sideways, World};
+use crate::world::World;
 use arcs::Heading;
 use centre_path::CentrePath;
 use compensation::Contour;
@@ -98,6 +98,8 @@ pub struct Exec {
     /// A corner that is to be made.
     corner: Option<Box<corner::Corner>>,
     feed: Nanos,
+    /// Whether it was said in inches, if it was said in either.
+    feed_inch: Option<bool>,
     selected: i64,
     state: State,
     /// Whether what a speed counts needs to be looked at before anything happens.
@@ -141,6 +143,8 @@ const SHIFT: u16 = 128;
 const FEED_MODE: u16 = 256;
 /// The numbers kept of a shift of the origin are the program's own, all of them.
 const SHIFT_STORED: u16 = 512;
+/// The shift of the origin is in force, be it of nothing.
+const SHIFT_TAKEN_UP: u16 = 1024;
 
 impl Exec {
     /// A control at power-on in a world, with these block-skip switches on (bit n is level n).
@@ -180,6 +184,7 @@ impl Exec {
             centre_path: None,
             corner: None,
             feed: 0,
+            feed_inch: None,
             selected: -1,
             state: State {
                 feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
@@ -271,26 +276,6 @@ impl Exec {
     /// nowhere in all of them.
     pub fn every_move(&mut self) {
         self.every_move = true;
-    }
-
-    /// Sets the control's own clearance of the peck-drilling cycle, in nanos of a millimetre.
-    pub fn set_peck_clearance(&mut self, clearance: Nanos) {
-        self.world.peck_clearance = clearance;
-    }
-
-    /// Sets the control's own lift of the chip-breaking cycle, in nanos of a millimetre.
-    pub fn set_break_lift(&mut self, lift: Nanos) {
-        self.world.break_lift = lift;
-    }
-
-    /// Sets the angle at which the control stops the spindle where nothing else is said, degrees in nanos.
-    pub fn set_orientation(&mut self, angle: Nanos) {
-        self.world.orientation = angle;
-    }
-
-    /// Sets the direction in which the control shifts a tool off the wall of a bore.
-    pub fn set_bore_shift(&mut self, direction: Sideways) {
-        self.world.bore_shift = direction;
     }
 
     /// Sets the block-skip switches: bit n is level n.
@@ -510,6 +495,7 @@ impl Exec {
             },
             Op::SetFeedRate(f) => {
                 self.feed = self.value(f, span)?;
+                self.feed_inch = Some(self.modes.inch);
                 self.tell(Attribute::FeedRate(self.feed), span, out)
             }
             _ => self.other(stmt, out),

@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::code::{Again, At, Called, Code, Step};
-use super::term::{Place, Variables, Why};
+use super::term::{Asked, Place, Variables, Why};
 use super::{Event, Exec};
 use crate::arguments;
 use crate::canon::FeedMode;
@@ -130,8 +130,18 @@ impl<'p> Runner<'p> {
     /// # Errors
     /// A call or label that there is not, a call without an end, an expression without a value.
     pub fn next(&mut self, exec: &Exec) -> Result<Option<&Stmt>, Diagnostic> {
+        self.next_of(exec, None)
+    }
+
+    /// As [`Runner::next`]; of the control's own values, only those are known of which another control that has
+    /// executed the same statements has the same.
+    ///
+    /// # Errors
+    /// As of [`Runner::next`].
+    pub fn next_of(&mut self, exec: &Exec, other: Option<&Exec>) -> Result<Option<&Stmt>, Diagnostic> {
         // The steps are shared, so that they can be read while the rest changes.
         let code = Rc::clone(&self.code);
+        let asked = Asked { exec, other, system: &code.names.system };
         let before = self.steps;
         loop {
             if exec.ended() {
@@ -183,13 +193,13 @@ impl<'p> Runner<'p> {
             match step {
                 Step::Do(_) => return Ok(Some(stmt)),
                 Step::Compute(_, at) => {
-                    if self.compute(*at as usize, exec)? {
+                    if self.compute(*at as usize, asked)? {
                         return Ok(Some(&self.now[*at as usize]));
                     }
                 }
                 Step::Assign(_, to) => {
                     let (place, term) = &**to;
-                    let value = self.variables.value(term).map_err(|why| self.no_value(why, span))?;
+                    let value = self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?;
                     let Some(place) = place else {
                         let what = "a variable of the control's own that is set".into();
                         return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
@@ -200,7 +210,8 @@ impl<'p> Runner<'p> {
                 Step::Again(_, to) => self.another_turn(*to),
                 Step::Unskipped(..) | Step::End => {}
                 Step::Unless(_, condition, to) => {
-                    let value = self.variables.number(condition).map_err(|why| self.no_value(why, span))?;
+                    let value =
+                        self.variables.number(condition, asked).map_err(|why| self.no_value(why, span))?;
                     if value == 0.0 {
                         self.at = *to;
                     }
@@ -219,7 +230,8 @@ impl<'p> Runner<'p> {
                 }
                 Step::Turns(_, times, to) => {
                     exec.no_open_corner()?;
-                    let times = self.variables.number(times).map_err(|why| self.no_value(why, span))?;
+                    let times =
+                        self.variables.number(times, asked).map_err(|why| self.no_value(why, span))?;
                     if times < 0.0 || times != times.trunc() || times > MOST_STEPS as f64 {
                         return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
                     }
@@ -235,7 +247,7 @@ impl<'p> Runner<'p> {
                 }
                 Step::Call(_, called) => {
                     exec.no_open_corner()?;
-                    self.call(called, span)?;
+                    self.call(called, asked, span)?;
                 }
                 Step::Return(_) => {
                     exec.no_open_corner()?;
@@ -250,6 +262,11 @@ impl<'p> Runner<'p> {
                 }
             }
         }
+    }
+
+    /// Whether the program asks for values of the control's own.
+    pub(crate) fn asks(&self) -> bool {
+        !self.code.names.system.is_empty()
     }
 
     /// How many steps it has made.
@@ -281,7 +298,7 @@ impl<'p> Runner<'p> {
         Ok(())
     }
 
-    fn call(&mut self, called: &Called, span: Span) -> Result<(), Diagnostic> {
+    fn call(&mut self, called: &Called, asked: Asked, span: Span) -> Result<(), Diagnostic> {
         let name = &called.call.name;
         let Some(entry) = called.entry else {
             return Err(Diagnostic::new(Fault::CallUnknown { name: name.clone() }, span));
@@ -291,7 +308,7 @@ impl<'p> Runner<'p> {
         }
         self.deep(name, span)?;
         let given: Result<Rc<[Value]>, Why> =
-            called.arguments.iter().map(|term| self.variables.value(term)).collect();
+            called.arguments.iter().map(|term| self.variables.value(term, asked)).collect();
         let given = given.map_err(|why| self.no_value(why, span))?;
         let frame = Frame {
             entry,
@@ -405,7 +422,7 @@ impl<'p> Runner<'p> {
     }
 
     /// Computes a statement's arguments; `false` where nothing is left of it.
-    fn compute(&mut self, at: usize, exec: &Exec) -> Result<bool, Diagnostic> {
+    fn compute(&mut self, at: usize, asked: Asked) -> Result<bool, Diagnostic> {
         let code = Rc::clone(&self.code);
         let computed = &code.computed[at];
         let (stmt, now) = (computed.stmt, &mut self.now[at]);
@@ -419,7 +436,8 @@ impl<'p> Runner<'p> {
             | (Op::Hole(from), Op::Hole(to)) => {
                 for ((axis, word), term) in from.to.axes.iter().enumerate().zip(terms) {
                     if let (Some(word), Some(term)) = (word, term) {
-                        let value = variables.value(term).map_err(|why| fault(code.names.fault(why)))?;
+                        let value =
+                            variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?;
                         let unit = if axis < 3 { Unit::Entry } else { Unit::Degree };
                         let value = literal(value, unit).map_err(fault)?;
                         to.to.axes[axis] =
@@ -436,14 +454,14 @@ impl<'p> Runner<'p> {
             _ => {}
         }
         now.op = stmt.op.clone();
-        let per_time = exec.state.feed_mode == FeedMode::InverseTime;
+        let per_time = asked.exec.state.feed_mode == FeedMode::InverseTime;
         let rate = matches!(now.op, Op::SetFeedRate(_));
         let positive = rate || matches!(now.op, Op::SetSpindleSpeed(_) | Op::SelectTool(_) | Op::Dwell(_));
         let mut left = true;
         let droppable = matches!(now.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
         arguments::each(&mut now.op, &mut |argument, unit| {
             let Some(Some(term)) = terms.next() else { return Ok(()) };
-            let value = variables.value(term).map_err(|why| fault(code.names.fault(why)))?;
+            let value = variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?;
             let unit = if rate && per_time { Unit::One } else { unit };
             if positive && value != Value::Vacant && value.number() < 0.0
                 || rate && value == Value::Number(0.0)

@@ -284,6 +284,11 @@ impl Frames {
         }
     }
 
+    /// The number kept of a shift that is suspended.
+    pub(crate) fn suspended_shift(&self, axis: usize) -> Option<Nanos> {
+        self.suspended.as_ref().map(|suspended| suspended.origin[axis].unwrap_or(0))
+    }
+
     /// The shift of the origin is again what it was when it was suspended; without one, nothing changes.
     /// `true` says that what an earlier program left over is in force again.
     pub(crate) fn resume(&mut self) -> bool {

@@ -4,9 +4,11 @@
 
 use std::collections::HashMap;
 
+use super::Exec;
 use crate::diag::Fault;
 use crate::expr::{Binary, Expr, Function, Node, Unary, Var};
 use crate::num::{Num, POW10, Unit};
+use crate::system::System;
 use crate::value::{self, Value, Wrong};
 
 /// An expression made ready.
@@ -15,7 +17,7 @@ pub(super) enum Term {
     Number(f64),
     Vacant,
     Read(Place),
-    /// Something of the control itself, which is not executed: its place among [`Names::system`].
+    /// Something of the control itself: its place among [`Names::system`].
     System(u32),
     /// A literal that says its own unit: what it counts here is not said.
     Measured,
@@ -52,7 +54,7 @@ pub(super) struct Names {
     locals: HashMap<Box<str>, u32>,
     shared: HashMap<Var, u32>,
     /// Those of the control's own.
-    system: Vec<Box<str>>,
+    pub(super) system: Vec<System>,
     /// Places of locals in a call, those without a name included.
     pub(super) count: u32,
 }
@@ -97,8 +99,12 @@ impl Names {
                 Fault::VariableUnset { name: var.unwrap_or_default().into() }
             }
             Why::System(at) => {
-                let name = self.system.get(at as usize).map_or("", |name| name);
-                Fault::NotExecuted { what: format!("the system variable {name}").into() }
+                let what = match self.system.get(at as usize) {
+                    Some(System::Other(name)) => format!("the system variable {name}"),
+                    Some(asked) => format!("the system variable {asked}, which is not known here"),
+                    None => String::new(),
+                };
+                Fault::NotExecuted { what: what.into() }
             }
             Why::Measured => {
                 Fault::NotExecuted { what: "a literal with a unit of its own in an expression".into() }
@@ -118,7 +124,10 @@ impl Names {
             Node::Var(var) => match self.place(var) {
                 Some(place) => Term::Read(place),
                 None => {
-                    self.system.push(var.name().into());
+                    self.system.extend(match var {
+                        Var::System(system) => Some(system.clone()),
+                        Var::Local(_) | Var::Common(_) | Var::Retentive(_) => None,
+                    });
                     Term::System(self.system.len() as u32 - 1)
                 }
             },
@@ -135,6 +144,27 @@ impl Names {
 
 fn real(n: Num) -> f64 {
     n.mantissa as f64 / POW10[usize::from(n.scale.min(18))] as f64
+}
+
+/// Who answers for the control's own values.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    pub(super) exec: &'a Exec,
+    /// Another control that executes the same program; what they do not agree about is not known.
+    pub(super) other: Option<&'a Exec>,
+    pub(super) system: &'a [System],
+}
+
+impl Asked<'_> {
+    #[cold]
+    fn answer(self, at: u32) -> Option<f64> {
+        let asked = self.system.get(at as usize)?;
+        let answer = self.exec.answer(asked)?;
+        match self.other {
+            None => Some(answer),
+            Some(other) => other.answer(asked).filter(|theirs| (theirs - answer).abs() < 1e-8),
+        }
+    }
 }
 
 /// Variables while a program runs.
@@ -175,18 +205,18 @@ impl Variables {
 
     /// What an expression is worth. With another sign, or rounded to some digits, nothing stays nothing: a word
     /// `X-#1` is left out where `X#1` is.
-    pub(super) fn value(&self, term: &Term) -> Result<Value, Why> {
+    pub(super) fn value(&self, term: &Term, asked: Asked) -> Result<Value, Why> {
         Ok(match term {
             Term::Vacant => Value::Vacant,
             Term::Read(place) => self.read(*place)?,
-            Term::Unary(Unary::Negate, a) => match self.value(a)? {
+            Term::Unary(Unary::Negate, a) => match self.value(a, asked)? {
                 Value::Vacant => Value::Vacant,
                 Value::Number(n) => Value::Number(-n),
             },
-            Term::OfTwo(f @ Function::RoundTo, both) => match self.value(&both[0])? {
+            Term::OfTwo(f @ Function::RoundTo, both) => match self.value(&both[0], asked)? {
                 Value::Vacant => Value::Vacant,
                 Value::Number(n) => {
-                    Value::Number(value::function(*f, n, self.number(&both[1])?).map_err(Why::Wrong)?)
+                    Value::Number(value::function(*f, n, self.number(&both[1], asked)?).map_err(Why::Wrong)?)
                 }
             },
             Term::Number(_)
@@ -196,32 +226,33 @@ impl Variables {
             | Term::Binary(..)
             | Term::Of(..)
             | Term::OfTwo(..)
-            | Term::Miscounted => Value::Number(self.number(term)?),
+            | Term::Miscounted => Value::Number(self.number(term, asked)?),
         })
     }
 
     /// The same as an operand, which is all that most need of it.
-    pub(super) fn number(&self, term: &Term) -> Result<f64, Why> {
+    pub(super) fn number(&self, term: &Term, asked: Asked) -> Result<f64, Why> {
         Ok(match term {
             Term::Number(n) => *n,
             Term::Vacant => 0.0,
             Term::Read(place) => self.read(*place)?.number(),
-            Term::Unary(operator, a) => value::unary(*operator, self.number(a)?),
+            Term::Unary(operator, a) => value::unary(*operator, self.number(a, asked)?),
             Term::Binary(operator @ (Binary::Equal | Binary::NotEqual), both) => {
                 let [a, b] = &**both;
-                let same = self.value(a)? == self.value(b)?;
+                let same = self.value(a, asked)? == self.value(b, asked)?;
                 f64::from(u8::from(same == (*operator == Binary::Equal)))
             }
             Term::Binary(operator, both) => {
                 let [a, b] = &**both;
-                value::binary(*operator, self.number(a)?, self.number(b)?).map_err(Why::Wrong)?
+                value::binary(*operator, self.number(a, asked)?, self.number(b, asked)?)
+                    .map_err(Why::Wrong)?
             }
-            Term::Of(f, a) => value::function(*f, self.number(a)?, 0.0).map_err(Why::Wrong)?,
+            Term::Of(f, a) => value::function(*f, self.number(a, asked)?, 0.0).map_err(Why::Wrong)?,
             Term::OfTwo(f, both) => {
                 let [a, b] = &**both;
-                value::function(*f, self.number(a)?, self.number(b)?).map_err(Why::Wrong)?
+                value::function(*f, self.number(a, asked)?, self.number(b, asked)?).map_err(Why::Wrong)?
             }
-            Term::System(at) => return Err(Why::System(*at)),
+            Term::System(at) => asked.answer(*at).ok_or(Why::System(*at))?,
             Term::Measured => return Err(Why::Measured),
             Term::Miscounted => return Err(Why::Wrong(Wrong::Arguments)),
         })

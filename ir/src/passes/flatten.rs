@@ -47,18 +47,34 @@ fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<S
     // What is executed depends on nothing of the machine; what a feed counts depends on the program.
     let mut exec = Exec::new(&World::generate(0, &Default::default()), 0);
     let mut runner = Runner::new(program);
+    let mut other = None;
+    if runner.asks() {
+        // What two machines that differ in all that the program has not said agree about, it has said itself.
+        let modes = walk.at.modes;
+        let [mut one, mut two] =
+            [(1, 0), (2, u16::MAX)].map(|(seed, skip)| Exec::new(&World::generate(seed, &modes), skip));
+        [&mut one, &mut two].into_iter().for_each(|exec| exec.assume(&modes));
+        (exec, other) = (one, Some(two));
+    }
+    let mut unseen = Vec::new();
     let mut steps = 0;
     let mut inches = walk.at.modes.units == Some(Units::Inch);
     loop {
-        let Some(stmt) = runner.next(&exec)? else { return Ok(out) };
+        let Some(stmt) = runner.next_of(&exec, other.as_ref())? else { return Ok(out) };
         let mut stmt = stmt.clone();
         let before = std::mem::replace(&mut steps, runner.steps());
         // Behind a step that has left nothing a block begins anew.
         stmt.joined &= steps == before + 1 && !out.is_empty();
         stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
         let over = matches!(stmt.op, Op::ProgramEnd) && stmt.skip.is_none();
-        if let Op::SetFeedMode(_) = stmt.op {
-            exec.step(&stmt, &mut Vec::new())?;
+        if let Some(other) = &mut other {
+            if !over {
+                exec.step(&stmt, &mut unseen)?;
+                other.step(&stmt, &mut unseen)?;
+                unseen.clear();
+            }
+        } else if let Op::SetFeedMode(_) = stmt.op {
+            exec.step(&stmt, &mut unseen)?;
         }
         if let Op::UseLengthUnits(units) = stmt.op {
             inches = units == Units::Inch;

@@ -6,6 +6,7 @@ use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::*;
 use ncc_ir::source::Span;
+use ncc_ir::system::System;
 use proptest::option::of;
 use proptest::prelude::*;
 use proptest::sample::select;
@@ -37,7 +38,7 @@ fn var() -> impl Strategy<Value = Var> {
         0 => Var::Local(name),
         1 => Var::Common(name),
         2 => Var::Retentive(name),
-        _ => Var::System(name),
+        _ => Var::System(System::named(&name)),
     })
 }
 

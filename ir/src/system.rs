@@ -1,0 +1,206 @@
+//! What a program can ask of the control itself: values by their meaning, whatever a control calls them.
+//!
+//! Not here: what they are worth (`exec::ask`), and what each control calls them (its front-end's, by its
+//! dictionary).
+
+use std::fmt::{self, Display, Formatter};
+
+use crate::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+
+/// A value of the control's own.
+///
+/// Lengths count in the unit in force where none is stated, angles in degrees; whether something holds is 1, else 0.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum System {
+    /// Where the tool stands along an axis, in the program's coordinates: the end point of the last move
+    /// (Sinumerik `$P_EP`, Fanuc `#5001`, LinuxCNC `#5420`).
+    EndPoint(Axis),
+    /// The same in machine coordinates, tool length included (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
+    MachinePoint(Axis),
+    /// A work offset along an axis; 1 is the first (`#5221`, `$P_UIFR[1,X,TR]`).
+    WorkOffset {
+        /// Its number.
+        number: u16,
+        /// Along this one.
+        axis: Axis,
+        /// The unit that it counts in, whatever is in force.
+        unit: Option<Units>,
+    },
+    /// By how much a work offset is turned about Z.
+    WorkTurn(u16),
+    /// The number of the work offset in force.
+    WorkOffsetNumber,
+    /// The number kept of the shift of the origin along an axis, in force or not.
+    OriginShift {
+        /// Along this one.
+        axis: Axis,
+        /// The unit that it counts in, whatever is in force.
+        unit: Option<Units>,
+    },
+    /// Whether the shift of the origin is in force.
+    OriginShifted,
+    /// The length of a tool in force.
+    ToolLength,
+    /// Number of the tool in the spindle.
+    Tool,
+    /// Number of the tool selected last.
+    SelectedTool,
+    /// The feed said last.
+    Feed,
+    /// The spindle speed said last.
+    Speed,
+    /// Whether units are these.
+    Units(Units),
+    /// Whether words are measured so.
+    Distance(Distance),
+    /// Whether the plane is this one.
+    Plane(Plane),
+    /// Whether a feed counts so.
+    FeedMode(FeedMode),
+    /// Whether cycles leave the tool there.
+    ReturnLevel(ReturnLevel),
+    /// Whether the spindle turns so.
+    Turning(Turn),
+    /// Whether the speed is a surface speed.
+    SurfaceSpeed,
+    /// Whether flood coolant is on.
+    Flood,
+    /// Whether mist coolant is on.
+    Mist,
+    /// Something without a meaning here, by the control's own name. Never executed.
+    Other(Box<str>),
+}
+
+impl System {
+    /// The value of a name that [`Display`] gives; any other is [`System::Other`].
+    pub fn named(name: &str) -> System {
+        System::meaning(name).unwrap_or_else(|| System::Other(name.into()))
+    }
+
+    fn meaning(name: &str) -> Option<System> {
+        if let Some(plain) = PLAIN.iter().find(|(other, _)| *other == name) {
+            return Some(plain.1.clone());
+        }
+        let mut parts = name.split('.');
+        let kind = parts.next()?;
+        let rest: Vec<&str> = parts.collect();
+        let number = |text: &str| -> Option<u16> {
+            text.parse().ok().filter(|number: &u16| number.to_string() == text)
+        };
+        let found = match (kind, &rest[..]) {
+            ("end", [along]) => System::EndPoint(axis(along)?),
+            ("machine", [along]) => System::MachinePoint(axis(along)?),
+            ("offset", [of, along]) => {
+                System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: None }
+            }
+            ("offset", [of, along, in_unit]) => {
+                System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: Some(unit(in_unit)?) }
+            }
+            ("turn", [of]) => System::WorkTurn(number(of)?),
+            ("shift", [along]) => System::OriginShift { axis: axis(along)?, unit: None },
+            ("shift", [along, in_unit]) => {
+                System::OriginShift { axis: axis(along)?, unit: Some(unit(in_unit)?) }
+            }
+            _ => return None,
+        };
+        Some(found)
+    }
+
+    /// Whether it depends on where the tool stands.
+    pub fn is_place(&self) -> bool {
+        matches!(self, System::EndPoint(_) | System::MachinePoint(_))
+    }
+}
+
+/// Those that have nothing of their own to say.
+const PLAIN: [(&str, System); 24] = [
+    ("offset", System::WorkOffsetNumber),
+    ("shifted", System::OriginShifted),
+    ("length", System::ToolLength),
+    ("tool", System::Tool),
+    ("selected", System::SelectedTool),
+    ("feed", System::Feed),
+    ("speed", System::Speed),
+    ("mm", System::Units(Units::Mm)),
+    ("inch", System::Units(Units::Inch)),
+    ("absolute", System::Distance(Distance::Absolute)),
+    ("incremental", System::Distance(Distance::Incremental)),
+    ("plane.xy", System::Plane(Plane::Xy)),
+    ("plane.zx", System::Plane(Plane::Zx)),
+    ("plane.yz", System::Plane(Plane::Yz)),
+    ("feed.minute", System::FeedMode(FeedMode::PerMinute)),
+    ("feed.turn", System::FeedMode(FeedMode::PerRevolution)),
+    ("feed.time", System::FeedMode(FeedMode::InverseTime)),
+    ("return.initial", System::ReturnLevel(ReturnLevel::Initial)),
+    ("return.retract", System::ReturnLevel(ReturnLevel::Retract)),
+    ("spindle.clockwise", System::Turning(Turn::Clockwise)),
+    ("spindle.counterclockwise", System::Turning(Turn::Counterclockwise)),
+    ("speed.surface", System::SurfaceSpeed),
+    ("flood", System::Flood),
+    ("mist", System::Mist),
+];
+
+fn axis(text: &str) -> Option<Axis> {
+    match text.as_bytes() {
+        [letter] if letter.is_ascii_lowercase() => Axis::from_letter(letter.to_ascii_uppercase()),
+        _ => None,
+    }
+}
+
+fn unit(text: &str) -> Option<Units> {
+    match text {
+        "mm" => Some(Units::Mm),
+        "inch" => Some(Units::Inch),
+        _ => None,
+    }
+}
+
+/// Its name in text.
+impl Display for System {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let letter = |axis: &Axis| char::from(axis.letter().to_ascii_lowercase());
+        let unit = |unit: &Option<Units>| match unit {
+            None => "",
+            Some(Units::Mm) => ".mm",
+            Some(Units::Inch) => ".inch",
+        };
+        match self {
+            System::EndPoint(axis) => write!(f, "end.{}", letter(axis)),
+            System::MachinePoint(axis) => write!(f, "machine.{}", letter(axis)),
+            System::WorkOffset { number, axis, unit: of } => {
+                write!(f, "offset.{number}.{}{}", letter(axis), unit(of))
+            }
+            System::WorkTurn(number) => write!(f, "turn.{number}"),
+            System::OriginShift { axis, unit: of } => write!(f, "shift.{}{}", letter(axis), unit(of)),
+            System::Other(name) => f.write_str(name),
+            plain => f.write_str(PLAIN.iter().find(|(_, other)| other == plain).map_or("", |(name, _)| name)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_has_one_meaning() {
+        let more = [
+            System::EndPoint(Axis::X),
+            System::MachinePoint(Axis::C),
+            System::WorkOffset { number: 12, axis: Axis::Z, unit: None },
+            System::WorkOffset { number: 1, axis: Axis::A, unit: Some(Units::Inch) },
+            System::WorkTurn(9),
+            System::OriginShift { axis: Axis::Y, unit: Some(Units::Mm) },
+            System::OriginShift { axis: Axis::Y, unit: None },
+            System::Other("$AA_IW".into()),
+        ];
+        for system in PLAIN.iter().map(|(_, system)| system).chain(&more) {
+            let name = system.to_string();
+            assert!(!name.is_empty(), "{system:?}");
+            assert_eq!(System::named(&name), *system);
+        }
+        for name in ["end.X", "end.u", "offset.01.x", "offset.x", "", "shift.x.cm", "END.x"] {
+            assert_eq!(System::named(name), System::Other(name.into()));
+        }
+    }
+}
