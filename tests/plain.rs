@@ -78,6 +78,7 @@ pub enum Happening {
     /// The tool turned upright on it.
     Upright,
     Stop,
+    Alarm,
     OptionalStop,
     End,
     /// The text is over, and the program has not said that it ends.
@@ -337,6 +338,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
             Kind::Message(_) => Happening::Message,
+            Kind::Alarm(..) => Happening::Alarm,
             Kind::TextEnd => Happening::TextEnd,
             // The events under test are never narrated.
             Kind::Attribute(_) => continue,

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashSet};
 
-use ncc_ir::program::{Control, Op, Program, Stmt};
+use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 
 use crate::finding::{Finding, What};
@@ -34,16 +34,11 @@ fn calls(body: &[Stmt], found: &mut dyn FnMut(&str)) {
     for stmt in body {
         match &stmt.op {
             Op::Call(call) => found(&call.name),
-            Op::Control(control) => match &**control {
-                Control::Repeat { body, .. }
-                | Control::Loop { body }
-                | Control::While { body, .. }
-                | Control::For { body, .. } => calls(body, found),
-                Control::If { then, otherwise, .. } => {
-                    calls(then, found);
-                    calls(otherwise, found);
+            Op::Control(control) => {
+                for body in control.bodies() {
+                    calls(body, found);
                 }
-            },
+            }
             _ => {}
         }
     }

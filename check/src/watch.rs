@@ -320,6 +320,7 @@ impl Checker {
             | Kind::ProgramStop
             | Kind::OptionalProgramStop
             | Kind::TextEnd
+            | Kind::Alarm(..)
             | Kind::Message(_) => {}
         }
     }

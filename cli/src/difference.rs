@@ -2,7 +2,7 @@
 
 use ncc_ir::canon::{Axis, Spindle, SpindleMode, Turn};
 use ncc_ir::exec::{Event, Kind, State};
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::verify::{Aspect, Difference};
 
 /// Both sides of a difference.
@@ -60,6 +60,8 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         Kind::TextEnd => "the end of the text".to_owned(),
         Kind::Attribute(_) => "an attribute".to_owned(),
         Kind::Message(text) => format!("the message {text:?}"),
+        Kind::Alarm(None, text) => format!("the alarm {text:?}"),
+        Kind::Alarm(Some(number), text) => format!("the alarm {} {text:?}", number / ONE),
     };
     match aspect {
         Aspect::State => {

@@ -9,7 +9,7 @@ use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::exec::{Event, Exec, Progress, Runner, named_tool};
 use ncc_ir::num::Nanos;
-use ncc_ir::program::{Control, Op, Procedure, Program, ProgramName, Stmt};
+use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
 use ncc_ir::world::World;
@@ -580,13 +580,7 @@ pub(crate) fn levels(stmts: &[Stmt]) -> u16 {
     for stmt in stmts {
         found |= stmt.skip.map_or(0, |level| 1u16 << level.min(MOST_LEVELS));
         if let Op::Control(control) = &stmt.op {
-            found |= match &**control {
-                Control::Repeat { body, .. }
-                | Control::Loop { body }
-                | Control::While { body, .. }
-                | Control::For { body, .. } => levels(body),
-                Control::If { then, otherwise, .. } => levels(then) | levels(otherwise),
-            };
+            found |= control.bodies().fold(0, |found, body| found | levels(body));
         }
     }
     found

@@ -40,7 +40,7 @@ fn stmt(op: Op) -> Stmt {
 }
 
 fn set(name: &str, value: Expr) -> Stmt {
-    stmt(Op::Assign(var(name), value))
+    stmt(Op::Assign(var(name).into(), value))
 }
 
 /// While a counter is less than `TURNS`, the body, and the counter goes up by one.

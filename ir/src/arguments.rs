@@ -8,11 +8,11 @@ use std::convert::Infallible;
 use crate::canon::Axis;
 use crate::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Shift};
 use crate::expr::Expr;
-use crate::kinds::{flow, modes};
+use crate::kinds::{flow, modes, variables};
 use crate::num::Unit;
 use crate::program::{
-    ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Pitch, Point, PoleWords, Shape, Slot,
-    ToolLength,
+    ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Piece, Pitch, Point, PoleWords, Shape,
+    Slot, ToolLength,
 };
 
 /// An argument, to be read or replaced.
@@ -135,9 +135,14 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         },
         Op::OrientSpindle(angle) => seen(Argument::Optional(angle), Unit::Degree),
         Op::Dwell(seconds) => seen(Argument::Value(seconds), Unit::Second),
+        Op::MessageOf(pieces) => pieces.iter_mut().try_for_each(|piece| match piece {
+            Piece::Text(_) => Ok(()),
+            Piece::Value { value, .. } => seen(Argument::Value(value), Unit::One),
+        }),
+        Op::Alarm(alarm) => seen(Argument::Optional(&mut alarm.number), Unit::One),
         modes!()
         | flow!()
-        | Op::Assign(..)
+        | variables!()
         | Op::Comment(_)
         | Op::Message(_)
         | Op::NoEffect(_)

@@ -4,7 +4,9 @@ use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
 use crate::expr::Expr;
-use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, moves, polar, tooling};
+use crate::kinds::{
+    conduct, drilling, flow, machine, miscellaneous, modes, moves, polar, tooling, variables,
+};
 use crate::num::Num;
 use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
@@ -504,7 +506,7 @@ impl Caps {
             | Op::Position(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | machine!()
             | miscellaneous!()
             | conduct!()

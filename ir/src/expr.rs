@@ -22,6 +22,8 @@ pub enum Expr {
 pub enum Node {
     /// The value of a variable.
     Var(Var),
+    /// The value of one of many variables.
+    Element(Element),
     /// "No value": a Fanuc variable that was never set. A value of its own, not zero.
     Vacant,
     /// Sign or logical negation.
@@ -43,6 +45,81 @@ pub enum Var {
     Retentive(Box<str>),
     /// Something of the control itself, by its meaning.
     System(System),
+}
+
+/// One of many variables: which, is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Element {
+    /// Of which.
+    pub of: Many,
+    /// Which: one index for each size of an array, one number for variables that have numbers. A value that is
+    /// not whole, or none of theirs, is a fault where it is executed; a control that rounds it says so in the
+    /// expression.
+    pub at: Vec<Expr>,
+}
+
+/// Many variables.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Many {
+    /// The elements of an array, in each direction from 0.
+    Array {
+        /// Its name.
+        var: Var,
+        /// How many in each direction; the last index changes first.
+        sizes: Box<[u32]>,
+    },
+    /// Variables whose names are numbers.
+    Numbered(Box<[Numbers]>),
+}
+
+/// Variables whose names are numbers behind a prefix: `{common:R0 to 99}` are `common:R0`, `common:R1` and so on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Numbers {
+    /// How long they live.
+    pub scope: Scope,
+    /// What stands before the number, if anything.
+    pub prefix: Box<str>,
+    /// The lowest number.
+    pub from: u32,
+    /// The highest one.
+    pub to: u32,
+}
+
+/// How long a variable lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scope {
+    /// As [`Var::Local`].
+    Local,
+    /// As [`Var::Common`].
+    Common,
+    /// As [`Var::Retentive`].
+    Retentive,
+}
+
+impl Scope {
+    /// A variable that lives so long.
+    pub fn var(self, name: &str) -> Var {
+        match self {
+            Scope::Local => Var::Local(name.into()),
+            Scope::Common => Var::Common(name.into()),
+            Scope::Retentive => Var::Retentive(name.into()),
+        }
+    }
+}
+
+/// What is given a value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Target {
+    /// A variable.
+    Var(Var),
+    /// One of many.
+    Element(Box<Element>),
+}
+
+impl From<Var> for Target {
+    fn from(var: Var) -> Target {
+        Target::Var(var)
+    }
 }
 
 impl Var {
@@ -105,6 +182,14 @@ pub enum Function {
     Truncate,
     Ln,
     Exp,
+    Min,
+    Max,
+    Remainder,
+    Near,
+    NearRatio,
+    BitAnd,
+    BitOr,
+    BitXor,
 }
 
 impl Expr {

@@ -13,6 +13,8 @@ macro_rules! miscellaneous {
     () => {
         $crate::program::Op::Comment(_)
             | $crate::program::Op::Message(_)
+            | $crate::program::Op::MessageOf(_)
+            | $crate::program::Op::Alarm(_)
             | $crate::program::Op::NoEffect(_)
             | $crate::program::Op::Blank
             | $crate::program::Op::StartCutterRadiusCompensation { .. }
@@ -126,6 +128,15 @@ macro_rules! flow {
             | $crate::program::Op::Control(_)
             | $crate::program::Op::Goto(_)
             | $crate::program::Op::Label(_)
+            | $crate::program::Op::Leave
+            | $crate::program::Op::NextTurn
+    };
+}
+
+/// Variables: no more than what expressions are worth changes.
+macro_rules! variables {
+    () => {
+        $crate::program::Op::Assign(..) | $crate::program::Op::Declare(_)
     };
 }
 
@@ -136,4 +147,6 @@ macro_rules! polar {
         $crate::program::Op::SetPole(_) | $crate::program::Op::Polar(_)
     };
 }
-pub(crate) use {conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar, tooling};
+pub(crate) use {
+    conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar, tooling, variables,
+};

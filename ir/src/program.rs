@@ -27,7 +27,7 @@ use crate::canon::{
     RotaryWay, Side, SpindleMode, Turn, Units,
 };
 use crate::cycle::{Cycle, Pattern};
-use crate::expr::{Expr, Var};
+use crate::expr::{Expr, Target, Var};
 use crate::source::Span;
 
 /// A part program: the main procedure first, then its subprograms.
@@ -393,6 +393,11 @@ pub enum Op {
     ProgramEnd,
     /// `MESSAGE`: text for the operator.
     Message(Text),
+    /// `MESSAGE_OF`: text for the operator with values in it.
+    MessageOf(Box<[Piece]>),
+    /// `ALARM`: the program ends with an alarm for the operator; what turns goes on turning or not, as the machine
+    /// will have it.
+    Alarm(Box<Alarm>),
 
     /// `CALL`
     Call(Box<Call>),
@@ -401,13 +406,19 @@ pub enum Op {
     /// `REPEAT_BLOCKS`: blocks from a label to here, or to another label, again.
     RepeatBlocks(Box<RepeatBlocks>),
     /// Assignment.
-    Assign(Var, Expr),
+    Assign(Target, Expr),
+    /// `DECLARE`: a variable, or an array, that has its first values from here on, each time it is executed.
+    Declare(Box<Declare>),
     /// Structured control.
     Control(Box<Control>),
     /// `GOTO` a label.
     Goto(Text),
     /// A label, the target of jumps.
     Label(Text),
+    /// `LEAVE`: goes behind the innermost body that is executed again and again.
+    Leave,
+    /// `NEXT_TURN`: goes to its next turn.
+    NextTurn,
 }
 
 impl Op {
@@ -509,19 +520,85 @@ impl Op {
             Op::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Op::ProgramEnd => "PROGRAM_END",
             Op::Message(_) => "MESSAGE",
+            Op::MessageOf(_) => "MESSAGE_OF",
+            Op::Alarm(_) => "ALARM",
             Op::Call(_) => "CALL",
             Op::Return => "RETURN",
             Op::RepeatBlocks(_) => "REPEAT_BLOCKS",
             Op::Assign(..) => "assignment",
+            Op::Declare(_) => "DECLARE",
             Op::Control(control) => match **control {
                 Control::Repeat { .. } => "repeat",
                 Control::Loop { .. } => "loop",
                 Control::While { .. } => "while",
+                Control::Until { .. } => "until",
                 Control::For { .. } => "for",
                 Control::If { .. } => "if",
             },
             Op::Goto(_) => "GOTO",
             Op::Label(_) => "LABEL",
+            Op::Leave => "LEAVE",
+            Op::NextTurn => "NEXT_TURN",
+        }
+    }
+}
+
+/// Part of a text that is made when the program runs.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Piece {
+    /// As it is.
+    Text(Text),
+    /// A number.
+    Value {
+        /// Its value; nothing is written as an empty text.
+        value: Expr,
+        /// Digits behind the point, 0 to 9.
+        digits: u8,
+        /// Whether zeros at the end, and then the point, are left out.
+        short: bool,
+    },
+}
+
+/// An alarm that a program gives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Alarm {
+    /// Its number, as the program says it.
+    pub number: Option<Expr>,
+    /// Its text; may be empty.
+    pub text: Text,
+}
+
+/// A variable that is made known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declare {
+    /// Which.
+    pub var: Var,
+    /// What it holds.
+    pub kind: Type,
+    /// Of an array, how many elements in each direction.
+    pub sizes: Box<[u32]>,
+    /// First values, of the elements one after the other; what has none is zero.
+    pub initial: Vec<Option<Expr>>,
+}
+
+/// What a variable holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Type {
+    /// A number.
+    Real,
+    /// A whole number.
+    Int,
+    /// 1 or 0.
+    Bool,
+}
+
+impl Type {
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Type::Real => "real",
+            Type::Int => "int",
+            Type::Bool => "bool",
         }
     }
 }
@@ -549,8 +626,38 @@ pub enum Control {
     Loop { body: Vec<Stmt> },
     /// Tested before each turn.
     While { condition: Expr, body: Vec<Stmt> },
+    /// Tested behind each turn, and left when it holds.
+    Until { condition: Expr, body: Vec<Stmt> },
     /// Counted.
     For { variable: Var, from: Expr, to: Expr, step: Expr, body: Vec<Stmt> },
     /// One or the other.
     If { condition: Expr, then: Vec<Stmt>, otherwise: Vec<Stmt> },
+}
+
+impl Control {
+    /// Its bodies: of a decision what is executed where it holds and where it does not, else the one.
+    pub fn bodies(&self) -> impl Iterator<Item = &Vec<Stmt>> {
+        let (first, second) = match self {
+            Control::Repeat { body, .. }
+            | Control::Loop { body }
+            | Control::While { body, .. }
+            | Control::Until { body, .. }
+            | Control::For { body, .. } => (body, None),
+            Control::If { then, otherwise, .. } => (then, Some(otherwise)),
+        };
+        std::iter::once(first).chain(second)
+    }
+
+    /// The same, to be changed.
+    pub fn bodies_mut(&mut self) -> impl Iterator<Item = &mut Vec<Stmt>> {
+        let (first, second) = match self {
+            Control::Repeat { body, .. }
+            | Control::Loop { body }
+            | Control::While { body, .. }
+            | Control::Until { body, .. }
+            | Control::For { body, .. } => (body, None),
+            Control::If { then, otherwise, .. } => (then, Some(otherwise)),
+        };
+        std::iter::once(first).chain(second)
+    }
 }

@@ -13,7 +13,7 @@ use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel
 use crate::cycle::{Cycle, CycleKind, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
 use crate::num::Nanos;
 use crate::places::Places;
 use crate::polar::{self, Pole};
@@ -424,7 +424,7 @@ impl Tracker {
                 Op::StopCutterRadiusCompensation => self.compensated = false,
                 _ => {}
             },
-            Op::SetFeedRate(_) | Op::ProgramEnd | Op::Assign(..) | conduct!() => {}
+            Op::SetFeedRate(_) | Op::ProgramEnd | variables!() | conduct!() => {}
         }
     }
 

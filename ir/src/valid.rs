@@ -21,12 +21,16 @@ fn computes(body: &[Stmt]) -> Option<Diagnostic> {
     body.iter().find_map(|stmt| {
         let what = match &stmt.op {
             Op::Assign(..) => "an assignment",
+            Op::Declare(_) => "a variable that is made known",
+            Op::Leave | Op::NextTurn => "a loop that is left",
+            Op::MessageOf(_) => "a message with values in it",
             Op::Control(control) => match &**control {
                 Control::If { .. } => "a decision",
                 Control::Repeat { times, body } if times.literal().is_some() => return computes(body),
                 Control::Repeat { .. }
                 | Control::Loop { .. }
                 | Control::While { .. }
+                | Control::Until { .. }
                 | Control::For { .. } => "a loop",
             },
             Op::Goto(_) => "a jump",
@@ -55,16 +59,7 @@ fn within(program: &Program, body: &[Stmt], found: &mut Vec<Diagnostic>) {
             found.push(Diagnostic::new(Fault::CallUnknown { name: call.name.clone() }, stmt.span));
         }
         if let Op::Control(control) = &stmt.op {
-            match &**control {
-                Control::Repeat { body, .. }
-                | Control::Loop { body }
-                | Control::While { body, .. }
-                | Control::For { body, .. } => within(program, body, found),
-                Control::If { then, otherwise, .. } => {
-                    within(program, then, found);
-                    within(program, otherwise, found);
-                }
-            }
+            control.bodies().for_each(|body| within(program, body, found));
         }
     }
 }

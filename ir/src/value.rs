@@ -104,7 +104,15 @@ impl Function {
     /// How many arguments it has.
     pub const fn arguments(self) -> usize {
         match self {
-            Function::Atan2 | Function::RoundTo => 2,
+            Function::Near | Function::NearRatio => 3,
+            Function::Atan2
+            | Function::RoundTo
+            | Function::Min
+            | Function::Max
+            | Function::Remainder
+            | Function::BitAnd
+            | Function::BitOr
+            | Function::BitXor => 2,
             Function::Sin
             | Function::Cos
             | Function::Tan
@@ -126,7 +134,9 @@ impl Function {
 /// A function, of two numbers where it has two arguments. `asin` and `atan2` give -90 to 90 and more than -180 to 180
 /// degrees, `acos` 0 to 180; `atan2` has the second axis first; `round` goes to the nearest whole number, halves away
 /// from zero, `floor` down, `ceiling` up, `truncate` towards zero, `roundup` away from zero (Fanuc's `FUP`). `roundto`
-/// rounds, halves away from zero, to as many digits behind the point as its second argument says.
+/// rounds, halves away from zero, to as many digits behind the point as its second argument says. `remainder` is that of
+/// a division by the second argument, never negative (RS274/NGC's `MOD`; `mod` has the sign of what is divided).
+/// `bitand`, `bitor` and `bitxor` are of whole numbers, bit by bit. Those of three numbers are in [`near`].
 ///
 /// # Errors
 /// As of [`Wrong`].
@@ -155,8 +165,36 @@ pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
         Function::Ln if a == 0.0 => f64::NAN,
         Function::Ln => a.ln(),
         Function::Exp => a.exp(),
+        Function::Min => a.min(b),
+        Function::Max => a.max(b),
+        Function::Remainder if b == 0.0 => return Err(Wrong::DivisionByZero),
+        Function::Remainder => a.rem_euclid(b),
+        Function::BitAnd => (bits(a)? & bits(b)?) as f64,
+        Function::BitOr => (bits(a)? | bits(b)?) as f64,
+        Function::BitXor => (bits(a)? ^ bits(b)?) as f64,
+        Function::Near | Function::NearRatio => return Err(Wrong::Arguments),
     };
     if n.is_nan() { Err(Wrong::NotDefined) } else { finite(n) }
+}
+
+/// Whether two numbers are the same to within a tolerance: `near` to within that amount, `nearratio` to within that
+/// part of the greater one. Worth 1 or 0, as a comparison is.
+///
+/// # Errors
+/// A function of another number of arguments.
+pub fn near(function: Function, a: f64, b: f64, tolerance: f64) -> Result<f64, Wrong> {
+    let within = match function {
+        Function::Near => tolerance,
+        Function::NearRatio => tolerance * a.abs().max(b.abs()),
+        _ => return Err(Wrong::Arguments),
+    };
+    Ok(truth((a - b).abs() <= within))
+}
+
+/// A whole number by its bits.
+fn bits(n: f64) -> Result<i64, Wrong> {
+    // Beyond it a number does not hold each whole one.
+    if n == n.trunc() && n.abs() <= 9_007_199_254_740_992.0 { Ok(n as i64) } else { Err(Wrong::NotDefined) }
 }
 
 #[cfg(test)]
@@ -188,5 +226,19 @@ mod tests {
         assert_eq!(function(Function::RoundTo, -0.5, 0.0), Ok(-1.0));
         assert_eq!(function(Function::RoundTo, 1.0, 0.5), Err(Wrong::NotDefined));
         assert_eq!(binary(Binary::Modulo, -7.0, 3.0), Ok(-1.0));
+        assert_eq!(function(Function::Remainder, -7.0, 3.0), Ok(2.0));
+        assert_eq!(function(Function::Remainder, -7.0, 0.0), Err(Wrong::DivisionByZero));
+    }
+
+    #[test]
+    fn tolerances_and_bits() {
+        assert_eq!(near(Function::Near, 1.0, 1.000_001, 1e-5), Ok(1.0));
+        assert_eq!(near(Function::Near, 1.0, 1.1, 1e-5), Ok(0.0));
+        assert_eq!(near(Function::NearRatio, 1e9, 1e9 + 1.0, 1e-8), Ok(1.0));
+        assert_eq!(near(Function::NearRatio, 1.0, 2.0, 1e-8), Ok(0.0));
+        assert_eq!(function(Function::BitAnd, 6.0, 3.0), Ok(2.0));
+        assert_eq!(function(Function::BitOr, 6.0, 3.0), Ok(7.0));
+        assert_eq!(function(Function::BitXor, 6.0, 3.0), Ok(5.0));
+        assert_eq!(function(Function::BitAnd, 0.5, 3.0), Err(Wrong::NotDefined));
     }
 }

@@ -32,6 +32,7 @@ pub enum What {
     End,
     TextEnd,
     Message,
+    Alarm,
 }
 
 impl What {
@@ -357,8 +358,13 @@ impl Recorder {
                 self.texts += 1;
                 self.batch.texts.push(text.clone());
             }
-            Kind::Data(stored) => {
-                let text = stored.to_string();
+            Kind::Data(_) | Kind::Alarm(..) => {
+                let text = match &event.kind {
+                    Kind::Data(stored) => stored.to_string(),
+                    Kind::Alarm(Some(number), text) => format!("{} {text}", number / ncc_ir::num::ONE),
+                    Kind::Alarm(None, text) => text.to_string(),
+                    _ => String::new(),
+                };
                 more = [hash(text.as_bytes()) as i64, i64::from(self.texts), 0];
                 self.texts += 1;
                 self.batch.texts.push(text.into());
@@ -432,6 +438,7 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::ProgramEnd => What::End,
         Kind::TextEnd => What::TextEnd,
         Kind::Message(_) => What::Message,
+        Kind::Alarm(..) => What::Alarm,
         // Coolant is an attribute of what comes after.
         Kind::Coolant | Kind::Attribute(_) => return None,
     })

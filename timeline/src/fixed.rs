@@ -58,7 +58,8 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
         | Kind::Coolant
         | Kind::ProgramStop
         | Kind::OptionalProgramStop
-        | Kind::ProgramEnd => stop(m),
+        | Kind::ProgramEnd
+        | Kind::Alarm(..) => stop(m),
         Kind::Attribute(attribute) => match attribute {
             Attribute::SelectTool(_) if machine.tool_change_on == ToolChangeOn::Select => {
                 on_the_fly(known(machine.tool_change))

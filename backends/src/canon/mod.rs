@@ -375,7 +375,12 @@ impl Writer {
             | Op::Pattern(_)
             | Op::Call(_)
             | Op::Return
+            | Op::MessageOf(_)
+            | Op::Alarm(_)
             | Op::Assign(..)
+            | Op::Declare(_)
+            | Op::Leave
+            | Op::NextTurn
             | Op::Control(_)
             | Op::Goto(_)
             | Op::Label(_) => return Err(here(cannot(&s.op))),

@@ -193,7 +193,12 @@ fn rank(op: &Op) -> u8 {
         | Op::Call(_)
         | Op::Return
         | Op::RepeatBlocks(_)
+        | Op::MessageOf(_)
+        | Op::Alarm(_)
         | Op::Assign(..)
+        | Op::Declare(_)
+        | Op::Leave
+        | Op::NextTurn
         | Op::Control(_)
         | Op::Goto(_)
         | Op::Label(_) => 22,
@@ -438,7 +443,12 @@ impl Printer<'_> {
             | Op::Pattern(_)
             | Op::Call(_)
             | Op::RepeatBlocks(_)
+            | Op::MessageOf(_)
+            | Op::Alarm(_)
             | Op::Assign(..)
+            | Op::Declare(_)
+            | Op::Leave
+            | Op::NextTurn
             | Op::Control(_)
             | Op::Goto(_)
             | Op::Label(_) => return Err(cannot(stmt.op.name())),

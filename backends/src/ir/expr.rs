@@ -1,9 +1,9 @@
 //! Expressions, variables and numbers of the `ir` text.
 
-use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
 
-use crate::canon::text::{decimal, quote};
+use crate::canon::text::{decimal, quote, whole};
 
 /// How tightly the operands of an expression hold together; what holds less needs brackets.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,15 +58,11 @@ fn tied(e: &Expr, least: Tie, out: &mut Vec<u8>) {
                 out.push(b' ');
                 tied(b, right, out);
             }
+            Node::Element(e) => element(e, out),
             Node::Call(f, args) => {
                 out.extend_from_slice(function(*f).as_bytes());
                 out.push(b'(');
-                for (place, arg) in args.iter().enumerate() {
-                    if place > 0 {
-                        out.extend_from_slice(b", ");
-                    }
-                    expr(arg, out);
-                }
+                list(args, out);
                 out.push(b')');
             }
         },
@@ -80,7 +76,7 @@ fn tie(e: &Expr) -> Tie {
     match e {
         Expr::Num(_) => Tie::Atom,
         Expr::Node(node) => match &**node {
-            Node::Var(_) | Node::Vacant | Node::Call(..) => Tie::Named,
+            Node::Var(_) | Node::Vacant | Node::Element(_) | Node::Call(..) => Tie::Named,
             Node::Unary(..) => Tie::Atom,
             Node::Binary(operator, ..) => operation(*operator).1,
         },
@@ -125,6 +121,61 @@ fn function(f: Function) -> &'static str {
         Function::Truncate => "truncate",
         Function::Ln => "ln",
         Function::Exp => "exp",
+        Function::Min => "min",
+        Function::Max => "max",
+        Function::Remainder => "remainder",
+        Function::Near => "near",
+        Function::NearRatio => "nearratio",
+        Function::BitAnd => "bitand",
+        Function::BitOr => "bitor",
+        Function::BitXor => "bitxor",
+    }
+}
+
+fn list(all: &[Expr], out: &mut Vec<u8>) {
+    for (place, one) in all.iter().enumerate() {
+        if place > 0 {
+            out.extend_from_slice(b", ");
+        }
+        expr(one, out);
+    }
+}
+
+/// Writes one of many variables: which, then all of them.
+fn element(e: &Element, out: &mut Vec<u8>) {
+    if let Many::Array { var: array, .. } = &e.of {
+        var(array, out);
+    }
+    out.push(b'[');
+    list(&e.at, out);
+    out.extend_from_slice(b" of ");
+    match &e.of {
+        Many::Array { sizes, .. } => self::sizes(sizes, out),
+        Many::Numbered(numbers) => {
+            for (place, range) in numbers.iter().enumerate() {
+                out.extend_from_slice(if place > 0 { b", " } else { b"" });
+                var(&range.scope.var(&format!("{}{}", range.prefix, range.from)), out);
+                out.extend_from_slice(b" to ");
+                whole(u64::from(range.to), out);
+            }
+        }
+    }
+    out.push(b']');
+}
+
+/// Writes how many elements an array has in each direction.
+pub(super) fn sizes(sizes: &[u32], out: &mut Vec<u8>) {
+    for (place, size) in sizes.iter().enumerate() {
+        out.extend_from_slice(if place > 0 { b", " } else { b"" });
+        whole(u64::from(*size), out);
+    }
+}
+
+/// Writes what is given a value.
+pub(super) fn target(target: &Target, out: &mut Vec<u8>) {
+    match target {
+        Target::Var(v) => var(v, out),
+        Target::Element(e) => element(e, out),
     }
 }
 

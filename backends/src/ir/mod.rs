@@ -199,6 +199,7 @@ impl Writer {
                 Control::Repeat { body, .. }
                 | Control::Loop { body }
                 | Control::While { body, .. }
+                | Control::Until { body, .. }
                 | Control::For { body, .. } => self.inner(body, depth, out),
                 Control::If { then, otherwise, .. } => {
                     self.inner(then, depth, out);

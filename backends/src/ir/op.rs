@@ -4,10 +4,12 @@ use ncc_ir::canon::{
     Axis, Distance, Fact, FeedMode, Modes, Motion, Plane, ReturnLevel, SpindleMode, Turn, Units,
 };
 use ncc_ir::expr::Expr;
-use ncc_ir::program::{Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Point, Shape, ToolLength};
+use ncc_ir::program::{
+    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Piece, Point, Shape, ToolLength,
+};
 
 use super::cycle::{cycle, further_turn, pattern, pitch};
-use super::expr::{expr, var};
+use super::expr::{expr, sizes, target, var};
 use super::frame::{axis_words, filled, frame, slot};
 use super::machine;
 use super::polar::{polar_move, pole, rotary_ways};
@@ -21,8 +23,8 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         Op::ArcForm(arc) => arc.said,
         Op::UseToolEdge { said, .. } => *said,
         Op::Polar(polar) => return polar_move(polar, out),
-        Op::Assign(v, value) => {
-            var(v, out);
+        Op::Assign(to, value) => {
+            target(to, out);
             put(" = ", out);
             return expr(value, out);
         }
@@ -83,9 +85,14 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::OptionalProgramStop
         | Op::ProgramEnd
         | Op::Message(_)
+        | Op::MessageOf(_)
+        | Op::Alarm(_)
+        | Op::Declare(_)
         | Op::Call(_)
         | Op::Return
         | Op::Goto(_)
+        | Op::Leave
+        | Op::NextTurn
         | Op::Label(_) => false,
     };
     if said {
@@ -184,6 +191,41 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         },
         Op::SetPole(set) => pole(set, out),
         Op::TurnRotaryAxes(ways) => rotary_ways(ways, out),
+        Op::Declare(declare) => {
+            put(declare.kind.name(), out);
+            put(", ", out);
+            var(&declare.var, out);
+            if !declare.sizes.is_empty() {
+                put("[", out);
+                sizes(&declare.sizes, out);
+                put("]", out);
+            }
+            for value in &declare.initial {
+                put(", ", out);
+                match value {
+                    Some(value) => expr(value, out),
+                    None => put("none", out),
+                }
+            }
+        }
+        Op::MessageOf(pieces) => {
+            for (place, piece) in pieces.iter().enumerate() {
+                put(if place > 0 { ", " } else { "" }, out);
+                match piece {
+                    Piece::Text(text) => text_argument(text, out),
+                    Piece::Value { value, digits, short } => {
+                        expr(value, out);
+                        put(" digits ", out);
+                        whole(u64::from(*digits), out);
+                        put(if *short { " short" } else { "" }, out);
+                    }
+                }
+            }
+        }
+        Op::Alarm(alarm) => {
+            text_argument(&alarm.text, out);
+            further(alarm.number.as_slice(), out);
+        }
         Op::Polar(_)
         | Op::Blank
         | Op::ExactStop
@@ -200,6 +242,8 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
         | Op::OptionalProgramStop
         | Op::ProgramEnd
         | Op::Return
+        | Op::Leave
+        | Op::NextTurn
         | Op::Assign(..)
         | Op::Control(_) => {}
     }
@@ -390,6 +434,10 @@ fn control(c: &Control, out: &mut Vec<u8>) {
         Control::Loop { .. } => put("loop", out),
         Control::While { condition, .. } => {
             put("while ", out);
+            expr(condition, out);
+        }
+        Control::Until { condition, .. } => {
+            put("until ", out);
             expr(condition, out);
         }
         Control::For { variable, from, to, step, .. } => {

@@ -196,8 +196,12 @@ impl Writer {
             Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
             Op::Label(name) => self.label(name, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
+            Op::MessageOf(_) => Err(cannot("a message with values in it")),
+            Op::Alarm(_) => Err(cannot("an alarm")),
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
+            Op::Declare(_) => Err(cannot("a variable that is made known")),
             Op::Goto(_) => Err(cannot("a jump")),
+            Op::Leave | Op::NextTurn => Err(cannot("a loop that is left")),
         }
     }
 

@@ -199,7 +199,7 @@ impl Writer {
         let (times, body) = match control {
             Control::Repeat { times, body } => (times, body),
             Control::Loop { .. } => return Err(cannot("an endless loop")),
-            Control::While { .. } => return Err(cannot("a loop on a condition")),
+            Control::Until { .. } | Control::While { .. } => return Err(cannot("a loop on a condition")),
             Control::For { .. } => return Err(cannot("a counted loop")),
             Control::If { .. } => return Err(cannot("a condition")),
         };

@@ -106,7 +106,12 @@ impl Setting {
             | Op::Message(_)
             | Op::Call(_)
             | Op::Return
+            | Op::MessageOf(_)
+            | Op::Alarm(_)
             | Op::Assign(..)
+            | Op::Declare(_)
+            | Op::Leave
+            | Op::NextTurn
             | Op::Control(_)
             | Op::Goto(_)
             | Op::Label(_) => return None,

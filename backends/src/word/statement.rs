@@ -164,9 +164,13 @@ impl Writer {
             Op::Message(text) => self.message(text, sink),
             Op::Call(call) => self.call(call, stmt, sink),
             Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
+            Op::MessageOf(_) => Err(cannot("a message with values in it")),
+            Op::Alarm(_) => Err(cannot("an alarm")),
             Op::Assign(..) => Err(cannot("an assignment to a variable")),
+            Op::Declare(_) => Err(cannot("a variable that is made known")),
             Op::Control(_) => Err(cannot("control of the program's flow")),
             Op::Goto(_) => Err(cannot("a jump")),
+            Op::Leave | Op::NextTurn => Err(cannot("a loop that is left")),
             Op::Label(name) => self.label(name, sink),
         }
     }

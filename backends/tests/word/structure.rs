@@ -302,7 +302,7 @@ fn what_has_no_word_is_refused() {
         Op::UseToolEdge { edge: count("1"), said: true },
         Op::Message("CHECK".into()),
         Op::Goto("10".into()),
-        Op::Assign(ncc_ir::expr::Var::Local("1".into()), mm("1.")),
+        Op::Assign(ncc_ir::expr::Var::Local("1".into()).into(), mm("1.")),
         Op::SelectTool(Expr::Node(Box::new(ncc_ir::expr::Node::Vacant))),
         Op::SelectTool(count("1.5")),
     ] {

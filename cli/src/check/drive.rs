@@ -13,7 +13,7 @@ use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
 use ncc_frontends::{Batch, Flow, REFUSED, Reader, flow};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Exec, Runner};
-use ncc_ir::program::{Control, Op, Procedure, Program, Stmt, Text};
+use ncc_ir::program::{Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::chunks::{Chunk, Chunks};
@@ -347,13 +347,7 @@ impl<'d> Drive<'d> {
 fn jumps_in(body: &[Stmt]) -> bool {
     body.iter().any(|stmt| match &stmt.op {
         Op::Goto(_) => true,
-        Op::Control(control) => match &**control {
-            Control::Repeat { body, .. }
-            | Control::Loop { body }
-            | Control::While { body, .. }
-            | Control::For { body, .. } => jumps_in(body),
-            Control::If { then, otherwise, .. } => jumps_in(then) || jumps_in(otherwise),
-        },
+        Op::Control(control) => control.bodies().any(|body| jumps_in(body)),
         _ => false,
     })
 }

@@ -9,7 +9,7 @@ use ncc_dialects::Settings;
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::exec::{Exec, Runner};
-use ncc_ir::program::{Control, Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::world::World;
@@ -146,13 +146,7 @@ impl Walk<'_> {
         stmts.iter().any(|stmt| {
             self.holds(stmt.span)
                 || match &stmt.op {
-                    Op::Control(control) => match &**control {
-                        Control::Repeat { body, .. }
-                        | Control::Loop { body }
-                        | Control::While { body, .. }
-                        | Control::For { body, .. } => self.is_in(body),
-                        Control::If { then, otherwise, .. } => self.is_in(then) || self.is_in(otherwise),
-                    },
+                    Op::Control(control) => control.bodies().any(|body| self.is_in(body)),
                     _ => false,
                 }
         })

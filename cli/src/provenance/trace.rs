@@ -39,7 +39,7 @@ const MOST_STRETCHES: usize = 1000;
 const MOST_PLACES: usize = 1000;
 
 /// Names of the kinds of events, as NIST has them; a set of them is a number with a bit for each.
-pub const KINDS: [&str; 18] = [
+pub const KINDS: [&str; 19] = [
     "STRAIGHT_TRAVERSE",
     "STRAIGHT_FEED",
     "ARC_FEED",
@@ -58,6 +58,7 @@ pub const KINDS: [&str; 18] = [
     "SET_TILT",
     "ORIENT_TOOL_AXIS",
     "STRAIGHT_PROBE",
+    "ALARM",
 ];
 
 /// A kind's place in [`KINDS`]; `None` is no event of a comparison.
@@ -81,6 +82,7 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::Tilt(_) => 15,
         Kind::OrientToolAxis(_) => 16,
         Kind::Probe { .. } => 17,
+        Kind::Alarm(..) => 18,
         Kind::Attribute(_) => return None,
     })
 }

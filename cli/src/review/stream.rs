@@ -23,7 +23,7 @@ use ncc_ir::cycle::{Clearance, CycleKind};
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::program::{self, FrameSlot, Op, Procedure, Program, Stmt};
+use ncc_ir::program::{FrameSlot, Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::world::World;
 use ncc_machines::reading::Told;
@@ -365,16 +365,9 @@ fn note(op: &Op, has: &mut Has) {
                 | CycleKind::DrillBreak { lift: Clearance::Parameter, .. }
         );
     } else if let Op::Control(control) = op {
-        let bodies: [&[Stmt]; 2] = match &**control {
-            program::Control::Repeat { body, .. }
-            | program::Control::Loop { body }
-            | program::Control::While { body, .. }
-            | program::Control::For { body, .. } => [body, &[]],
-            program::Control::If { then, otherwise, .. } => [then, otherwise],
-        };
-        bodies.into_iter().flatten().for_each(|stmt| note(&stmt.op, has));
+        control.bodies().flatten().for_each(|stmt| note(&stmt.op, has));
     } else {
-        has.messages |= matches!(op, Op::Message(_));
+        has.messages |= matches!(op, Op::Message(_) | Op::MessageOf(_));
         has.inches |= matches!(op, Op::UseLengthUnits(Units::Inch));
         has.clears_shift |= matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_));
     }

@@ -104,6 +104,7 @@ pub(crate) fn event(record: &Record, style: &Style, texts: &[Text]) -> String {
         What::End => "end".to_owned(),
         What::TextEnd => "end of the text".to_owned(),
         What::Message => format!("message {:?}", text()),
+        What::Alarm => format!("alarm {:?}", text()),
     }
 }
 

@@ -211,6 +211,11 @@ impl State {
             | Op::OptionalProgramStop
             | Op::ProgramEnd
             | Op::Message(_)
+            | Op::MessageOf(_)
+            | Op::Alarm(_)
+            | Op::Declare(_)
+            | Op::Leave
+            | Op::NextTurn
             | Op::Call(_)
             | Op::Return
             | Op::RepeatBlocks(_)

@@ -7,7 +7,7 @@ use logos::{Lexer, Logos};
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Detour, Op, Text, ToolValue};
+use ncc_ir::program::{Detour, Op, Text, ToolValue, Type};
 use ncc_ir::system::System;
 
 use crate::canon::text::unquote;
@@ -55,7 +55,6 @@ pub(crate) struct Form(pub(crate) &'static str);
 
 /// A function with one number as its argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-
 pub(crate) enum Valued {
     SetFeedRate,
     SetSpindleSpeed,
@@ -73,7 +72,6 @@ pub(crate) enum Valued {
 
 /// A function with a text as its argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-
 pub(crate) enum Worded {
     Comment,
     NoEffect,
@@ -99,6 +97,10 @@ pub(crate) enum Token {
     Begin,
     #[token("}")]
     End,
+    #[token("[")]
+    OpenIndex,
+    #[token("]")]
+    CloseIndex,
     #[token(",")]
     Comma,
     #[token("&")]
@@ -177,6 +179,8 @@ pub(crate) enum Token {
     #[token("PROGRAM_END", |_| Box::new(Op::ProgramEnd))]
     #[token("EXACT_STOP", |_| Box::new(Op::ExactStop))]
     #[token("RETURN", |_| Box::new(Op::Return))]
+    #[token("LEAVE", |_| Box::new(Op::Leave))]
+    #[token("NEXT_TURN", |_| Box::new(Op::NextTurn))]
     /// A function without arguments; in a box, since most words are small.
     Bare(Box<Op>),
     #[token("SET_FEED_RATE", |_| Valued::SetFeedRate)]
@@ -575,6 +579,26 @@ pub(crate) enum Token {
     #[token("false", |_| false)]
     Bool(bool),
 
+    #[token("DECLARE")]
+    Declare,
+    #[token("real", |_| Type::Real)]
+    #[token("int", |_| Type::Int)]
+    #[token("bool", |_| Type::Bool)]
+    Type(Type),
+    #[token("none")]
+    None,
+    #[token("of")]
+    Of,
+    #[token("MESSAGE_OF")]
+    MessageOf,
+    #[token("digits")]
+    Digits,
+    #[token("short")]
+    Short,
+    #[token("ALARM")]
+    Alarm,
+    #[token("until")]
+    Until,
     #[token("vacant")]
     Vacant,
     #[token("not")]
@@ -603,6 +627,14 @@ pub(crate) enum Token {
     #[token("truncate", |_| Function::Truncate)]
     #[token("ln", |_| Function::Ln)]
     #[token("exp", |_| Function::Exp)]
+    #[token("min", |_| Function::Min)]
+    #[token("max", |_| Function::Max)]
+    #[token("remainder", |_| Function::Remainder)]
+    #[token("near", |_| Function::Near)]
+    #[token("nearratio", |_| Function::NearRatio)]
+    #[token("bitand", |_| Function::BitAnd)]
+    #[token("bitor", |_| Function::BitOr)]
+    #[token("bitxor", |_| Function::BitXor)]
     Function(Function),
 
     /// A name in capitals that is no function's.

@@ -4,7 +4,7 @@
 
 use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, RotaryWay, SpindleMode};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Binary, Expr, Node};
+use ncc_ir::expr::{Binary, Expr, Node, Numbers, Scope, Var};
 use ncc_ir::num::Num;
 use ncc_ir::program::{Advice, Coord, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text};
 use ncc_ir::source::Span;
@@ -283,6 +283,22 @@ pub(crate) fn point_number(n: u32, least: u8, most: u8, l: usize, r: usize) -> P
     match u8::try_from(n) {
         Ok(n) if (least..=most).contains(&n) => Ok(n),
         Ok(_) | Err(_) => refuse(l, r, Fault::OutOfRange { word: "number of a point".into() }),
+    }
+}
+
+/// Variables whose names are numbers: from one to another.
+pub(crate) fn numbers(first: &Var, to: u32, l: usize, r: usize) -> Parsed<Numbers> {
+    let scope = match first {
+        Var::Local(_) => Some(Scope::Local),
+        Var::Common(_) => Some(Scope::Common),
+        Var::Retentive(_) => Some(Scope::Retentive),
+        Var::System(_) => None,
+    };
+    let name = first.name();
+    let (prefix, from) = name.split_at(name.trim_end_matches(|c: char| c.is_ascii_digit()).len());
+    match (scope, from.parse()) {
+        (Some(scope), Ok(from)) => Ok(Numbers { scope, prefix: prefix.into(), from, to }),
+        (_, _) => refuse(l, r, Fault::BadNumber { text: name.into() }),
     }
 }
 

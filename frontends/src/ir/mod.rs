@@ -244,8 +244,17 @@ impl Reader {
                 let fault = Fault::Syntax { found: found.into(), expected: expected.into() };
                 return Err((fault, stmt.span));
             }
-            let flow =
-                matches!(stmt.op, Op::Call(_) | Op::Return | Op::Goto(_) | Op::Label(_) | Op::Assign(..));
+            let flow = matches!(
+                stmt.op,
+                Op::Call(_)
+                    | Op::Return
+                    | Op::Goto(_)
+                    | Op::Label(_)
+                    | Op::Assign(..)
+                    | Op::Declare(_)
+                    | Op::Leave
+                    | Op::NextTurn
+            );
             out.whole |= control || flow;
             if !control {
                 self.body(out).push(stmt);
@@ -292,12 +301,8 @@ impl Reader {
 /// Puts the bodies into a control statement.
 fn fill(op: &mut Op, first: Vec<Stmt>, second: Vec<Stmt>) {
     if let Op::Control(control) = op {
-        match &mut **control {
-            Control::Repeat { body, .. }
-            | Control::Loop { body }
-            | Control::While { body, .. }
-            | Control::For { body, .. } => *body = first,
-            Control::If { then, otherwise, .. } => (*then, *otherwise) = (first, second),
+        for (place, body) in control.bodies_mut().zip([first, second]) {
+            *place = body;
         }
     }
 }

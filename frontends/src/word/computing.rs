@@ -142,7 +142,7 @@ impl Lower {
             Statement::Assign(to, value) => {
                 let value = self.value(value, span, out);
                 self.assigned(span, out);
-                self.push(span, Op::Assign(to.clone(), value), out);
+                self.push(span, Op::Assign(to.clone().into(), value), out);
             }
             Statement::Goto(condition, to) => {
                 if self.computes.unnamed {
@@ -159,7 +159,7 @@ impl Lower {
             Statement::Then(condition, to, value) => {
                 let value = self.value(value, span, out);
                 self.assigned(span, out);
-                self.decide(condition, Op::Assign(to.clone(), value), span, out);
+                self.decide(condition, Op::Assign(to.clone().into(), value), span, out);
             }
             Statement::Do(condition, number) => {
                 let twice = self.computes.loops.iter().any(|open| open.number == *number);
@@ -337,6 +337,9 @@ impl Lower {
                 self.mean(a, round, at, out);
                 self.mean(b, round, at, out);
             }
+            Node::Element(element) => {
+                element.at.iter_mut().for_each(|index| self.mean(index, round, at, out));
+            }
             Node::Call(function, arguments) => {
                 let function = *function;
                 arguments.iter_mut().for_each(|a| self.mean(a, round, at, out));
@@ -365,6 +368,7 @@ pub(super) fn has_round(expr: &Expr) -> bool {
         Node::Var(_) | Node::Vacant => false,
         Node::Unary(_, a) => has_round(a),
         Node::Binary(_, a, b) => has_round(a) || has_round(b),
+        Node::Element(element) => element.at.iter().any(has_round),
         Node::Call(function, arguments) => *function == Function::Round || arguments.iter().any(has_round),
     }
 }

@@ -5,10 +5,10 @@
 use std::collections::HashMap;
 use std::rc::Rc;
 
-use super::term::{Names, Place, Term};
+use super::term::{Indexed, Names, Place, Term};
 use crate::arguments;
-use crate::expr::Expr;
-use crate::program::{Call, Control, Op, Procedure, Program, Stmt};
+use crate::expr::{Expr, Target};
+use crate::program::{Call, Control, Declare, Op, Procedure, Program, Stmt};
 
 /// The place of a step in [`Code::steps`].
 pub(super) type At = u32;
@@ -22,6 +22,10 @@ pub(super) enum Step<'p> {
     Compute(&'p Stmt, u32),
     /// A value for a variable; without a place it is one of the control's own.
     Assign(&'p Stmt, Box<(Option<Place>, Term)>),
+    /// A value for one of many variables; `None` is an array that there cannot be.
+    AssignElement(&'p Stmt, Box<(Option<Indexed>, Term)>),
+    /// First values.
+    Declare(&'p Stmt, Box<Declared>),
     /// Goes there, past a body, while the switch of the statement's level is on.
     Unskipped(&'p Stmt, At),
     /// Goes there unless this holds.
@@ -47,6 +51,15 @@ pub(super) enum Step<'p> {
     Blocks(&'p Stmt, Box<Again>),
     /// The end of a procedure.
     End,
+}
+
+/// Variables that are made known, and their first values.
+#[derive(Clone, Debug)]
+pub(super) struct Declared {
+    /// The first and how many; `None` where there cannot be so many.
+    pub(super) places: Option<(Place, u32)>,
+    /// What has none is zero.
+    pub(super) values: Box<[Option<Term>]>,
 }
 
 /// A counter, and where its end and its pace are kept.
@@ -111,6 +124,17 @@ struct Maker<'p> {
     bodies: Vec<u32>,
     counted: u32,
     next_body: u32,
+    /// Bodies that are executed again and again, the innermost last.
+    turning: Vec<Turning>,
+}
+
+/// Steps that leave a body, or go to its next turn, and how many counted bodies were open outside and inside it.
+#[derive(Debug, Default)]
+struct Turning {
+    leave: Vec<At>,
+    next: Vec<At>,
+    outside: u32,
+    inside: u32,
 }
 
 impl<'p> Code<'p> {
@@ -126,6 +150,7 @@ impl<'p> Code<'p> {
             bodies: Vec::new(),
             counted: 0,
             next_body: 0,
+            turning: Vec::new(),
         };
         for (place, procedure) in program.procedures.iter().enumerate() {
             if place > 0 {
@@ -146,6 +171,7 @@ impl<'p> Maker<'p> {
     fn procedure(&mut self, procedure: &'p Procedure) {
         self.labels.clear();
         self.jumps.clear();
+        self.turning.clear();
         self.body(&procedure.body);
         self.code.steps.push(Step::End);
         for (at, name, from) in std::mem::take(&mut self.jumps) {
@@ -196,9 +222,26 @@ impl<'p> Maker<'p> {
         let at = self.here();
         let step = match &stmt.op {
             Op::Control(control) => return self.control(stmt, control),
-            Op::Assign(to, value) => {
+            Op::Assign(Target::Var(to), value) => {
                 let to = self.code.names.place(to);
                 Step::Assign(stmt, Box::new((to, self.code.names.term(value))))
+            }
+            Op::Assign(Target::Element(to), value) => {
+                let to = self.code.names.element(to);
+                Step::AssignElement(stmt, Box::new((to, self.code.names.term(value))))
+            }
+            Op::Declare(declare) => Step::Declare(stmt, Box::new(self.declare(declare))),
+            Op::Leave => {
+                if let Some(turning) = self.turning.last_mut() {
+                    turning.leave.push(at);
+                }
+                Step::Goto(stmt, None)
+            }
+            Op::NextTurn => {
+                if let Some(turning) = self.turning.last_mut() {
+                    turning.next.push(at);
+                }
+                Step::Goto(stmt, None)
             }
             Op::Goto(label) => {
                 self.jumps.push((at, label, self.bodies.clone()));
@@ -236,29 +279,85 @@ impl<'p> Maker<'p> {
         self.code.steps.push(step);
     }
 
+    fn declare(&mut self, declare: &Declare) -> Declared {
+        let names = &mut self.code.names;
+        let places = match &*declare.sizes {
+            [] => names.place(&declare.var).map(|place| (place, 1)),
+            sizes => names.array(&declare.var, sizes),
+        };
+        let values = declare.initial.iter().map(|value| value.as_ref().map(|value| names.term(value)));
+        Declared { places, values: values.collect() }
+    }
+
+    /// A body that is executed again and again; `counted` if its turns are.
+    fn turns(&mut self, body: &'p [Stmt], counted: bool) {
+        let outside = self.counted;
+        self.counted += u32::from(counted);
+        let inside = self.counted;
+        self.turning.push(Turning { outside, inside, ..Turning::default() });
+        self.body(body);
+        self.counted = outside;
+    }
+
+    /// The next turn of the body begins here.
+    fn next_turn_here(&mut self) {
+        let here = self.here();
+        if let Some(turning) = self.turning.last_mut() {
+            let inside = turning.inside;
+            for at in std::mem::take(&mut turning.next) {
+                self.goes(at, here, inside);
+            }
+        }
+    }
+
+    /// Behind the body; the next turn is begun at `head`, if it was not said where.
+    fn left_here(&mut self, head: At) {
+        let here = self.here();
+        if let Some(turning) = self.turning.pop() {
+            turning.next.iter().for_each(|at| self.goes(*at, head, turning.inside));
+            turning.leave.iter().for_each(|at| self.goes(*at, here, turning.outside));
+        }
+    }
+
+    fn goes(&mut self, at: At, there: At, counted: u32) {
+        if let Step::Goto(_, to) = &mut self.code.steps[at as usize] {
+            *to = Some((there, counted));
+        }
+    }
+
     fn control(&mut self, stmt: &'p Stmt, control: &'p Control) {
         let switch = stmt.skip.map(|_| self.push(Step::Unskipped(stmt, 0)));
         match control {
             Control::Repeat { times, body } => {
                 let times = self.code.names.term(times);
                 let head = self.push(Step::Turns(stmt, Box::new(times), 0));
-                self.counted += 1;
-                self.body(body);
-                self.counted -= 1;
+                self.turns(body, true);
+                self.next_turn_here();
                 self.push(Step::Again(stmt, head + 1));
                 self.ends_here(head);
+                self.left_here(head);
             }
             Control::Loop { body } => {
                 let head = self.here();
-                self.body(body);
+                self.turns(body, false);
                 self.push(Step::Jump(stmt, head));
+                self.left_here(head);
             }
             Control::While { condition, body } => {
                 let condition = self.code.names.term(condition);
                 let head = self.push(Step::Unless(stmt, Box::new(condition), 0));
-                self.body(body);
+                self.turns(body, false);
                 self.push(Step::Jump(stmt, head));
                 self.ends_here(head);
+                self.left_here(head);
+            }
+            Control::Until { condition, body } => {
+                let head = self.here();
+                self.turns(body, false);
+                self.next_turn_here();
+                let condition = self.code.names.term(condition);
+                self.push(Step::Unless(stmt, Box::new(condition), head));
+                self.left_here(head);
             }
             Control::For { variable, from, to, step, body } => {
                 let place = self.code.names.place(variable);
@@ -271,10 +370,12 @@ impl<'p> Maker<'p> {
                 // One of the control's own is refused where it is set.
                 let counter = Box::new(Counter { place: place.unwrap_or(end), end, pace });
                 let head = self.push(Step::UnlessCounted(stmt, counter.clone(), 0));
-                self.body(body);
+                self.turns(body, false);
+                self.next_turn_here();
                 self.push(Step::Count(stmt, counter));
                 self.push(Step::Jump(stmt, head));
                 self.ends_here(head);
+                self.left_here(head);
             }
             Control::If { condition, then, otherwise } => {
                 let condition = self.code.names.term(condition);
@@ -312,6 +413,8 @@ impl<'p> Maker<'p> {
             Step::Do(_)
             | Step::Compute(..)
             | Step::Assign(..)
+            | Step::AssignElement(..)
+            | Step::Declare(..)
             | Step::Count(..)
             | Step::Again(..)
             | Step::Goto(..)

@@ -8,7 +8,7 @@
 use super::{Event, Exec, Length};
 use crate::canon::{Axis, Plane, Side};
 use crate::diag::{Diagnostic, Fault};
-use crate::kinds::{conduct, drilling, flow, miscellaneous};
+use crate::kinds::{conduct, drilling, flow, miscellaneous, variables};
 use crate::num::{Nanos, ONE};
 use crate::program::{CutterRadius, Data, Op, Point, Stmt, ToolValue};
 use crate::source::Span;
@@ -355,7 +355,7 @@ impl Exec {
             | Op::SetPole(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | flow!() => None,
         })
     }

@@ -82,6 +82,8 @@ pub enum Kind {
     TextEnd,
     /// Text for the operator.
     Message(Text),
+    /// The program ends with an alarm for the operator: its number, if it has one, in nanos, and its text.
+    Alarm(Option<Nanos>, Text),
     /// What sets something and moves nothing. Made only where functions are told one by one
     /// ([`Exec::narrate`](super::Exec::narrate)), and never compared: what it sets is an attribute of
     /// the events after it.
@@ -175,6 +177,7 @@ impl Kind {
             | Kind::ProgramEnd
             | Kind::TextEnd
             | Kind::Message(_)
+            | Kind::Alarm(..)
             | Kind::Attribute(_) => None,
         }
     }

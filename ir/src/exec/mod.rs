@@ -16,6 +16,7 @@ mod entry;
 mod event;
 mod frame;
 mod holes;
+mod message;
 mod polar;
 mod run;
 mod slots;
@@ -39,6 +40,7 @@ use crate::canon::{
 };
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
+use crate::kinds::variables;
 use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
 use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
@@ -661,14 +663,13 @@ impl Exec {
                 self.emit(Kind::ProgramEnd, span, out)?;
                 self.ended = true;
             }
-            Op::Message(_) if self.muted => {}
-            Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,
+            Op::Message(_) | Op::MessageOf(_) | Op::Alarm(_) => self.message(&stmt.op, span, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),
             Op::RepeatBlocks(_) => return self.not_executed("a repetition in the midst of a stream", span),
-            Op::Assign(..) => return self.not_executed("a variable", span),
+            variables!() => return self.not_executed("a variable", span),
             Op::Control(_) => return self.not_executed("control of the program's flow", span),
-            Op::Goto(_) => return self.not_executed("a jump", span),
+            Op::Goto(_) | Op::Leave | Op::NextTurn => return self.not_executed("a jump", span),
         }
         Ok(())
     }

@@ -3,15 +3,16 @@
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::code::{Again, At, Called, Code, Step};
-use super::term::{Asked, Place, Variables, Why};
+use super::code::{Again, At, Called, Code, Declared, Step};
+use super::message;
+use super::term::{Asked, Place, Variables, Why, real};
 use super::{Event, Exec};
 use crate::arguments;
 use crate::canon::FeedMode;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Num, ONE, Unit};
-use crate::program::{Centre, Coord, Op, Program, Stmt};
+use crate::program::{Centre, Coord, Op, Piece, Program, Stmt};
 use crate::source::Span;
 use crate::value::Value;
 
@@ -158,6 +159,8 @@ impl<'p> Runner<'p> {
                 Step::Do(stmt)
                 | Step::Compute(stmt, _)
                 | Step::Assign(stmt, _)
+                | Step::AssignElement(stmt, _)
+                | Step::Declare(stmt, _)
                 | Step::Unskipped(stmt, _)
                 | Step::Unless(stmt, ..)
                 | Step::UnlessCounted(stmt, ..)
@@ -206,6 +209,16 @@ impl<'p> Runner<'p> {
                     };
                     self.variables.set(*place, value);
                 }
+                Step::AssignElement(_, to) => {
+                    let (element, term) = &**to;
+                    let place = element.as_ref().ok_or(Why::Index).and_then(|e| self.variables.at(e, asked));
+                    let value = self.variables.value(term, asked);
+                    let (place, value) = place
+                        .and_then(|place| Ok((place, value?)))
+                        .map_err(|why| self.no_value(why, span))?;
+                    self.variables.set(place, value);
+                }
+                Step::Declare(_, declared) => self.declare(declared, asked, span)?,
                 Step::Jump(_, to) => self.at = *to,
                 Step::Again(_, to) => self.another_turn(*to),
                 Step::Unskipped(..) | Step::End => {}
@@ -267,6 +280,24 @@ impl<'p> Runner<'p> {
     /// Whether the program asks for values of the control's own.
     pub(crate) fn asks(&self) -> bool {
         !self.code.names.system.is_empty()
+    }
+
+    fn declare(&mut self, declared: &Declared, asked: Asked, span: Span) -> Result<(), Diagnostic> {
+        let Some((first, count)) = declared.places else { return Err(self.no_value(Why::Index, span)) };
+        for offset in 0..count {
+            let value = match declared.values.get(offset as usize) {
+                Some(Some(term)) => {
+                    self.variables.value(term, asked).map_err(|why| self.no_value(why, span))?
+                }
+                Some(None) | None => Value::Number(0.0),
+            };
+            let place = match first {
+                Place::Local(first) => Place::Local(first + offset),
+                Place::Shared(first) => Place::Shared(first + offset),
+            };
+            self.variables.set(place, value);
+        }
+        Ok(())
     }
 
     /// How many steps it has made.
@@ -369,7 +400,10 @@ impl<'p> Runner<'p> {
 
     fn jump(&mut self, to: Option<(At, u32)>, stmt: &Stmt) -> Result<(), Diagnostic> {
         let Some((to, counted)) = to else {
-            let Op::Goto(label) = &stmt.op else { return Ok(()) };
+            let Op::Goto(label) = &stmt.op else {
+                let what = "a word that leaves a loop, outside of any".into();
+                return Err(Diagnostic::new(Fault::NotExecuted { what }, stmt.span));
+            };
             return Err(Diagnostic::new(Fault::LabelUnknown { name: label.clone() }, stmt.span));
         };
         let inner = self.blocks.last().filter(|blocks| blocks.call == self.calls.len());
@@ -452,6 +486,27 @@ impl<'p> Runner<'p> {
                 return Ok(true);
             }
             _ => {}
+        }
+        if let Op::MessageOf(pieces) = &stmt.op {
+            let mut text = String::new();
+            for piece in pieces {
+                match (piece, terms.clone().next()) {
+                    (Piece::Text(piece), _) => text.push_str(piece),
+                    (Piece::Value { .. }, None) => {}
+                    (Piece::Value { value, digits, short }, Some(term)) => {
+                        terms.next();
+                        let value = match (term, value.literal()) {
+                            (Some(term), _) => {
+                                variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?
+                            }
+                            (None, literal) => literal.map_or(Value::Vacant, |n| Value::Number(real(n))),
+                        };
+                        message::write(value, *digits, *short, &mut text);
+                    }
+                }
+            }
+            now.op = Op::Message(text.into());
+            return Ok(true);
         }
         now.op = stmt.op.clone();
         let per_time = asked.exec.state.feed_mode == FeedMode::InverseTime;

@@ -3,10 +3,11 @@
 //! Not here: what operators and functions mean (`value`).
 
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use super::Exec;
 use crate::diag::Fault;
-use crate::expr::{Binary, Expr, Function, Node, Unary, Var};
+use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Unary, Var};
 use crate::num::{Num, POW10, Unit};
 use crate::system::System;
 use crate::value::{self, Value, Wrong};
@@ -25,9 +26,41 @@ pub(super) enum Term {
     Binary(Binary, Box<[Term; 2]>),
     Of(Function, Box<Term>),
     OfTwo(Function, Box<[Term; 2]>),
+    OfThree(Function, Box<[Term; 3]>),
+    Element(Box<Indexed>),
     /// A function with another number of arguments than it has.
     Miscounted,
 }
+
+/// One of many variables, made ready.
+#[derive(Clone, Debug)]
+pub(super) struct Indexed {
+    of: Rows,
+    /// Elements of an array in each direction; of numbers there is one.
+    sizes: Box<[u32]>,
+    at: Box<[Term]>,
+}
+
+/// All those of which one is meant.
+type Rows = Rc<[Row]>;
+
+/// Places of variables one behind the other.
+#[derive(Clone, Debug)]
+struct Row {
+    /// The number of the first.
+    from: u32,
+    places: Places,
+}
+
+#[derive(Clone, Debug)]
+enum Places {
+    /// From there on, so many.
+    Together(Place, u32),
+    Each(Box<[Place]>),
+}
+
+/// Most elements of an array.
+const MOST_ELEMENTS: u32 = 1_000_000;
 
 /// Where a variable is kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +79,8 @@ pub(super) enum Why {
     Unset(u32),
     System(u32),
     Measured,
+    /// No element has this index.
+    Index,
 }
 
 /// Names of variables, and their places.
@@ -55,6 +90,12 @@ pub(super) struct Names {
     shared: HashMap<Var, u32>,
     /// Those of the control's own.
     pub(super) system: Vec<System>,
+    /// Variables that have numbers, where one of them is computed.
+    numbered: Vec<(Box<[Numbers]>, Rows)>,
+    /// Arrays, each with its first place and how many it has.
+    arrays: HashMap<Var, (Place, u32)>,
+    /// Places of variables that all procedures see.
+    shared_count: u32,
     /// Places of locals in a call, those without a name included.
     pub(super) count: u32,
 }
@@ -71,10 +112,15 @@ impl Names {
                     place
                 }
             })),
-            Var::Common(_) | Var::Retentive(_) => {
-                let next = self.shared.len() as u32;
-                Some(Place::Shared(*self.shared.entry(var.clone()).or_insert(next)))
-            }
+            Var::Common(_) | Var::Retentive(_) => Some(Place::Shared(match self.shared.get(var) {
+                Some(place) => *place,
+                None => {
+                    let place = self.shared_count;
+                    self.shared_count += 1;
+                    self.shared.insert(var.clone(), place);
+                    place
+                }
+            })),
             Var::System(_) => None,
         }
     }
@@ -87,7 +133,59 @@ impl Names {
 
     /// How many variables all procedures see.
     pub(super) fn shared(&self) -> usize {
-        self.shared.len()
+        self.shared_count as usize
+    }
+
+    /// The places of an array; `None` is one of no element, of too many, or of the control's own.
+    pub(super) fn array(&mut self, var: &Var, sizes: &[u32]) -> Option<(Place, u32)> {
+        let count = sizes.iter().try_fold(1u32, |all, size| all.checked_mul(*size));
+        let count = count.filter(|count| (1..=MOST_ELEMENTS).contains(count))?;
+        if let Some(known) = self.arrays.get(var) {
+            return (known.1 == count).then_some(*known);
+        }
+        let first = match var {
+            Var::Local(_) => {
+                self.count += count;
+                Place::Local(self.count - count)
+            }
+            Var::Common(_) | Var::Retentive(_) => {
+                self.shared_count += count;
+                Place::Shared(self.shared_count - count)
+            }
+            Var::System(_) => return None,
+        };
+        self.arrays.insert(var.clone(), (first, count));
+        Some((first, count))
+    }
+
+    /// One of many, made ready; `None` is an array that there cannot be.
+    pub(super) fn element(&mut self, element: &Element) -> Option<Indexed> {
+        let at: Box<[Term]> = element.at.iter().map(|index| self.term(index)).collect();
+        let (of, sizes) = match &element.of {
+            Many::Array { var, sizes } => {
+                let (first, count) = self.array(var, sizes)?;
+                (Rc::from([Row { from: 0, places: Places::Together(first, count) }]), sizes.clone())
+            }
+            Many::Numbered(numbers) => (self.numbers(numbers), Box::from([u32::MAX])),
+        };
+        (at.len() == sizes.len()).then_some(Indexed { of, sizes, at })
+    }
+
+    fn numbers(&mut self, numbers: &[Numbers]) -> Rows {
+        if let Some((_, rows)) = self.numbered.iter().find(|(known, _)| **known == *numbers) {
+            return Rc::clone(rows);
+        }
+        let rows: Rows = numbers
+            .iter()
+            .filter(|range| range.from <= range.to && range.to - range.from < MOST_ELEMENTS)
+            .map(|range| {
+                let places = (range.from..=range.to)
+                    .filter_map(|number| self.place(&range.scope.var(&format!("{}{number}", range.prefix))));
+                Row { from: range.from, places: Places::Each(places.collect()) }
+            })
+            .collect();
+        self.numbered.push((numbers.into(), Rc::clone(&rows)));
+        rows
     }
 
     /// Why an expression has no value, in words of the user's.
@@ -96,8 +194,17 @@ impl Names {
             Why::Wrong(wrong) => Fault::NoValue { what: wrong.words().into() },
             Why::Unset(place) => {
                 let var = self.shared.iter().find(|(_, at)| **at == place).map(|(var, _)| var.name());
-                Fault::VariableUnset { name: var.unwrap_or_default().into() }
+                let array = || {
+                    let of = |first: &Place, count: u32| match first {
+                        Place::Shared(at) => (*at..at + count).contains(&place),
+                        Place::Local(_) => false,
+                    };
+                    let found = self.arrays.iter().find(|(_, (first, count))| of(first, *count));
+                    found.map(|(var, _)| var.name())
+                };
+                Fault::VariableUnset { name: var.or_else(array).unwrap_or_default().into() }
             }
+            Why::Index => Fault::NoValue { what: "an index that no element has".into() },
             Why::System(at) => {
                 let what = match self.system.get(at as usize) {
                     Some(System::Other(name)) => format!("the system variable {name}"),
@@ -131,18 +238,25 @@ impl Names {
                     Term::System(self.system.len() as u32 - 1)
                 }
             },
+            Node::Element(element) => match self.element(element) {
+                Some(indexed) => Term::Element(Box::new(indexed)),
+                None => Term::Miscounted,
+            },
             Node::Unary(operator, a) => Term::Unary(*operator, Box::new(self.term(a))),
             Node::Binary(operator, a, b) => Term::Binary(*operator, Box::new([self.term(a), self.term(b)])),
             Node::Call(f, arguments) => match &arguments[..] {
                 [a] if f.arguments() == 1 => Term::Of(*f, Box::new(self.term(a))),
                 [a, b] if f.arguments() == 2 => Term::OfTwo(*f, Box::new([self.term(a), self.term(b)])),
+                [a, b, c] if f.arguments() == 3 => {
+                    Term::OfThree(*f, Box::new([self.term(a), self.term(b), self.term(c)]))
+                }
                 _ => Term::Miscounted,
             },
         }
     }
 }
 
-fn real(n: Num) -> f64 {
+pub(super) fn real(n: Num) -> f64 {
     n.mantissa as f64 / POW10[usize::from(n.scale.min(18))] as f64
 }
 
@@ -203,12 +317,39 @@ impl Variables {
         }
     }
 
+    /// Where one of many is.
+    pub(super) fn at(&self, element: &Indexed, asked: Asked) -> Result<Place, Why> {
+        let mut number = 0.0;
+        for (term, size) in element.at.iter().zip(&*element.sizes) {
+            let index = self.number(term, asked)?;
+            if index != index.trunc() || !(0.0..f64::from(*size)).contains(&index) {
+                return Err(Why::Index);
+            }
+            number = number * f64::from(*size) + index;
+        }
+        let number = number as u32;
+        let found = element.of.iter().find_map(|row| {
+            let offset = number.checked_sub(row.from)?;
+            match &row.places {
+                Places::Together(Place::Local(first), count) => {
+                    (offset < *count).then(|| Place::Local(first + offset))
+                }
+                Places::Together(Place::Shared(first), count) => {
+                    (offset < *count).then(|| Place::Shared(first + offset))
+                }
+                Places::Each(places) => places.get(offset as usize).copied(),
+            }
+        });
+        found.ok_or(Why::Index)
+    }
+
     /// What an expression is worth. With another sign, or rounded to some digits, nothing stays nothing: a word
     /// `X-#1` is left out where `X#1` is.
     pub(super) fn value(&self, term: &Term, asked: Asked) -> Result<Value, Why> {
         Ok(match term {
             Term::Vacant => Value::Vacant,
             Term::Read(place) => self.read(*place)?,
+            Term::Element(element) => self.read(self.at(element, asked)?)?,
             Term::Unary(Unary::Negate, a) => match self.value(a, asked)? {
                 Value::Vacant => Value::Vacant,
                 Value::Number(n) => Value::Number(-n),
@@ -226,6 +367,7 @@ impl Variables {
             | Term::Binary(..)
             | Term::Of(..)
             | Term::OfTwo(..)
+            | Term::OfThree(..)
             | Term::Miscounted => Value::Number(self.number(term, asked)?),
         })
     }
@@ -236,6 +378,7 @@ impl Variables {
             Term::Number(n) => *n,
             Term::Vacant => 0.0,
             Term::Read(place) => self.read(*place)?.number(),
+            Term::Element(element) => self.read(self.at(element, asked)?)?.number(),
             Term::Unary(operator, a) => value::unary(*operator, self.number(a, asked)?),
             Term::Binary(operator @ (Binary::Equal | Binary::NotEqual), both) => {
                 let [a, b] = &**both;
@@ -251,6 +394,11 @@ impl Variables {
             Term::OfTwo(f, both) => {
                 let [a, b] = &**both;
                 value::function(*f, self.number(a, asked)?, self.number(b, asked)?).map_err(Why::Wrong)?
+            }
+            Term::OfThree(f, all) => {
+                let [a, b, c] = &**all;
+                value::near(*f, self.number(a, asked)?, self.number(b, asked)?, self.number(c, asked)?)
+                    .map_err(Why::Wrong)?
             }
             Term::System(at) => asked.answer(*at).ok_or(Why::System(*at))?,
             Term::Measured => return Err(Why::Measured),

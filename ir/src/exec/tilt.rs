@@ -11,7 +11,7 @@ use super::{Event, Exec, Kind};
 use crate::canon::{Axis, Units};
 use crate::diag::Diagnostic;
 use crate::geometry;
-use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, tooling};
+use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, tooling, variables};
 use crate::num::Nanos;
 use crate::program::{Data, FrameSlot, Op, Slot, Stmt, Tilt, Toward};
 use crate::source::Span;
@@ -232,7 +232,7 @@ impl Exec {
             | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | conduct!()
             | modes!()
@@ -286,7 +286,7 @@ impl Exec {
             | Op::SetPole(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | conduct!()
             | modes!()

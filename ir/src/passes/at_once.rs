@@ -10,7 +10,7 @@ use super::walk::Walk;
 use crate::canon::{Axis, Distance, ReturnLevel};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
-use crate::kinds::{conduct, miscellaneous, modes};
+use crate::kinds::{conduct, miscellaneous, modes, variables};
 use crate::program::{Data, DataMode, Op, Point, Stmt};
 use crate::source::Span;
 
@@ -125,7 +125,9 @@ fn over_one(
             }
             state.motion = false;
         }
-        Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) => state.motion = false,
+        Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::Leave | Op::NextTurn => {
+            state.motion = false
+        }
         Op::SetPosition(_)
         | Op::SelectTool(_)
         | Op::SelectToolByName(_)
@@ -143,7 +145,7 @@ fn over_one(
         | Op::SetPole(_)
         | Op::SetFeedRate(_)
         | Op::ProgramEnd
-        | Op::Assign(..)
+        | variables!()
         | miscellaneous!()
         | conduct!()
         | modes!() => {}

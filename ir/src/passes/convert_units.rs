@@ -12,7 +12,7 @@ use crate::canon::{Axis, Distance, SpindleMode, Units};
 use crate::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
-use crate::kinds::{flow, miscellaneous, tooling};
+use crate::kinds::{flow, miscellaneous, tooling, variables};
 use crate::num::{Num, Unit};
 use crate::polar;
 use crate::program::{
@@ -176,7 +176,7 @@ impl Converter<'_> {
             | Op::UseMachineCoordinates { .. }
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | flow!() => {}
             op @ tooling!() => {

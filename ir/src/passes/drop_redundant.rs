@@ -125,7 +125,13 @@ fn speed_after(stmt: &Stmt, before: Option<Num>) -> Option<Num> {
 fn moved_after(stmt: &Stmt, before: bool) -> bool {
     match stmt.op.unwrapped() {
         Op::EndCycle | moves!() => before || stmt.skip.is_none(),
-        Op::Call(_) | Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_) => false,
+        Op::Call(_)
+        | Op::RepeatBlocks(_)
+        | Op::Control(_)
+        | Op::Goto(_)
+        | Op::Label(_)
+        | Op::Leave
+        | Op::NextTurn => false,
         _ => before,
     }
 }

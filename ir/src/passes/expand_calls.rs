@@ -11,12 +11,12 @@ use super::{MOST_STATEMENTS, Target};
 use crate::canon::{Fact, Motion};
 use crate::cycle::{Clearance, CycleKind, First, Pattern};
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Expr, Node};
-use crate::kinds::{conduct, flow, miscellaneous, modes, tooling};
+use crate::expr::{Element, Expr, Node};
+use crate::kinds::{conduct, flow, miscellaneous, modes, tooling, variables};
 use crate::num::Unit;
 use crate::program::{
-    Call, Centre, Control, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Procedure, Program, Shape,
-    Slot, Stmt, ToolLength,
+    Call, Centre, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Procedure, Program, Shape, Slot, Stmt,
+    ToolLength,
 };
 use crate::source::Span;
 use crate::track::Tracker;
@@ -86,15 +86,8 @@ impl<'a> Inliner<'a> {
                     return;
                 }
                 Op::Control(control) => {
-                    match &mut **control {
-                        Control::Repeat { body, .. }
-                        | Control::Loop { body }
-                        | Control::While { body, .. }
-                        | Control::For { body, .. } => self.nested(body),
-                        Control::If { then, otherwise, .. } => {
-                            self.nested(then);
-                            self.nested(otherwise);
-                        }
+                    for body in control.bodies_mut() {
+                        self.nested(body);
                     }
                     self.walk.step(&stmt);
                     made.push(stmt);
@@ -320,7 +313,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | Op::UseMachineCoordinates { .. }
         | Op::EndCycle
         | Op::ProgramEnd
-        | Op::Assign(..)
+        | variables!()
         | miscellaneous!()
         | modes!()
         | flow!() => {}
@@ -369,7 +362,9 @@ fn settle_expr(value: &mut Expr, here: &Tracker) {
                 settle_expr(a, here);
                 settle_expr(b, here);
             }
-            Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| settle_expr(a, here)),
+            Node::Element(Element { at: arguments, .. }) | Node::Call(_, arguments) => {
+                arguments.iter_mut().for_each(|a| settle_expr(a, here));
+            }
         },
     }
 }

@@ -222,7 +222,11 @@ fn repeat_of(stmt: &mut Stmt) -> Option<(Expr, Vec<Stmt>)> {
     let Op::Control(control) = &mut stmt.op else { return None };
     match &mut **control {
         Control::Repeat { times, body } => Some((times.clone(), std::mem::take(body))),
-        Control::Loop { .. } | Control::While { .. } | Control::For { .. } | Control::If { .. } => None,
+        Control::Loop { .. }
+        | Control::While { .. }
+        | Control::Until { .. }
+        | Control::For { .. }
+        | Control::If { .. } => None,
     }
 }
 
@@ -233,7 +237,11 @@ fn bodies(body: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         let (times, inner) = match &stmt.op {
             Op::Control(control) => match &**control {
                 Control::Repeat { times, body } => (times.literal().and_then(|n| n.whole()), body),
-                Control::Loop { .. } | Control::While { .. } | Control::For { .. } | Control::If { .. } => {
+                Control::Loop { .. }
+                | Control::While { .. }
+                | Control::Until { .. }
+                | Control::For { .. }
+                | Control::If { .. } => {
                     return made.push(stmt);
                 }
             },

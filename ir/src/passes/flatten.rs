@@ -14,9 +14,9 @@ use crate::canon::Units;
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::{Exec, Runner};
 use crate::expr::Expr;
-use crate::kinds::flow;
+use crate::kinds::{flow, variables};
 use crate::num::{Num, POW10, Unit};
-use crate::program::{Control, Op, Procedure, Program, Stmt};
+use crate::program::{Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
 use crate::world::World;
 
@@ -66,7 +66,7 @@ fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<S
         // Behind a step that has left nothing a block begins anew.
         stmt.joined &= steps == before + 1 && !out.is_empty();
         stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
-        let over = matches!(stmt.op, Op::ProgramEnd) && stmt.skip.is_none();
+        let over = matches!(stmt.op, Op::ProgramEnd | Op::Alarm(_)) && stmt.skip.is_none();
         if let Some(other) = &mut other {
             if !over {
                 exec.step(&stmt, &mut unseen)?;
@@ -122,20 +122,13 @@ fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnosti
 /// Whether a switch of the control can decide which way the program goes.
 fn no_switch(body: &[Stmt]) -> Result<(), Diagnostic> {
     for stmt in body {
-        if stmt.skip.is_some() && matches!(stmt.op, flow!() | Op::Assign(..)) {
+        if stmt.skip.is_some() && matches!(stmt.op, flow!() | variables!()) {
             let what = "a block that can be skipped and decides what is executed, written out".into();
             return Err(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
         }
         let Op::Control(control) = &stmt.op else { continue };
-        match &**control {
-            Control::Repeat { body, .. }
-            | Control::Loop { body }
-            | Control::While { body, .. }
-            | Control::For { body, .. } => no_switch(body)?,
-            Control::If { then, otherwise, .. } => {
-                no_switch(then)?;
-                no_switch(otherwise)?;
-            }
+        for body in control.bodies() {
+            no_switch(body)?;
         }
     }
     Ok(())

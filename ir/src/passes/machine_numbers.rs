@@ -11,9 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{conduct, drilling, miscellaneous, modes, moves, polar};
+use crate::kinds::{conduct, drilling, miscellaneous, modes, moves, polar, variables};
 use crate::maps::{Maps, Numbered};
-use crate::program::{Control, CutterRadius, Data, Op, Program, ProgramName, Stmt, Text, ToolLength};
+use crate::program::{CutterRadius, Data, Op, Program, ProgramName, Stmt, Text, ToolLength};
 use crate::source::Span;
 
 /// What bears no number of tools, lengths, work offsets or programs.
@@ -44,9 +44,11 @@ macro_rules! unnumbered {
             | Op::ProgramEnd
             | Op::Return
             | Op::RepeatBlocks(_)
-            | Op::Assign(..)
+            | variables!()
             | Op::Goto(_)
             | Op::Label(_)
+            | Op::Leave
+            | Op::NextTurn
     };
 }
 
@@ -95,7 +97,7 @@ impl Renumbering {
                 Data::Position(_) => false,
             },
             Op::Call(_) => !self.maps.programs.is_empty() || self.maps.programs_in_force,
-            Op::Control(control) => bodies(control).into_iter().flatten().any(|s| self.concerns(&s.op)),
+            Op::Control(control) => control.bodies().flatten().any(|s| self.concerns(&s.op)),
             unnumbered!() => false,
         }
     }
@@ -179,7 +181,7 @@ impl Renumbering {
                     }
                 }
                 Op::Control(control) => {
-                    for body in bodies_mut(control) {
+                    for body in control.bodies_mut() {
                         self.over(body, diags);
                     }
                 }
@@ -297,26 +299,5 @@ impl Renumbering {
             let name = self.maps.unmatched.get(&(what, number)).cloned();
             diags.push(Diagnostic::new(Fault::NotInMap { what, number, name }, at));
         }
-    }
-}
-
-/// Bodies of structured control.
-fn bodies(control: &Control) -> Vec<&[Stmt]> {
-    match control {
-        Control::Repeat { body, .. }
-        | Control::Loop { body }
-        | Control::While { body, .. }
-        | Control::For { body, .. } => vec![body],
-        Control::If { then, otherwise, .. } => vec![then, otherwise],
-    }
-}
-
-fn bodies_mut(control: &mut Control) -> Vec<&mut Vec<Stmt>> {
-    match control {
-        Control::Repeat { body, .. }
-        | Control::Loop { body }
-        | Control::While { body, .. }
-        | Control::For { body, .. } => vec![body],
-        Control::If { then, otherwise, .. } => vec![then, otherwise],
     }
 }

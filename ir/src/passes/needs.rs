@@ -5,7 +5,7 @@
 use crate::canon::ReturnLevel;
 use crate::caps::{Caps, Corners, CycleForm, PolarForm, Radii, References, TiltForm, TipForm};
 use crate::exec::Seen;
-use crate::kinds::{conduct, miscellaneous};
+use crate::kinds::{conduct, miscellaneous, variables};
 use crate::program::{FrameSlot, Op, Slot, Stmt};
 
 // What a statement may need, and a target may lack.
@@ -146,9 +146,11 @@ fn interest_of(op: &Op) -> u32 {
         Op::UseToolCentrePoint(_) | Op::OrientToolAxis(_) | Op::ClearFrame(FrameSlot::Tilt) => TOOL_AXIS,
         Op::SetSlot(slot) if matches!(**slot, Slot::Tilt(_)) => TOOL_AXIS,
         Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) => FRAME,
-        Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::RepeatBlocks(_) => CONTROL,
+        Op::Control(_) | Op::Goto(_) | Op::Label(_) | Op::Leave | Op::NextTurn | Op::RepeatBlocks(_) => {
+            CONTROL
+        }
         Op::Call(_) | Op::Return => CALL,
-        miscellaneous!() if matches!(op, Op::Message(_)) => MESSAGE,
+        miscellaneous!() if matches!(op, Op::Message(_) | Op::MessageOf(_) | Op::Alarm(_)) => MESSAGE,
         conduct!() if matches!(op, Op::Corner { .. }) => CORNER | MOVE,
         conduct!() if matches!(op, Op::TurnRotaryAxes(_)) => TURN,
         conduct!() => PATH | MOVE,
@@ -157,7 +159,7 @@ fn interest_of(op: &Op) -> u32 {
         Op::SelectTool(_)
         | Op::SelectToolByName(_)
         | Op::ProgramEnd
-        | Op::Assign(..)
+        | variables!()
         | Op::UseLengthUnits(_)
         | Op::SetDistanceMode(_)
         | Op::SelectPlane(_)

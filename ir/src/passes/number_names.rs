@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Target;
 use crate::diag::{Diagnostic, Fault};
-use crate::program::{Control, Op, Program, Stmt, Text};
+use crate::program::{Op, Program, Stmt, Text};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -66,16 +66,11 @@ fn rename(body: &mut [Stmt], new: &BTreeMap<Text, Text>) {
                     call.name = name.clone();
                 }
             }
-            Op::Control(control) => match &mut **control {
-                Control::Repeat { body, .. }
-                | Control::Loop { body }
-                | Control::While { body, .. }
-                | Control::For { body, .. } => rename(body, new),
-                Control::If { then, otherwise, .. } => {
-                    rename(then, new);
-                    rename(otherwise, new);
+            Op::Control(control) => {
+                for body in control.bodies_mut() {
+                    rename(body, new);
                 }
-            },
+            }
             _ => {}
         }
     }

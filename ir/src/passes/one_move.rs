@@ -12,7 +12,7 @@ use super::write::Rebuild;
 use super::{Target, each_body};
 use crate::canon::FeedMode;
 use crate::diag::Diagnostic;
-use crate::kinds::{flow, frames, machine, miscellaneous, moves, tooling};
+use crate::kinds::{flow, frames, machine, miscellaneous, moves, tooling, variables};
 use crate::program::{Op, Program, Stmt};
 use crate::track::Tracker;
 
@@ -122,7 +122,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
             | Op::SetReturnLevel(_)
             | Op::StartCycle(_)
             | Op::EndCycle
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | tooling!()
             | frames!()

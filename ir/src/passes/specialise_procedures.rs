@@ -12,7 +12,7 @@ use super::walk::Walk;
 use super::{MOST_STATEMENTS, Target};
 use crate::canon::Motion;
 use crate::diag::{Diagnostic, Fault};
-use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
+use crate::program::{Op, Procedure, Program, Stmt, Text};
 use crate::track::Tracker;
 
 /// Times that a repeated call is looked at until what holds before it does not change any more.
@@ -198,16 +198,11 @@ fn in_control(body: &[Stmt], inside: bool, found: &mut BTreeSet<Text>) {
             Op::Call(call) if inside || !call.arguments.is_empty() => {
                 found.insert(call.name.clone());
             }
-            Op::Control(control) => match &**control {
-                Control::Repeat { body, .. }
-                | Control::Loop { body }
-                | Control::While { body, .. }
-                | Control::For { body, .. } => in_control(body, true, found),
-                Control::If { then, otherwise, .. } => {
-                    in_control(then, true, found);
-                    in_control(otherwise, true, found);
+            Op::Control(control) => {
+                for body in control.bodies() {
+                    in_control(body, true, found);
                 }
-            },
+            }
             _ => {}
         }
     }

@@ -15,7 +15,7 @@ use crate::caps::{CycleCap, CycleForm};
 use crate::cycle::{Cycle, CycleKind, Tap};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, polar, tooling};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, moves, polar, tooling, variables};
 use crate::num::{Nanos, Num, ONE, Unit};
 use crate::program::{Op, Pitch, Program, Stmt};
 use crate::track::Tracker;
@@ -91,7 +91,7 @@ impl Said {
             | Op::Pattern(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | machine!()
             | frames!()
             | conduct!()

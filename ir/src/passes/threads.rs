@@ -16,7 +16,7 @@ use crate::caps::Threads;
 use crate::cycle::{Approach, Cycle, CycleKind, Tap};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
-use crate::kinds::{conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar};
+use crate::kinds::{conduct, drilling, flow, frames, machine, miscellaneous, modes, moves, polar, variables};
 use crate::num::{Nanos, Num};
 use crate::program::{Move, Op, Pitch, Program, Stmt, Synchronised};
 use crate::track::Tracker;
@@ -73,7 +73,7 @@ impl State {
             | Op::Pattern(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | machine!()
             | frames!()
             | conduct!()

@@ -14,7 +14,7 @@ use crate::caps::{TiltForm, TipForm};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::TiltedPlane;
 use crate::expr::Expr;
-use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar};
+use crate::kinds::{conduct, drilling, flow, miscellaneous, modes, moves, polar, variables};
 use crate::num::{Nanos, Num, ONE, Unit};
 use crate::program::{FrameSlot, Op, Program, Slot, Stmt, Tilt};
 use crate::track::Tracker;
@@ -257,7 +257,7 @@ pub(super) fn over(
             | drilling!()
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | conduct!()
             | modes!()

@@ -4,7 +4,7 @@
 //! afterwards is what holds on both ways; within the stretch nothing is in doubt.
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane};
-use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling};
+use crate::kinds::{conduct, flow, frames, miscellaneous, modes, tooling, variables};
 use crate::num::Unit;
 use crate::program::{Coord, Move, Op, Point, Stmt};
 use crate::track::Tracker;
@@ -176,7 +176,7 @@ impl Walk {
             | Op::StartCycle(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | conduct!()
             | modes!()

@@ -7,7 +7,7 @@ use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
 use crate::canon::Modes;
 use crate::diag::{Diagnostic, Fault};
-use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, polar, tooling};
+use crate::kinds::{conduct, drilling, flow, machine, miscellaneous, modes, polar, tooling, variables};
 use crate::program::{Data, Op, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
@@ -77,7 +77,7 @@ fn uses(op: &Op, raw: &mut bool) -> bool {
         | Op::ArcForm(_)
         | Op::Position(_)
         | drilling!()
-        | Op::Assign(..)
+        | variables!()
         | machine!()
         | polar!()
         | flow!() => true,

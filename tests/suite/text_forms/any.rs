@@ -2,7 +2,7 @@
 
 use ncc_ir::canon::*;
 use ncc_ir::cycle::*;
-use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::*;
 use ncc_ir::source::Span;
@@ -67,7 +67,7 @@ fn function() -> impl Strategy<Value = Function> {
     use Function::*;
     select(vec![
         Sin, Cos, Tan, Asin, Acos, Atan2, Sqrt, Abs, Round, RoundTo, RoundUp, Floor, Ceiling, Truncate, Ln,
-        Exp,
+        Exp, Min, Max, Remainder, Near, NearRatio, BitAnd, BitOr, BitXor,
     ])
 }
 
@@ -82,10 +82,51 @@ pub(super) fn expr() -> impl Strategy<Value = Expr> {
         prop_oneof![
             (unary, inner.clone()).prop_map(|(o, a)| Node::Unary(o, a)),
             (binary(), inner.clone(), inner.clone()).prop_map(|(o, a, b)| Node::Binary(o, a, b)),
-            (function(), prop::collection::vec(inner, 0..3)).prop_map(|(f, a)| Node::Call(f, a)),
+            (function(), prop::collection::vec(inner.clone(), 0..3)).prop_map(|(f, a)| Node::Call(f, a)),
+            (many(), prop::collection::vec(inner, 1..3)).prop_map(|(of, mut at)| {
+                if matches!(of, Many::Numbered(_)) {
+                    at.truncate(1);
+                }
+                Node::Element(Element { of, at })
+            }),
         ]
         .prop_map(|node| Expr::Node(Box::new(node)))
     })
+}
+
+fn declare() -> impl Strategy<Value = Declare> {
+    let kind = select(vec![Type::Real, Type::Int, Type::Bool]);
+    let sizes = prop::collection::vec(1u32..9, 0..3);
+    (var(), kind, sizes, prop::collection::vec(of(expr()), 0..3))
+        .prop_map(|(var, kind, sizes, initial)| Declare { var, kind, sizes: sizes.into(), initial })
+}
+
+fn piece() -> impl Strategy<Value = Piece> {
+    prop_oneof![
+        text().prop_map(Piece::Text),
+        (expr(), 0u8..=9, any::<bool>()).prop_map(|(value, digits, short)| Piece::Value {
+            value,
+            digits,
+            short
+        }),
+    ]
+}
+
+/// Many variables, of which one is meant.
+fn many() -> impl Strategy<Value = Many> {
+    let scope = select(vec![Scope::Local, Scope::Common, Scope::Retentive]);
+    let prefix = select(vec!["", "R"]);
+    let numbers = (scope, prefix, 0u32..100, 0u32..100).prop_map(|(scope, prefix, from, to)| Numbers {
+        scope,
+        prefix: prefix.into(),
+        from,
+        to,
+    });
+    prop_oneof![
+        (var(), prop::collection::vec(1u32..9, 1..3))
+            .prop_map(|(var, sizes)| Many::Array { var, sizes: sizes.into() }),
+        prop::collection::vec(numbers, 1..3).prop_map(|all| Many::Numbered(all.into())),
+    ]
 }
 
 fn fact<T: Clone + std::fmt::Debug + 'static>(values: Vec<T>) -> impl Strategy<Value = Fact<T>> {
@@ -506,7 +547,15 @@ fn simple() -> BoxedStrategy<Op> {
         text().prop_map(Op::SelectToolByName),
         name().prop_map(Op::Goto),
         name().prop_map(Op::Label),
-        (var(), expr()).prop_map(|(v, e)| Op::Assign(v, e)),
+        (var(), expr()).prop_map(|(v, e)| Op::Assign(v.into(), e)),
+        (many(), expr(), expr()).prop_map(|(of, index, e)| {
+            Op::Assign(Target::Element(Box::new(Element { of, at: vec![index] })), e)
+        }),
+        declare().prop_map(|declare| Op::Declare(Box::new(declare))),
+        prop::collection::vec(piece(), 0..3).prop_map(|pieces| Op::MessageOf(pieces.into())),
+        (of(expr()), text()).prop_map(|(number, text)| Op::Alarm(Box::new(Alarm { number, text }))),
+        Just(Op::Leave),
+        Just(Op::NextTurn),
         (name(), 0u32..4, prop::collection::vec(expr(), 0..3), any::<bool>()).prop_map(
             |(name, times, arguments, shared)| Op::Call(Box::new(Call { name, times, arguments, shared }))
         ),
@@ -537,6 +586,7 @@ pub(super) fn body() -> impl Strategy<Value = Vec<Stmt>> {
             1 => (expr(), body()).prop_map(|(times, body)| control(Control::Repeat { times, body })),
             1 => body().prop_map(|body| control(Control::Loop { body })),
             1 => (expr(), body()).prop_map(|(condition, body)| control(Control::While { condition, body })),
+            1 => (expr(), body()).prop_map(|(condition, body)| control(Control::Until { condition, body })),
             1 => (var(), expr(), expr(), expr(), body())
                 .prop_map(|(variable, from, to, step, body)| control(Control::For { variable, from, to, step, body })),
             1 => (expr(), body(), body())

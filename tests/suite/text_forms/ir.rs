@@ -5,7 +5,7 @@ use ncc_dialects::Settings;
 use ncc_frontends::{Batch, ir::Reader};
 use ncc_ir::canon::{Axis, Distance, Plane, Units};
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Control, Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use proptest::prelude::*;
 
@@ -51,14 +51,9 @@ fn without_spans(stmts: &mut [Stmt]) {
     for stmt in stmts {
         stmt.span = Span::default();
         if let Op::Control(control) = &mut stmt.op {
-            match &mut **control {
-                Control::Repeat { body, .. }
-                | Control::Loop { body }
-                | Control::While { body, .. }
-                | Control::For { body, .. } => without_spans(body),
-                Control::If { then, otherwise, .. } => {
-                    without_spans(then);
-                    without_spans(otherwise);
+            {
+                for body in control.bodies_mut() {
+                    without_spans(body);
                 }
             }
         }

@@ -306,6 +306,7 @@ fn name(what: What) -> &'static str {
         What::End => "program end",
         What::TextEnd => "end of the text without a program end",
         What::Message => "message",
+        What::Alarm => "alarm",
     }
 }
 

@@ -22,7 +22,7 @@ use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::exec::{Chain, Frames as Slots, Present};
 use crate::expr::Expr;
-use crate::kinds::{conduct, flow, frames, machine, miscellaneous, modes, polar, tooling};
+use crate::kinds::{conduct, flow, frames, machine, miscellaneous, modes, polar, tooling, variables};
 use crate::num::{Nanos, Unit};
 use crate::program::{Coord, Data, DataMode, FrameSlot, Op, Program, Reference, Slot, Stmt, Synchronised};
 use crate::track::Tracker;
@@ -564,7 +564,7 @@ impl Frames<'_> {
             | Op::SetFeedRate(_)
             | Op::EndCycle
             | Op::ProgramEnd
-            | Op::Assign(..)
+            | variables!()
             | miscellaneous!()
             | conduct!()
             | modes!()

@@ -2,7 +2,9 @@
 
 use crate::cycle::CycleKind;
 use crate::expr::Expr;
-use crate::kinds::{conduct, drilling, flow, frames, machine, miscellaneous, moves, polar, tooling};
+use crate::kinds::{
+    conduct, drilling, flow, frames, machine, miscellaneous, moves, polar, tooling, variables,
+};
 use crate::num::Num;
 use crate::program::{Op, Stmt};
 
@@ -36,7 +38,7 @@ fn of(op: &Op, before: Option<Num>) -> Option<Num> {
         | Op::Pattern(_)
         | Op::EndCycle
         | Op::ProgramEnd
-        | Op::Assign(..)
+        | variables!()
         | miscellaneous!()
         | conduct!()
         | tooling!()
@@ -62,7 +64,7 @@ pub(in crate::passes) fn counts(rest: &[Stmt]) -> bool {
             | drilling!()
             | Op::UseLengthUnits(_)
             | Op::SetFeedMode(_)
-            | Op::Assign(..)
+            | variables!()
             | flow!() => return true,
             Op::SetFeedRate(_)
             | Op::ProgramEnd
