@@ -1,16 +1,18 @@
 //! Canonical calls in the form in which LinuxCNC's stand-alone interpreter prints them, as far as the
 //! count and the block number before each call.
 //!
-//! A program of a control that works as that one does is executed with all tables zero, from program
+//! A program of a control that works as that one does is executed with all tables zero at first, from program
 //! zero in millimetres, and every call is written where the interpreter makes it: a block's calls in its
 //! own order, cycles as its expansion of them, its notes on modes that make no call, what it does before
 //! the first block and after the last. Subprograms are followed into. Cutter radius compensation makes no
 //! call: what is printed is the path of the tool's centre, by the radius that the program or the table of
 //! tools states.
 //!
-//! Refused is what needs a table (offsets, tools' lengths), and what this control has no call for.
+//! Points are in the program's coordinates, as shifted and turned as they are; what sets or takes up an offset prints
+//! its values. Refused is what needs a table (tools' lengths), and what this control has no call for.
 
 mod holes;
+mod offsets;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -20,13 +22,15 @@ use ncc_ir::canon::{
     AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units,
 };
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::exec::Exec;
 use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::passes::{Compensating, Target, expand_compensation};
-use ncc_ir::program::{Arc, Centre, FrameSlot, Move, Op, Point, Program, Stmt};
+use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::unknown_calls;
+use ncc_ir::world::World;
 
 /// Least radius of an arc: 0.00005 inch.
 const LEAST_RADIUS: f64 = 0.00127;
@@ -64,7 +68,10 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
     }
     let start = Tracker { position: [Some(0); AXES], ..Tracker::new(entry) };
     let program = &beside(program, &start, radii)?;
+    let mut world = World::generate(0, &Modes { work_offset: Some(1), no_origin_shift: Some(true), ..entry });
+    world.start = [0; AXES];
     let mut printer = Printer {
+        exec: Exec::new(&world, 0),
         program,
         source,
         out: String::new(),
@@ -105,6 +112,8 @@ struct Printer<'p> {
     out: String,
     /// Modes, position and the cycle in force.
     at: Tracker,
+    /// The same by execution, which knows the frames.
+    exec: Exec,
     turning: Turning,
     mist: bool,
     flood: bool,
@@ -277,19 +286,15 @@ impl Printer<'_> {
                 }
                 continue;
             }
+            self.execute(stmt)?;
             self.statement(stmt).map_err(refuse)?;
-            // All tables are zero: what changes an offset leaves every coordinate as it is.
-            let before = self.at.position;
             self.at.apply(&stmt.op);
-            for (now, before) in self.at.position.iter_mut().zip(before) {
-                *now = now.or(before);
-            }
+            self.stand();
         }
         Ok(())
     }
 
     fn statement(&mut self, stmt: &Stmt) -> Result<(), Fault> {
-        let zeros = "0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000";
         if self.beside && overtakes(&stmt.op) {
             // It would be printed before the move that waits for the next one.
             return Err(cannot(&format!("{} under cutter radius compensation", stmt.op.name())));
@@ -369,24 +374,30 @@ impl Printer<'_> {
             }
             Op::SetOriginOffsets(number) => {
                 self.offset = *number;
-                let _ = writeln!(self.out, "SET_G5X_OFFSET({number}, {zeros})");
-                let _ = writeln!(self.out, "SET_G92_OFFSET({zeros})");
-                self.call("SET_XY_ROTATION(0.0000)");
+                self.work_offset(*number);
+                self.origin_shift();
+                self.work_turn(*number);
             }
-            Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) => {
-                let _ = writeln!(self.out, "SET_G92_OFFSET({zeros})");
+            Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_) | Op::SetPosition(_) => {
+                self.origin_shift()
             }
+            Op::SetSlot(slot) if matches!(**slot, Slot::Shift { origin: true, .. }) => self.origin_shift(),
+            Op::SetData(data) => match **data {
+                Data::Offset { offset, .. } if offset == self.offset => {
+                    self.work_offset(offset);
+                    self.work_turn(offset);
+                }
+                Data::Offset { .. } => self.note("setting coordinate system origin"),
+                Data::Tool { .. } | Data::Position(_) | Data::ToolInSpindle(_) => {
+                    return Err(cannot(stmt.op.name()));
+                }
+            },
+            Op::UseMachineCoordinates { .. } => {}
             Op::UseToolLengthOffset(entry) if entry.literal().is_some_and(|n| n.is_zero()) => {
                 self.call("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)");
             }
-            Op::StraightTraverse(Move { to, .. }) => {
-                let to = self.target(to)?;
-                self.straight("STRAIGHT_TRAVERSE", to);
-            }
-            Op::StraightFeed(Move { to, .. }) => {
-                let to = self.target(to)?;
-                self.straight("STRAIGHT_FEED", to);
-            }
+            Op::StraightTraverse(_) => self.straight("STRAIGHT_TRAVERSE", self.exec.position()),
+            Op::StraightFeed(_) => self.straight("STRAIGHT_FEED", self.exec.position()),
             Op::ArcFeed(arc) => self.arc(arc)?,
             Op::SetMotionControlMode(control) => {
                 self.path = control.mode;
@@ -413,15 +424,12 @@ impl Printer<'_> {
             Op::SetFeedMode(_)
             | Op::SetFrame(_)
             | Op::SetSlot(_)
-            | Op::SetPosition(_)
             | Op::ClearFrame(_)
-            | Op::UseMachineCoordinates { .. }
             | Op::Probe(_)
             | Op::Detour(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
             | Op::GoToReference(_)
-            | Op::SetData(_)
             | Op::ExactStop
             | Op::TurnRotaryAxes(_)
             | Op::Corner { .. }
@@ -496,8 +504,8 @@ impl Printer<'_> {
 
     /// The end of the program; M30 exchanges the pallets.
     fn end(&mut self, pallets: bool) {
-        self.call("SET_G5X_OFFSET(1, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)");
-        self.call("SET_XY_ROTATION(0.0000)");
+        self.work_offset(1);
+        self.work_turn(1);
         if self.at.modes.plane != Some(Plane::Xy) {
             self.call("SELECT_PLANE(CANON_PLANE_XY)");
         }

@@ -1,7 +1,8 @@
 //! A listing of calls read back: what the machine does by it, held against what it does by the program.
 //!
-//! The listing's numbers are those of a control whose tables are zero and which stands at zero, so the program
-//! is executed so too. How corners are taken is not compared: the interpreter's own cycles set it for their
+//! The listing's numbers are those of a control whose tables are zero at first and which stands at zero, so the program
+//! is executed so too. What it puts into its own tables of offsets is found by the calls that take them up, and where
+//! the moves behind them lead. How corners are taken is not compared: the interpreter's own cycles set it for their
 //! moves, which no other control's do.
 //!
 //! Not here: how calls are printed. Nothing is shared with the printer but the form that
@@ -9,7 +10,7 @@
 
 use ncc_ir::canon::{AXES, Axis, Modes, Plane, Spindle, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner, Seen, State};
+use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
@@ -65,6 +66,8 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     let (mut runner, mut events) = (Runner::new(program), Vec::new());
     while runner.run(&mut exec, usize::MAX, &mut events)? == Progress::More {}
     exec.end_of_text(&mut events);
+    events
+        .retain(|event| !matches!(&event.kind, Kind::Data(stored) if matches!(**stored, Stored::Offset(..))));
     Ok(events)
 }
 
@@ -81,6 +84,10 @@ struct Listed {
     tapping: bool,
     /// The spindle before it was stopped by the line before.
     turned: Option<Spindle>,
+    /// Zero of the work offset in force, by how many degrees it is turned, and the shift within it.
+    offset: [Nanos; AXES],
+    turn: Nanos,
+    shift: [Nanos; AXES],
     events: Vec<Event>,
 }
 
@@ -119,14 +126,14 @@ impl Listed {
             | "SET_FEED_REFERENCE"
             | "SET_NAIVECAM_TOLERANCE"
             | "SET_MOTION_CONTROL_MODE" => {}
-            // All tables are zero.
-            "SET_G5X_OFFSET" | "SET_G92_OFFSET" | "SET_XY_ROTATION" | "USE_TOOL_LENGTH_OFFSET" => {
+            // No tool has a length.
+            "USE_TOOL_LENGTH_OFFSET" => {
                 let mut numbers = inside.split([',', ' ']).filter(|n| !n.is_empty());
-                if name == "SET_G5X_OFFSET" {
-                    numbers.next()?;
-                }
                 numbers.all(|n| number(n) == Some(0)).then_some(())?;
             }
+            "SET_G5X_OFFSET" => self.offset = self.values(inside.split_once(", ")?.1)?,
+            "SET_G92_OFFSET" => self.shift = self.values(inside)?,
+            "SET_XY_ROTATION" => self.turn = number(inside)?,
             "MESSAGE" => self.event(Kind::Message(inside.strip_prefix('"')?.strip_suffix('"')?.into()), 0),
             "USE_LENGTH_UNITS" => self.inch = inside == "CANON_UNITS_INCHES",
             "SELECT_PLANE" => {
@@ -201,7 +208,27 @@ impl Listed {
         Some(if self.inch { n / 10 * 254 } else { n })
     }
 
+    /// A point of the program's coordinates, in those of the machine.
     fn point(&self, words: &[&str]) -> Option<[Nanos; AXES]> {
+        Some(self.placed(self.words(words)?))
+    }
+
+    fn values(&self, text: &str) -> Option<[Nanos; AXES]> {
+        self.words(&text.split(", ").collect::<Vec<_>>())
+    }
+
+    fn placed(&self, point: [Nanos; AXES]) -> [Nanos; AXES] {
+        let mut at: [Nanos; AXES] = std::array::from_fn(|axis| point[axis] + self.shift[axis]);
+        if self.turn != 0 {
+            let (sin, cos) = (self.turn as f64 / ONE as f64).to_radians().sin_cos();
+            let [x, y] = [at[0] as f64, at[1] as f64];
+            at[0] = (x * cos - y * sin).round() as Nanos;
+            at[1] = (x * sin + y * cos).round() as Nanos;
+        }
+        std::array::from_fn(|axis| at[axis] + self.offset[axis])
+    }
+
+    fn words(&self, words: &[&str]) -> Option<[Nanos; AXES]> {
         let mut point = [0; AXES];
         for axis in Axis::ALL {
             let word = words.get(axis as usize)?;
@@ -220,18 +247,23 @@ impl Listed {
         let [e1, e2, c1, c2, turns, normal, a, b, c] = words else { return None };
         let plane = self.plane.unwrap_or(Plane::Xy);
         let (first, second, third) = plane.axes();
-        let mut end = self.at;
+        let mut end = [0; AXES];
         for (axis, word) in [(first, e1), (second, e2), (third, normal)] {
             end[axis as usize] = self.length(word)?;
         }
         for (axis, word) in [(Axis::A, a), (Axis::B, b), (Axis::C, c)] {
             end[axis as usize] = number(word)?;
         }
+        // Turned about Z, only an arc about Z is one of the machine's planes.
+        (plane == Plane::Xy || self.turn == 0).then_some(())?;
+        let mut middle = end;
+        (middle[first as usize], middle[second as usize]) = (self.length(c1)?, self.length(c2)?);
+        let (end, middle) = (self.placed(end), self.placed(middle));
         let turns: i64 = turns.parse().ok().filter(|turns| *turns != 0)?;
         let turn = if turns > 0 { Turn::Counterclockwise } else { Turn::Clockwise };
-        let centre = [self.length(c1)?, self.length(c2)?];
         let from = self.at;
         let (f, s) = (first as usize, second as usize);
+        let centre = [middle[f], middle[s]];
         let closed = from[f] == end[f] && from[s] == end[s];
         let angle = |p: &[Nanos; AXES]| ((p[s] - centre[1]) as f64).atan2((p[f] - centre[0]) as f64);
         let whole = std::f64::consts::TAU;

@@ -50,8 +50,10 @@ impl Printer<'_> {
             }
             self.hole(&in_force, to, normal, retract, clear).map_err(refuse)?;
             self.at.apply(&stmt.op);
+            self.execute(stmt)?;
             level = clear;
         }
+        self.stand();
         if self.path != PathMode::ExactPath {
             self.path_control();
         }

@@ -7,8 +7,8 @@ use ncc_ir::program::Procedure;
 
 use super::*;
 
-/// One with all that a listing can have: arcs of several turns, holes, a tap, dwells, coolant, a tool.
-const PART: &str = "G21 G17 G90 G94 G40 G49 G80 G54\nT2 M6\nS1500 M3\nM7\nM8\nG0 X10 Y-5 Z20\nZ2\nG1 Z-1.5 F120\nX30 F300\nG2 X40 Y5 I0 J10 F250\nG3 X40 Y5 Z-3 I-5 J0 P3\nG18 G3 X50 Z-3 I5 K0\nG17 G1 X12.3456\nG4 P0.5\nM9\nG0 Z20\nG98 G82 X5 Y5 Z-4 R2 P0.25 F90\nX15\nG83 X25 Z-9 Q3 R2\nG80\nG84 X1 Y2 Z-8 R3 F1500\nG80\nM0\n(MSG,LOOK)\nG20\nG0 X1 Y1 Z1\nG1 X2.5 F10\nM5\nM2\n";
+/// One with all that a listing can have: arcs of several turns, holes, a tap, dwells, coolant, a tool, offsets.
+const PART: &str = "G21 G17 G90 G94 G40 G49 G80 G54\nT2 M6\nS1500 M3\nM7\nM8\nG0 X10 Y-5 Z20\nZ2\nG1 Z-1.5 F120\nX30 F300\nG2 X40 Y5 I0 J10 F250\nG3 X40 Y5 Z-3 I-5 J0 P3\nG18 G3 X50 Z-3 I5 K0\nG17 G1 X12.3456\nG4 P0.5\nM9\nG0 Z20\nG98 G82 X5 Y5 Z-4 R2 P0.25 F90\nX15\nG83 X25 Z-9 Q3 R2\nG80\nG84 X1 Y2 Z-8 R3 F1500\nG80\nG10 L2 P2 X5 Y-3 Z1 R30\nG55\nG0 X1 Y1\nG1 X2 F100\nG2 X4 Y1 Z0 I1 J0\nG92 X0 Y2\nG1 X3\nG53 G0 Z5\nX7\nG92.2\nG1 Y4\nG92.1\nG54\nG0 X2 Y2\nM0\n(MSG,LOOK)\nG20\nG0 X1 Y1 Z1\nG1 X2.5 F10\nM5\nM2\n";
 
 fn listed(job: &Job) -> (Program, String) {
     let mut batch = Batch::default();
@@ -85,6 +85,9 @@ fn every_missing_call_is_found_out() {
         "USE_LENGTH_UNITS(CANON_UNITS_INCHES",
         "SET_SPINDLE_SPEED",
         "DISABLE_FEED_OVERRIDE",
+        "SET_G5X_OFFSET(2",
+        "SET_XY_ROTATION(30",
+        "SET_G92_OFFSET(-",
     ];
     let mut tried = 0;
     for at in (6..lines.len()).filter(|at| counts.iter().any(|name| lines[*at].starts_with(name))) {
