@@ -14,10 +14,9 @@ use super::Printer;
 impl Printer<'_> {
     /// Lets execution go on by a statement. Contours are worked out before they come here.
     pub(super) fn execute(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
-        match &stmt.op {
-            Op::StartCutterRadiusCompensation { .. } | Op::StopCutterRadiusCompensation => Ok(()),
-            _ => self.exec.step(stmt, &mut Vec::new()),
-        }
+        let of_a_contour =
+            matches!(stmt.op, Op::StartCutterRadiusCompensation { .. } | Op::StopCutterRadiusCompensation);
+        if of_a_contour { Ok(()) } else { self.exec.step(stmt, &mut Vec::new()) }
     }
 
     /// Takes over from execution where the program stands.
