@@ -372,6 +372,16 @@ impl Variables {
         })
     }
 
+    /// The same where it is next to nothing to be computed, which it nearly always is.
+    #[inline(always)]
+    fn operand(&self, term: &Term, asked: Asked) -> Result<f64, Why> {
+        match term {
+            Term::Number(n) => Ok(*n),
+            Term::Read(Place::Local(at)) => Ok(self.locals[self.base + *at as usize].number()),
+            term => self.number(term, asked),
+        }
+    }
+
     /// The same as an operand, which is all that most need of it.
     pub(super) fn number(&self, term: &Term, asked: Asked) -> Result<f64, Why> {
         Ok(match term {
@@ -379,7 +389,7 @@ impl Variables {
             Term::Vacant => 0.0,
             Term::Read(place) => self.read(*place)?.number(),
             Term::Element(element) => self.read(self.at(element, asked)?)?.number(),
-            Term::Unary(operator, a) => value::unary(*operator, self.number(a, asked)?),
+            Term::Unary(operator, a) => value::unary(*operator, self.operand(a, asked)?),
             Term::Binary(operator @ (Binary::Equal | Binary::NotEqual), both) => {
                 let [a, b] = &**both;
                 let same = self.value(a, asked)? == self.value(b, asked)?;
@@ -387,17 +397,17 @@ impl Variables {
             }
             Term::Binary(operator, both) => {
                 let [a, b] = &**both;
-                value::binary(*operator, self.number(a, asked)?, self.number(b, asked)?)
+                value::binary(*operator, self.operand(a, asked)?, self.operand(b, asked)?)
                     .map_err(Why::Wrong)?
             }
-            Term::Of(f, a) => value::function(*f, self.number(a, asked)?, 0.0).map_err(Why::Wrong)?,
+            Term::Of(f, a) => value::function(*f, self.operand(a, asked)?, 0.0).map_err(Why::Wrong)?,
             Term::OfTwo(f, both) => {
                 let [a, b] = &**both;
-                value::function(*f, self.number(a, asked)?, self.number(b, asked)?).map_err(Why::Wrong)?
+                value::function(*f, self.operand(a, asked)?, self.operand(b, asked)?).map_err(Why::Wrong)?
             }
             Term::OfThree(f, all) => {
                 let [a, b, c] = &**all;
-                value::near(*f, self.number(a, asked)?, self.number(b, asked)?, self.number(c, asked)?)
+                value::near(*f, self.operand(a, asked)?, self.operand(b, asked)?, self.operand(c, asked)?)
                     .map_err(Why::Wrong)?
             }
             Term::System(at) => asked.answer(*at).ok_or(Why::System(*at))?,
