@@ -7,12 +7,15 @@ use codespan_reporting::term::termcolor::NoColor;
 use ncc::job::{Job, Outcome};
 use ncc::render::About;
 use ncc::render::human::{self, Loudness};
+use ncc::rewrite::pass;
 use ncc_dialects::{Settings, builtin};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::world::World;
+
+use crate::corpus;
 
 /// A dialect with the working choice for its options.
 ///
@@ -28,6 +31,23 @@ pub fn job(from: &str, to: &str, file: &str) -> Job {
         layout: ncc_backends::Layout { numbering: ncc_backends::Numbering::Keep, crlf: false },
         ..Job::new(settings(from), settings(to), file)
     }
+}
+
+/// A translation of a program of the corpus: one that computes is written as straight blocks.
+///
+/// # Panics
+/// No pass does that.
+pub fn straight_job(program: &corpus::Program, to: &str) -> Job {
+    let passes = match computes(program) {
+        true => vec![pass("flatten").expect("a pass of that name")],
+        false => Vec::new(),
+    };
+    Job { passes, ..job(program.dialect, to, &program.file) }
+}
+
+/// Whether a program computes, decides or jumps, so that a target may take its straight blocks alone.
+pub fn computes(program: &corpus::Program) -> bool {
+    read(program.dialect, &program.text).is_ok_and(|read| ncc_ir::valid::computing(&read).is_some())
 }
 
 /// Translates; the text is what would be released, or empty.

@@ -2,7 +2,8 @@
 //! each changed text is either caught or proved equivalent by a named class: 100 %.
 //!
 //! A seeded sample by default; all of it by
-//! `NCC_ALL_MUTANTS=1 cargo test --release -p ncc-tests --test mutants -- --nocapture`.
+//! `NCC_ALL_MUTANTS=1 cargo test --release -p ncc-tests --test mutants -- --nocapture`. Of some programs alone
+//! with their names, or parts of them, in `NCC_MUTANTS_OF`, with commas between.
 
 // What was tried is told with `--nocapture`.
 #![allow(clippy::print_stdout)]
@@ -20,7 +21,7 @@ use ncc_dialects::{Family, builtin};
 use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
-use ncc_tests::translate::job;
+use ncc_tests::translate::straight_job;
 use words::{Change, Form, Mutant};
 
 /// Mutants of each emitted program in the sample.
@@ -38,8 +39,11 @@ struct Tally {
 #[test]
 fn every_mutant_is_caught_or_equivalent() {
     let all = std::env::var_os("NCC_ALL_MUTANTS").is_some_and(|v| v == "1");
+    let of = std::env::var("NCC_MUTANTS_OF").unwrap_or_default();
+    let asked = |p: &Program| of.split(',').any(|name| format!("{}/{}", p.dialect, p.file).contains(name));
+    let programs = corpus::all().into_iter().filter(asked);
     let work: Vec<(Program, &'static str)> =
-        corpus::all().into_iter().flat_map(|p| DIALECTS.map(|to| (p.clone(), to))).collect();
+        programs.flat_map(|p| DIALECTS.map(|to| (p.clone(), to))).collect();
     let next = AtomicUsize::new(0);
     let tally = Mutex::new(Tally::default());
     std::thread::scope(|scope| {
@@ -61,7 +65,7 @@ fn every_mutant_is_caught_or_equivalent() {
 }
 
 fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
-    let mut job = job(program.dialect, to, &program.file);
+    let mut job = straight_job(program, to);
     // The head is comment; it would only add mutants of comments.
     job.head = false;
     let mut judge = Judge::new(&job, &program.text).expect("a source in memory");

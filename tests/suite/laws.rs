@@ -13,7 +13,7 @@ use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::interpreter::{PowerOn, Setup};
 use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::sketch::{self, SPELLED, pieces, spell};
-use ncc_tests::translate::{self, job, rendered};
+use ncc_tests::translate::{self, job, rendered, straight_job};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -207,7 +207,7 @@ fn the_corpus_there_and_back() {
     for program in corpus::all() {
         let from = program.dialect;
         for through in DIALECTS.into_iter().filter(|d| *d != from) {
-            let (there, text) = translate::translate(&job(from, through, &program.file), &program.text);
+            let (there, text) = translate::translate(&straight_job(&program, through), &program.text);
             if there.release.is_err() {
                 continue;
             }
@@ -245,8 +245,7 @@ fn emitted_programs_state_their_modes() {
     let mut failures = ncc_tests::expect::Failures::default();
     for program in corpus::all() {
         for to in spelled() {
-            let (outcome, text) =
-                translate::translate(&job(program.dialect, to, &program.file), &program.text);
+            let (outcome, text) = translate::translate(&straight_job(&program, to), &program.text);
             if outcome.release.is_err() {
                 continue;
             }
@@ -357,7 +356,7 @@ fn decimals_are_exact() {
 fn any_bytes() {
     let bytes = proptest::collection::vec(any::<u8>(), 0..200);
     law(300, (bytes, 0..DIALECTS.len(), 0..DIALECTS.len()), |(text, from, to)| {
-        quiet(DIALECTS[from], DIALECTS[to], &text)
+        quiet(&job(DIALECTS[from], DIALECTS[to], "law"), &text)
     });
 }
 
@@ -383,7 +382,7 @@ fn any_words() {
     ];
     let text = proptest::collection::vec(word, 0..60).prop_map(|words| words.concat());
     law(600, (text, 0..DIALECTS.len(), 0..DIALECTS.len()), |(text, from, to)| {
-        quiet(DIALECTS[from], DIALECTS[to], text.as_bytes())
+        quiet(&job(DIALECTS[from], DIALECTS[to], "law"), text.as_bytes())
     });
 }
 
@@ -399,14 +398,14 @@ fn any_slip() {
         if let Some(old) = text.get_mut(place) {
             *old = byte;
         }
-        quiet(program.dialect, DIALECTS[to], &text)
+        quiet(&straight_job(program, DIALECTS[to]), &text)
     });
 }
 
-fn quiet(from: &str, to: &str, text: &[u8]) -> Result<(), String> {
-    let job = job(from, to, "law");
-    let (outcome, _) = translate::translate(&job, text);
-    let said = rendered(&job, "law", text, &outcome.diagnostics);
+fn quiet(job: &ncc::job::Job, text: &[u8]) -> Result<(), String> {
+    let (from, to) = (&job.from.dialect.id, &job.to.dialect.id);
+    let (outcome, _) = translate::translate(job, text);
+    let said = rendered(job, "law", text, &outcome.diagnostics);
     match outcome.release {
         Err(Failure::VerificationFailed) => {
             Err(format!("{from} to {to}: {said}\n{}", String::from_utf8_lossy(text)))

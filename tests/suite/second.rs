@@ -55,7 +55,7 @@ fn emitted_programs_make_the_same_moves() {
     for program in corpus::all() {
         for to in DIALECTS {
             let what = format!("{}/{} to {to}", program.dialect, program.file);
-            let job = translate::job(program.dialect, to, &program.file);
+            let job = translate::straight_job(&program, to);
             let (outcome, text) = translate::translate(&job, &program.text);
             if outcome.release.is_err() {
                 continue;

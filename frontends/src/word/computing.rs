@@ -15,7 +15,7 @@ use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::{Block, Value, Word};
-use super::facts::{InForce, State};
+use super::facts::InForce;
 use super::formula::Statement;
 use super::lower::Lower;
 use super::macro_call::parameters;
@@ -118,7 +118,7 @@ impl Lower {
     /// A block with a number that jumps may name.
     pub(super) fn jumped_to(&mut self, block: &Block, out: &mut Batch) {
         let Some(number) = self.now.number.filter(|_| self.computes.jumps) else { return };
-        self.state = State::lost();
+        self.lose(block.span, out);
         let skip = self.now.skip.take();
         self.push(block.span, Op::Label(label(number)), out);
         self.now.skip = skip;
@@ -171,7 +171,7 @@ impl Lower {
                 let condition = condition.as_ref().map(|c| self.value(c, span, out));
                 self.now.silent = true;
                 self.open(*number, condition, span);
-                self.state = State::lost();
+                self.lose(span, out);
             }
             Statement::End(number) => self.end_loop(*number, span, out),
         }
@@ -212,7 +212,7 @@ impl Lower {
         self.push(block, Op::Control(Box::new(control)), out);
         self.now.number = own;
         self.separate(out);
-        self.state = State::lost();
+        self.lose(span, out);
     }
 
     /// The end of a program: a loop that is still open has none.

@@ -388,6 +388,17 @@ impl Lower {
         }
     }
 
+    /// A place that can be come to from elsewhere: no fact is known there. That the program began without a shift of
+    /// the origin stays so, if it has not said one before.
+    pub(super) fn lose(&mut self, at: Span, out: &mut Batch) {
+        if self.assume && self.state.no_shift == Know::Unsaid {
+            let none = &self.settings.dialect.power_on.no_origin_shift;
+            let value = take(&mut self.state.no_shift, &mut out.assumed.no_origin_shift, none);
+            report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+        }
+        self.state = State::lost();
+    }
+
     /// What bare axis words do: `None` if that is only known when the program runs.
     ///
     /// # Errors

@@ -14,7 +14,6 @@ use ncc_ir::program::{Call, Op};
 use super::Source;
 use super::block::{Block, Value, Word};
 use super::computing::has_round;
-use super::facts::State;
 use super::lower::Lower;
 use super::sort::Code;
 use crate::Batch;
@@ -149,7 +148,7 @@ impl Lower {
         out.whole = true;
         self.computes.calls(&name, arguments.len());
         self.push(block.span, Op::Call(Box::new(Call { name, times, arguments, shared: false })), out);
-        self.state = State::lost();
+        self.lose(block.span, out);
     }
 
     /// An argument: without a point it counts what the address counts.

@@ -382,8 +382,8 @@ impl Control {
             (None, Some(number)) => number.to_string(),
             _ => return self.m.halt("G65 without a program, or with two"),
         };
-        if self.cycle.is_some() || self.haas {
-            return self.m.halt("G65 within a cycle, or on a Haas");
+        if self.haas {
+            return self.m.halt("G65 on a Haas");
         }
         for _ in 0..times {
             self.variables.local.push(local);

@@ -1,0 +1,32 @@
+%
+O7012 (ELLIPSE 70 X 40, TURNED BY 20 DEGREES, IN TWO CUTS)
+G21 G17 G40 G49 G80 G94
+T6 M6
+#1 = 35. (LONG HALF AXIS)
+#2 = 20. (SHORT HALF AXIS)
+#3 = 20. (TURNED)
+#4 = 7.5 (STEP)
+#5 = 3. (RADIUS OF THE CUTTER)
+#30 = #1 - #5
+#31 = #2 - #5
+G90 G56 G0 X0 Y0 S7000 M3
+G43 H6 Z10. M8
+#6 = 0
+WHILE [#6 GT -4.] DO1
+#6 = #6 - 2.
+#7 = 0
+G0 X[#30 * COS[#3]] Y[#30 * SIN[#3]]
+Z1.
+G1 Z#6 F200.
+WHILE [#7 LT 360.] DO2
+#7 = #7 + #4
+#8 = #30 * COS[#7]
+#9 = #31 * SIN[#7]
+G1 X[#8 * COS[#3] - #9 * SIN[#3]] Y[#8 * SIN[#3] + #9 * COS[#3]] F850.
+END2
+G0 Z1.
+END1
+G0 Z10. M9
+M5
+M30
+%

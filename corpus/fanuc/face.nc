@@ -1,0 +1,38 @@
+%
+O7007 (FACING, THERE AND BACK)
+G21 G17 G40 G49 G80 G94
+T50 M6 (FACE MILL 50)
+#1 = 140. (LENGTH OF THE BLANK)
+#2 = 95. (WIDTH)
+#3 = 50. (CUTTER)
+#4 = #3 * 0.7
+#5 = FUP[#2 / #4] (PATHS)
+#6 = #2 / #5
+#7 = #3 / 2 + 3. (RUN IN AND OUT)
+#8 = 2.4 (TO BE TAKEN OFF)
+#9 = 1. (EACH TIME)
+G90 G54 G0 X[0 - #7] Y[#6 / 2] S900 M3
+G43 H50 Z50. M8
+WHILE [#8 GT 0] DO1
+#8 = #8 - #9
+IF [#8 LT 0] THEN #8 = 0
+#10 = 0
+#11 = 1
+G0 X[0 - #7] Y[#6 / 2]
+Z[#8 + 2.]
+G1 Z#8 F400.
+WHILE [#10 LT #5] DO2
+Y[[#10 + 0.5] * #6] F600.
+IF [#11 LT 0] GOTO 20
+X[#1 + #7]
+GOTO 30
+N20 X-#7
+N30 #11 = -#11
+#10 = #10 + 1
+END2
+G0 Z[#8 + 5.]
+END1
+G0 Z50. M9
+M5
+M30
+%

@@ -1,0 +1,45 @@
+%
+O7003 (RECTANGULAR POCKET 80 X 50, FROM THE MIDDLE OUTWARDS)
+G21 G17 G40 G49 G80 G94
+T12 M6 (END MILL 12, THREE FLUTES)
+G90 G54 G0 X60. Y40. S4000 M3
+G43 H12 Z20. M8
+#1 = 80. (LENGTH)
+#2 = 50. (WIDTH)
+#3 = 12. (CUTTER)
+#4 = -9. (BOTTOM)
+#5 = 3.5 (AT MOST SO DEEP AT ONCE)
+#6 = 0.65 * #3 (STEP ASIDE)
+#7 = 900. (FEED)
+(EQUAL CUTS IN DEPTH AND ASIDE)
+#10 = FUP[ABS[#4] / #5]
+#11 = #4 / #10
+#12 = [#2 - #3] / 2 (HALF WIDTH OF THE LAST TURN)
+#13 = FUP[#12 / #6]
+#14 = #12 / #13
+#15 = [#1 - #2] / 2 (HALF OF WHAT IT IS LONGER)
+#20 = 1
+WHILE [#20 LE #10] DO1
+G0 X[60. - #15] Y40.
+Z1.
+G1 Z[#11 * #20 - #11] F[#7 / 2]
+X[60. + #15] Z[#11 * #20] F[#7 / 3] (RAMP)
+X[60. - #15] F#7
+#21 = 1
+WHILE [#21 LE #13] DO2
+#22 = #21 * #14
+G1 X[60. - #15 - #22] F#7
+Y[40. - #22]
+X[60. + #15 + #22]
+Y[40. + #22]
+X[60. - #15 - #22]
+Y40.
+#21 = #21 + 1
+END2
+G0 Z[#11 * #20 + 0.5]
+#20 = #20 + 1
+END1
+G0 Z20. M9
+M5
+M30
+%
