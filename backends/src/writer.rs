@@ -105,6 +105,15 @@ impl Writer {
         }
     }
 
+    /// Says which procedures a program has that computes, before any of it is written.
+    pub fn know(&mut self, procedures: &[Procedure]) {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.know(procedures),
+            // The text form says them all by itself; the others write no such programs.
+            Kind::Siemens(_) | Kind::Canon(_) | Kind::Ir(_) => {}
+        }
+    }
+
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         match &mut self.kind {

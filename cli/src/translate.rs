@@ -17,7 +17,7 @@ use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::{computing, unknown_calls};
+use ncc_ir::valid::{anything, computing, unknown_calls};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
@@ -291,9 +291,15 @@ impl<'j> Line<'j> {
             self.take(unknown, Told::Reader);
             return Ok(());
         }
-        if let Some(fault) = computing(&source).filter(|_| !self.takes_computed()) {
-            self.take(vec![fault], Told::Reader);
-            return Ok(());
+        let computes = anything(&source).is_some() && !self.executes_computed();
+        if computes {
+            let caps = self.job.to.caps();
+            // What is folded or rewritten by name must be known when it is.
+            let plainly = self.job.passes.is_empty() && self.folder.is_none();
+            if let Some(fault) = computing(&source, caps.computes.as_deref().filter(|_| plainly)) {
+                self.take(vec![fault], Told::Reader);
+                return Ok(());
+            }
         }
         let mut program = source.clone();
         if let Some(main) = program.procedures.first_mut() {
@@ -314,7 +320,12 @@ impl<'j> Line<'j> {
         let main = program.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
         let there = self.taken_there(main, &assumed, &mut found);
         self.renumbering.run(&mut program, &mut found);
-        self.legaliser.run_program(&mut program, &mut found);
+        if computes {
+            self.writer.know(&program.procedures);
+            self.legaliser.run_computing(&mut program, &mut found);
+        } else {
+            self.legaliser.run_program(&mut program, &mut found);
+        }
         self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();
         self.take_parameters(&found);
         for (at, procedure) in program.procedures.iter().enumerate() {
@@ -343,9 +354,9 @@ impl<'j> Line<'j> {
         self.output.push(&text)
     }
 
-    /// Whether what comes behind reading takes what is computed: a target that can say everything, as it is; or
-    /// the pass that executes it.
-    fn takes_computed(&self) -> bool {
+    /// Whether what comes behind reading takes everything that is computed: a target that can say everything, as
+    /// it is; or the pass that executes it.
+    fn executes_computed(&self) -> bool {
         match self.job.passes.first() {
             Some(pass) => pass.name == FLATTEN,
             None => self.job.to.dialect.can.everything && self.folder.is_none(),

@@ -33,6 +33,9 @@ const PIECE: usize = 4096;
 /// Pieces of a source that are executed by itself, to see whether it can be.
 const MOST_PIECES: usize = 4096;
 
+/// Events of a run after which a program that is kept whole is taken for one without an end.
+const MOST_EVENTS: u64 = 50_000_000;
+
 /// Why a verification ends early.
 #[derive(Debug)]
 pub(crate) enum Stop {
@@ -459,6 +462,12 @@ impl Verifier {
                     .run(&mut run.target, PIECE, &mut run.target_events)
                     .map_err(|d| unreadable(&d, self.last))?;
                 let over = more_a == Progress::Done && more_b == Progress::Done;
+                if run.comparison.events > MOST_EVENTS {
+                    return Err(Stop::Source(Diagnostic::new(
+                        Fault::NoEnd { steps: MOST_EVENTS },
+                        self.last,
+                    )));
+                }
                 if over {
                     run.source.no_open_corner().map_err(Stop::Source)?;
                     run.source.end_of_text(&mut run.source_events);

@@ -1,6 +1,7 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
+use crate::computes::Computes;
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
 use crate::expr::Expr;
@@ -191,6 +192,8 @@ pub struct Caps {
     pub exact_stop: bool,
     /// Advice that it has words for, each with its value.
     pub advice: Vec<(AdviceKind, u8)>,
+    /// What it computes with when the program runs; `None` is nothing.
+    pub computes: Option<Box<Computes>>,
     /// What a cycle does first below its retract plane; `None` if that is the cycle's own word.
     pub approach: Option<crate::cycle::Approach>,
 }

@@ -232,7 +232,7 @@ faults! {
     /// A variable is read that the program has not set.
     VariableUnset { name: Box<str> } = 232, Error;
     /// What is computed when the program runs, where no target is given variables, expressions or jumps.
-    Computes { what: &'static str } = 233, Error;
+    Computes { what: Box<str> } = 233, Error;
 
     /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.

@@ -11,6 +11,7 @@ pub mod arguments;
 pub mod beside;
 pub mod canon;
 pub mod caps;
+pub mod computes;
 pub mod corner;
 pub mod cycle;
 pub mod diag;

@@ -3,17 +3,26 @@
 //! Not here: what only execution can find, such as calls without an end.
 
 use crate::arguments;
+use crate::computes::Computes;
 use crate::diag::{Diagnostic, Fault};
 use crate::program::{Control, Op, Program, Stmt};
 
+/// The first statement that is computed, or decides, when the program runs, and that the target cannot say.
+pub fn computing(program: &Program, computes: Option<&Computes>) -> Option<Diagnostic> {
+    match computes {
+        Some(computes) => anything(program).and_then(|_| computes.refusal(program)),
+        None => anything(program),
+    }
+}
+
 /// The first statement that is computed, or decides, when the program runs. A body that is executed a number of
 /// times that is written is neither.
-pub fn computing(program: &Program) -> Option<Diagnostic> {
+pub fn anything(program: &Program) -> Option<Diagnostic> {
     let found = program.procedures.iter().find_map(|procedure| computes(&procedure.body));
     found.or_else(|| {
         let with_parameters = program.procedures.iter().find(|p| !p.parameters.is_empty())?;
         let at = with_parameters.body.first()?.span;
-        Some(Diagnostic::new(Fault::Computes { what: "a subprogram with parameters" }, at))
+        Some(Diagnostic::new(Fault::Computes { what: "a subprogram with parameters".into() }, at))
     })
 }
 
@@ -38,7 +47,7 @@ fn computes(body: &[Stmt]) -> Option<Diagnostic> {
             op if arguments::computed(op) => "a word with a variable or an expression",
             _ => return None,
         };
-        Some(Diagnostic::new(Fault::Computes { what }, stmt.span))
+        Some(Diagnostic::new(Fault::Computes { what: what.into() }, stmt.span))
     })
 }
 

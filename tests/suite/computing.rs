@@ -1,7 +1,7 @@
 //! Programs that compute, `tests/computing/<dialect>/`: executed, written as straight blocks, and verified.
 //!
-//! Beside each program stands what it comes to in its own dialect, `<name>.flat`. Without the pass no target
-//! takes it but the text form, which says it as it is. Programs of `tests/computing/refused` cannot be executed;
+//! Beside each program stands what it comes to in its own dialect, `<name>.flat`, and how targets that compute say it,
+//! `<name>.<dialect>`. Programs of `tests/computing/refused` cannot be executed;
 //! beside them stands why.
 
 use std::fmt::Write;
@@ -13,6 +13,9 @@ use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::{self, Failures};
 use ncc_tests::plain::{self, Tolerance};
 use ncc_tests::translate::{self, job, rendered, stopping, told, translate};
+
+/// Targets that write programs which compute.
+const KEEPING: [&str; 1] = ["fanuc"];
 
 /// The programs of a dialect, by name.
 fn programs(dialect: &'static str) -> Vec<(String, Vec<u8>)> {
@@ -61,25 +64,35 @@ fn what_they_come_to() {
     failures.finish();
 }
 
+/// Targets with variables of the same language keep a program as it is; beside it stands their text, `<name>.<to>`,
+/// or why they do not take it. No other target but the text form takes any.
 #[test]
-fn without_the_pass_the_text_form_alone_takes_them() {
+fn what_is_kept() {
     let mut failures = Failures::default();
     for from in ["fanuc"] {
         for (name, text) in programs(from) {
             for to in DIALECTS {
                 let what = format!("{from}/{name} to {to}");
-                let job = job(from, to, &name);
+                let job = Job { head: false, ..job(from, to, &name) };
                 let (outcome, written) = translate(&job, &text);
                 let codes = stopping(&job, &outcome);
-                if to == "ir" {
-                    if outcome.release.is_err() || outcome.verified.is_none() {
-                        failures.add(&what, rendered(&job, &name, &text, &outcome.diagnostics));
+                let verified = outcome.release.is_ok() && outcome.verified.is_some_and(|v| v.events > 0);
+                if KEEPING.contains(&to) {
+                    let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
+                    let file = corpus::root().join("tests/computing").join(from).join(format!("{stem}.{to}"));
+                    let told = rendered(&job, &name, &text, &outcome.diagnostics);
+                    let said = if verified { &written[..] } else { told.as_bytes() };
+                    failures.check(&what, expect::file(&file, said));
+                    if !verified && codes.iter().any(|code| *code != 233) {
+                        failures.add(&what, told);
                         continue;
                     }
-                    // And from there it comes to the same.
-                    let straight = |from: &str, text: &[u8]| translate(&flat(from, "canon", "p"), text).1;
-                    if straight("ir", &written) != straight(from, &text) {
-                        failures.add(&what, "the text form comes to something else");
+                }
+                if to == "ir" && !verified {
+                    failures.add(&what, rendered(&job, &name, &text, &outcome.diagnostics));
+                } else if verified {
+                    if let Err(other) = comes_to_the_same(from, &text, to, &written) {
+                        failures.add(&what, other);
                     }
                 } else if codes.iter().copied().ne([233]) {
                     failures.add(&what, format!("refused by {codes:?}"));
@@ -88,6 +101,23 @@ fn without_the_pass_the_text_form_alone_takes_them() {
         }
     }
     failures.finish();
+}
+
+/// What is written is written as the same text again, and comes to the same straight blocks, comments apart.
+fn comes_to_the_same(from: &str, text: &[u8], to: &str, written: &[u8]) -> Result<(), String> {
+    let again = Job { head: false, ..job(to, to, "p") };
+    if translate(&again, written).1 != written {
+        return Err("written again, it is another text".into());
+    }
+    let straight = |from: &str, text: &[u8]| {
+        let written = translate(&flat(from, "canon", "p"), text).1;
+        let calls = written.split(|byte| *byte == b'\n').filter(|line| !line.starts_with(b"COMMENT"));
+        calls.map(<[u8]>::to_vec).collect::<Vec<_>>()
+    };
+    if straight(to, written) != straight(from, text) {
+        return Err("it comes to something else".into());
+    }
+    Ok(())
 }
 
 #[test]

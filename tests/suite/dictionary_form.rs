@@ -25,6 +25,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[corner]`", "CornerRules", "[corner]\n@"),
     ("`[repeat]`", "RepeatRules", "[repeat]\n@"),
     ("`[polar]`", "PolarRules", "[polar]\n@"),
+    ("`[formula]`", "FormulaRules", "[formula]\n@"),
     ("`[cycles]`", "CycleRules", "[cycles]\n@"),
     ("`[[cycle]]`", "CycleRow", "[[cycle]]\ncode = \"G84\"\n@"),
     ("`dwell` of a cycle, `dwell` of a code", "DwellWord", "[[code]]\ncode = \"G04\"\ndwell = [{ @ }]"),
@@ -54,6 +55,8 @@ const VALUES: &[(&str, &str)] = &[
     ("DataKind", "[[data]]\nname = \"G10 L2\"\nkind = \"@\""),
     ("ValueName", "[[data]]\nname = \"G10 L2\"\nvalues = [{ of = \"@\" }]"),
     ("SafeStart", "safe_start = [\"@\"]"),
+    ("Operator", "[formula.operators]\n@ = \"zz\""),
+    ("FunctionName", "[formula.functions]\n@ = \"zz\""),
 ];
 
 /// A field, or a value.
@@ -65,9 +68,19 @@ struct Entry {
 }
 
 fn sources() -> String {
-    ["schema.rs", "codes.rs", "cycles.rs", "corners.rs", "repeats.rs", "names.rs", "power_on.rs", "stored.rs"]
-        .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
-        .join("\n")
+    [
+        "schema.rs",
+        "codes.rs",
+        "cycles.rs",
+        "corners.rs",
+        "repeats.rs",
+        "formula.rs",
+        "names.rs",
+        "power_on.rs",
+        "stored.rs",
+    ]
+    .map(|f| fs::read_to_string(root().join("ir/dialects/src").join(f)).expect("a source"))
+    .join("\n")
 }
 
 /// The lines of a type's body, and whether every field may be left out.
@@ -170,6 +183,7 @@ fn form(of: &str) -> String {
         "bool" => "true or false".into(),
         "char" => "letter or sign".into(),
         "[char; 3]" => "list of letters".into(),
+        "[u32; 2]" => "two whole numbers".into(),
         "u8" | "u16" | "u32" | "usize" | "i64" => "whole number".into(),
         "f64" => "number".into(),
         "Meaning" | "NameMeaning" => "a meaning".into(),

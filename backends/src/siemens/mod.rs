@@ -351,7 +351,7 @@ impl Writer {
             }
             _ => value,
         };
-        Ok(digits(self.words.value(letter, value, span, sink)?))
+        Ok(digits(self.words.number(letter, value, span, sink)?))
     }
 
     /// A length that the translation knows, in the unit in force.

@@ -184,7 +184,7 @@ impl Writer {
     ) -> Result<String, Fault> {
         let row = self.row(self.dialect.name_with(role))?;
         let letter = self.letter(&row.name, row.quantity.unwrap_or(Quantity::Length));
-        let value = self.words.value(&letter, value, span, sink)?;
+        let value = self.words.number(&letter, value, span, sink)?;
         Ok(match qualifier {
             Some(qualifier) => number::qualified(&row.name, qualifier, value),
             None => format!("{}={}", row.name, digits(value)),
@@ -200,7 +200,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let letter = self.words.centre_letter(axis)?;
-        let value = self.words.centre_value(&letter, axis, value, from, span, sink)?;
+        let value = self.words.centre_number(&letter, axis, value, from, span, sink)?;
         let name = letter.letter as char;
         Ok(match from {
             CentreFrom::Start => format!("{name}{}", digits(value)),

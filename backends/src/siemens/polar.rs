@@ -118,7 +118,7 @@ impl Writer {
         };
         let row = self.dialect.name_with(role).ok_or_else(|| cannot("a polar word"))?;
         let letter = self.letter(&row.name, row.quantity.unwrap_or(Quantity::Length));
-        let value = self.words.value(&letter, &word.value, span, sink)?;
+        let value = self.words.number(&letter, &word.value, span, sink)?;
         Ok(match qualifier {
             Some(qualifier) => number::qualified(&row.name, qualifier, value),
             None => format!("{}={}", row.name, digits(value)),

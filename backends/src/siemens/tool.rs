@@ -47,7 +47,7 @@ impl Writer {
         let row = self.dialect.address.iter().find(|row| row.role == Role::ToolEdge);
         let row = row.ok_or_else(|| cannot("an edge of a tool"))?;
         let letter = self.letter(&row.letter.to_string(), row.quantity);
-        let edge = self.words.value(&letter, edge, span, sink)?;
+        let edge = self.words.number(&letter, edge, span, sink)?;
         if !(0..=9).contains(&edge.mantissa) {
             return Err(Fault::TargetRange { word: format!("{}{}", row.letter, edge.mantissa).into() });
         }

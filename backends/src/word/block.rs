@@ -2,7 +2,7 @@
 //! whether one more statement fits.
 
 use super::codes::Code;
-use super::number::{self, Shaped};
+use super::number::{self, Worth};
 
 /// Parts of a block, in the order in which a move is written; in a cycle's call the offset stands
 /// before the motion.
@@ -118,6 +118,8 @@ pub(crate) struct Block {
     groups: u64,
     letters: u32,
     rank: Option<Rank>,
+    /// What is computed in words of the block of the source at hand.
+    formulas: Vec<String>,
 }
 
 impl Block {
@@ -140,6 +142,7 @@ impl Block {
             groups: 0,
             letters: 0,
             rank: None,
+            formulas: Vec::new(),
         }
     }
 
@@ -241,10 +244,26 @@ impl Block {
         self.part(part).extend_from_slice(text);
     }
 
-    pub(crate) fn word(&mut self, part: Part, letter: u8, value: Shaped) {
+    pub(crate) fn word(&mut self, part: Part, letter: u8, value: impl Into<Worth>) {
+        let formulas = std::mem::take(&mut self.formulas);
         let to = self.part(part);
         to.push(letter);
-        number::append(to, value);
+        match value.into() {
+            Worth::Number(shaped) => number::append(to, shaped),
+            Worth::Formula(at) => to.extend_from_slice(formulas[usize::from(at)].as_bytes()),
+        }
+        self.formulas = formulas;
+    }
+
+    /// Keeps the text of what is computed until its word is written.
+    pub(crate) fn formula(&mut self, text: String) -> Worth {
+        self.formulas.push(text);
+        Worth::Formula((self.formulas.len() - 1) as u16)
+    }
+
+    /// A block of the source begins: words of the one before are written.
+    pub(crate) fn forget_formulas(&mut self) {
+        self.formulas.clear();
     }
 
     /// A word that is not a letter and a number.

@@ -3,6 +3,9 @@
 //! A row counts only if its word reads back to the same meaning, so every code here was found by
 //! its meaning and checked by its number. Not here: when a word is written.
 
+mod call;
+
+pub(crate) use call::CallCode;
 use ncc_dialects::{Dialect, DwellWord, Meaning, OrientWords, PatternRow, Quantity, Role, Settings, Thread};
 use ncc_ir::canon::{
     AdviceKind, Axis, Distance, FeedMode, PathMode, Plane, ReturnLevel, Side, SpindleMode, Turn, Units,
@@ -122,14 +125,6 @@ pub(crate) struct ProbeCode {
     pub own_feed: bool,
 }
 
-/// A call's words: the number, and the count where it has a letter of its own.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct CallCode {
-    pub code: Code,
-    pub number: u8,
-    pub count: Option<u8>,
-}
-
 /// Codes that fill slots of the coordinate chain, with the letters of their own words.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FrameCodes {
@@ -239,6 +234,10 @@ pub(crate) struct Codes {
     pub optional_stop: Option<Code>,
     pub end: Option<Code>,
     pub call: Option<CallCode>,
+    /// A call with arguments.
+    pub macro_call: Option<CallCode>,
+    /// All words of a dwell in a block of its own.
+    pub dwells: Vec<Dwell>,
     pub back: Option<Code>,
     pub no_effect: Vec<(String, Code)>,
     pub cycles: Vec<CycleCode>,
@@ -311,7 +310,8 @@ impl Finder {
 
     fn format(&self, quantity: Quantity) -> Format {
         let counts = matches!(quantity, Quantity::Integer);
-        Format::new(self.dialect.numbers(quantity), counts)
+        let rules = self.dialect.numbers(quantity);
+        Format::new(rules, counts).rounding(rules, quantity)
     }
 
     fn letter(&self, letter: char, quantity: Quantity) -> Option<Letter> {
@@ -501,23 +501,12 @@ impl Finder {
         Some([self.letter(letters[0], quantity)?, self.letter(letters[1], quantity)?])
     }
 
-    fn call(&self) -> Option<CallCode> {
-        let row = self.dialect.code_for(Meaning::Call)?;
-        let mut words = row.words.bytes();
-        Some(CallCode { code: self.code(Meaning::Call)?, number: words.next()?, count: words.next() })
-    }
-
     /// Edge 0 of the tool is no length.
     fn no_edge(&self) -> Option<Code> {
         let letter = self.role(Role::ToolEdge)?.letter;
         let mut text = [0; LONGEST];
         text[..2].copy_from_slice(&[letter, b'0']);
         Some(Code { text, len: 2, letter: 0, group: 0, unsure: None })
-    }
-
-    fn dwell_code(&self) -> Option<(Code, Dwell)> {
-        let row = self.dialect.code_for(Meaning::Dwell)?;
-        Some((self.code(Meaning::Dwell)?, self.dwell(*row.dwell.first()?)?))
     }
 }
 
@@ -655,7 +644,9 @@ impl Codes {
             stop: code(Meaning::ProgramStop),
             optional_stop: code(Meaning::OptionalProgramStop),
             end: code(Meaning::ProgramEnd),
-            call: find.call(),
+            call: find.call(Meaning::Call),
+            macro_call: find.call(Meaning::CallMacro),
+            dwells: find.dwells(),
             back: code(Meaning::Return),
             no_effect: dialect
                 .code

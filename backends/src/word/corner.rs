@@ -27,7 +27,7 @@ impl Writer {
         let sign = if word.negative { -1 } else { 1 };
         let n = Num { mantissa: n.mantissa * sign, ..n };
         let letter = Letter { letter: word.letter as u8, format: axis.format };
-        let value = self.value(&letter, &Expr::Num(n), span, sink)?;
+        let value = self.number(&letter, &Expr::Num(n), span, sink)?;
         let mut text = Vec::new();
         number::append(&mut text, value);
         let comma = if word.comma { "," } else { "" };

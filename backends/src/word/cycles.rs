@@ -4,18 +4,19 @@
 //! kind a call is held back until its first position; a cycle that ends before leaves nothing but
 //! its feed.
 
+use ncc_ir::arguments::computed;
 use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
 use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Coord, Move, Point, Stmt};
+use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
 use super::codes::{Code, CycleCode, Letter};
 use super::modes::{Inserted, Setting, cannot};
-use super::number::{self, Shaped};
+use super::number::{self, Worth};
 use super::{Sink, Writer};
 
 /// A cycle that the program has in force.
@@ -35,6 +36,16 @@ pub(crate) struct Held {
     pub feed: Option<Expr>,
 }
 
+impl Held {
+    /// Whether a word of it is computed.
+    pub(crate) fn is_computed(&self) -> bool {
+        let computed = |cycle: &Cycle| computed(&Op::StartCycle(Box::new(cycle.clone())));
+        computed(&self.cycle)
+            || self.before.as_deref().is_some_and(computed)
+            || self.feed.as_ref().is_some_and(|feed| feed.literal().is_none())
+    }
+}
+
 /// Words of a cycle's call; of a change of the cycle in force, those that change.
 struct CallWords {
     /// Letter of the bottom.
@@ -43,9 +54,9 @@ struct CallWords {
     level: Option<Code>,
     depth: Option<(Letter, Coord)>,
     retract: Option<(Letter, Coord)>,
-    pecks: Vec<(u8, Shaped)>,
-    dwell: Option<(u8, Shaped)>,
-    feed: Option<(u8, Shaped)>,
+    pecks: Vec<(u8, Worth)>,
+    dwell: Option<(u8, Worth)>,
+    feed: Option<(u8, Worth)>,
 }
 
 impl Writer {
@@ -452,7 +463,7 @@ impl Writer {
         peck: Option<&Expr>,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Vec<(u8, Shaped)>, Fault> {
+    ) -> Result<Vec<(u8, Worth)>, Fault> {
         let (first, less) = match kind {
             CycleKind::DrillPeck { first, less, .. } | CycleKind::DrillBreak { first, less, .. } => {
                 (first, less)
@@ -642,7 +653,7 @@ impl Writer {
     fn pattern_block(
         &mut self,
         code: Code,
-        words: &[(u8, Shaped)],
+        words: &[(u8, Worth)],
         inserted: Inserted,
         sink: &mut Sink,
     ) -> Result<(), Fault> {

@@ -11,7 +11,7 @@ use ncc_ir::source::Span;
 use super::block::{Need, Part, Rank};
 use super::codes::{Code, Letter};
 use super::modes::{Inserted, cannot};
-use super::number::Shaped;
+use super::number::Worth;
 use super::{Sink, Writer};
 
 /// A table that values are put into.
@@ -111,7 +111,7 @@ impl Writer {
     }
 
     /// A code in a block of its own, with a word of its.
-    fn alone(&mut self, code: Code, word: Option<(u8, Shaped)>, sink: &mut Sink) -> Result<(), Fault> {
+    fn alone(&mut self, code: Code, word: Option<(u8, Worth)>, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.is_empty() {
             self.flush(false, sink);
             self.split = true;

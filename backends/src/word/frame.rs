@@ -79,7 +79,9 @@ impl Writer {
         let span = p.body.first().map_or(Span::default(), |s| s.span);
         let number = match self.dialect.program.number.filter(|_| self.dialect.program.subprograms) {
             None => Err(cannot("a subprogram")),
-            Some(_) if !p.parameters.is_empty() => Err(cannot("a subprogram with parameters")),
+            Some(_) if !p.parameters.is_empty() && !self.dialect.program.macro_b => {
+                Err(cannot("a subprogram with parameters"))
+            }
             Some(_) if self.has_name(&p.name) => Ok(None),
             Some(letter) => self.program_number(&p.name).map(|number| Some((letter, number))),
         };
@@ -93,6 +95,7 @@ impl Writer {
         }
         self.forget();
         self.tracker = Tracker::default();
+        self.number_jumps(&p.body);
         self.body(&p.body, &mut sink);
         let ends =
             p.body.iter().rev().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)));

@@ -9,10 +9,12 @@
 pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
+mod computing;
 mod corner;
 mod cycles;
 mod data;
 mod force;
+pub(crate) mod formula;
 mod frame;
 mod frames;
 pub(crate) mod modes;
@@ -125,8 +127,10 @@ pub struct Writer {
     /// The word of the corner behind the next move.
     pub(crate) corner: Option<String>,
     told_corner: bool,
-    /// Blocks that others repeat.
+    /// Blocks that others repeat, or that are jumped to.
     pub(crate) labels: repeat::Labels,
+    /// What is known of a program that computes.
+    computing: computing::Computing,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
     /// Whether lengths are taken up with control of the tool's tip.
@@ -206,6 +210,7 @@ impl Writer {
             corner: None,
             told_corner: false,
             labels: repeat::Labels::default(),
+            computing: computing::Computing::default(),
             polar: false,
             tip: false,
             units_stated: [false; 2],
@@ -225,6 +230,7 @@ impl Writer {
         let mut sink = Sink { out, diags };
         self.take_for_granted(assumed);
         self.number_labels(stmts);
+        self.number_jumps(stmts);
         self.look_ahead(stmts);
         self.body(stmts, &mut sink);
     }
@@ -298,6 +304,12 @@ impl Writer {
         let mut end = at + 1;
         while end < stmts.len() {
             let (last, next) = (&stmts[end - 1], &stmts[end]);
+            // The number of a loop's first block, and the comment in it, stand before the loop.
+            let head = matches!(next.op, Op::Control(_)) && last.span == next.span;
+            if head && matches!(last.op, Op::Label(_) | Op::Comment(_)) {
+                end += 1;
+                continue;
+            }
             let change = matches!((&last.op, &next.op), (Op::SelectTool(_), Op::ChangeTool));
             let joined = match self.tool_change {
                 ToolChange::OneBlock if change => {
@@ -341,13 +353,17 @@ impl Writer {
     pub(crate) fn open_block(&mut self, first: &Stmt) {
         self.settle();
         self.split = false;
+        self.block.forget_formulas();
         self.block.number = first.number;
-        self.number_seen(first);
+        if !self.is_jumped_to(&first.op) {
+            self.number_seen(first);
+        }
     }
 
     /// Ends a block of the source.
     pub(crate) fn close_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         self.label_ends();
+        self.number_alone(sink);
         self.flush(false, sink);
         if let (true, Some(first)) = (self.split, stmts.first()) {
             let span = stmts.iter().fold(first.span, |span, s| span.to(s.span));
@@ -463,10 +479,12 @@ impl Writer {
         let label = if empty { None } else { self.labels.waiting.take() };
         self.labels.lines += u32::from(!empty);
         let number = match self.numbering {
+            _ if self.labels.bare => None,
             Numbering::Off | Numbering::Keep | Numbering::Every { .. } if label.is_some() => label,
             Numbering::Off => None,
             Numbering::Keep => self.block.number,
-            Numbering::Every { .. } if empty => None,
+            // Beside blocks that are jumped to no other has a number of ours.
+            Numbering::Every { .. } if empty || self.has_jumps() => None,
             Numbering::Every { first, step } => Some(self.count_number(first, step)),
         };
         let mark = self.skip_mark(self.block.skip);

@@ -15,12 +15,12 @@ use ncc_ir::source::Span;
 use super::block::{Need, Part, Rank};
 use super::codes::Letter;
 use super::modes::{Inserted, cannot};
-use super::number::{self, Shaped};
+use super::number::{self, Shaped, Worth};
 use super::statement::{rounded, unwritable};
 use super::{Sink, Writer};
 
 /// Words of an arc's centre or radius, ready to be written.
-type CentreWords = [Option<(u8, Shaped)>; 3];
+type CentreWords = [Option<(u8, Worth)>; 3];
 
 impl Writer {
     /// A straight move, rapid or at feed.
@@ -166,7 +166,16 @@ impl Writer {
     ) -> Result<(), Fault> {
         let Some(letter) = self.codes.axes[axis as usize] else { return Ok(()) };
         let Some(n) = coord.value.literal() else {
-            return Err(cannot("a computed value"));
+            if self.way_round(axis).is_some() || self.qualifier(coord.distance).is_some() {
+                return Err(cannot("a computed value"));
+            }
+            let value = self.computed(&letter, &coord.value, span, sink)?;
+            // What rounding has left before is left behind by a point of its own.
+            if coord.distance.known().or(self.force.distance) != Some(Distance::Incremental) {
+                self.residue[axis as usize] = 0;
+            }
+            self.block.word(Part::Axes, letter.letter, value);
+            return Ok(());
         };
         self.check_unit(n, span)?;
         let shaped = self.coordinate(axis, &letter, n, coord.distance, span, sink)?;
@@ -317,7 +326,23 @@ impl Writer {
 
     /// A word of a centre. If it is measured from a start that was rounded, it is changed by as much: the
     /// centre stays where it is.
-    pub(crate) fn centre_value(
+    fn centre_value(
+        &mut self,
+        letter: &Letter,
+        axis: Axis,
+        word: &Expr,
+        from: CentreFrom,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Worth, Fault> {
+        match word {
+            Expr::Num(_) => self.centre_number(letter, axis, word, from, span, sink).map(Worth::Number),
+            Expr::Node(_) => self.computed(letter, word, span, sink),
+        }
+    }
+
+    /// The same, of one that is no expression.
+    pub(crate) fn centre_number(
         &mut self,
         letter: &Letter,
         axis: Axis,
@@ -330,7 +355,7 @@ impl Writer {
         let inch = self.force.units == Some(Units::Inch);
         let literal = word.literal().filter(|n| lag != 0 && n.unit != Unit::Entry);
         let along = literal.and_then(|n| Some((n, n.nanos(inch)?.checked_add(lag)?)));
-        let Some((n, along)) = along else { return self.value(letter, word, span, sink) };
+        let Some((n, along)) = along else { return self.number(letter, word, span, sink) };
         self.check_unit(n, span)?;
         let exact = number::from_nanos(along, &letter.format, n.unit);
         let shaped =
@@ -401,7 +426,7 @@ impl Writer {
             let letter = self.centre_letter(axis)?;
             let n = number::from_nanos(along, &letter.format, unit);
             let value = number::shape(n, &letter.format).map_err(|w| unwritable(w, letter.letter, n))?;
-            written[axis as usize] = Some((letter.letter, value));
+            written[axis as usize] = Some((letter.letter, value.into()));
         }
         Ok(written)
     }

@@ -4,7 +4,7 @@
 //! where it does not. Digits come from a table; nothing here goes through a binary float.
 //! Not here: what a number belongs to, and the errors that rounding leaves on incremental words.
 
-use ncc_dialects::{NumberRules, PointRule};
+use ncc_dialects::{NumberRules, PointRule, Quantity};
 use ncc_ir::num::{Num, ONE, POW10, Unit};
 
 /// Most significant digits of a word, unless a dictionary says otherwise (FANUC 16-C, ranges of IS-B:
@@ -32,6 +32,9 @@ pub(crate) struct Format {
     pub unsigned: bool,
     /// Whether it counts something, so that rounding would make something else of it.
     pub counts: bool,
+    /// To how many digits the control rounds a computed value, in mm (or degrees, seconds, …) and in inches;
+    /// `None` if that is the machine's.
+    pub rounds: Option<[u8; 2]>,
 }
 
 impl Format {
@@ -42,7 +45,19 @@ impl Format {
             point: rules.point,
             unsigned: rules.unsigned,
             counts,
+            rounds: None,
         }
+    }
+
+    /// The same, of words of a quantity whose computed values the control rounds.
+    pub(crate) fn rounding(self, rules: NumberRules, quantity: Quantity) -> Format {
+        let rounds = match quantity {
+            Quantity::Length => Some([rules.increment, rules.increment_inch.unwrap_or(rules.increment)]),
+            Quantity::Angle | Quantity::Seconds => Some([rules.increment; 2]),
+            Quantity::Speed | Quantity::Integer | Quantity::Milliseconds => Some([0; 2]),
+            Quantity::Feed | Quantity::Factor => None,
+        };
+        Format { rounds, ..self }
     }
 
     /// Digits after the point for a literal's unit.
@@ -70,6 +85,21 @@ impl Shaped {
     /// The value as written, in the unit of `n`.
     pub(crate) fn num(self, unit: Unit) -> Num {
         Num { mantissa: i64::from(self.mantissa), scale: self.scale, point: self.point, unit }
+    }
+}
+
+/// What stands behind a letter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Worth {
+    /// A number.
+    Number(Shaped),
+    /// What is computed: its place among the formulas of the block.
+    Formula(u16),
+}
+
+impl From<Shaped> for Worth {
+    fn from(shaped: Shaped) -> Worth {
+        Worth::Number(shaped)
     }
 }
 
@@ -279,7 +309,14 @@ mod tests {
     use super::*;
 
     fn format(decimals: u8, inch: u8, point: PointRule) -> Format {
-        Format { decimals: [decimals, inch], digits: DIGITS, point, unsigned: false, counts: false }
+        Format {
+            decimals: [decimals, inch],
+            digits: DIGITS,
+            point,
+            unsigned: false,
+            counts: false,
+            rounds: None,
+        }
     }
 
     fn num(mantissa: i64, scale: u8) -> Num {

@@ -41,6 +41,8 @@ pub(crate) struct Labels {
     all: Vec<Label>,
     /// Number that the next line with words has.
     pub(crate) waiting: Option<u32>,
+    /// Whether the line at hand is a number alone.
+    pub(crate) bare: bool,
     /// The label that ends with the block at hand.
     ending: Option<usize>,
     /// Lines with words since the last label.

@@ -3,14 +3,15 @@
 use ncc_dialects::Meaning;
 use ncc_ir::canon::{PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
+use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
 use super::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
+use super::formula::cannot_compute;
 use super::modes::{Setting, cannot};
-use super::number::{self, Shaped, Unwritable};
+use super::number::{self, Shaped, Unwritable, Worth};
 use super::{Sink, Writer};
 
 impl Writer {
@@ -166,20 +167,38 @@ impl Writer {
             Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
             Op::MessageOf(_) => Err(cannot("a message with values in it")),
             Op::Alarm(_) => Err(cannot("an alarm")),
-            Op::Assign(..) => Err(cannot("an assignment to a variable")),
-            Op::Declare(_) => Err(cannot("a variable that is made known")),
-            Op::Control(_) => Err(cannot("control of the program's flow")),
-            Op::Goto(_) => Err(cannot("a jump")),
-            Op::Leave | Op::NextTurn => Err(cannot("a loop that is left")),
+            Op::Declare(_) => Err(cannot_compute("a variable that is made known")),
+            Op::Leave | Op::NextTurn => Err(cannot_compute("a loop that is left")),
+            Op::Assign(to, value) => self.assign(to, value, span, sink),
+            Op::Control(control) => self.control(control, stmt, sink),
+            Op::Goto(label) => self.go_to(label, stmt, sink),
+            Op::Label(name) if self.dialect.program.macro_b => self.jump_label(name, stmt, sink),
             Op::Label(name) => self.label(name, sink),
         }
     }
 
-    /// The value of a word in the control's digits.
+    /// The value of a word: a number in the control's digits, or what is computed.
+    ///
+    /// # Errors
+    /// It cannot be computed, is in another unit than the one in force, or out of range.
+    pub(crate) fn value(
+        &mut self,
+        letter: &Letter,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Worth, Fault> {
+        match value {
+            Expr::Num(_) => self.number(letter, value, span, sink).map(Worth::Number),
+            Expr::Node(_) => self.computed(letter, value, span, sink),
+        }
+    }
+
+    /// The number of a word in the control's digits.
     ///
     /// # Errors
     /// It is computed, in another unit than the one in force, or out of range.
-    pub(crate) fn value(
+    pub(crate) fn number(
         &mut self,
         letter: &Letter,
         value: &Expr,
@@ -412,6 +431,10 @@ impl Writer {
 
     fn dwell(&mut self, seconds: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let (code, dwell) = self.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
+        // What is computed is rounded as its own word does it.
+        let computed = milliseconds(seconds).is_some() && !dwell.milliseconds;
+        let other = self.codes.dwells.iter().find(|word| computed && word.milliseconds);
+        let dwell = other.copied().unwrap_or(dwell);
         let value = self.dwell_value(&dwell, seconds, span, sink)?;
         self.admit(&Need::new(Rank::Dwell).code(Some(code)).letter(dwell.word.letter), sink)?;
         self.block.code(Part::Mode, &code);
@@ -426,11 +449,15 @@ impl Writer {
         seconds: &Expr,
         span: Span,
         sink: &mut Sink,
-    ) -> Result<Shaped, Fault> {
-        let n = seconds.literal().ok_or_else(|| cannot("a computed value"))?;
+    ) -> Result<Worth, Fault> {
         if !dwell.milliseconds {
             return self.value(&dwell.word, seconds, span, sink);
         }
+        let Some(n) = seconds.literal() else {
+            let value = milliseconds(seconds);
+            let value = value.ok_or_else(|| cannot_compute("computed seconds in a word of milliseconds"))?;
+            return self.computed(&dwell.word, value, span, sink);
+        };
         let letter = dwell.word.letter;
         let range = || Fault::TargetRange { word: number::spell(letter, n) };
         let (ms, lost) = number::milliseconds(n).ok_or_else(range)?;
@@ -438,7 +465,7 @@ impl Writer {
         if lost {
             rounded(letter, n, shaped, span, sink);
         }
-        Ok(shaped)
+        Ok(shaped.into())
     }
 
     /// A word without effect: its own code, or a comment.
@@ -454,10 +481,10 @@ impl Writer {
     }
 
     fn call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
-        let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
-        if !call.arguments.is_empty() {
-            return Err(cannot("a call with arguments"));
+        if self.calls_with_variables(call) {
+            return self.macro_call(call, stmt, sink);
         }
+        let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
         self.call_up_now(stmt, sink)?;
         if self.has_name(&call.name) {
             return self.call_by_name(call, &words, sink);
@@ -524,6 +551,15 @@ impl Writer {
         let digits = self.dialect.program.number_digits.clamp(1, 8) as u32;
         let number = name.parse::<u32>().ok().filter(|n| (1..10u32.pow(digits)).contains(n));
         number.ok_or_else(|| cannot(format!("a subprogram called {name}")))
+    }
+}
+
+/// The milliseconds of computed seconds that are said by them.
+fn milliseconds(seconds: &Expr) -> Option<&Expr> {
+    let Expr::Node(node) = seconds else { return None };
+    match &**node {
+        Node::Binary(Binary::Divide, a, by) if *by == Expr::int(1000) => Some(a),
+        _ => None,
     }
 }
 

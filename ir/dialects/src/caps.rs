@@ -4,6 +4,7 @@ use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, S
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
+use ncc_ir::computes::Computes;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
 
 use crate::cycles::{CycleRow, PatternRow};
@@ -337,6 +338,19 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.can.flat
             || !dialect.comment.message.is_empty()
             || names(NameMeaning::Message),
+        computes: dialect.program.macro_b.then(|| {
+            let rules = &dialect.formula;
+            Box::new(Computes {
+                operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
+                functions: rules.functions.keys().map(|function| (*function).into()).collect(),
+                local: rules.local.clone(),
+                common: rules.common.clone(),
+                retentive: rules.retentive.clone(),
+                loops: rules.loops,
+                arguments: says(Meaning::CallMacro),
+                arguments_again: rules.arguments_again,
+            })
+        }),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
     }
 }

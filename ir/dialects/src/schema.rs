@@ -11,6 +11,7 @@ use serde::Deserialize;
 use crate::codes::{CodeIndex, CodeRow};
 use crate::corners::CornerRules;
 use crate::cycles::{CycleRow, CycleRules, PatternRow};
+use crate::formula::FormulaRules;
 use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow};
 use crate::power_on::{PathName, PowerOn, SafeStart};
@@ -63,6 +64,9 @@ pub struct Dialect {
     /// Points by radius and angle, of a control that has letters for them.
     #[serde(default)]
     pub polar: PolarRules,
+    /// What a program computes with, of a control that has variables.
+    #[serde(default)]
+    pub formula: FormulaRules,
     /// What all canned cycles share.
     #[serde(default)]
     pub cycles: CycleRules,

@@ -2,7 +2,9 @@
 //!
 //! It scans each piece once. Where no statement needs work, as in nearly all of a long program, the
 //! piece is left as it is and only the tool's position is followed. Bodies of structured control are
-//! not looked into: a target that has such control can say everything.
+//! not looked into: a target that has such control can say everything, or it is `computing`.
+
+mod computing;
 
 use std::collections::{BTreeMap, BTreeSet};
 

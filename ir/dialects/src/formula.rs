@@ -1,0 +1,141 @@
+//! What a control computes with: its variables, and the words of its operators and functions.
+
+use std::collections::BTreeMap;
+
+use ncc_ir::expr::{Binary, Function, Var};
+use serde::Deserialize;
+
+/// Words of the language in which a program computes (`[program] macro_b`), each by what it means; what has no
+/// word here is refused by name.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FormulaRules {
+    /// Operators.
+    pub operators: BTreeMap<Operator, String>,
+    /// Functions. `atan2` has its two arguments with a division sign between them: `ATAN[a]/[b]`.
+    pub functions: BTreeMap<FunctionName, String>,
+    /// Numbers of variables, from and to, that live as long as a call.
+    pub local: Vec<[u32; 2]>,
+    /// Of those that all programs see, until the control is switched off.
+    pub common: Vec<[u32; 2]>,
+    /// Of those that are kept when it is.
+    pub retentive: Vec<[u32; 2]>,
+    /// How deep loops can stand in one another.
+    pub loops: u8,
+    /// How deep brackets can.
+    pub brackets: u8,
+    /// Whether a call that is made several times begins each of them with the same arguments; else a call with
+    /// arguments is made once.
+    pub arguments_again: bool,
+    /// Who says so.
+    pub source: String,
+}
+
+/// An operator with two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // As [`Binary`].
+pub enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    Modulo,
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    And,
+    Or,
+    Xor,
+}
+
+/// A function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // As [`Function`].
+pub enum FunctionName {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan2,
+    Sqrt,
+    Abs,
+    Round,
+    RoundUp,
+    Truncate,
+    Ln,
+    Exp,
+}
+
+impl From<Operator> for Binary {
+    fn from(operator: Operator) -> Binary {
+        match operator {
+            Operator::Add => Binary::Add,
+            Operator::Subtract => Binary::Subtract,
+            Operator::Multiply => Binary::Multiply,
+            Operator::Divide => Binary::Divide,
+            Operator::Modulo => Binary::Modulo,
+            Operator::Equal => Binary::Equal,
+            Operator::NotEqual => Binary::NotEqual,
+            Operator::Less => Binary::Less,
+            Operator::LessOrEqual => Binary::LessOrEqual,
+            Operator::Greater => Binary::Greater,
+            Operator::GreaterOrEqual => Binary::GreaterOrEqual,
+            Operator::And => Binary::And,
+            Operator::Or => Binary::Or,
+            Operator::Xor => Binary::Xor,
+        }
+    }
+}
+
+impl From<FunctionName> for Function {
+    fn from(name: FunctionName) -> Function {
+        match name {
+            FunctionName::Sin => Function::Sin,
+            FunctionName::Cos => Function::Cos,
+            FunctionName::Tan => Function::Tan,
+            FunctionName::Asin => Function::Asin,
+            FunctionName::Acos => Function::Acos,
+            FunctionName::Atan2 => Function::Atan2,
+            FunctionName::Sqrt => Function::Sqrt,
+            FunctionName::Abs => Function::Abs,
+            FunctionName::Round => Function::Round,
+            FunctionName::RoundUp => Function::RoundUp,
+            FunctionName::Truncate => Function::Truncate,
+            FunctionName::Ln => Function::Ln,
+            FunctionName::Exp => Function::Exp,
+        }
+    }
+}
+
+impl FormulaRules {
+    /// The word of an operator.
+    pub fn operator(&self, operator: Binary) -> Option<&str> {
+        self.operators.iter().find(|(own, _)| Binary::from(**own) == operator).map(|(_, word)| word.as_str())
+    }
+
+    /// The word of a function.
+    pub fn function(&self, function: Function) -> Option<&str> {
+        self.functions
+            .iter()
+            .find(|(own, _)| Function::from(**own) == function)
+            .map(|(_, word)| word.as_str())
+    }
+
+    /// The variable of a number, if it is one of a program's own.
+    pub fn variable(&self, number: u32) -> Option<Var> {
+        let among = |ranges: &[[u32; 2]]| ranges.iter().any(|[from, to]| (*from..=*to).contains(&number));
+        let name = || number.to_string().into();
+        match () {
+            () if among(&self.local) => Some(Var::Local(name())),
+            () if among(&self.common) => Some(Var::Common(name())),
+            () if among(&self.retentive) => Some(Var::Retentive(name())),
+            () => None,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Programs that compute, brought within a target's capabilities.
+//!
+//! Between two statements of control the blocks follow one another as in any program, and are brought within the
+//! target's capabilities by the same passes; behind each nothing is known. What a pass would have to change that is
+//! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
+
+use super::super::number_names;
+use super::{Legaliser, Target};
+use crate::arguments;
+use crate::canon::Modes;
+use crate::diag::{Diagnostic, Fault, Gravity};
+use crate::kinds::{drilling, flow};
+use crate::program::{Op, Program, Stmt};
+use crate::source::Span;
+use crate::track::Tracker;
+
+impl Legaliser {
+    /// Brings a program that computes within the target's capabilities, its structure kept.
+    pub fn run_computing(&mut self, program: &mut Program, diags: &mut Vec<Diagnostic>) {
+        number_names::over(program, &self.target, diags);
+        let assumed = program.assumed;
+        // What the target says of a program's flow has been looked at before.
+        let mut fresh = self.clone();
+        fresh.lacks &= !(super::CONTROL | super::CALL);
+        let first = fresh.clone();
+        for (at, procedure) in program.procedures.iter_mut().enumerate() {
+            let start = match at {
+                0 => Some((first.clone(), assumed)),
+                _ => None,
+            };
+            let inherits = has_positions(&procedure.body);
+            let mut region = Region { fresh: &fresh, inherits, diags };
+            region.body(&mut procedure.body, start);
+        }
+    }
+
+    /// The same legaliser where nothing is known of what was before.
+    fn anew(&self) -> Legaliser {
+        let Target { caps, decimals, peck_clearance, .. } = &self.target;
+        let mut own = Legaliser::new(caps, *decimals, *peck_clearance);
+        own.target.clone_from(&self.target);
+        (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
+        own.walk = super::Walk::new(Tracker::unknown());
+        own.at_once = super::at_once::State::default();
+        own
+    }
+}
+
+/// Whether positions rely on a cycle, or a motion, that is in force where control comes from.
+fn has_positions(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Position(_) => true,
+        Op::Control(control) => control.bodies().any(|body| has_positions(body)),
+        _ => false,
+    })
+}
+
+struct Region<'l> {
+    fresh: &'l Legaliser,
+    inherits: bool,
+    diags: &'l mut Vec<Diagnostic>,
+}
+
+impl Region<'_> {
+    /// A body: stretches of blocks, and between them control.
+    fn body(&mut self, body: &mut Vec<Stmt>, mut start: Option<(Legaliser, Modes)>) {
+        let mut out = Vec::with_capacity(body.len());
+        let mut stretch = Vec::new();
+        for mut stmt in std::mem::take(body) {
+            if !matches!(stmt.op, flow!()) {
+                stretch.push(stmt);
+                continue;
+            }
+            self.stretch(&mut stretch, start.take(), &mut out);
+            if let Op::Control(control) = &mut stmt.op {
+                control.bodies_mut().for_each(|body| self.body(body, None));
+            }
+            out.push(stmt);
+        }
+        self.stretch(&mut stretch, start.take(), &mut out);
+        *body = out;
+    }
+
+    fn stretch(&mut self, stmts: &mut Vec<Stmt>, start: Option<(Legaliser, Modes)>, out: &mut Vec<Stmt>) {
+        if stmts.is_empty() {
+            return;
+        }
+        let (mut own, assumed) = start.unwrap_or_else(|| (self.fresh.anew(), Modes::default()));
+        let before = stmts.clone();
+        let mut found = Vec::new();
+        own.run(stmts, &assumed, &mut found);
+        own.finish(stmts, &mut found);
+        // It may stand in the block of what came before it.
+        if let (Some(first), Some(was)) = (stmts.first_mut(), before.first()) {
+            first.joined = was.joined;
+        }
+        let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
+        self.diags.append(&mut found);
+        if !refused && let Some(at) = self.relied_on(&before, stmts) {
+            let what = "blocks that have to be rewritten for it, where a program computes".into();
+            self.diags.push(Diagnostic::new(Fault::Computes { what }, at));
+        }
+        out.append(stmts);
+    }
+
+    /// The place of a statement that a pass has changed though it is computed, or others rely on it.
+    fn relied_on(&self, before: &[Stmt], after: &[Stmt]) -> Option<Span> {
+        let same = before.iter().zip(after).take_while(|(a, b)| a == b).count();
+        let rest = before.len().min(after.len()) - same;
+        let end = before.iter().rev().zip(after.iter().rev()).take(rest).take_while(|(a, b)| a == b).count();
+        let changed = before[same..before.len() - end].iter().chain(&after[same..after.len() - end]);
+        let relies = |stmt: &&Stmt| {
+            let cycle = matches!(stmt.op, drilling!() | Op::EndCycle | Op::Position(_));
+            arguments::computed(&stmt.op) || matches!(stmt.op, Op::Assign(..)) || self.inherits && cycle
+        };
+        changed.into_iter().find(relies).map(|stmt| stmt.span)
+    }
+}
