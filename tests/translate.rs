@@ -47,7 +47,7 @@ pub fn straight_job(program: &corpus::Program, to: &str) -> Job {
 
 /// Whether a program computes, decides or jumps, so that a target may take its straight blocks alone.
 pub fn computes(program: &corpus::Program) -> bool {
-    read(program.dialect, &program.text).is_ok_and(|read| ncc_ir::valid::computing(&read).is_some())
+    read(program.dialect, &program.text).is_ok_and(|read| ncc_ir::valid::anything(&read).is_some())
 }
 
 /// Translates; the text is what would be released, or empty.
