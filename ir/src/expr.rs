@@ -185,6 +185,7 @@ pub enum Function {
     Min,
     Max,
     Remainder,
+    Given,
     Near,
     NearRatio,
     BitAnd,

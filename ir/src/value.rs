@@ -27,6 +27,8 @@ pub enum Wrong {
     TooLarge,
     /// A function has another number of arguments.
     Arguments,
+    /// What must have a value has none: the variable was never set.
+    NothingGiven,
 }
 
 impl Wrong {
@@ -37,6 +39,7 @@ impl Wrong {
             Wrong::NotDefined => "a function of a number for which it is not defined",
             Wrong::TooLarge => "a number that is too large",
             Wrong::Arguments => "a function of another number of arguments",
+            Wrong::NothingGiven => "a variable that has no value here",
         }
     }
 }
@@ -126,7 +129,8 @@ impl Function {
             | Function::Ceiling
             | Function::Truncate
             | Function::Ln
-            | Function::Exp => 1,
+            | Function::Exp
+            | Function::Given => 1,
         }
     }
 }
@@ -136,6 +140,7 @@ impl Function {
 /// from zero, `floor` down, `ceiling` up, `truncate` towards zero, `roundup` away from zero (Fanuc's `FUP`). `roundto`
 /// rounds, halves away from zero, to as many digits behind the point as its second argument says. `remainder` is that of
 /// a division by the second argument, never negative (RS274/NGC's `MOD`; `mod` has the sign of what is divided).
+/// `given` is its argument, which must have a value: nothing is an error there (a named parameter of RS274/NGC).
 /// `bitand`, `bitor` and `bitxor` are of whole numbers, bit by bit. Those of three numbers are in [`near`].
 ///
 /// # Errors
@@ -165,6 +170,7 @@ pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
         Function::Ln if a == 0.0 => f64::NAN,
         Function::Ln => a.ln(),
         Function::Exp => a.exp(),
+        Function::Given => a,
         Function::Min => a.min(b),
         Function::Max => a.max(b),
         Function::Remainder if b == 0.0 => return Err(Wrong::DivisionByZero),

@@ -26,7 +26,7 @@ use ncc_ir::exec::Exec;
 use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::passes::{Compensating, Target, expand_compensation};
+use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten};
 use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::unknown_calls;
@@ -67,11 +67,14 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
         return Err(unknown);
     }
     let start = Tracker { position: [Some(0); AXES], ..Tracker::new(entry) };
-    let program = &beside(program, &start, radii)?;
-    let mut world = World::generate(0, &Modes { work_offset: Some(1), no_origin_shift: Some(true), ..entry });
+    let modes = Modes { work_offset: Some(1), no_origin_shift: Some(true), length_offset: Some(0), ..entry };
+    let mut world = World::generate(0, &modes);
     world.start = [0; AXES];
+    let exec = Exec::new(&world, 0);
+    let straight = flatten::by(program, &start, exec.clone())?;
+    let program = &beside(straight.as_ref().unwrap_or(program), &start, radii)?;
     let mut printer = Printer {
-        exec: Exec::new(&world, 0),
+        exec,
         program,
         source,
         out: String::new(),
@@ -247,7 +250,7 @@ impl Printer<'_> {
         let says = stmts.iter().any(|s| matches!(s.op, Op::Message(_)));
         let comment = stmts.first().and_then(|s| last_comment(self.source, s.span.start as usize));
         if let Some(text) = comment.filter(|_| !says) {
-            let _ = writeln!(self.out, "COMMENT(\"{}\")", String::from_utf8_lossy(text));
+            let _ = writeln!(self.out, "COMMENT(\"{}\")", String::from_utf8_lossy(text.trim_ascii_start()));
         }
         // The feed of a cycle's block; a cycle that is called up with other words says it once more.
         for stmt in stmts {
@@ -302,6 +305,8 @@ impl Printer<'_> {
         match &stmt.op {
             // A comment is the block's.
             Op::Comment(_) | Op::Blank | Op::Return | Op::EndCycle | Op::StartCycle(_) | Op::NoEffect(_) => {}
+            // What is printed to the error output is no call.
+            Op::Message(_) if self.is_printed(stmt) => {}
             Op::Message(text) => {
                 let _ = writeln!(self.out, "MESSAGE(\"{text}\")");
             }
@@ -464,6 +469,12 @@ impl Printer<'_> {
         Ok(())
     }
 
+    /// Whether a message is one that goes to the error output.
+    fn is_printed(&self, stmt: &Stmt) -> bool {
+        let text = self.source.get(stmt.span.start as usize..).unwrap_or_default().trim_ascii_start();
+        text.get(..6).is_some_and(|word| word.eq_ignore_ascii_case(b"PRINT,"))
+    }
+
     /// The way of taking corners that is in force. The tolerance of moves that are made one goes with it.
     fn path_control(&mut self) {
         match self.path {
@@ -616,10 +627,14 @@ fn overtakes(op: &Op) -> bool {
     )
 }
 
-/// The last comment in brackets of the line at a place; what follows a semicolon is none.
+/// The last comment in brackets of the line at a place; what follows a semicolon is none, and that of a block which
+/// begins with the letter of programs is not shown.
 fn last_comment(source: &[u8], at: usize) -> Option<&[u8]> {
     let start = source.get(..at)?.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
     let line = source[start..].split(|b| *b == b'\n').next()?;
+    if line.trim_ascii_start().first().is_some_and(|b| b.eq_ignore_ascii_case(&b'O')) {
+        return None;
+    }
     let mut last = None;
     let mut rest = line;
     while let Some(open) = rest.iter().position(|b| matches!(b, b'(' | b';')) {

@@ -124,6 +124,7 @@ fn function(f: Function) -> &'static str {
         Function::Min => "min",
         Function::Max => "max",
         Function::Remainder => "remainder",
+        Function::Given => "given",
         Function::Near => "near",
         Function::NearRatio => "nearratio",
         Function::BitAnd => "bitand",

@@ -630,6 +630,7 @@ pub(crate) enum Token {
     #[token("min", |_| Function::Min)]
     #[token("max", |_| Function::Max)]
     #[token("remainder", |_| Function::Remainder)]
+    #[token("given", |_| Function::Given)]
     #[token("near", |_| Function::Near)]
     #[token("nearratio", |_| Function::NearRatio)]
     #[token("bitand", |_| Function::BitAnd)]

@@ -9,12 +9,20 @@ use ncc_ir::expr::{Expr, Node, Unary};
 use ncc_ir::source::Span;
 
 use super::formula::{self, Formula, Piece, Statement};
-use super::token::{Refusal, Signs, Token, Tokens};
+use super::o_words::{Decision, Setting};
+use super::parameters::{Index, constant};
+use super::token::{FlowWord, Refusal, Signs, Token, Tokens};
 
 lalrpop_mod!(
     #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused)]
     grammar,
     "/word/block.rs"
+);
+
+lalrpop_mod!(
+    #[allow(clippy::all, clippy::pedantic, missing_docs, unreachable_pub, unused)]
+    o_grammar,
+    "/word/o_block.rs"
 );
 
 /// An unsigned decimal.
@@ -76,7 +84,7 @@ pub(crate) struct Word {
 }
 
 /// A block.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub(crate) struct Block {
     /// Its words in the order of the text.
     pub(crate) words: Vec<Word>,
@@ -94,6 +102,12 @@ pub(crate) struct Block {
     pub(crate) exprs: Vec<Expr>,
     /// Its statement of the macro language.
     pub(crate) statement: Option<Statement>,
+    /// Parameters that it sets, of a control with O words.
+    pub(crate) settings: Vec<Setting>,
+    /// What it decides, of such a control.
+    pub(crate) decision: Option<Box<Decision>>,
+    /// The name of the program that begins with it.
+    pub(crate) title: Option<Span>,
     /// What is refused already by its form.
     pub(crate) faults: Vec<(Fault, Span)>,
     /// Comments as the lexer leaves them.
@@ -109,6 +123,9 @@ impl Block {
             && self.names.is_empty()
             && self.faults.is_empty()
             && self.statement.is_none()
+            && self.settings.is_empty()
+            && self.decision.is_none()
+            && self.title.is_none()
     }
 
     pub(super) fn clear(&mut self) {
@@ -119,6 +136,9 @@ impl Block {
         self.names.clear();
         self.exprs.clear();
         self.statement = None;
+        self.settings.clear();
+        self.decision = None;
+        self.title = None;
         self.faults.clear();
     }
 }
@@ -132,6 +152,8 @@ pub(crate) struct Sink<'s> {
     number: u8,
     /// Whether the macro language is read.
     computes: bool,
+    /// Whether that of O words is.
+    o_words: bool,
     /// What is refused within a word or a statement.
     refused: Vec<(usize, usize)>,
     /// Statements and parts of them, and where they stand.
@@ -170,6 +192,10 @@ impl Sink<'_> {
                 let mantissa = if negative { -digits.mantissa } else { digits.mantissa };
                 Value::Number(Digits { mantissa, ..digits })
             }
+            Some(Read::Computed(formula, false)) if self.whole_number(letter, &formula).is_some() => {
+                let mantissa = self.whole_number(letter, &formula).unwrap_or(0);
+                Value::Number(Digits { mantissa, scale: 0, point: false })
+            }
             Some(Read::Computed(formula, negative)) => match self.computed(start, end, formula, negative) {
                 Some(value) => value,
                 None => return,
@@ -185,6 +211,13 @@ impl Sink<'_> {
         };
         let span = self.span(start, end);
         self.block.words.push(Word { letter, value, span });
+    }
+
+    /// The whole number that an expression is worth which nothing changes, of a letter that is no coordinate.
+    fn whole_number(&self, letter: u8, formula: &Formula) -> Option<i64> {
+        let counts = self.o_words && self.refused.is_empty() && !b"XYZABCIJKRFSQ".contains(&letter);
+        let worth = constant(&formula.expr).filter(|_| counts)?;
+        (worth == worth.trunc() && (0.0..1e9).contains(&worth)).then_some(worth as i64)
     }
 
     /// A program's name.
@@ -245,6 +278,51 @@ impl Sink<'_> {
     pub(crate) fn assign(&mut self, start: usize, end: usize, to: Option<u32>, value: Formula) {
         let to = to.filter(|to| *to > 0 && !value.condition).map(formula::variable);
         self.piece(start, end, to.map(|to| Piece::Assign(to, value.expr)));
+    }
+
+    /// What stands within the brackets of a name: blanks and the size of letters say nothing.
+    pub(crate) fn spelled(&self, start: usize, end: usize) -> Box<str> {
+        let inner = &self.line[start + 1..end - 1];
+        let letters = inner.iter().filter(|b| !b.is_ascii_whitespace()).map(u8::to_ascii_lowercase);
+        letters.map(char::from).collect::<String>().into()
+    }
+
+    /// The value of a parameter.
+    pub(crate) fn parameter(&mut self, start: usize, end: usize, of: Index) -> Formula {
+        self.made(start, end, Formula::parameter(of))
+    }
+
+    /// A setting of a parameter.
+    pub(crate) fn setting(&mut self, start: usize, end: usize, to: Index, value: Formula) {
+        let to = self.parameter(start, end, to);
+        if !self.settle(start, end) {
+            let span = self.span(start, end);
+            self.block.settings.push(Setting { to: to.expr, value: value.expr, span });
+        }
+    }
+
+    /// The number or name of a program.
+    pub(crate) fn program(&mut self, start: usize, end: usize, of: Index) {
+        let span = self.span(start, end);
+        match of {
+            Index::Number(digits) => {
+                self.block.words.push(Word { letter: b'O', value: Value::Number(digits), span });
+            }
+            Index::Name(_) => self.block.title = Some(span),
+            Index::Computed(_) => self.macro_language(start, end),
+        }
+    }
+
+    /// A block that decides.
+    pub(crate) fn flow(&mut self, start: usize, end: usize, label: Index, word: FlowWord, of: Vec<Formula>) {
+        if self.settle(start, end) {
+            return;
+        }
+        if self.block.decision.is_some() {
+            return self.macro_language(start, end);
+        }
+        let values = of.into_iter().map(|formula| formula.expr).collect();
+        self.block.decision = Some(Box::new(Decision { label, word, values }));
     }
 
     /// Reports what is refused of a word or a statement; `true` if anything is.
@@ -322,11 +400,15 @@ pub(super) fn parse(line: &[u8], from: usize, base: u32, signs: Signs, block: &m
         base,
         number: signs.number,
         computes: signs.computes,
+        o_words: signs.o_words,
         refused: Vec::new(),
         pieces: Vec::new(),
         stand: (0, 0),
     };
-    let result = grammar::BlockParser::new().parse(&mut sink, tokens.by_ref());
+    let result = match signs.o_words {
+        true => o_grammar::BlockParser::new().parse(&mut sink, tokens.by_ref()),
+        false => grammar::BlockParser::new().parse(&mut sink, tokens.by_ref()),
+    };
     let next = tokens.next_block();
     match result {
         Ok(()) => sink.finish(),

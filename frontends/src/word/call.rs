@@ -68,6 +68,8 @@ impl Lower {
         }
         out.whole = true;
         let shared = self.shares();
+        let main = self.sub.is_none();
+        self.o.subs.calls_numbered(name.clone(), block, main);
         self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new(), shared })), out);
         self.state = State::lost();
     }
@@ -76,6 +78,11 @@ impl Lower {
     pub(super) fn return_from(&mut self, code: &Code, out: &mut Batch) {
         if self.sub.is_none() {
             let name = "return in the main program: endless repetition".into();
+            let fault = Fault::NotSupported { code: code.row.code.as_str().into(), name };
+            return self.fault(fault, code.span, out);
+        }
+        if self.in_o_sub() {
+            let name = "return of a numbered program in a subprogram of O words".into();
             let fault = Fault::NotSupported { code: code.row.code.as_str().into(), name };
             return self.fault(fault, code.span, out);
         }

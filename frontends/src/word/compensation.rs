@@ -62,8 +62,8 @@ impl Lower {
             let (code_text, word) = (code.row.code.as_str().into(), char::from(letter).to_string().into());
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
-        if let Some(diameter) = self.number(&word, Quantity::Length, src, out) {
-            let radius = CutterRadius::Diameter(Expr::Num(diameter));
+        if let Some(diameter) = self.amount(&word, Quantity::Length, words, src, out) {
+            let radius = CutterRadius::Diameter(diameter);
             self.push(code.span, Op::StartCutterRadiusCompensation { side, radius }, out);
         }
     }

@@ -79,15 +79,15 @@ impl Computes {
 impl Lower {
     /// Looks through text that is to be read for what is computed in it.
     pub(super) fn look_ahead(&mut self, text: &[u8], out: &mut Batch) {
+        if self.settings.dialect.program.o_words {
+            self.o_look_ahead(text, out);
+            return self.look_for_results(text, out);
+        }
         if !self.settings.dialect.program.macro_b {
             return;
         }
         if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
-            self.computes.variables = true;
-            for stmt in out.stmts.iter_mut().chain(out.procedures.iter_mut().flat_map(|p| &mut p.body)) {
-                share(stmt);
-            }
-            self.sub.iter_mut().flat_map(|p| &mut p.body).for_each(share);
+            self.found_variables(out);
         }
         if !self.computes.jumps && text.windows(4).any(|word| word.eq_ignore_ascii_case(b"GOTO")) {
             self.computes.jumps = true;
@@ -98,6 +98,22 @@ impl Lower {
         if !self.computes.jumps {
             self.computes.unnamed |= memchr::memchr2(number, number.to_ascii_lowercase(), text).is_some();
         }
+    }
+
+    /// The text has variables: calls met before share them.
+    pub(super) fn found_variables(&mut self, out: &mut Batch) {
+        if std::mem::replace(&mut self.computes.variables, true) {
+            return;
+        }
+        for stmt in out.stmts.iter_mut().chain(out.procedures.iter_mut().flat_map(|p| &mut p.body)) {
+            share(stmt);
+        }
+        self.sub.iter_mut().flat_map(|p| &mut p.body).for_each(share);
+    }
+
+    /// Whether it has.
+    pub(super) fn computes_anything(&self) -> bool {
+        self.computes.variables
     }
 
     /// Whether a call has its caller's variables to itself.
@@ -233,7 +249,7 @@ impl Lower {
 
     /// A variable gets another value: what has been computed from variables and is not said yet must not be
     /// said with it.
-    fn assigned(&mut self, span: Span, out: &mut Batch) {
+    pub(super) fn assigned(&mut self, span: Span, out: &mut Batch) {
         if let InForce::Active(active) = &self.state.cycle
             && [&active.depth, &active.retract].iter().any(|word| word.value.literal().is_none())
         {
@@ -266,6 +282,13 @@ impl Lower {
             return self.number(word, quantity, src, out).map(Expr::Num);
         };
         let mut expr = words.exprs[usize::from(place)].clone();
+        if self.settings.dialect.program.o_words {
+            let value = self.o_amount(&expr, quantity, word.span, out);
+            return match value {
+                Some(value) => Some(value),
+                None => self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out),
+            };
+        }
         let digits = self.digits(word, quantity, src, out)?;
         out.whole = true;
         // The control rounds what an address gets to the least increment of it (16-C, custom macro, referencing

@@ -57,6 +57,16 @@ impl Formula {
         Formula { expr, condition, depth }
     }
 
+    /// An expression that is no condition; `None` is one that is nested too deep.
+    pub(crate) fn within(expr: Expr, depth: u32) -> Option<Formula> {
+        (depth <= DEEPEST).then(|| Formula::new(expr, depth, false))
+    }
+
+    /// How deep it is nested.
+    pub(crate) fn depth(&self) -> u32 {
+        self.depth
+    }
+
     /// A literal.
     pub(crate) fn number(digits: Digits) -> Formula {
         let Digits { mantissa, scale, point } = digits;

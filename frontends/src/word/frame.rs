@@ -11,6 +11,7 @@ use ncc_ir::source::Span;
 use super::block::Value;
 use super::facts::State;
 use super::lower::decode;
+use super::o_subs::is_title;
 use super::{Reader, Source};
 use crate::Batch;
 
@@ -104,6 +105,13 @@ impl Frame {
     }
 }
 
+impl Frame {
+    /// Numbers and names of the programs met.
+    pub(super) fn programs(&self) -> &[Text] {
+        &self.programs
+    }
+}
+
 impl Reader {
     /// Lines that belong to the frame, and all after the end; `true` if it was one.
     pub(super) fn framing(&mut self, line: &[u8], span: Span, out: &mut Batch) -> bool {
@@ -169,6 +177,9 @@ impl Reader {
             self.block.names.clear();
             return true;
         }
+        if is_title(&self.block) {
+            return self.title(src, out);
+        }
         let first = self.block.words.first().copied();
         let Some(word) = first.filter(|w| w.letter != 0 && self.frame.number.contains(&w.letter)) else {
             return false;
@@ -188,6 +199,24 @@ impl Reader {
         if self.frame.title && !self.block.comments.is_empty() {
             self.block.comments.remove(0);
         }
+        self.block.is_empty()
+    }
+
+    /// The name of the main program of a control with O words, which nothing calls; `true` if it is that.
+    fn title(&mut self, src: Source, out: &mut Batch) -> bool {
+        let Some(span) = self.block.title else { return false };
+        if !self.frame.programs.is_empty() || self.frame.blocks {
+            let fault = Fault::NotSupported { code: src.text(span), name: "program with a name".into() };
+            self.block.faults.push((fault, span));
+            return false;
+        }
+        let name = String::from_utf8_lossy(src.bytes(span))
+            .trim_start_matches(['O', 'o', ' ', '<'])
+            .trim_end_matches('>')
+            .into();
+        out.name.title = Some(name);
+        self.frame.programs.push("".into());
+        self.block.title = None;
         self.block.is_empty()
     }
 
@@ -235,6 +264,9 @@ impl Reader {
             self.frame.faulty = true;
         }
         self.end_of_program(out);
+        self.lower.o.subs.numbered(name.clone());
+        self.lower.o.numbered_program = true;
+        self.lower.o.given = Default::default();
         self.lower.sub = Some(Procedure { name, title, ..Procedure::default() });
         self.lower.ended = false;
         self.lower.state = State::lost();
@@ -248,6 +280,7 @@ impl Reader {
             return;
         }
         self.lower.open_loops(out);
+        self.lower.open_bodies(out);
         let in_sub = self.lower.sub.is_some();
         let expected = in_sub || self.frame.blocks;
         if expected && !self.lower.ended && !self.frame.faulty {

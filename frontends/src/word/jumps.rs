@@ -5,7 +5,7 @@ use ncc_dialects::{Dialect, Meaning, Settings};
 use ncc_ir::source::Span;
 
 use super::block::Digits;
-use super::token::{Signs, Token, Tokens};
+use super::token::{FlowWord, Signs, Token, Tokens};
 use super::words::tenths;
 use crate::Flow;
 
@@ -45,6 +45,7 @@ fn block(tokens: &mut Tokens, base: u32, dialect: &Dialect, block_number: u8, fo
     let mut before: Option<Token> = None;
     let mut jumps = Vec::new();
     let mut words = Vec::new();
+    let mut labelled = false;
     let mut begun = 0;
     for token in tokens.by_ref() {
         // A block that is none says something all the same.
@@ -70,6 +71,15 @@ fn block(tokens: &mut Tokens, base: u32, dialect: &Dialect, block_number: u8, fo
                 jumps.push((Some(format!("{}{}", block_number as char, digits.mantissa)), at));
             }
             (Some(Token::Goto), _) => jumps.push((None, at)),
+            (_, Token::Label) => labelled = true,
+            (Some(_), Token::Flow(word)) if labelled => {
+                labelled = false;
+                frames = true;
+                if word == FlowWord::Sub {
+                    found(Flow::Program);
+                }
+            }
+            (Some(Token::Label), Token::Number(_) | Token::Name) => {}
             (_, Token::If) => decides = true,
             (_, Token::Do | Token::End | Token::While) => frames = true,
             (_, Token::Skip) => skipped = true,
@@ -81,6 +91,9 @@ fn block(tokens: &mut Tokens, base: u32, dialect: &Dialect, block_number: u8, fo
         before = Some(token);
     }
     let Some(at) = whole else { return };
+    if labelled {
+        found(Flow::Program);
+    }
     let says = says || decides || frames || !jumps.is_empty();
     found(Flow::Block { label, at, says, frames });
     for (to, at) in jumps {

@@ -20,6 +20,7 @@ use super::computing::Computes;
 use super::facts::{InForce, Know, State};
 use super::fast::Fast;
 use super::number::{CentreSeen, UnitsSeen};
+use super::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
 use super::tilt::Met;
 use crate::{Batch, refused};
@@ -51,6 +52,7 @@ pub(super) struct Lower {
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     pub(super) computes: Computes,
+    pub(super) o: ODecides,
     /// What plain moves need; `None` if a block must be looked at.
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
@@ -118,6 +120,8 @@ pub(super) struct Now {
     pub(super) recall: bool,
     /// Whether the last comment is a message.
     pub(super) message: bool,
+    /// Whether its comment has a statement of its own.
+    pub(super) commented: bool,
     /// Whether a code has no statement of its own.
     pub(super) silent: bool,
     /// The word of a corner that stands behind a comma, until a move takes it.
@@ -128,6 +132,13 @@ pub(super) struct Now {
     pub(super) name: Option<(Text, Span)>,
     /// The repetition that the block asks for.
     pub(super) again: Option<super::again::Asked>,
+}
+
+impl Now {
+    /// The state of a block in front of which so many statements stand.
+    pub(super) fn at(mark: usize) -> Now {
+        Now { mark, ..Now::default() }
+    }
 }
 
 impl Lower {
@@ -164,6 +175,7 @@ impl Lower {
             sub: None,
             ended: false,
             computes: Computes::default(),
+            o: ODecides::default(),
             fast: None,
             now: Now::default(),
             codes: Vec::new(),
@@ -177,6 +189,7 @@ impl Lower {
     /// Lowers a block.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
         self.in_loop(out);
+        self.o_body(out);
         let before = (block.skip != 0).then(|| self.state.clone());
         let level = (block.skip != 0).then_some(block.skip);
         self.now = Now {
@@ -212,12 +225,19 @@ impl Lower {
             // It is all that its block says.
         } else if !self.now.refused {
             self.jumped_to(block, out);
+            self.o_comment(block, src, out);
+            self.settings(block, false, out);
             self.message(block, src, out);
             if let Some(statement) = &block.statement {
                 self.statement(statement, block, out);
+            } else if let Some(decision) = &block.decision {
+                self.decide_flow(decision, block, out);
+                words.left = 0;
             } else if !self.repetition(block, &codes, &mut words, src, out) {
                 self.functions(block, &codes, &mut words, level, src, out);
             }
+            self.settings(block, true, out);
+            self.asked_in_time(block, out);
             if !self.now.failed {
                 self.check_unused(&words, src, out);
             }
@@ -257,6 +277,10 @@ impl Lower {
             return self.push(span, Op::Message(text), out);
         }
         if let Some((name, at)) = rules.shown.iter().find_map(|name| Some((name, begins(bytes, name)?))) {
+            if bytes.contains(&b'#') && self.settings.dialect.program.o_words {
+                self.now.message = true;
+                return self.shown(&bytes[at..], span, out);
+            }
             if bytes.contains(&b'#') {
                 let code = format!("{}{name}", rules.open).into();
                 let name = "the value of a parameter in a message".into();
@@ -265,6 +289,10 @@ impl Lower {
             let text = decode(&bytes[at..]);
             self.now.message = true;
             return self.push(span, Op::Message(text), out);
+        }
+        if let Some(at) = begins(bytes, &rules.alarm).filter(|_| !rules.alarm.is_empty()) {
+            self.now.message = true;
+            return self.alarm(&bytes[at..], span, out);
         }
         if let Some(name) = rules.active.iter().find(|name| begins(bytes, name).is_some()) {
             let code = format!("{}{name}", rules.open).into();
@@ -373,6 +401,21 @@ impl Lower {
         None
     }
 
+    /// The comments of a block that do nothing.
+    pub(super) fn plain_comment(&self, block: &Block, src: Source) -> Option<Text> {
+        let last = usize::from(self.now.message || self.acts(block, src));
+        join_comments(&block.comments[..block.comments.len().saturating_sub(last)], src)
+    }
+
+    /// Whether the last comment of a block does something.
+    fn acts(&self, block: &Block, src: Source) -> bool {
+        let rules = &self.settings.dialect.comment;
+        let words = rules.shown.iter().chain([&rules.message, &rules.alarm]);
+        let Some(&last) = block.comments.last() else { return false };
+        let bracketed = src.bytes(Span::new(last.end, last.end + 1)) == rules.close.as_bytes();
+        bracketed && words.filter(|word| !word.is_empty()).any(|word| begins(src.bytes(last), word).is_some())
+    }
+
     /// Ends the block: its comment, or what stands for an empty one.
     fn close(&mut self, block: &Block, src: Source, out: &mut Batch) {
         if self.now.failed {
@@ -384,8 +427,7 @@ impl Lower {
             self.forgive();
             return;
         }
-        let comments = block.comments.len() - usize::from(self.now.message);
-        let comment = join_comments(&block.comments[..comments], src);
+        let comment = self.plain_comment(block, src).filter(|_| !self.now.commented);
         match (comment, self.now.pushed) {
             (None, true) => {}
             (None, false) if self.now.silent => {}

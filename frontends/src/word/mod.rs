@@ -32,11 +32,15 @@ mod machine;
 mod macro_call;
 mod motion;
 pub(crate) mod number;
+mod o_subs;
+mod o_words;
+mod parameters;
 mod pattern;
 pub(crate) mod pieces;
 pub(crate) mod plain;
 mod polar;
 mod probe;
+mod shown;
 pub(crate) mod sort;
 mod spindle;
 #[cfg(test)]
@@ -178,6 +182,7 @@ impl Reader {
             self.end_of_program(out);
             self.end_of_text(out);
             self.lower.computes.give_parameters(&mut out.procedures);
+            self.lower.settle_calls(out);
         }
     }
 
@@ -242,7 +247,7 @@ impl Reader {
     /// Where a block of the control's own flow begins and ends: a program number with a word of it.
     fn flow(&self, line: &[u8]) -> Option<(usize, usize)> {
         let program = &self.lower.settings.dialect.program;
-        let letter = program.number.filter(|_| !program.flow.is_empty())? as u8;
+        let letter = program.number.filter(|_| !program.flow.is_empty() && !program.o_words)? as u8;
         let blanks = |at: usize| at + line[at..].iter().take_while(|b| b.is_ascii_whitespace()).count();
         let digits = |at: usize| at + line[at..].iter().take_while(|b| b.is_ascii_digit()).count();
         let is = |at: usize, byte: u8| line.get(at).is_some_and(|b| b.eq_ignore_ascii_case(&byte));
@@ -282,15 +287,19 @@ impl Reader {
 
     /// A block, whichever way it was read.
     fn meaning(&mut self, src: Source, out: &mut Batch) {
-        if self.program_word(src, out) {
+        if self.sub_word(src, out) || self.program_word(src, out) {
             return;
         }
         if self.lower.ended && !self.reached_again() {
             return self.after_end(src, out);
         }
-        self.frame.blocks |= !self.block.words.is_empty() || self.block.skip != 0;
+        let block = &self.block;
+        self.frame.blocks |= !block.words.is_empty() || block.skip != 0 || block.decision.is_some();
+        self.frame.blocks |= !block.settings.is_empty();
         self.frame.faulty |= !self.block.faults.is_empty();
         self.lower.block(&self.block, src, out);
+        // An end within a structure is not that of the text.
+        self.lower.ended &= self.lower.o.open.is_empty();
         self.repeat(out);
         self.frame.faulty |= self.lower.now.failed;
     }

@@ -71,7 +71,12 @@ fn block(tokens: &mut Tokens, dialect: &Dialect, into: &mut Vec<Piece>) -> bool 
             | Token::Atan
             | Token::Compare(_)
             | Token::Or(_)
-            | Token::And(_) => PieceKind::Key,
+            | Token::And(_)
+            | Token::Logic(_)
+            | Token::Modulo
+            | Token::Exists
+            | Token::Flow(_) => PieceKind::Key,
+            Token::Label => PieceKind::Address,
             Token::Plus
             | Token::Minus
             | Token::Star
@@ -81,6 +86,7 @@ fn block(tokens: &mut Tokens, dialect: &Dialect, into: &mut Vec<Piece>) -> bool 
             | Token::Comma
             | Token::Colon
             | Token::Open
+            | Token::Power
             | Token::Close => PieceKind::Sign,
         };
         let kind = if kind == PieceKind::Address && depth > 0 { PieceKind::Letter } else { kind };

@@ -26,12 +26,16 @@ pub(super) struct Signs {
     skip: u8,
     /// Letter of the block number; 0 for none.
     pub(super) number: u8,
+    /// Letter of programs; 0 for none.
+    program: u8,
     /// Signs that stand for the letters of radius and angle; 0 for none.
     polar: [u8; 2],
     /// Whether the control has variables and expressions.
     macros: bool,
     /// Whether what they mean is known; else they are refused by name.
     pub(super) computes: bool,
+    /// Whether they are those of O words.
+    pub(super) o_words: bool,
 }
 
 impl Signs {
@@ -44,9 +48,11 @@ impl Signs {
             end: first(&dialect.block.end),
             skip: first(&dialect.block.skip),
             number: dialect.block.number.map_or(0, |c| c as u8),
+            program: dialect.program.number.map_or(0, |c| c as u8),
             polar: dialect.polar.signs().unwrap_or_default(),
             macros: dialect.program.macros,
-            computes: dialect.program.macro_b,
+            computes: dialect.program.macro_b || dialect.program.o_words,
+            o_words: dialect.program.o_words,
         }
     }
 }
@@ -65,6 +71,8 @@ enum Raw {
     Sign,
     #[regex(r"_[A-Za-z0-9_]+")]
     System,
+    #[token("**")]
+    Power,
 }
 
 /// A token as the grammar takes it.
@@ -105,6 +113,37 @@ pub(crate) enum Token {
     Or(Binary),
     /// AND and MOD.
     And(Binary),
+    Power,
+    /// AND, OR and XOR, where all three bind least.
+    Logic(Binary),
+    Modulo,
+    /// Whether a parameter exists.
+    Exists,
+    /// The letter of a block that decides where the program goes, or begins a program.
+    Label,
+    /// What such a block does.
+    Flow(FlowWord),
+}
+
+/// What a block does that begins with the letter of programs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)] // The names are the meaning.
+pub(crate) enum FlowWord {
+    Sub,
+    EndSub,
+    Call,
+    Return,
+    If,
+    ElseIf,
+    Else,
+    EndIf,
+    Do,
+    While,
+    EndWhile,
+    Repeat,
+    EndRepeat,
+    Break,
+    Continue,
 }
 
 /// Why there is no block.
@@ -164,6 +203,54 @@ const OPERATORS: &[(&[u8], Token)] = &[
     (b"LE", Token::Compare(Binary::LessOrEqual)),
 ];
 
+/// What stands behind the name of a block that begins with the letter of programs, longest first.
+const FLOW: &[(&[u8], Token)] = &[
+    (b"ENDREPEAT", Token::Flow(FlowWord::EndRepeat)),
+    (b"ENDWHILE", Token::Flow(FlowWord::EndWhile)),
+    (b"CONTINUE", Token::Flow(FlowWord::Continue)),
+    (b"ENDSUB", Token::Flow(FlowWord::EndSub)),
+    (b"RETURN", Token::Flow(FlowWord::Return)),
+    (b"REPEAT", Token::Flow(FlowWord::Repeat)),
+    (b"ELSEIF", Token::Flow(FlowWord::ElseIf)),
+    (b"ENDIF", Token::Flow(FlowWord::EndIf)),
+    (b"WHILE", Token::Flow(FlowWord::While)),
+    (b"BREAK", Token::Flow(FlowWord::Break)),
+    (b"CALL", Token::Flow(FlowWord::Call)),
+    (b"ELSE", Token::Flow(FlowWord::Else)),
+    (b"SUB", Token::Flow(FlowWord::Sub)),
+    (b"IF", Token::Flow(FlowWord::If)),
+    (b"DO", Token::Flow(FlowWord::Do)),
+];
+
+/// Functions and operators of a control with O words (LinuxCNC 2.9, gcode/overview.html, binary operators and
+/// functions): `FIX` goes down and `FUP` up on the line of numbers.
+const O_OPERATORS: &[(&[u8], Token)] = &[
+    (b"EXISTS", Token::Exists),
+    (b"ROUND", Token::Function(Some(Function::Round))),
+    (b"ASIN", Token::Function(Some(Function::Asin))),
+    (b"ACOS", Token::Function(Some(Function::Acos))),
+    (b"ATAN", Token::Atan),
+    (b"SQRT", Token::Function(Some(Function::Sqrt))),
+    (b"SIN", Token::Function(Some(Function::Sin))),
+    (b"COS", Token::Function(Some(Function::Cos))),
+    (b"TAN", Token::Function(Some(Function::Tan))),
+    (b"ABS", Token::Function(Some(Function::Abs))),
+    (b"FIX", Token::Function(Some(Function::Floor))),
+    (b"FUP", Token::Function(Some(Function::Ceiling))),
+    (b"EXP", Token::Function(Some(Function::Exp))),
+    (b"LN", Token::Function(Some(Function::Ln))),
+    (b"XOR", Token::Logic(Binary::Xor)),
+    (b"OR", Token::Logic(Binary::Or)),
+    (b"AND", Token::Logic(Binary::And)),
+    (b"MOD", Token::Modulo),
+    (b"EQ", Token::Compare(Binary::Equal)),
+    (b"NE", Token::Compare(Binary::NotEqual)),
+    (b"GT", Token::Compare(Binary::Greater)),
+    (b"GE", Token::Compare(Binary::GreaterOrEqual)),
+    (b"LT", Token::Compare(Binary::Less)),
+    (b"LE", Token::Compare(Binary::LessOrEqual)),
+];
+
 /// The tokens of one block.
 pub(crate) struct Tokens<'t> {
     raw: logos::Lexer<'t, Raw>,
@@ -172,6 +259,11 @@ pub(crate) struct Tokens<'t> {
     depth: u32,
     /// Whether an expression runs without brackets: after `=`.
     assigned: bool,
+    /// Whether nothing but a skip mark has been met; whether a value comes next; whether the letter of programs has
+    /// been met. Of a control with O words.
+    begins: bool,
+    value_next: bool,
+    decides: bool,
     /// Where the block has ended: at its end sign, or at the end of the text.
     ended: Option<usize>,
     comments: &'t mut Vec<(usize, usize)>,
@@ -187,7 +279,17 @@ impl<'t> Tokens<'t> {
     ) -> Tokens<'t> {
         let mut raw = Raw::lexer(line);
         raw.bump(from);
-        Tokens { raw, signs, depth: 0, assigned: false, ended: None, comments }
+        Tokens {
+            raw,
+            signs,
+            depth: 0,
+            assigned: false,
+            begins: true,
+            value_next: false,
+            decides: false,
+            ended: None,
+            comments,
+        }
     }
 
     /// Where the next block begins, once this one is over; `None` if the line is over.
@@ -243,8 +345,33 @@ impl<'t> Tokens<'t> {
         }
     }
 
+    /// The key word of a control with O words that begins with the letter just read. Functions stand where values do.
+    fn o_keyword(&mut self) -> Option<Token> {
+        let start = self.raw.span().start;
+        let rest = &self.raw.source()[start..];
+        let (in_expression, after_name) = (self.depth > 0 || self.value_next, self.decides);
+        let fits = |word: &[u8]| rest.get(..word.len()).is_some_and(|t| t.eq_ignore_ascii_case(word));
+        let words = match (in_expression, after_name) {
+            (true, _) => O_OPERATORS,
+            (false, true) => FLOW,
+            (false, false) => &[],
+        };
+        if let Some(&(word, token)) = words.iter().find(|(word, _)| fits(word)) {
+            self.raw.bump(word.len() - 1);
+            return Some(token);
+        }
+        let label = !in_expression && rest[0].eq_ignore_ascii_case(&self.signs.program);
+        if label {
+            self.decides = true;
+        }
+        label.then_some(Token::Label)
+    }
+
     /// The key word that begins with the letter just read.
     fn keyword(&mut self) -> Option<Token> {
+        if self.signs.o_words {
+            return self.o_keyword();
+        }
         let start = self.raw.span().start;
         let rest = &self.raw.source()[start..];
         let in_expression = self.depth > 0 || self.assigned;
@@ -276,6 +403,7 @@ impl<'t> Tokens<'t> {
         let signs = self.signs;
         let token = match byte {
             b'/' if self.depth > 0 || self.assigned => Token::Slash,
+            b'/' if signs.o_words && !self.begins => Token::Slash,
             _ if byte == signs.skip => Token::Skip,
             b'+' => Token::Plus,
             b'-' => Token::Minus,
@@ -284,7 +412,7 @@ impl<'t> Tokens<'t> {
             b'#' if signs.macros => Token::Hash,
             b'*' if signs.macros => Token::Star,
             b'=' if signs.macros => {
-                self.assigned = true;
+                self.assigned = !signs.o_words;
                 Token::Equals
             }
             b'[' if signs.macros => {
@@ -307,8 +435,13 @@ impl<'t> Tokens<'t> {
         Some(Ok(self.spanned(token)))
     }
 
-    fn spanned(&self, token: Token) -> (usize, Token, usize) {
+    fn spanned(&mut self, token: Token) -> (usize, Token, usize) {
         let span = self.raw.span();
+        self.begins &= token == Token::Skip;
+        self.value_next = matches!(
+            token,
+            Token::Letter(_) | Token::Label | Token::Hash | Token::Equals | Token::Plus | Token::Minus
+        );
         (span.start, token, span.end)
     }
 }
@@ -348,7 +481,11 @@ impl Iterator for Tokens<'_> {
                         }
                     };
                 }
-                Raw::System if self.signs.macros => return Some(Ok(self.spanned(Token::System))),
+                Raw::Power if self.signs.macros => return Some(Ok(self.spanned(Token::Power))),
+                Raw::Power => return self.unexpected(),
+                Raw::System if self.signs.macros && !self.signs.o_words => {
+                    return Some(Ok(self.spanned(Token::System)));
+                }
                 Raw::System => return self.unexpected(),
                 Raw::Sign if byte == self.signs.comment => {
                     if let Err(refusal) = self.comment(self.signs.close) {

@@ -38,4 +38,4 @@ pub use schema::*;
 pub use settings::{
     ANGLE_RANGE, CYCLE_APPROACH, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
 };
-pub use stored::{DataKind, DataRow, RADIUS_DATA, ValueName, ValueWord};
+pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};

@@ -16,7 +16,7 @@ use crate::meaning::Meaning;
 use crate::names::{CallRow, NameRow};
 use crate::power_on::{PathName, PowerOn, SafeStart};
 use crate::repeats::{PolarRules, RepeatRules};
-use crate::stored::DataRow;
+use crate::stored::{DataRow, SystemRow};
 
 /// A dialect's dictionary.
 #[derive(Clone, Debug, Deserialize)]
@@ -82,6 +82,9 @@ pub struct Dialect {
     /// Tables that a program puts values into.
     #[serde(default)]
     pub data: Vec<DataRow>,
+    /// What a program can ask of the control, by number or name of a parameter.
+    #[serde(default)]
+    pub system: Vec<SystemRow>,
     /// Words of several letters.
     #[serde(default)]
     pub name: Vec<NameRow>,
@@ -151,6 +154,9 @@ pub struct ProgramRules {
     /// Whether they mean what those of a custom macro B mean: then they are read; else they are refused by
     /// name.
     pub macro_b: bool,
+    /// Whether they are those of RS274/NGC with O words: parameters with numbers and names, `o100 sub`,
+    /// `o<name> call`, `o110 while [...]`. Then they are read; else they are refused by name.
+    pub o_words: bool,
     /// Words that make the control's own flow of a block that begins with the program number: `sub`,
     /// `call`, `while`. Such a block is refused by name.
     pub flow: Vec<String>,
@@ -186,6 +192,8 @@ pub struct CommentRules {
     /// How comments begin that show their text as well, and put values of parameters into it: one without
     /// a `#` is a message, another is refused.
     pub shown: Vec<String>,
+    /// How a comment begins that ends the program with an alarm, and its text; empty for none.
+    pub alarm: String,
     /// How comments begin that do something else, which is not translated.
     pub active: Vec<String>,
     /// Whether only capitals, digits and simple signs can be shown.

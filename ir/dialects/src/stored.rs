@@ -125,3 +125,47 @@ impl Dialect {
         ToolValue::ALL.map(|value| words().any(|word| ToolValue::from(word.of) == value))
     }
 }
+
+/// A value of the control's own that a program can ask for.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SystemRow {
+    /// Number of the parameter, or of the first of several; 0 for none.
+    pub number: u32,
+    /// How many there are, where it is no value of each axis; 0 is one.
+    pub count: u32,
+    /// Name of the parameter, as programs write it within `<` and `>`; empty for none.
+    pub name: String,
+    /// Whether there is one for each of X, Y, Z, A, B and C, by the numbers that follow.
+    pub axes: bool,
+    /// Whether lengths count in the machine's own unit, whatever is in force: the option `machine_units`.
+    pub machine_units: bool,
+    /// What it means: the name of a system variable, without its axis and unit.
+    pub means: String,
+    /// What it means, where it is several such values together.
+    pub sum: Vec<SystemTerm>,
+    /// Whether it is zero, since there is no such axis.
+    pub zero: bool,
+    /// What it is, if it is not translated.
+    pub refuse: Option<String>,
+    /// Who says so.
+    pub source: String,
+}
+
+/// A value and what it is multiplied by.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SystemTerm {
+    /// The name of a system variable.
+    pub means: String,
+    /// How many times it counts.
+    pub times: i64,
+}
+
+impl SystemRow {
+    /// The numbers of its parameters.
+    pub fn numbers(&self) -> std::ops::Range<u32> {
+        let count = if self.axes { ncc_ir::canon::AXES as u32 } else { self.count.max(1) };
+        if self.number == 0 { 0..0 } else { self.number..self.number + count }
+    }
+}

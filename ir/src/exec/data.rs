@@ -135,6 +135,9 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
+        if self.cycle.is_some() && matches!(data, Data::Offset { .. } | Data::Tool { .. }) {
+            return self.not_executed("data input while a cycle is in force", span);
+        }
         let stored = match data {
             Data::Position(place) => {
                 let here = self.machine();

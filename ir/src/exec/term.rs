@@ -28,6 +28,8 @@ pub(super) enum Term {
     OfTwo(Function, Box<[Term; 2]>),
     OfThree(Function, Box<[Term; 3]>),
     Element(Box<Indexed>),
+    /// What must have a value.
+    Given(Box<Term>),
     /// A function with another number of arguments than it has.
     Miscounted,
 }
@@ -245,6 +247,7 @@ impl Names {
             Node::Unary(operator, a) => Term::Unary(*operator, Box::new(self.term(a))),
             Node::Binary(operator, a, b) => Term::Binary(*operator, Box::new([self.term(a), self.term(b)])),
             Node::Call(f, arguments) => match &arguments[..] {
+                [a] if *f == Function::Given => Term::Given(Box::new(self.term(a))),
                 [a] if f.arguments() == 1 => Term::Of(*f, Box::new(self.term(a))),
                 [a, b] if f.arguments() == 2 => Term::OfTwo(*f, Box::new([self.term(a), self.term(b)])),
                 [a, b, c] if f.arguments() == 3 => {
@@ -368,6 +371,7 @@ impl Variables {
             | Term::Of(..)
             | Term::OfTwo(..)
             | Term::OfThree(..)
+            | Term::Given(_)
             | Term::Miscounted => Value::Number(self.number(term, asked)?),
         })
     }
@@ -400,6 +404,10 @@ impl Variables {
                 value::binary(*operator, self.operand(a, asked)?, self.operand(b, asked)?)
                     .map_err(Why::Wrong)?
             }
+            Term::Given(a) => match self.value(a, asked)? {
+                Value::Number(n) => n,
+                Value::Vacant => return Err(Why::Wrong(Wrong::NothingGiven)),
+            },
             Term::Of(f, a) => value::function(*f, self.operand(a, asked)?, 0.0).map_err(Why::Wrong)?,
             Term::OfTwo(f, both) => {
                 let [a, b] = &**both;

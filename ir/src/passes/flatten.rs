@@ -18,6 +18,7 @@ use crate::kinds::{flow, variables};
 use crate::num::{Num, POW10, Unit};
 use crate::program::{Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
+use crate::valid;
 use crate::world::World;
 
 /// Executes the program; only a main procedure of straight blocks is left.
@@ -26,7 +27,14 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
         return diags.push(fault);
     }
     let mut walk = Walk::new(entry.clone());
-    match straight(program, target, &mut walk) {
+    // What two machines that differ in all that the program has not said agree about, it has said itself.
+    let modes = walk.at.modes;
+    let control = |seed, skip| {
+        let mut exec = Exec::new(&World::generate(seed, &modes), skip);
+        exec.assume(&modes);
+        exec
+    };
+    match straight(program, target, &mut walk, control(1, 0), Some(control(2, u16::MAX))) {
         Ok(body) => {
             if let Some(first) = body.first() {
                 let blocks = body.iter().filter(|stmt| !stmt.joined).count() as u64;
@@ -40,22 +48,36 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
     }
 }
 
-/// The blocks that are executed, one after the other.
-fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<Stmt>, Diagnostic> {
+/// The program as a certain control executes it, numbers to nine digits; `None` where it computes and calls
+/// nothing.
+///
+/// # Errors
+/// As of the pass.
+pub fn by(program: &Program, entry: &Tracker, control: Exec) -> Result<Option<Program>, Diagnostic> {
+    if valid::anything(program).is_none() && program.procedures.len() < 2 {
+        return Ok(None);
+    }
+    program.procedures.iter().try_for_each(|p| no_switch(&p.body))?;
+    let target = Target { decimals: 9, ..Target::default() };
+    let body = straight(program, &target, &mut Walk::new(entry.clone()), control, None)?;
+    let main = Procedure { body, ..Procedure::default() };
+    Ok(Some(Program { procedures: vec![main], ..program.clone() }))
+}
+
+/// The blocks that are executed, one after the other. What a program asks of the control, these two have to agree
+/// about.
+fn straight(
+    program: &Program,
+    target: &Target,
+    walk: &mut Walk,
+    mut exec: Exec,
+    mut other: Option<Exec>,
+) -> Result<Vec<Stmt>, Diagnostic> {
     let mut out: Vec<Stmt> = Vec::new();
     let mut numbered = HashSet::new();
-    // What is executed depends on nothing of the machine; what a feed counts depends on the program.
-    let mut exec = Exec::new(&World::generate(0, &Default::default()), 0);
     let mut runner = Runner::new(program);
-    let mut other = None;
-    if runner.asks() {
-        // What two machines that differ in all that the program has not said agree about, it has said itself.
-        let modes = walk.at.modes;
-        let [mut one, mut two] =
-            [(1, 0), (2, u16::MAX)].map(|(seed, skip)| Exec::new(&World::generate(seed, &modes), skip));
-        [&mut one, &mut two].into_iter().for_each(|exec| exec.assume(&modes));
-        (exec, other) = (one, Some(two));
-    }
+    // Else what is executed depends on nothing of the machine; what a feed counts depends on the program.
+    let asks = runner.asks();
     let mut unseen = Vec::new();
     let mut steps = 0;
     let mut inches = walk.at.modes.units == Some(Units::Inch);
@@ -67,10 +89,9 @@ fn straight(program: &Program, target: &Target, walk: &mut Walk) -> Result<Vec<S
         stmt.joined &= steps == before + 1 && !out.is_empty();
         stmt.number = stmt.number.filter(|number| numbered.insert(*number) && !stmt.joined);
         let over = matches!(stmt.op, Op::ProgramEnd | Op::Alarm(_)) && stmt.skip.is_none();
-        if let Some(other) = &mut other {
-            if !over {
+        if asks {
+            for exec in [&mut exec].into_iter().chain(&mut other).filter(|_| !over) {
                 exec.step(&stmt, &mut unseen)?;
-                other.step(&stmt, &mut unseen)?;
                 unseen.clear();
             }
         } else if let Op::SetFeedMode(_) = stmt.op {

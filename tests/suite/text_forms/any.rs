@@ -67,7 +67,7 @@ fn function() -> impl Strategy<Value = Function> {
     use Function::*;
     select(vec![
         Sin, Cos, Tan, Asin, Acos, Atan2, Sqrt, Abs, Round, RoundTo, RoundUp, Floor, Ceiling, Truncate, Ln,
-        Exp, Min, Max, Remainder, Near, NearRatio, BitAnd, BitOr, BitXor,
+        Exp, Min, Max, Remainder, Given, Near, NearRatio, BitAnd, BitOr, BitXor,
     ])
 }
 

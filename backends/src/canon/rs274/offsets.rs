@@ -12,11 +12,20 @@ use ncc_ir::system::System;
 use super::Printer;
 
 impl Printer<'_> {
-    /// Lets execution go on by a statement. Contours are worked out before they come here.
+    /// Lets execution go on by a statement. Contours are worked out before they come here; an arc is judged by this
+    /// control's own tolerance where it is printed; a return is the end of the body that is followed.
     pub(super) fn execute(&mut self, stmt: &Stmt) -> Result<(), Diagnostic> {
         let of_a_contour =
             matches!(stmt.op, Op::StartCutterRadiusCompensation { .. } | Op::StopCutterRadiusCompensation);
-        if of_a_contour { Ok(()) } else { self.exec.step(stmt, &mut Vec::new()) }
+        if let Op::ArcFeed(arc) = &stmt.op {
+            self.exec.stand_at(&self.at.target(&arc.to));
+            return Ok(());
+        }
+        if of_a_contour || matches!(stmt.op, Op::Return) {
+            Ok(())
+        } else {
+            self.exec.step(stmt, &mut Vec::new())
+        }
     }
 
     /// Takes over from execution where the program stands.

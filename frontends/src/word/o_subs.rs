@@ -1,0 +1,423 @@
+//! Subprograms of O words: `sub` to `endsub`, `call`, `return`, and how they go with numbered programs that end with
+//! M99 (LinuxCNC 2.9, gcode/o-code.html; interp_o_word.cc).
+//!
+//! A subprogram has `#1` to `#30` to itself: its arguments, and zeros behind them. What a `return` gives is in
+//! `#<_value>`, and whether it gives anything in `#<_value_returned>`. The two kinds of programs must be called by
+//! their own words.
+
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
+use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::{Alarm, Call, Control, Op, Procedure, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::block::Block;
+use super::facts::State;
+use super::lower::Lower;
+use super::o_words::{Decision, Kind, spelled};
+use super::parameters::Index;
+use super::token::FlowWord;
+use super::{Reader, Source};
+use crate::Batch;
+
+/// What is put aside while a subprogram is read.
+#[derive(Debug)]
+pub(super) struct Outer {
+    state: State,
+    ended: bool,
+    labels: Vec<Text>,
+    numbered_program: bool,
+}
+
+/// Subprograms and calls met.
+#[derive(Debug, Default)]
+pub(super) struct Subs {
+    /// Names, and whether they end with M99.
+    known: Vec<(Text, bool)>,
+    /// The same of what is called, each with where, and whether the main program calls it.
+    called: Vec<(Text, bool, Span, bool)>,
+    /// Whether anything asks for the result of a call, and whether a return without one has been met before.
+    pub(super) results: bool,
+    plain_return: Option<Span>,
+}
+
+impl Subs {
+    /// A program that ends with M99.
+    pub(super) fn numbered(&mut self, name: Text) {
+        self.known.push((name, true));
+    }
+
+    /// A call of one.
+    pub(super) fn calls_numbered(&mut self, name: Text, at: Span, main: bool) {
+        self.called.push((name, true, at, main));
+    }
+}
+
+/// The name of the calls whose program is computed, until all programs are known; no program has it.
+const COMPUTED: &str = "";
+
+/// Within what the number of a program is whole (interp_read.cc, `read_integer_value`).
+const WHOLE: Num = Num { mantissa: 1, scale: 4, point: true, unit: Unit::One };
+
+fn refused(label: &str, word: FlowWord, name: &str) -> Fault {
+    Fault::NotSupported { code: format!("O{label} {}", spelled(word)).into(), name: name.into() }
+}
+
+/// The label of a block, if it is no computed one.
+fn label_of(label: &Index) -> Option<Text> {
+    match label {
+        Index::Number(digits) => digits.whole().map(|number| number.to_string().into()),
+        Index::Name(name) => Some(name.clone()),
+        Index::Computed(_) => None,
+    }
+}
+
+impl Reader {
+    /// The beginning or end of a subprogram; `true` if the block is that.
+    pub(super) fn sub_word(&mut self, src: Source, out: &mut Batch) -> bool {
+        let Some(decision) = self.block.decision.as_deref() else { return false };
+        let word = decision.word;
+        if !matches!(word, FlowWord::Sub | FlowWord::EndSub) {
+            return false;
+        }
+        let (span, skip) = (self.block.span, self.block.skip);
+        let Some(label) = label_of(&decision.label) else {
+            self.sub_fault(refused("[]", word, "label that is computed"), span, out);
+            return true;
+        };
+        let letter = self.signs.number;
+        let beside = self.block.words.iter().any(|word| word.letter != letter);
+        if skip != 0 || beside || !self.block.settings.is_empty() {
+            self.sub_fault(refused(&label, word, "words beside an O word"), span, out);
+        }
+        for (fault, at) in std::mem::take(&mut self.block.faults) {
+            self.sub_fault(fault, at, out);
+        }
+        if word == FlowWord::Sub {
+            self.begin_sub(label, span, out);
+        } else {
+            self.end_sub(&label, src, out);
+        }
+        true
+    }
+
+    fn sub_fault(&mut self, fault: Fault, at: Span, out: &mut Batch) {
+        out.report(fault, at);
+        self.frame.faulty = true;
+    }
+
+    fn begin_sub(&mut self, name: Text, span: Span, out: &mut Batch) {
+        if self.lower.sub.is_some() && self.lower.ended && self.lower.o.open.is_empty() {
+            // Behind a numbered program that is over.
+            self.end_of_program(out);
+        }
+        if self.lower.sub.is_some() {
+            let fault = refused(&name, FlowWord::Sub, "subprogram within another");
+            return self.sub_fault(fault, span, out);
+        }
+        if !self.lower.o.open.is_empty() {
+            let fault = refused(&name, FlowWord::Sub, "subprogram within a loop or a decision");
+            return self.sub_fault(fault, span, out);
+        }
+        let calls = &self.lower.o.subs.called;
+        if !self.lower.ended && calls.iter().any(|(other, _, _, main)| *main && *other == name) {
+            // The call has gone on to it, and the program comes to it once more.
+            let told = "subprogram that a program calls and comes to, since nothing ends it before";
+            self.sub_fault(refused(&name, FlowWord::Sub, told), span, out);
+        }
+        if self.frame.programs().contains(&name)
+            || self.lower.o.subs.known.iter().any(|(other, _)| *other == name)
+        {
+            self.sub_fault(Fault::ProgramTwice { name: name.clone() }, span, out);
+        }
+        self.frame.blocks = true;
+        self.lower.o.subs.known.push((name.clone(), false));
+        let lower = &mut self.lower;
+        let outer = Outer {
+            state: std::mem::replace(&mut lower.state, State::lost()),
+            ended: std::mem::replace(&mut lower.ended, false),
+            labels: std::mem::take(&mut lower.o.labels),
+            numbered_program: std::mem::replace(&mut lower.o.numbered_program, false),
+        };
+        lower.open_sub(&name, outer, span);
+        lower.o.given.numbered = true;
+        lower.sub = Some(Procedure { name, ..Procedure::default() });
+        lower.refresh();
+        out.whole = true;
+    }
+
+    fn end_sub(&mut self, name: &str, src: Source, out: &mut Batch) {
+        let span = self.block.span;
+        let lower = &mut self.lower;
+        let values = match self.block.decision.as_deref() {
+            Some(decision) => decision.values.clone(),
+            None => Vec::new(),
+        };
+        if values.len() > 1 {
+            out.report(refused(name, FlowWord::EndSub, "another number of values in brackets"), span);
+            self.frame.faulty = true;
+        }
+        lower.now = super::lower::Now::at(lower.target(out).len());
+        let mut values = values;
+        let inner = matches!(lower.kinds().next(), Some(Kind::Sub(_)));
+        if inner {
+            values.iter_mut().for_each(|value| lower.parameters(value, span, out));
+            lower.results(values.first(), span, out);
+        }
+        let failed = lower.now.failed;
+        let Some(outer) = lower.close_sub(name) else {
+            let fault = refused(name, FlowWord::EndSub, "end of no subprogram that is open");
+            return self.sub_fault(fault, span, out);
+        };
+        let Some(mut procedure) = lower.sub.take() else { return };
+        let count = highest(&procedure.body);
+        procedure.parameters = (1..=count).map(|n| Var::Local(n.to_string().into())).collect();
+        out.procedures.push(procedure);
+        (lower.state, lower.ended, lower.o.labels) = (outer.state, outer.ended, outer.labels);
+        lower.o.numbered_program = outer.numbered_program;
+        lower.refresh();
+        self.frame.faulty |= failed;
+        // Its comment stands behind the subprogram.
+        let comments = std::mem::take(&mut self.block.comments);
+        self.block.clear();
+        (self.block.comments, self.block.span) = (comments, span);
+        if !self.block.comments.is_empty() && !self.lower.ended {
+            let block = std::mem::take(&mut self.block);
+            self.lower.block(&block, src, out);
+            self.block = block;
+        }
+    }
+}
+
+impl Lower {
+    /// A call. Where the program is computed, it is looked for when all of them are known.
+    pub(super) fn o_call(
+        &mut self,
+        decision: &Decision,
+        label: &str,
+        mut arguments: Vec<Expr>,
+        span: Span,
+        out: &mut Batch,
+    ) {
+        let mut name: Text = label.into();
+        if let Index::Computed(formula) = &decision.label {
+            let mut number = formula.expr.clone();
+            self.parameters(&mut number, span, out);
+            name = COMPUTED.into();
+            arguments.insert(0, number);
+        }
+        if let Some(Kind::Sub(_)) = self.kinds().last()
+            && self.sub.as_ref().is_some_and(|sub| *sub.name == *name)
+            && self.kinds().any(|kind| matches!(kind, Kind::Repeat(_)))
+        {
+            let told = "call of a subprogram by itself within a repeat";
+            return self.fault(refused(label, FlowWord::Call, told), span, out);
+        }
+        let main = self.sub.is_none();
+        self.o.subs.called.push((name.clone(), false, span, main));
+        self.found_variables(out);
+        self.push(span, Op::Call(Box::new(Call { name, times: 1, arguments, shared: false })), out);
+        self.state = State::lost();
+    }
+
+    /// Whether a subprogram of O words is being read.
+    pub(super) fn in_o_sub(&self) -> bool {
+        matches!(self.kinds().last(), Some(Kind::Sub(_)))
+    }
+
+    /// A return from a subprogram.
+    pub(super) fn o_return(&mut self, label: &str, values: Vec<Expr>, span: Span, out: &mut Batch) {
+        let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(Kind::Sub(_))));
+        if own.is_none_or(|sub| *sub.name != *label) {
+            let told = "return of no subprogram that is open";
+            return self.fault(refused(label, FlowWord::Return, told), span, out);
+        }
+        if self.kinds().any(|kind| matches!(kind, Kind::Repeat(_))) {
+            return self.fault(refused(label, FlowWord::Return, "return out of a repeat"), span, out);
+        }
+        self.results(values.first(), span, out);
+        self.push(span, Op::Return, out);
+    }
+
+    /// What a call gives: a value, or none, which is zero.
+    fn results(&mut self, value: Option<&Expr>, span: Span, out: &mut Batch) {
+        if value.is_none() && !self.o.subs.results {
+            self.o.subs.plain_return.get_or_insert(span);
+            return;
+        }
+        let to = |name: &str| Var::Common(name.into()).into();
+        let given = Expr::int(i64::from(value.is_some()));
+        self.push(span, Op::Assign(to("_value"), value.cloned().unwrap_or(Expr::int(0))), out);
+        self.push(span, Op::Assign(to("_value_returned"), given), out);
+    }
+
+    /// Text that is to be read asks for the result of a call.
+    pub(super) fn look_for_results(&mut self, text: &[u8], out: &mut Batch) {
+        let lower = text.to_ascii_lowercase();
+        if self.o.subs.results || memchr::memmem::find(&lower, b"_value").is_none() {
+            return;
+        }
+        self.o.subs.results = true;
+        if let Some(at) = self.o.subs.plain_return {
+            let told = "return without a value in a long text that asks for values further on";
+            out.report(Fault::NotSupported { code: "#<_value>".into(), name: told.into() }, at);
+        }
+        if self.sub.is_none() && self.o.open.is_empty() {
+            let to = |name: &str| Var::Common(name.into()).into();
+            for name in ["_value", "_value_returned"] {
+                let stmt = Stmt::new(Span::default(), Op::Assign(to(name), Expr::int(0)));
+                self.target(out).push(stmt);
+            }
+        }
+    }
+
+    /// The text is over: calls get as many arguments as their programs have, and programs that are computed are
+    /// looked for among all.
+    pub(super) fn settle_calls(&mut self, out: &mut Batch) {
+        for (name, numbered, at, _) in std::mem::take(&mut self.o.subs.called) {
+            let known = self.o.subs.known.iter().find(|(other, _)| *other == name);
+            if let Some((_, found)) = known.filter(|(_, found)| *found != numbered) {
+                let name = format!("{name}, which {}", if *found { "ends with M99" } else { "is a sub" });
+                let code = if numbered { "M98" } else { "call" }.into();
+                out.report(Fault::NotSupported { code, name: format!("call of O{name}").into() }, at);
+            }
+        }
+        let subs: Vec<(Text, bool)> = std::mem::take(&mut self.o.subs.known);
+        let mut most: Vec<(Text, usize)> = Vec::new();
+        let mut numbers = Vec::new();
+        for (name, _) in subs.iter().filter(|(_, numbered)| !numbered) {
+            let own = out.procedures.iter().find(|p| p.name == *name).map_or(0, |p| p.parameters.len());
+            most.push((name.clone(), own));
+            numbers.extend(name.parse::<u32>().ok().map(|_| name.clone()));
+        }
+        let bodies = std::iter::once(&mut out.stmts).chain(out.procedures.iter_mut().map(|p| &mut p.body));
+        let mut bodies: Vec<&mut Vec<Stmt>> = bodies.collect();
+        bodies.iter_mut().for_each(|body| count(body, &numbers, &mut most));
+        bodies.iter_mut().for_each(|body| settle(body, &numbers, &most));
+        for (name, count) in &most {
+            for procedure in out.procedures.iter_mut().filter(|p| p.name == *name) {
+                procedure.parameters = (1..=*count).map(|n| Var::Local(n.to_string().into())).collect();
+            }
+        }
+    }
+}
+
+/// Finds the most arguments of every program's calls.
+fn count(body: &mut [Stmt], numbers: &[Text], most: &mut [(Text, usize)]) {
+    for stmt in body {
+        match &mut stmt.op {
+            Op::Call(call) => {
+                let computed = *call.name == *COMPUTED;
+                let given = call.arguments.len() - usize::from(computed);
+                for (name, most) in most.iter_mut() {
+                    if *name == call.name || computed && numbers.contains(name) {
+                        *most = given.max(*most);
+                    }
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|body| count(body, numbers, most)),
+            _ => {}
+        }
+    }
+}
+
+/// Gives calls their arguments, and programs to those that are computed.
+fn settle(body: &mut [Stmt], numbers: &[Text], most: &[(Text, usize)]) {
+    for stmt in body {
+        let span = stmt.span;
+        match &mut stmt.op {
+            Op::Call(call) if *call.name == *COMPUTED => {
+                let number = call.arguments.remove(0);
+                let mut otherwise = vec![Stmt::new(
+                    span,
+                    Op::Alarm(Box::new(Alarm { number: None, text: "no such O word".into() })),
+                )];
+                for name in numbers.iter().rev() {
+                    let mut call = (**call).clone();
+                    call.name = name.clone();
+                    pad(&mut call, most);
+                    let whole = Expr::int(name.parse().unwrap_or(0));
+                    let near = vec![number.clone(), whole, Expr::Num(WHOLE)];
+                    let condition = Expr::Node(Box::new(Node::Call(Function::Near, near)));
+                    let then = vec![Stmt::new(span, Op::Call(Box::new(call)))];
+                    let control = Control::If { condition, then, otherwise };
+                    otherwise = vec![Stmt::new(span, Op::Control(Box::new(control)))];
+                }
+                if let Some(found) = otherwise.pop() {
+                    stmt.op = found.op;
+                }
+            }
+            Op::Call(call) if !call.shared => pad(call, most),
+            Op::Control(control) => control.bodies_mut().for_each(|body| settle(body, numbers, most)),
+            _ => {}
+        }
+    }
+}
+
+fn pad(call: &mut Call, most: &[(Text, usize)]) {
+    if let Some((_, count)) = most.iter().find(|(name, _)| *name == call.name) {
+        call.arguments.resize(*count, Expr::int(0));
+    }
+}
+
+/// The highest of the numbered locals that a body names.
+fn highest(body: &[Stmt]) -> usize {
+    let mut most = 0;
+    for stmt in body {
+        let mut op = stmt.op.clone();
+        let seen = ncc_ir::arguments::each(&mut op, &mut |argument, _| {
+            most = most.max(argument.expr().map_or(0, highest_of));
+            Ok::<(), std::convert::Infallible>(())
+        });
+        seen.unwrap_or_else(|never| match never {});
+        match &stmt.op {
+            Op::Assign(to, value) => {
+                let to = match to {
+                    ncc_ir::expr::Target::Var(var) => Expr::Node(Box::new(Node::Var(var.clone()))),
+                    ncc_ir::expr::Target::Element(element) => {
+                        Expr::Node(Box::new(Node::Element((**element).clone())))
+                    }
+                };
+                most = most.max(highest_of(&to)).max(highest_of(value));
+            }
+            Op::Call(call) => {
+                most = most.max(call.arguments.iter().map(highest_of).max().unwrap_or(0));
+            }
+            Op::Control(control) => {
+                let head = match &**control {
+                    Control::Repeat { times: head, .. }
+                    | Control::While { condition: head, .. }
+                    | Control::Until { condition: head, .. }
+                    | Control::If { condition: head, .. } => highest_of(head),
+                    Control::Loop { .. } | Control::For { .. } => 0,
+                };
+                most = most.max(head).max(control.bodies().map(|body| highest(body)).max().unwrap_or(0));
+            }
+            _ => {}
+        }
+    }
+    most
+}
+
+fn highest_of(expr: &Expr) -> usize {
+    let Expr::Node(node) = expr else { return 0 };
+    match &**node {
+        Node::Var(Var::Local(name)) => name.parse().unwrap_or(0),
+        Node::Var(_) | Node::Vacant => 0,
+        Node::Element(element) => match &element.of {
+            Many::Numbered(numbers) => {
+                let local = numbers.iter().filter(|numbers| numbers.scope == Scope::Local);
+                local.map(|numbers| numbers.to as usize).max().unwrap_or(0)
+            }
+            Many::Array { .. } => 0,
+        },
+        Node::Unary(_, a) => highest_of(a),
+        Node::Binary(_, a, b) => highest_of(a).max(highest_of(b)),
+        Node::Call(_, arguments) => arguments.iter().map(highest_of).max().unwrap_or(0),
+    }
+}
+
+/// Whether a block says nothing but that a program begins which has a name.
+pub(super) fn is_title(block: &Block) -> bool {
+    block.title.is_some() && block.words.is_empty() && block.faults.is_empty() && block.skip == 0
+}
