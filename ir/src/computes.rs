@@ -23,7 +23,7 @@ pub struct Computes {
     pub retentive: Vec<[u32; 2]>,
     /// How deep loops can stand in one another.
     pub loops: u8,
-    /// Whether a program can be called several times with the same arguments.
+    /// Whether a program can be called several times, each time with variables of its own and the same arguments.
     pub arguments_again: bool,
     /// Whether a program can be called with arguments, and with variables of its own.
     pub arguments: bool,
@@ -104,8 +104,9 @@ impl Look<'_> {
                 if (!call.arguments.is_empty() || !call.shared) && !self.computes.arguments {
                     return Err(refuse("a call with variables of its own", at));
                 }
-                if !call.arguments.is_empty() && call.times > 1 && !self.computes.arguments_again {
-                    return Err(refuse("a call with arguments that is made several times", at));
+                let own = !call.arguments.is_empty() || !call.shared;
+                if own && call.times > 1 && !self.computes.arguments_again {
+                    return Err(refuse("a call with variables of its own that is made several times", at));
                 }
                 call.arguments.iter().try_for_each(|argument| self.expr(argument, at))
             }

@@ -15,7 +15,7 @@ use ncc_tests::plain::{self, Tolerance};
 use ncc_tests::translate::{self, job, rendered, stopping, told, translate};
 
 /// Targets that write programs which compute.
-const KEEPING: [&str; 1] = ["fanuc"];
+const KEEPING: [&str; 2] = ["fanuc", "haas"];
 
 /// The programs of a dialect, by name.
 fn programs(dialect: &'static str) -> Vec<(String, Vec<u8>)> {

@@ -284,13 +284,9 @@ impl Writer {
         let count = match (call.times, words.count) {
             (0, _) => return Err(cannot("a call that is made no times")),
             (1, _) => None,
-            (2..=MOST_TIMES, Some(letter))
-                if call.arguments.is_empty() || self.dialect.formula.arguments_again =>
-            {
-                Some(letter)
-            }
+            (2..=MOST_TIMES, Some(letter)) if self.dialect.formula.arguments_again => Some(letter),
             (2..=MOST_TIMES, _) => {
-                return Err(cannot_compute("a call with arguments that is made several times"));
+                return Err(cannot_compute("a call with variables of its own that is made several times"));
             }
             _ => return Err(Fault::TargetRange { word: call.times.to_string().into() }),
         };

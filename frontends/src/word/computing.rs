@@ -365,6 +365,10 @@ impl Lower {
             }
             Node::Call(function, arguments) => {
                 let function = *function;
+                if self.settings.dialect.formula.function(function).is_none() {
+                    let (code, name) = (format!("{function:?}").to_uppercase().into(), "function".into());
+                    self.fault(Fault::NotSupported { code, name }, at, out);
+                }
                 arguments.iter_mut().for_each(|a| self.mean(a, round, at, out));
                 if function == Function::Round
                     && let Some(a) = arguments.pop()

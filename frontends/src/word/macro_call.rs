@@ -72,7 +72,8 @@ impl Lower {
     pub(super) fn macro_call(&mut self, code: &Code, block: &Block, src: Source, out: &mut Batch) {
         let mut letters = code.row.words.bytes();
         let (program, count) = (letters.next().unwrap_or(b'P'), letters.next().unwrap_or(b'L'));
-        let number_letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
+        let dialect = self.settings.dialect;
+        let number_letter = dialect.block.number.map_or(0, |c| c as u8);
         let (mut name, mut times) = (None, 1);
         let mut arguments: Vec<Option<Expr>> = Vec::new();
         let mut seen = 0u32;
@@ -131,6 +132,11 @@ impl Lower {
             arguments[place - 1] = Some(value);
         }
         debug_assert!(arguments.len() <= LOCALS);
+        if times > 1 && !dialect.formula.arguments_again {
+            let (code, name) =
+                (code.row.code.as_str().into(), "macro call that is made several times".into());
+            return self.fault(Fault::NotSupported { code, name }, block.span, out);
+        }
         let Some(name) = name.filter(|name| *name > 0) else {
             if !self.now.failed {
                 let word = char::from(program).to_string().into();

@@ -24,8 +24,8 @@ pub struct FormulaRules {
     pub loops: u8,
     /// How deep brackets can.
     pub brackets: u8,
-    /// Whether a call that is made several times begins each of them with the same arguments; else a call with
-    /// arguments is made once.
+    /// Whether a call that is made several times begins each of them with the same arguments and no other
+    /// variables; else a program with variables of its own is called once.
     pub arguments_again: bool,
     /// Who says so.
     pub source: String,
