@@ -69,7 +69,7 @@ pub(crate) fn faults(diags: &[Diagnostic]) -> Vec<&Fault> {
 pub(crate) fn refused(dialect: &str, stmts: &[Stmt]) {
     let (text, diags) = text(dialect, stmts);
     assert!(
-        diags.iter().any(|d| matches!(d.fault, Fault::CannotSay { .. })),
+        diags.iter().any(|d| matches!(d.fault, Fault::CannotSay { .. } | Fault::Computes { .. })),
         "{dialect} said:\n{text}{diags:?}"
     );
 }

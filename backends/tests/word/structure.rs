@@ -301,7 +301,6 @@ fn what_has_no_word_is_refused() {
         Op::UseMachineCoordinates { length: true },
         Op::UseToolEdge { edge: count("1"), said: true },
         Op::Message("CHECK".into()),
-        Op::Goto("10".into()),
         Op::Assign(ncc_ir::expr::Var::Local("1".into()).into(), mm("1.")),
         Op::SelectTool(Expr::Node(Box::new(ncc_ir::expr::Node::Vacant))),
         Op::SelectTool(count("1.5")),
@@ -309,9 +308,13 @@ fn what_has_no_word_is_refused() {
         refused("fanuc", &lines(vec![rapid("X0."), op.clone()]));
         refused("mach9", &lines(vec![rapid("X0."), op]));
     }
+    // A jump to a block that there is not.
+    let nowhere = lines(vec![rapid("X0."), Op::Goto("10".into())]);
+    assert_eq!(faults(&text("fanuc", &nowhere).1), [&Fault::LabelUnknown { name: "10".into() }]);
+    refused("mach9", &nowhere);
     let label = lines(vec![rapid("X0."), Op::Label("10".into())]);
-    refused("fanuc", &label);
     // Nothing comes back to it.
+    assert_eq!(clean("fanuc", &label), "G00 X0.\n");
     assert_eq!(clean("mach9", &label), "G0X0.\n");
     let further = lines(vec![rapid("X0."), Op::SetOriginOffsets(54)]);
     assert_eq!(clean("fanuc", &further), "G00 X0.\nG54.1 P48\n");
