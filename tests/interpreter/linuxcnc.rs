@@ -4,7 +4,12 @@
 //! how a series of holes goes on (its section 6).
 
 mod holes;
+mod o_words;
+mod parameters;
 mod polar;
+
+use o_words::Go;
+use parameters::{Parameters, Reading};
 
 use super::{Corner, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 
@@ -27,9 +32,11 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         initial: None,
         kept: Kept::default(),
         depth: 0,
+        parameters: Parameters::default(),
+        repeats: Vec::new(),
     };
     let main = programs.first().map_or(&[][..], |p| &p.lines[..]);
-    if !control.program(main, &programs)? {
+    if !matches!(control.program(main, &programs)?, Next::End) {
         control.m.record(What::TextEnd);
     }
     Ok(control.m)
@@ -98,6 +105,9 @@ struct Control {
     initial: Option<f64>,
     kept: Kept,
     depth: u32,
+    parameters: Parameters,
+    /// Labels of the repeats that are open, and how many turns are left.
+    repeats: Vec<(String, u64)>,
 }
 
 enum Next {
@@ -157,21 +167,29 @@ fn cycle(code: u32) -> bool {
 }
 
 impl Control {
-    /// Runs lines; true when the program has ended for good.
-    fn program(&mut self, lines: &[(usize, String)], all: &[Program]) -> Result<bool, Halt> {
-        for (line, text) in lines {
+    /// Runs lines, to their end, a return or the end of all.
+    fn program(&mut self, lines: &[(usize, String)], all: &[Program]) -> Result<Next, Halt> {
+        let mut at = 0;
+        while let Some((line, text)) = lines.get(at) {
             self.m.line = *line;
+            if o_words::has_word(text) {
+                match self.o_word(lines, at, all)? {
+                    Go::To(next) => at = next,
+                    Go::Back => return Ok(Next::Back),
+                    Go::End => return Ok(Next::End),
+                }
+                continue;
+            }
             match self.block(text, all)? {
-                Next::Block => {}
-                Next::Back => return Ok(false),
-                Next::End => return Ok(true),
+                Next::Block => at += 1,
+                next => return Ok(next),
             }
         }
-        Ok(false)
+        Ok(Next::Block)
     }
 
     /// Words of a line; `None` if it is left out.
-    fn words(&self, line: &str) -> Result<Option<Words>, Halt> {
+    fn words(&mut self, line: &str) -> Result<Option<Words>, Halt> {
         let mut bare = String::new();
         let mut message = false;
         let mut rest = line;
@@ -182,11 +200,7 @@ impl Control {
                 '(' => {
                     let Some(end) = rest.find(')') else { return self.m.halt("a remark without an end") };
                     let said: String = rest[..end].split_whitespace().collect::<String>().to_uppercase();
-                    // A parameter's value is not known here.
                     let shown = ["DEBUG,", "PRINT,"].iter().any(|word| said.starts_with(word));
-                    if shown && said.contains('#') {
-                        return self.m.halt("the value of a parameter");
-                    }
                     message = said.starts_with("MSG,") || shown;
                     rest = &rest[end + 1..];
                 }
@@ -203,16 +217,26 @@ impl Control {
         }
         let mut words = Vec::new();
         let mut first = true;
+        // Settings count when the whole line has been read.
+        let mut settings = Vec::new();
         while let Some(letter) = rest.chars().next() {
+            if letter == '#' {
+                let mut reading = Reading { rest: &rest[1..] };
+                let place = self.place(&mut reading)?;
+                let Some(behind) = reading.rest.strip_prefix('=') else { return self.m.halt("no setting") };
+                let mut reading = Reading { rest: behind };
+                settings.push((place, self.value(&mut reading)?));
+                rest = reading.rest;
+                first = false;
+                continue;
+            }
             if !"ABCDFGHIJKLMNPQRSTXYZ@^".contains(letter) || letter == 'N' && !first {
                 return self.m.halt(format!("unexpected {letter}"));
             }
             rest = &rest[1..];
-            let end = rest.find(|c: char| !(c.is_ascii_digit() || "+-.".contains(c))).unwrap_or(rest.len());
-            let Ok(value) = rest[..end].parse::<f64>() else {
-                return self.m.halt(format!("no number: {letter}{}", &rest[..end]));
-            };
-            rest = &rest[end..];
+            let mut reading = Reading { rest };
+            let value = self.value(&mut reading)?;
+            rest = reading.rest;
             first = false;
             let once = words.iter().any(|(l, _)| *l == letter) && !matches!(letter, 'G' | 'M');
             if once {
@@ -221,6 +245,9 @@ impl Control {
             if letter != 'N' {
                 words.push((letter, value));
             }
+        }
+        for (place, value) in settings {
+            self.set(place, value)?;
         }
         Ok(Some(Words { words, message }))
     }
@@ -679,9 +706,12 @@ impl Control {
         }
         for _ in 0..words.get('L').map_or(1, |times| times as u32) {
             self.depth += 1;
+            // Numbers are the caller's, names the program's own.
+            let names = std::mem::take(&mut self.parameters.levels.last_mut().expect("a level").names);
             let ended = self.program(&program.lines, all)?;
+            self.parameters.levels.last_mut().expect("a level").names = names;
             self.depth -= 1;
-            if ended {
+            if let Next::End = ended {
                 return Ok(Next::End);
             }
         }

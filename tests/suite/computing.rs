@@ -33,7 +33,7 @@ fn what_they_come_to() {
     let mut failures = Failures::default();
     let mut refusals = String::new();
     let mut done = 0;
-    for from in ["fanuc"] {
+    for from in ["fanuc", "linuxcnc"] {
         for (name, text) in programs(from) {
             for to in DIALECTS {
                 let what = format!("{from}/{name} to {to}");
@@ -142,7 +142,7 @@ fn what_cannot_be_executed_is_refused_at_its_place() {
 #[test]
 fn the_second_interpreter_agrees() {
     let mut failures = Failures::default();
-    for from in ["fanuc"] {
+    for from in ["fanuc", "linuxcnc"] {
         for program in corpus::computing(from) {
             let what = format!("{from}/{}", program.file);
             let Some(read) = failures.check(&what, translate::read(from, &program.text)) else { continue };

@@ -209,8 +209,10 @@ impl Lower {
             if let Some(word) = words.take(letter) {
                 if let Value::Computed(_) = word.value
                     && (self.state.unplaced != 0 || self.level_open())
+                    && !self.settings.dialect.program.o_words
                 {
-                    // Whether the word is there at all must be known.
+                    // Whether the word is there at all must be known. A parameter without a value
+                    // is an error where words cannot go.
                     self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
                     continue;
                 }

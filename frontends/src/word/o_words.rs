@@ -165,14 +165,14 @@ impl Lower {
     }
 
     /// The settings of a block. They count when the words of the block have been read, which have the values
-    /// before them, as the settings have among themselves; a message has those behind them. `words` is whether this
-    /// is in front of the words.
+    /// before them, as the settings have among themselves; a message has those behind them. `words` is whether the
+    /// words have been said.
     pub(super) fn settings(&mut self, block: &Block, words: bool, out: &mut Batch) {
         if block.settings.is_empty() || self.now.failed {
             return;
         }
         let read = block.exprs.iter().any(|expr| block.settings.iter().any(|set| meets(expr, &set.to)));
-        if read == words {
+        if read != words {
             return;
         }
         let refuse = |lower: &mut Lower, name: &str, out: &mut Batch| {
