@@ -59,7 +59,11 @@ pub fn computing(dialect: &'static str) -> Vec<Program> {
 }
 
 fn under(folder: &str, dialect: &'static str) -> Vec<Program> {
-    let expected = |path: &PathBuf| path.extension().is_some_and(|e| e == "flat" || e == "stderr");
+    // What a program comes to, why it is refused, and how a target writes it stand beside it.
+    let expected = |path: &PathBuf| {
+        path.extension()
+            .is_some_and(|e| e == "flat" || e == "stderr" || DIALECTS.iter().any(|dialect| e == *dialect))
+    };
     let folder = root().join(folder).join(dialect);
     let found = if folder.is_dir() { files(&folder) } else { Vec::new() };
     found
