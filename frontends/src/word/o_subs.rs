@@ -217,7 +217,7 @@ impl Lower {
         self.o.subs.called.push((name.clone(), false, span, main));
         self.found_variables(out);
         self.push(span, Op::Call(Box::new(Call { name, times: 1, arguments, shared: false })), out);
-        self.state = State::lost();
+        self.lose(span, out);
     }
 
     /// Whether a subprogram of O words is being read.

@@ -14,7 +14,6 @@ use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::block::Block;
-use super::facts::State;
 use super::lower::Lower;
 use super::o_subs::Outer;
 use super::parameters::{Given, Index, Named, asks, constant, numbers};
@@ -367,7 +366,7 @@ impl Lower {
                 }
                 open.at = None;
                 self.o.given = open.given.clone();
-                self.state = State::lost();
+                self.lose(span, out);
                 self.o.open.push(open);
             }
             FlowWord::EndIf | FlowWord::EndWhile | FlowWord::EndRepeat => {
@@ -418,7 +417,7 @@ impl Lower {
         }
         let (number, given) = (self.now.number, self.o.given.clone());
         self.o.open.push(Open { label: label.into(), kind, at: None, block, number, given });
-        self.state = State::lost();
+        self.lose(block, out);
     }
 
     /// Takes what was opened last, with its body.
@@ -441,7 +440,7 @@ impl Lower {
         self.o.given = open.given;
         self.push(open.block, Op::Control(Box::new(control)), out);
         self.separate(out);
-        self.state = State::lost();
+        self.lose(open.block, out);
     }
 
     /// `break` and `continue`.
