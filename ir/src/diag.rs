@@ -164,6 +164,8 @@ faults! {
 
     /// Blocks before the only mark of the text: a control takes them for a leader and skips them.
     OpeningMarkMissing { mark: Box<str> } = 112, Error;
+    /// A comparison beside a logical operator without parentheses, where comparisons are made last.
+    ComparedLast { what: Box<str> } = 113, Warning;
 
     // NC02xx: the meaning.
     /// A code that the dialect's dictionary does not have.

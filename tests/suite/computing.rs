@@ -33,7 +33,7 @@ fn what_they_come_to() {
     let mut failures = Failures::default();
     let mut refusals = String::new();
     let mut done = 0;
-    for from in ["fanuc", "linuxcnc"] {
+    for from in ["fanuc", "linuxcnc", "siemens"] {
         for (name, text) in programs(from) {
             for to in DIALECTS {
                 let what = format!("{from}/{name} to {to}");

@@ -27,6 +27,7 @@ mod rs274;
 mod schema;
 mod second;
 mod shared;
+mod siemens_peer;
 mod siemens_second;
 mod spliced;
 mod stable;

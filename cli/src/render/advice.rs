@@ -40,6 +40,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             vec![format!("put a line with `{mark}` before the first block, or take this one away")]
         }
         Fault::TextAfterEnd => own("delete it, or move the end of the program behind it"),
+        Fault::ComparedLast { .. } => own("put each comparison in parentheses"),
 
         Fault::UnknownCode { .. } => {
             vec![format!("`ncc dialects show {from}` lists what is known; nothing unknown is passed on")]
@@ -80,7 +81,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
         }
         Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } => Vec::new(),
-        Fault::LabelUnknown { .. } => own("put the label before the block that repeats from it"),
+        Fault::LabelUnknown { .. } => own(
+            "put the label where the block looks for it: before one that repeats, in its direction from a jump",
+        ),
         Fault::AssumedHoleOrder { .. } => own("check that the order of the holes does not matter"),
         Fault::AssumedPath { .. } => own("compare corners on the machine with what the program wants"),
         Fault::PathRelaxed { from, .. } => match PathMode::named(from) {

@@ -260,6 +260,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::Syntax { .. }
         | Fault::NoProgramEnd
         | Fault::TextAfterEnd
+        | Fault::ComparedLast { .. }
         | Fault::OpeningMarkMissing { .. }
         | Fault::UnknownCode { .. }
         | Fault::NotSupported { .. }

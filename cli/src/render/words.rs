@@ -68,6 +68,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::TextAfterEnd => {
             ("text after the end of the program".into(), "the control never comes here".into())
         }
+        Fault::ComparedLast { what } => (
+            format!("{} compares last of all", quoted(what)),
+            "AND, OR, XOR and NOT come before comparisons here".into(),
+        ),
 
         Fault::UnknownCode { code } => {
             (format!("{} is unknown", quoted(code)), format!("not in the dictionary of {from}"))
@@ -165,9 +169,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{} cannot be executed", plain(what)),
             "can be written down, but not executed by this version".into(),
         ),
-        Fault::LabelUnknown { name } => {
-            (format!("label {} does not stand before this block", quoted(name)), "repeated from here".into())
-        }
+        Fault::LabelUnknown { name } => (
+            format!("label {} does not stand where this block looks for it", quoted(name)),
+            "meant here".into(),
+        ),
         Fault::AssumedHoleOrder { pattern } => (
             format!("{}: order of the holes as written assumed", plain(pattern)),
             "a control may begin at another corner or end, by where the tool stands".into(),

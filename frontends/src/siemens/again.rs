@@ -172,6 +172,11 @@ impl Again {
         }
     }
 
+    /// Control divides here, or comes together: every fact may be relied on.
+    pub(super) fn use_all(&mut self) {
+        self.labels.iter_mut().for_each(|label| label.used = u8::MAX);
+    }
+
     /// A fact is said.
     pub(super) fn say(&mut self, fact: u8) {
         for label in self.labels.iter_mut().rev() {
@@ -221,6 +226,11 @@ impl Again {
                 true
             }
         }
+    }
+
+    /// Whether the text of a subprogram has been met.
+    pub(super) fn has_met(&self, name: &str) -> bool {
+        self.subs.get(name).is_some_and(|sub| sub.met)
     }
 
     /// Subprograms that are called and have not been met, each where it is called first.

@@ -1,4 +1,4 @@
-//! Lowering of calls by name and by number, of `MCALL`, `REPEAT`, `PROC` and messages.
+//! Lowering of calls by name and by number, of `MCALL`, `REPEAT` and `PROC`.
 //!
 //! The procedure of a subprogram `L12` is named `12`, so that it is the one that other controls call
 //! by that number; `L012` is another subprogram and keeps its whole name, as all others do, in
@@ -6,7 +6,7 @@
 //!
 //! A subprogram that is called after each move becomes a call behind every block with motion.
 //!
-//! Refused by name: calls with arguments, by path, calls while a subprogram is called after each move
+//! Refused by name: calls by path, calls while a subprogram is called after each move
 //! (it would be called after the moves in them as well), and subprograms that leave a cycle in force.
 
 use ncc_ir::diag::{Fault, ModeName};
@@ -22,7 +22,6 @@ use crate::Batch;
 use crate::word::Source;
 use crate::word::block::{Digits, Value as Number, Word};
 use crate::word::facts::{Know, report};
-use crate::word::lower::decode;
 
 /// Most calls, or repetitions, by one word.
 const MOST_TIMES: i64 = 9999;
@@ -56,7 +55,7 @@ impl Lower {
         if !text[1..].bytes().all(|b| b.is_ascii_digit()) {
             return self.fault(Fault::OutOfRange { word: text.into() }, word, out);
         }
-        self.call(&text, word, before, after, src, out);
+        self.call(&text, word, &[], [before, after], src, out);
     }
 
     /// A name that the dictionary has as a cycle or pattern, or does not have: a subprogram's.
@@ -74,15 +73,14 @@ impl Lower {
         let row = dialect.call_row(&name);
         let message = dialect.name_row(&name).is_some();
         if row.is_none() && !message {
-            if called.arguments.as_ref().is_some_and(|a| !a.is_empty()) {
-                return self.not_supported(&name, "call with arguments", called.span, out);
-            }
-            return self.call(&name, called.span, before, after, src, out);
+            let arguments = called.arguments.as_deref().unwrap_or_default();
+            return self.call(&name, called.span, arguments, [before, after], src, out);
         }
         if !before.is_empty() || !after.is_empty() {
             return self.not_supported(&name, "call beside other words", head.span, out);
         }
         match row {
+            None if name == "SETAL" => self.alarm(called, src, out),
             None if self.is_word_with_arguments(&name) => self.word_with_arguments(&name, called, src, out),
             None => self.message(called, src, out),
             Some(row) if is_cycle(row.kind) => self.cycle(row, called, false, src, out),
@@ -98,7 +96,7 @@ impl Lower {
         if !plain || name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
             return self.not_supported("CALL", "call by path", head.span, out);
         }
-        self.call(name, head.span, &[], &[], src, out);
+        self.call(name, head.span, &[], [&[], &[]], src, out);
     }
 
     /// `MCALL`, alone or with a cycle.
@@ -149,7 +147,7 @@ impl Lower {
     /// The call behind a block with motion, as a block of its own.
     pub(super) fn call_after_move(&mut self, name: &str, block: Span, src: Source, out: &mut Batch) {
         self.apart();
-        self.call(name, block, &[], &[], src, out);
+        self.call(name, block, &[], [&[], &[]], src, out);
     }
 
     /// A call of a subprogram by its name in the text.
@@ -157,8 +155,8 @@ impl Lower {
         &mut self,
         written: &str,
         at: Span,
-        before: &[Item],
-        after: &[Item],
+        given: &[Option<Expr>],
+        [before, after]: [&[Item]; 2],
         src: Source,
         out: &mut Batch,
     ) {
@@ -220,11 +218,9 @@ impl Lower {
         }
         out.whole = true;
         let times = times as u32;
-        self.push(
-            at,
-            Op::Call(Box::new(Call { name: name.into(), times, arguments: Vec::new(), shared: false })),
-            out,
-        );
+        self.no_stale_offset(at, out);
+        let Some(arguments) = self.handed_over(name, given, at, src, out) else { return };
+        self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments, shared: false })), out);
         // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
         let cycle = std::mem::take(&mut self.state.cycle);
         let motion = self.state.motion;
@@ -325,10 +321,7 @@ impl Lower {
         out: &mut Batch,
     ) {
         self.now.heading = true;
-        if !parameters.is_empty() {
-            let what = src.text(head.span);
-            return self.fault(Fault::MacroLanguage { what }, head.span, out);
-        }
+        self.parameters(parameters, head.span, src, out);
         for &attribute in attributes {
             let name = src.text(attribute).to_ascii_uppercase();
             if !ATTRIBUTES.contains(&name.as_str()) {
@@ -336,26 +329,6 @@ impl Lower {
             }
         }
         self.sub_alone |= self.sub.is_none();
-    }
-
-    /// `MSG("text")`, and `MSG()` which clears it.
-    fn message(&mut self, called: &Called, src: Source, out: &mut Batch) {
-        let text: Text = match called.arguments.as_deref() {
-            None | Some([] | [None]) => "".into(),
-            Some([Some(Expr::Text(span))]) => {
-                let bytes = src.bytes(*span);
-                let inner = bytes.get(1..bytes.len().saturating_sub(1)).unwrap_or_default();
-                decode(inner).replace("\"\"", "\"").into()
-            }
-            Some([Some(Expr::Text(_)), ..]) => {
-                return self.not_supported("MSG", "message in continuous-path mode", called.span, out);
-            }
-            Some(_) => {
-                let what = src.text(called.span);
-                return self.fault(Fault::MacroLanguage { what }, called.span, out);
-            }
-        };
-        self.push(called.span, Op::Message(text), out);
     }
 
     /// The text of a subprogram begins.
@@ -366,6 +339,8 @@ impl Lower {
         }
         self.entry = entry.unwrap_or_default();
         self.state = State::lost(self.entry.clone());
+        self.variables.clear();
+        self.executed = false;
         self.stand.forget();
         self.moved = None;
         self.cycled = false;

@@ -48,12 +48,12 @@ impl Lower {
                 out.diagnostics.push(Diagnostic { fault, span: given.span, related: vec![other] });
                 continue;
             }
-            let Some(num) = self.number(given, Quantity::Length, src, out) else { continue };
-            if num.mantissa <= 0 {
+            let Some(size) = self.amount(given, Quantity::Length, src, out) else { continue };
+            if size.literal().is_some_and(|num| num.mantissa <= 0) {
                 self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
                 continue;
             }
-            self.push(given.span, Op::Corner { shape, size: Expr::Num(num) }, out);
+            self.push(given.span, Op::Corner { shape, size }, out);
         }
         let Some(num) = self.rounding.filter(|_| first.is_none()) else { return };
         let Some(plane) = self.known_plane(block, out) else { return };
@@ -70,8 +70,10 @@ impl Lower {
 
     /// Refuses what leads elsewhere while every corner is rounded.
     pub(super) fn check_rounding(&mut self, op: &Op, span: Span, out: &mut Batch) {
-        let leads =
-            matches!(op, Op::Call(_) | Op::Return | Op::RepeatBlocks(_) | Op::Control(_) | Op::Label(_));
+        let leads = matches!(
+            op,
+            Op::Call(_) | Op::Return | Op::RepeatBlocks(_) | Op::Control(_) | Op::Goto(_) | Op::Label(_)
+        );
         if leads && self.rounding.is_some() {
             let name = "label, call or return while every corner is rounded";
             self.not_supported("RNDM", name, span, out);

@@ -84,12 +84,15 @@ impl Lower {
                         let name = format!("{}: {refuse}", parameter.name);
                         self.not_supported(&row.name, &name, *span, out);
                     }
-                    Some(Given { digits: *digits, distance: None, way: None, span: *span })
+                    Some(Given { digits: *digits, distance: None, way: None, computed: None, span: *span })
                 }
                 Some(other) => {
                     let span = other.span();
-                    self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
-                    None
+                    if parameter.refuse.is_some() {
+                        let name = format!("{}: an argument that is computed", parameter.name);
+                        self.not_supported(&row.name, &name, span, out);
+                    }
+                    self.formula(other, src, out).map(|typed| self.given(typed, span))
                 }
             });
         }
@@ -187,7 +190,7 @@ impl Lower {
     }
 
     /// A modal tap that goes without a hole: which speed the spindle then has is its control's matter.
-    fn no_idle_tap(&mut self, at: Span, src: Source, out: &mut Batch) {
+    pub(super) fn no_idle_tap(&mut self, at: Span, src: Source, out: &mut Batch) {
         if std::mem::take(&mut self.idle_tap) {
             let name = "a modal tap with a speed of its own that makes no hole";
             self.not_supported(&src.text(at), name, at, out);
@@ -232,6 +235,9 @@ impl Lower {
     /// The cycle of a call; `None` if it is refused (reported).
     fn cycle_of(&mut self, a: &Arguments, src: Source, out: &mut Batch) -> Option<Cycle> {
         use ParameterRole as Role;
+        if a.given.iter().flatten().any(|given| given.computed.is_some()) {
+            return self.computed_cycle(a, src, out);
+        }
         let plane = self.plane(a.span, out);
         let return_plane = self.needed(a, Role::ReturnPlane, src, out)?;
         let zero = Num::int(0, return_plane.unit);
@@ -292,8 +298,8 @@ impl Lower {
     }
 
     /// Whether an argument is there and not 0.
-    fn is_given(&self, a: &Arguments, role: ParameterRole) -> bool {
-        a.get(role).is_some_and(|(given, _)| given.digits.mantissa != 0)
+    pub(super) fn is_given(&self, a: &Arguments, role: ParameterRole) -> bool {
+        a.get(role).is_some_and(|(given, _)| given.computed.is_some() || given.digits.mantissa != 0)
     }
 
     /// A depth: absolute, or below the reference plane. Both must agree.
@@ -326,7 +332,13 @@ impl Lower {
     }
 
     /// A dwell, if it is there and not 0.
-    fn time(&mut self, a: &Arguments, role: ParameterRole, src: Source, out: &mut Batch) -> Option<Expr> {
+    pub(super) fn time(
+        &mut self,
+        a: &Arguments,
+        role: ParameterRole,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
         self.argument(a, role, src, out).filter(|num| !num.is_zero()).map(Expr::Num)
     }
 

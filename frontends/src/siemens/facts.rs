@@ -8,7 +8,7 @@
 //! Not here: what repeated blocks and subprograms find in force (`again`).
 
 use ncc_dialects::Thread;
-use ncc_ir::canon::{Distance, Fact, FeedMode, Plane, Turn, Units};
+use ncc_ir::canon::{AXES, Distance, Fact, FeedMode, Plane, Turn, Units};
 use ncc_ir::cycle::Cycle;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
@@ -104,6 +104,8 @@ pub(super) struct State {
     pub(super) pole: Pole,
     /// Whether points are those of a tilted plane.
     pub(super) tilt: Know<bool>,
+    /// Axes that a frame was changed for and that no absolute word has moved since.
+    pub(super) framed: [bool; AXES],
 }
 
 impl State {
@@ -127,6 +129,7 @@ impl State {
             cycle,
             pole: Pole::Lost,
             tilt: Know::Lost,
+            framed: [false; AXES],
         }
     }
 
@@ -147,6 +150,7 @@ impl State {
         self.tool.join(before.tool);
         self.pole.join(before.pole);
         self.tilt.join(before.tilt);
+        self.framed.iter_mut().zip(before.framed).for_each(|(axis, before)| *axis |= before);
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost { own_feed: self.cycle.own_feed() || before.cycle.own_feed() };
         }
@@ -314,6 +318,7 @@ impl Lower {
 
     /// A move relies on the frames between machine and program, and along Z on the tool's length.
     pub(super) fn rely_on_frames(&mut self, with_z: bool, at: Span, out: &mut Batch) {
+        self.no_stale_offset(at, out);
         if !self.assume {
             return;
         }

@@ -26,6 +26,7 @@ impl Lower {
             return self.not_supported(code.name, "frame beside other functions", code.span, out);
         }
         self.stand.forget();
+        self.state.framed = [true; AXES];
         if words.no_address() {
             if added {
                 return self.not_supported(code.name, "appended frame without axes", code.span, out);
@@ -53,7 +54,7 @@ impl Lower {
         for axis in Axis::ALL {
             if let Some(given) = self.unmarked(words.take(axis.letter()), src, out) {
                 let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
-                by[axis as usize] = self.number(given, quantity, src, out).map(Expr::Num);
+                by[axis as usize] = self.amount(given, quantity, src, out);
             }
         }
         by.iter().any(Option::is_some).then(|| FrameStep::Translate(Box::new(by)))
@@ -62,7 +63,7 @@ impl Lower {
     fn rotation(&mut self, code: Code, words: &mut Words, src: Source, out: &mut Batch) -> Option<FrameStep> {
         if let Some(given) = words.take_named(NameRole::PlaneAngle) {
             let plane = self.plane(code.span, out);
-            let angle = Expr::Num(self.number(given, Quantity::Angle, src, out)?);
+            let angle = self.amount(given, Quantity::Angle, src, out)?;
             return Some(FrameStep::Rotate { plane, angle });
         }
         let plane = self.known_plane(code.span, out)?;
@@ -72,16 +73,16 @@ impl Lower {
             let Some(given) = self.unmarked(words.take(axis.letter()), src, out) else {
                 continue;
             };
-            let num = self.number(given, Quantity::Angle, src, out)?;
+            let value = self.amount(given, Quantity::Angle, src, out)?;
             if axis == normal {
-                angle = Some(num);
-            } else if !num.is_zero() {
+                angle = Some(value);
+            } else if !value.literal().is_some_and(ncc_ir::num::Num::is_zero) {
                 let name = "rotation about an axis of the plane";
                 self.not_supported(code.name, name, given.span, out);
             }
         }
         let zero = ncc_ir::num::Num::int(0, ncc_ir::num::Unit::Degree);
-        Some(FrameStep::Rotate { plane: Fact::Known(plane), angle: Expr::Num(angle.unwrap_or(zero)) })
+        Some(FrameStep::Rotate { plane: Fact::Known(plane), angle: angle.unwrap_or(Expr::Num(zero)) })
     }
 
     fn factors(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> Option<FrameStep> {
@@ -90,11 +91,11 @@ impl Lower {
             let Some(given) = self.unmarked(words.take(letter), src, out) else {
                 continue;
             };
-            let num = self.number(given, Quantity::Factor, src, out)?;
-            if num.is_zero() {
+            let factor = self.amount(given, Quantity::Factor, src, out)?;
+            if factor.literal().is_some_and(ncc_ir::num::Num::is_zero) {
                 return self.refuse(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
             }
-            *by = Some(Expr::Num(num));
+            *by = Some(factor);
         }
         by.iter().any(Option::is_some).then(|| FrameStep::Scale(Box::new(by)))
     }

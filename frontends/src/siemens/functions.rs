@@ -188,6 +188,7 @@ impl Lower {
             }
             Meaning::SetOriginOffsets(offset) => {
                 self.state.work_offset = Know::Said(offset);
+                self.stale = false;
                 self.state.pole.lose();
                 self.stand.forget();
             }
@@ -304,11 +305,11 @@ impl Lower {
         }
         if let Some(given) = words.take(self.role_letter(Role::Feed)) {
             self.rely_on_feed_mode(given.span, out);
-            if let Some(mut num) = self.number(given, Quantity::Feed, src, out) {
-                if by_time {
+            if let Some(mut feed) = self.amount(given, Quantity::Feed, src, out) {
+                if let (true, Expr::Num(num)) = (by_time, &mut feed) {
                     num.unit = Unit::One;
                 }
-                if !num.is_zero() {
+                if !feed.literal().is_some_and(ncc_ir::num::Num::is_zero) {
                     self.state.feed = Know::Said(());
                 }
                 match &self.state.cycle {
@@ -323,17 +324,17 @@ impl Lower {
                     | InForce::Inherited { .. }
                     | InForce::Lost { .. } => {}
                 }
-                self.push(given.span, Op::SetFeedRate(Expr::Num(num)), out);
+                self.push(given.span, Op::SetFeedRate(feed), out);
             }
         }
         if let Some(given) = words.take(self.role_letter(Role::Speed))
-            && let Some(num) = self.number(given, Quantity::Speed, src, out)
+            && let Some(speed) = self.amount(given, Quantity::Speed, src, out)
         {
             if matches!(&self.state.cycle, InForce::Active(c) if c.kind.name() == "tap-rigid") {
                 let name = "speed while a tapping cycle is modal";
                 self.not_supported(&src.text(given.span), name, given.span, out);
             }
-            self.push(given.span, Op::SetSpindleSpeed(Expr::Num(num)), out);
+            self.push(given.span, Op::SetSpindleSpeed(speed), out);
         }
         self.spindle_angle(words, src, out);
     }
@@ -342,7 +343,11 @@ impl Lower {
     fn tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(given) = words.take(self.role_letter(Role::Tool)) {
             self.state.tool = Know::Said(());
-            if let Some(tool) = self.whole(given, src, out) {
+            if given.computed.is_some() {
+                if let Some(tool) = self.amount(given, Quantity::Integer, src, out) {
+                    self.push(given.span, Op::SelectTool(tool), out);
+                }
+            } else if let Some(tool) = self.whole(given, src, out) {
                 self.push(given.span, Op::SelectTool(Expr::int(tool.into())), out);
             }
         }
@@ -403,8 +408,8 @@ impl Lower {
             let word = parameters.first().map_or(' ', |d| d.letter).to_string().into();
             return self.fault(Fault::WordMissing { code: code.name.into(), word }, code.span, out);
         };
-        if let Some(num) = self.number(given, quantity, src, out) {
-            self.push(code.span.to(given.span), Op::Dwell(Expr::Num(num)), out);
+        if let Some(time) = self.amount(given, quantity, src, out) {
+            self.push(code.span.to(given.span), Op::Dwell(time), out);
         }
     }
 
@@ -425,7 +430,10 @@ impl Lower {
             Meaning::OptionalProgramStop => Op::OptionalProgramStop,
             // The end of a subprogram by any name leads back, and that of the main program ends it.
             Meaning::ProgramEnd | Meaning::Return => {
-                self.ended |= !self.skipped();
+                let last = !self.skipped();
+                self.ended |= last && !self.goes_on();
+                self.flow.has_end = true;
+                self.flow.over |= last;
                 if self.sub.is_some() {
                     self.leave(code.span, out);
                     Op::Return

@@ -4,11 +4,11 @@
 //! diagnostics and no statements; what it says of modes still counts, so that one slip is not
 //! reported again at every block after it.
 //!
-//! Refused by name, wherever it stands: variables, expressions that must be computed, control of the
-//! program's flow, definitions, synchronised actions, calls by path and with arguments.
+//! Refused by name, wherever it stands: synchronised actions, macros, calls by path.
 //!
-//! Not here: which word is what (`sort`), and what the functions, moves, frames, cycles, patterns
-//! and calls of a block mean; they have files of their own beside this one.
+//! Not here: which word is what (`sort`), what is computed (`computing`), the program's flow (`flow`), and what
+//! the functions, moves, frames, cycles, patterns and calls of a block mean; they have files of their own beside
+//! this one.
 
 use std::collections::HashSet;
 
@@ -19,7 +19,11 @@ use ncc_ir::program::{Coord, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::again::Again;
+use super::computing::Variables;
 use super::facts::{InForce, Motion, Only, Stand, State};
+use super::flow::{Closes, Flow};
+use super::formula::Typed;
+use super::parameters::Handed;
 use super::sort::Words;
 use super::speed::Surfaces;
 use super::tree::{Block, BlockNumber, Called, Expr, Item, Statement};
@@ -75,6 +79,15 @@ pub(super) struct Lower {
     pub(super) now: Now,
     words: Words,
     stretch: Option<Stretch>,
+    pub(super) variables: Variables,
+    /// What is computed in the words of the block.
+    pub(super) exprs: Vec<Typed>,
+    pub(super) flow: Flow,
+    pub(super) handed: Handed,
+    /// Whether the value of a work offset was set that may be in force, and none has been called up since.
+    pub(super) stale: bool,
+    /// Whether a block has been read that is executed and defines nothing.
+    pub(super) executed: bool,
     /// What the text has said of swivelled planes.
     pub(super) tilt: Met,
 }
@@ -107,7 +120,11 @@ pub(super) struct Now {
     /// All of the block.
     pub(super) span: Span,
     /// Length of the target before the block.
-    mark: usize,
+    pub(super) mark: usize,
+    /// Variables that the block sets.
+    pub(super) set: Vec<Box<str>>,
+    /// Whether its comment stands elsewhere already.
+    comment_taken: bool,
 }
 
 /// What a block has besides its words.
@@ -153,6 +170,12 @@ impl Lower {
             now: Now::default(),
             words: Words::default(),
             stretch: None,
+            variables: Variables::default(),
+            exprs: Vec::new(),
+            flow: Flow::default(),
+            handed: Handed::default(),
+            stale: false,
+            executed: false,
             tilt: Met::default(),
             rounding: None,
             surfaces: Surfaces::default(),
@@ -222,6 +245,9 @@ impl Lower {
             || self.rounding.is_some()
             // The block after skipped ones ends their stretch.
             || self.stretch.is_some()
+            // Its number may be one that a jump names.
+            || self.has_targets()
+            || self.stale
         {
             return None;
         }
@@ -260,6 +286,7 @@ impl Lower {
     /// Lowers a block that the recogniser has read; its number, if any, is its first word.
     pub(super) fn plain(&mut self, plain: &[Word], span: Span, src: Source, out: &mut Batch) {
         self.stretch = None;
+        self.executed = true;
         let mut plain = plain;
         let mut head = Head { span, ..Head::default() };
         if let Some((Word { letter: b'N', value: Value::Number(digits), .. }, rest)) = plain.split_first() {
@@ -295,6 +322,11 @@ impl Lower {
         if head.label.is_some() {
             self.again.label_over(&self.state);
         }
+        let definition = matches!(
+            block.statement,
+            Statement::Declare(_) | Statement::Procedure { .. } | Statement::Extern { .. }
+        );
+        self.executed |= !definition && !says_nothing(&block.statement);
         self.refresh();
     }
 
@@ -320,6 +352,7 @@ impl Lower {
             1 => 10,
             level => level,
         });
+        self.exprs.clear();
         self.now = Now {
             number: head.number,
             skip: level,
@@ -333,6 +366,9 @@ impl Lower {
             let code = format!("/{written}").into();
             self.fault(Fault::NotSupported { code, name: "block-skip level".into() }, at, out);
         }
+        if head.label.is_none() && self.has_targets() {
+            self.arrive(None, head.number, head.span, src, out);
+        }
         if let Some(label) = head.label {
             let mut name: Text = src.text(label).to_ascii_uppercase().into();
             let row = self.settings.dialect.name_row(&name);
@@ -343,6 +379,7 @@ impl Lower {
                 let refuse = row.refuse.as_deref().unwrap_or("word of the language as a label");
                 self.not_supported(&name, refuse, label, out);
             }
+            self.arrive(Some(&name), head.number, label, src, out);
             self.again.label(name.clone(), &self.state);
             if end {
                 self.again.is_end();
@@ -353,21 +390,14 @@ impl Lower {
     }
 
     fn statement(&mut self, statement: &Statement, head: &Head, src: Source, out: &mut Batch) {
-        let macros = |what: Span| Fault::MacroLanguage { what: src.text(what) };
         match statement {
             Statement::Words { items, jumps } => {
-                if let Some(jump) = jumps.first() {
-                    self.fault(macros(jump.span), jump.span, out);
-                    self.now.refused = true;
+                if !items.is_empty() || jumps.is_empty() {
+                    self.items(items, head, src, out);
                 }
-                if self.alone(items, head, src, out) {
-                    return;
+                if !self.now.refused {
+                    self.jumps(jumps, src, out);
                 }
-                let mut words = std::mem::take(&mut self.words);
-                words.clear();
-                self.sort_items(items, &mut words, src, out);
-                self.words(&mut words, head, src, out);
-                self.words = words;
             }
             Statement::RepeatSection { first, last, count } => {
                 self.repeat(*first, *last, count.as_ref(), head, src, out);
@@ -393,22 +423,39 @@ impl Lower {
                 let code = src.text(head.span);
                 self.not_supported(&code, "synchronised action", head.span, out);
             }
-            Statement::If(_)
-            | Statement::Else
-            | Statement::EndIf
-            | Statement::Loop
-            | Statement::EndLoop
-            | Statement::For { .. }
-            | Statement::EndFor
-            | Statement::While(_)
-            | Statement::EndWhile
-            | Statement::Repeat
-            | Statement::Until(_)
-            | Statement::Case { .. }
-            | Statement::Define { .. }
-            | Statement::Declare(_)
-            | Statement::Redefine(_) => self.fault(macros(head.span), head.span, out),
+            Statement::If(condition) => self.begin_if(condition, head, src, out),
+            Statement::Else => self.otherwise(head, src, out),
+            Statement::EndIf => self.close_structure(Closes::If, None, head, src, out),
+            Statement::Loop => self.begin_loop(head, src, out),
+            Statement::EndLoop => self.close_structure(Closes::Loop, None, head, src, out),
+            Statement::For { counter, from, to } => self.begin_for(counter, from, to, head, src, out),
+            Statement::EndFor => self.close_structure(Closes::For, None, head, src, out),
+            Statement::While(condition) => self.begin_while(condition, head, src, out),
+            Statement::EndWhile => self.close_structure(Closes::While, None, head, src, out),
+            Statement::Repeat => self.begin_repeat(head, src, out),
+            Statement::Until(condition) => {
+                self.close_structure(Closes::Until, Some(condition), head, src, out);
+            }
+            Statement::Case { value, branches, default } => {
+                self.case(value, branches, default.as_ref(), head.span, src, out);
+            }
+            Statement::Declare(definition) => self.define(definition, head.span, src, out),
+            Statement::Define { .. } => self.not_supported("DEFINE", "macro", head.span, out),
+            Statement::Redefine(_) => self.not_supported("REDEF", "definition anew", head.span, out),
         }
+    }
+
+    /// Words, assignments and calls of a block.
+    fn items(&mut self, items: &[Item], head: &Head, src: Source, out: &mut Batch) {
+        if self.alone(items, head, src, out) {
+            return;
+        }
+        let mut words = std::mem::take(&mut self.words);
+        words.clear();
+        self.sort_items(items, &mut words, src, out);
+        self.no_word_reads_what_is_set(src, out);
+        self.words(&mut words, head, src, out);
+        self.words = words;
     }
 
     /// Items that stand alone in their block: calls by name or number, cycles, patterns, messages.
@@ -444,6 +491,7 @@ impl Lower {
         let name = src.text(called.name).to_ascii_uppercase();
         match self.settings.dialect.name_row(&name) {
             Some(row) if row.means == Some(NameMeaning::Message) => true,
+            Some(_) if name == "SETAL" => true,
             Some(_) => called.arguments.is_some() && self.is_word_with_arguments(&name),
             None => true,
         }
@@ -475,6 +523,11 @@ impl Lower {
     pub(super) fn apart(&mut self) {
         self.now.pushed = false;
         self.now.number = None;
+    }
+
+    /// The block's number, for a statement that stands elsewhere.
+    pub(super) fn take_number(&mut self) -> Option<u32> {
+        self.now.number.take().filter(|_| !self.now.pushed)
     }
 
     /// Whether a switch may skip the block.
@@ -515,13 +568,7 @@ impl Lower {
             }
             return self.forgive();
         }
-        // The blank that is written between mark and text is no part of the text.
-        let mark = self.settings.dialect.comment.open.as_bytes();
-        let between = mark.get(1..).unwrap_or_default();
-        let comment = head.comment.map(|c| {
-            let text = src.bytes(c);
-            decode(text.strip_prefix(between).unwrap_or(text))
-        });
+        let comment = self.take_comment(head, src).map(|text| *text);
         match (comment, self.now.pushed) {
             (None, true) => {}
             (None, false) if self.now.heading => {}
@@ -533,6 +580,20 @@ impl Lower {
                 }
             }
         }
+    }
+
+    /// The block's comment, if it does not stand elsewhere already.
+    pub(super) fn take_comment(&mut self, head: &Head, src: Source) -> Option<Box<Text>> {
+        if std::mem::replace(&mut self.now.comment_taken, true) {
+            return None;
+        }
+        // The blank that is written between mark and text is no part of the text.
+        let mark = self.settings.dialect.comment.open.as_bytes();
+        let between = mark.get(1..).unwrap_or_default();
+        head.comment.map(|c| {
+            let text = src.bytes(c);
+            Box::new(decode(text.strip_prefix(between).unwrap_or(text)))
+        })
     }
 
     /// After a refused block, what it may have said is not asked for again.
@@ -548,4 +609,9 @@ impl Lower {
         self.stand.forget();
         self.moved = None;
     }
+}
+
+/// Whether a statement has no words.
+fn says_nothing(statement: &Statement) -> bool {
+    matches!(statement, Statement::Words { items, jumps } if items.is_empty() && jumps.is_empty())
 }

@@ -242,6 +242,17 @@ impl Lower {
                     let name = "incremental word in machine coordinates";
                     self.not_supported(&src.text(given.span), name, given.span, out);
                 }
+                match coord.distance {
+                    Fact::Known(Distance::Absolute) if machine.is_none() => {
+                        self.state.framed[axis as usize] = false;
+                    }
+                    Fact::Known(Distance::Incremental) if self.assume && self.state.framed[axis as usize] => {
+                        let name =
+                            "incremental word behind a change of the frame, which SD 42440 decides about";
+                        self.not_supported(&src.text(given.span), name, given.span, out);
+                    }
+                    Fact::Known(_) | Fact::Entry => {}
+                }
                 if let Some(stand) = self.stand.axes.get_mut(axis as usize) {
                     let absolute = coord.distance == Fact::Known(Distance::Absolute) && machine.is_none();
                     *stand = coord.value.literal().filter(|_| absolute);
@@ -288,8 +299,8 @@ impl Lower {
             Some(distance) => Fact::Known(distance),
             None => self.distance(given.span, out),
         };
-        let num = self.number(given, quantity, src, out)?;
-        Some(Coord { value: Expr::Num(num), distance })
+        let value = self.amount(given, quantity, src, out)?;
+        Some(Coord { value, distance })
     }
 
     /// `CIP`
@@ -338,8 +349,8 @@ impl Lower {
                 continue;
             }
             if let Some(given) = words.take(*letter) {
-                let num = self.number(given, Quantity::Length, src, out);
-                centre[place] = num.map(|num| (Expr::Num(num), given.distance));
+                let value = self.amount(given, Quantity::Length, src, out);
+                centre[place] = value.map(|value| (value, given.distance));
             }
         }
         let about = centre.iter().any(Option::is_some);
@@ -372,13 +383,13 @@ impl Lower {
             }
             (false, Some(_), None) if !ended => return self.fault(Fault::ArcRadiusNoWay, block, out),
             (false, Some(given), None) => {
-                let Some(num) = self.number(given, Quantity::Length, src, out) else {
+                let Some(radius) = self.amount(given, Quantity::Length, src, out) else {
                     return;
                 };
-                if num.is_zero() {
+                if radius.literal().is_some_and(ncc_ir::num::Num::is_zero) {
                     return self.fault(Fault::OutOfRange { word: src.text(given.span) }, given.span, out);
                 }
-                let centre = Centre::Radius(Expr::Num(num));
+                let centre = Centre::Radius(radius);
                 Op::ArcFeed(Box::new(Arc { plane, turn, to, centre, turns, said }))
             }
             (_, None, Some(given)) => {

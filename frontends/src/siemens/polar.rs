@@ -93,7 +93,7 @@ impl Lower {
             if given.distance.is_some() {
                 return self.not_supported(&src.text(given.span), "AC or IC of a pole", given.span, out);
             }
-            along[axis as usize] = self.number(given, Quantity::Length, src, out).map(Expr::Num);
+            along[axis as usize] = self.amount(given, Quantity::Length, src, out);
         }
         let literal = |axis: Axis| match &along[axis as usize] {
             Some(word) => word.literal(),
@@ -169,8 +169,8 @@ impl Lower {
             None => Distance::Absolute,
         };
         let mut coord = |lower: &mut Lower, given, quantity, distance| {
-            let num = lower.number(given, quantity, src, out)?;
-            Some(Coord { value: Expr::Num(num), distance: Fact::Known(distance) })
+            let value = lower.amount(given, quantity, src, out)?;
+            Some(Coord { value, distance: Fact::Known(distance) })
         };
         let radius = radius.and_then(|given| coord(self, given, Quantity::Length, Distance::Absolute));
         let angle = angle.and_then(|given| coord(self, given, Quantity::Angle, distance));
@@ -190,8 +190,8 @@ impl Lower {
             () if words.has_polar() => "angle of a line beside polar words",
             () if given.distance.is_some() => "AC or IC of a line's angle",
             () => {
-                let num = self.number(given, Quantity::Angle, src, out).ok_or(())?;
-                let angle = Coord { value: Expr::Num(num), distance: Fact::Known(Distance::Absolute) };
+                let value = self.amount(given, Quantity::Angle, src, out).ok_or(())?;
+                let angle = Coord { value, distance: Fact::Known(Distance::Absolute) };
                 return Ok(PolarWords { radius: None, angle: Some(angle), along: true, span });
             }
         };

@@ -107,6 +107,7 @@ impl Reader {
             let at = base + at as u32;
             return self.not_text(Span::new(at, at + 1), out);
         }
+        self.lower.look_ahead(text, out);
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
@@ -156,6 +157,7 @@ impl Reader {
             return;
         }
         self.end_of_program(out);
+        self.lower.hand_over(out);
         for (name, at) in self.lower.again.unknown() {
             out.report(Fault::CallUnknown { name }, at);
         }
@@ -325,7 +327,9 @@ impl Reader {
     /// The program that is being read is over.
     fn end_of_program(&mut self, out: &mut Batch) {
         let in_sub = self.lower.sub.is_some();
-        if (in_sub || self.blocks) && !self.lower.ended {
+        let over = self.lower.flow.over && self.lower.flow.has_end;
+        self.faulty |= self.lower.end_flow(out);
+        if (in_sub || self.blocks) && !self.lower.ended && !over {
             let end = self.end;
             let at = match self.lower.target(out).last() {
                 Some(stmt) => stmt.span,

@@ -41,6 +41,8 @@ pub(super) struct Given {
     pub(super) distance: Option<Distance>,
     /// What `DC`, `ACP` or `ACN` says of it.
     pub(super) way: Option<RotaryWay>,
+    /// Its place among what the block computes, in place of digits.
+    pub(super) computed: Option<u16>,
     pub(super) span: Span,
 }
 
@@ -161,7 +163,7 @@ impl Lower {
         let Number::Number(digits) = word.value else {
             return;
         };
-        let given = Given { digits, distance: None, way: None, span: word.span };
+        let given = Given { digits, distance: None, way: None, computed: None, span: word.span };
         self.letter(word.letter, given, words, src, out);
     }
 
@@ -200,6 +202,9 @@ impl Lower {
 
     fn code(&mut self, letter: u8, given: Given, words: &mut Words, src: Source, out: &mut Batch) {
         let dialect = self.settings.dialect;
+        if given.computed.is_some() {
+            return self.not_supported(&src.text(given.span), "code that is computed", given.span, out);
+        }
         let digits = given.digits;
         let whole = u32::try_from(digits.mantissa).ok().filter(|_| digits.scale == 0);
         let row = whole.and_then(|n| n.checked_mul(10)).and_then(|t| dialect.code_row(letter, t));
@@ -255,15 +260,18 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        let computed = Fault::MacroLanguage { what: src.text(span) };
+        if self.is_variable(place, src) {
+            return self.assign(place, value, span, src, out);
+        }
         if !place.index.is_empty() && !self.is_first_spindle(place, src, out) {
             return match place.address {
                 Address::Name(name) => self.refuse_name(name, span, src, out),
-                Address::Letter(_) | Address::System(_) => self.fault(computed, span, out),
+                Address::Letter(_) => self.not_supported(&src.text(span), "word with an index", span, out),
+                Address::System(_) => self.set_control(place, value, span, src, out),
             };
         }
         let name: Box<str> = match (place.address, place.extension) {
-            (Address::System(_), _) | (Address::Letter(b'R'), _) => return self.fault(computed, span, out),
+            (Address::System(_), _) => return self.set_control(place, value, span, src, out),
             (Address::Letter(letter), None | Some(1)) if self.is_tool_name(letter, value) => {
                 if place.extension.is_some() {
                     self.master_spindle(span, out);
@@ -325,7 +333,7 @@ impl Lower {
                     Some(_) => self.refuse_name(name, span, src, out),
                     None => {
                         self.now.refused = true;
-                        self.fault(computed, span, out);
+                        self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
                     }
                 }
             }
@@ -377,8 +385,14 @@ impl Lower {
         }
     }
 
-    /// The constant behind `=`; everything else is refused.
-    fn constant(&mut self, value: &Value, span: Span, src: Source, out: &mut Batch) -> Option<Given> {
+    /// What stands behind `=`: a constant, or what is computed.
+    pub(super) fn constant(
+        &mut self,
+        value: &Value,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Given> {
         let mut way = None;
         let (distance, expr) = match value {
             Value::Expr(expr) => (None, expr),
@@ -409,12 +423,21 @@ impl Lower {
             }
         };
         match expr {
-            Expr::Number(digits, _) => Some(Given { digits: *digits, distance, way, span }),
+            Expr::Number(digits, _) => Some(Given { digits: *digits, distance, way, computed: None, span }),
             Expr::Text(_) => {
                 self.not_supported(&src.text(span), "name as a value", span, out);
                 None
             }
-            _ => self.refuse(Fault::MacroLanguage { what: src.text(span) }, span, out),
+            _ => {
+                let typed = self.formula(expr, src, out)?;
+                let given = self.given(typed, span);
+                if way.is_some() && given.computed.is_some() {
+                    let name = "computed angle of a way round";
+                    self.not_supported(&src.text(span), name, span, out);
+                    return None;
+                }
+                Some(Given { distance, way, ..given })
+            }
         }
     }
 
@@ -427,6 +450,10 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<Num> {
         let Given { digits, span, .. } = given;
+        if given.computed.is_some() {
+            self.not_supported(&src.text(span), "computed value of this word", span, out);
+            return None;
+        }
         if self.settings.dialect.numbers(quantity).unsigned && digits.mantissa < 0 {
             return self.refuse(Fault::OutOfRange { word: src.text(span) }, span, out);
         }

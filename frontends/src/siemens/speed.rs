@@ -5,7 +5,6 @@
 use ncc_dialects::{Meaning, NameRole, Quantity};
 use ncc_ir::canon::SpindleMode;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
 use ncc_ir::program::Op;
 
 use super::lower::Lower;
@@ -65,9 +64,9 @@ impl Lower {
     /// The highest speed of the spindle, which counts from this block on.
     pub(super) fn speed_limit(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(given) = words.take_named(NameRole::SpindleLimit)
-            && let Some(num) = self.number(given, Quantity::Speed, src, out)
+            && let Some(limit) = self.amount(given, Quantity::Speed, src, out)
         {
-            self.push(given.span, Op::LimitSpindleSpeed(Expr::Num(num)), out);
+            self.push(given.span, Op::LimitSpindleSpeed(limit), out);
         }
     }
 
@@ -77,8 +76,8 @@ impl Lower {
         if words.has_point() {
             let name = "stop of the spindle at an angle in a block with axis words";
             self.not_supported(&src.text(given.span), name, given.span, out);
-        } else if let Some(num) = self.number(given, Quantity::Angle, src, out) {
-            self.push(given.span, Op::OrientSpindle(Some(Expr::Num(num))), out);
+        } else if let Some(angle) = self.amount(given, Quantity::Angle, src, out) {
+            self.push(given.span, Op::OrientSpindle(Some(angle)), out);
         }
     }
 }

@@ -161,7 +161,7 @@ impl Lower {
             }
             None | Some(None) => Some(zero()),
             Some(Some(Expr::Number(digits, span))) => {
-                let given = Given { digits: *digits, distance: None, way: None, span: *span };
+                let given = Given { digits: *digits, distance: None, way: None, computed: None, span: *span };
                 self.number(given, quantity, src, out).map(Value::Num)
             }
             Some(Some(other)) => {

@@ -346,7 +346,6 @@ pub(crate) enum Binary {
     Chain,
 }
 
-#[allow(dead_code)] // Until conditions are translated, nothing doubts them.
 impl Binary {
     fn compares(self) -> bool {
         use Binary::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual, NotEqual};
@@ -377,7 +376,6 @@ impl Expr {
     /// The first comparison whose operand is a logical operation without parentheses. Comparisons
     /// bind weakest of all, so that `A==1 AND B==1` is `(A==(1 AND B))==1`, which hardly anybody
     /// who writes it means.
-    #[allow(dead_code)] // Until conditions are translated, nothing doubts them.
     pub(crate) fn doubtful_comparison(&self) -> Option<Span> {
         match self {
             Expr::Number(..) | Expr::Bits(..) | Expr::Character(_) | Expr::Text(_) => None,

@@ -154,7 +154,10 @@ fn cycles_that_are_none() {
         "WordMissing { code: 'CYCLE83', word: 'FDEP' } at 'CYCLE83(5,0,1,-20,,,,,,,,1)'"
     );
     assert_eq!(one("CYCLE83(5,0,1,-20,,-8,,,,,,2)"), "OutOfRange { word: 'VARI' } at '2'");
-    assert_eq!(one("CYCLE81(R1,0,2,-5)"), "MacroLanguage { what: 'R1' } at 'R1'");
+    assert_eq!(
+        one("CYCLE81(10,0,R1,-5)"),
+        "NotSupported { code: 'R1', name: 'computed value of this word' } at 'R1'"
+    );
     assert_eq!(one("CYCLE81(5,0,2,-5,,,,,,7)"), "WordUnused { word: '7' } at '7'");
     assert_eq!(
         one("CYCLE84(5,0,2,-5)"),

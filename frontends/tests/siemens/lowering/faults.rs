@@ -7,39 +7,56 @@ fn one(line: &str) -> String {
 }
 
 #[test]
-fn variables_and_control() {
-    for line in [
-        "IF R1==1",
-        "ELSE",
-        "ENDIF",
-        "LOOP",
-        "ENDLOOP",
-        "FOR R1=1 TO 5",
-        "ENDFOR",
-        "WHILE R1<2",
-        "ENDWHILE",
-        "REPEAT",
-        "UNTIL R1>2",
-        "CASE R1 OF 1 GOTOF A_A",
-        "DEF REAL A_B=5",
-        "DEFINE A_B AS M8",
-        "REDEF X",
-    ] {
-        assert_eq!(one(line), format!("MacroLanguage {{ what: '{line}' }} at '{line}'"));
-    }
-    let at = |line: &str, what: &str| {
-        assert_eq!(one(line), format!("MacroLanguage {{ what: '{what}' }} at '{what}'"))
+fn what_is_computed_and_has_no_meaning() {
+    let refused = |line: &str, code: &str, name: &str, at: &str| {
+        assert_eq!(one(line), format!("NotSupported {{ code: '{code}', name: '{name}' }} at '{at}'"));
     };
-    at("R1=5", "R1=5");
-    at("X=R1", "X=R1");
-    at("X=(5)", "X=(5)");
-    at("F=_FEED", "F=_FEED");
-    at("COUNT=5", "COUNT=5");
-    at("$P_UIFR[1]=5", "$P_UIFR[1]=5");
-    at("GOTOF N20", "GOTOF N20");
-    at("IF R1==1 GOTOB A_A", "IF R1==1 GOTOB A_A");
-    at("MSG(\"a\"<<R1)", "MSG(\"a\"<<R1)".replace('"', "'").as_str());
-    at("PROC A_B(REAL C_D)", "PROC A_B(REAL C_D)");
+    for (line, word) in [("IF R1==1", "IF"), ("LOOP", "LOOP"), ("WHILE R1<2", "WHILE"), ("REPEAT", "REPEAT")]
+    {
+        refused(line, word, "structure without its end", line);
+    }
+    refused("FOR R1=1 TO 5", "FOR", "structure without its end", "FOR R1=1 TO 5");
+    for line in ["ENDIF", "ENDLOOP", "ENDFOR", "ENDWHILE"] {
+        refused(line, line, "end of nothing", line);
+    }
+    refused("UNTIL R1>2", "UNTIL", "end of nothing", "UNTIL R1>2");
+    refused("ELSE", "ELSE", "branch of no IF", "ELSE");
+    refused("DEF REAL A_B=5", "DEF", "definition behind blocks that are executed", "DEF REAL A_B=5");
+    refused("DEFINE A_B AS M8", "DEFINE", "macro", "DEFINE A_B AS M8");
+    refused("REDEF X", "REDEF", "definition anew", "REDEF X");
+    refused("F=_FEED", "_FEED", "variable that the program does not define", "_FEED");
+    refused("COUNT=5", "COUNT", "variable that the program does not define", "COUNT");
+    refused("R1=\"A\"", "'A'", "text as a value", "'A'");
+    refused("R1='A'", "'A'", "character as a value", "'A'");
+    refused("R1=AXNAME(1)", "AXNAME", "function of the language", "AXNAME(1)");
+    refused("R1=SIN(1,2)", "SIN(1,2)", "function of another number of arguments", "SIN(1,2)");
+    refused("R1=X", "X", "axis or address as a value", "X");
+    refused("R1=$MA_JOG[X]", "$MA_JOG", "variable of the control", "$MA_JOG[X]");
+    refused("R1=5 X=R1", "R1=5 X=R1", "word that reads a variable which its own block sets", "R1=5 X=R1");
+    refused(
+        "X=R[2] R[R1]=5",
+        "X=R[2] R[R1]=5",
+        "word that reads a variable which its own block sets",
+        "X=R[2] R[R1]=5",
+    );
+    refused("G=R1", "G=R1", "code that is computed", "G=R1");
+    refused("D=R1", "D=R1", "computed value of this word", "D=R1");
+    refused("A=DC(R1)", "A=DC(R1)", "computed angle of a way round", "A=DC(R1)");
+    assert_eq!(one("GOTOF N20"), "LabelUnknown { name: 'N20' } at 'GOTOF N20'");
+    refused("GOTOS", "GOTOS", "jump to the start of the program", "GOTOS");
+    refused("GOTOF \"A\"<<R1", "'A'<<R1", "jump that is computed", "'A'<<R1");
+    refused("$P_UIFR[1]=5", "$P_UIFR", "variable of the control that is set", "$P_UIFR[1]=5");
+    refused("SETAL(R1)", "SETAL", "alarm", "SETAL(R1)");
+    refused(
+        "SETAL(62000)",
+        "SETAL",
+        "alarm of which it is not known that it ends the program",
+        "SETAL(62000)",
+    );
+    refused("MSG(\"A\"<<(R1==1))", "(R1==1)", "truth value in a text", "(R1==1)");
+    refused("PROC A_B(REAL C_D)", "PROC", "main program with parameters", "PROC A_B(REAL C_D)");
+    assert_eq!(one("R1000=5"), "OutOfRange { word: 'R1000' } at 'R1000'");
+    assert_eq!(faults("X=(5)\n"), [] as [&str; 0]);
 }
 
 #[test]
@@ -70,7 +87,6 @@ fn words_that_are_known_and_not_translated() {
     refused("TRAORI(2)", "TRAORI", "transformation with parameters", "TRAORI(2)");
     refused("TRACYL(40)", "TRACYL", "transformation of axes", "TRACYL(40)");
     refused("ID=1 WHEN $A DO M8", "ID=1 WHEN $A DO M8", "synchronised action", "ID=1 WHEN $A DO M8");
-    refused("NAME(1,2)", "NAME", "call with arguments", "NAME(1,2)");
     refused("EXTCALL \"A\"", "EXTCALL", "call by path", "EXTCALL 'A'");
     refused("PCALL /_N_X/NAME", "PCALL", "call by path", "PCALL /_N_X/NAME");
     refused("CALL \"/A/B\"", "CALL", "call by path", "CALL '/A/B'");

@@ -1,0 +1,160 @@
+//! Labels of a program and the jumps to them, when it has been read.
+//!
+//! A jump looks for its label in its direction, the nearest first. Labels of one name that a jump names get names of
+//! their own, so that each jump says which it means.
+
+use std::collections::HashSet;
+
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::num::Num;
+use ncc_ir::program::{Op, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::facts::InForce;
+use super::tree::Direction;
+
+/// What must be the same at a jump and where it goes.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct InPlace {
+    pub(super) cycle: InForce,
+    pub(super) rounding: Option<Num>,
+}
+
+/// A label, or a block number that a jump names.
+#[derive(Debug)]
+pub(super) struct Label {
+    pub(super) name: Text,
+    pub(super) at: u32,
+    /// What is in force there; `None` for a label that no jump was known to name.
+    pub(super) found: Option<InPlace>,
+}
+
+/// A jump whose label is looked for.
+#[derive(Debug)]
+pub(super) struct Pending {
+    pub(super) name: Text,
+    pub(super) direction: Direction,
+    pub(super) span: Span,
+    pub(super) found: InPlace,
+}
+
+/// Lets the jumps of a program go to their labels; what cannot is told. Gives whether anything was.
+pub(super) fn resolve(
+    labels: &[Label],
+    jumps: &[Pending],
+    body: &mut Vec<Stmt>,
+    told: &mut Vec<Diagnostic>,
+) -> bool {
+    let before = told.len();
+    let names = own_names(labels, jumps);
+    let mut found: Vec<(Text, Option<Text>)> = Vec::new();
+    for jump in jumps {
+        let to = aim(labels, jump);
+        let quiet = jump.direction == Direction::BothQuietly;
+        let refuse = match to {
+            None if quiet => None,
+            None => {
+                told.push(Diagnostic::new(Fault::LabelUnknown { name: jump.name.clone() }, jump.span));
+                None
+            }
+            Some(to) => match &labels[to].found {
+                None => Some("jump far back, to a block that nothing was known to go to"),
+                Some(at) if *at != jump.found => {
+                    Some("jump to where another modal cycle or rounding is in force")
+                }
+                Some(_) => None,
+            },
+        };
+        if let Some(refuse) = refuse {
+            let fault = Fault::NotSupported { code: jump.name.clone(), name: refuse.into() };
+            told.push(Diagnostic::new(fault, jump.span));
+        }
+        found.push((marked(&jump.name, jump.span), to.map(|to| names[to].clone())));
+    }
+    let renamed: Vec<(u32, Text)> = labels
+        .iter()
+        .zip(&names)
+        .filter(|(label, name)| label.name != **name)
+        .map(|(label, name)| (label.at, name.clone()))
+        .collect();
+    let mut now: Vec<(Text, Text)> = Vec::new();
+    join(body, &found, &renamed, &mut now);
+    told.len() > before
+}
+
+/// What a jump is called until its label is found, by its end: no label has such a name.
+pub(super) fn marked(name: &str, span: Span) -> Text {
+    format!("{name} {}", span.end).into()
+}
+
+/// The place of the label that a jump goes to.
+fn aim(labels: &[Label], jump: &Pending) -> Option<usize> {
+    let named = |label: &Label| label.name == jump.name;
+    let at = jump.span.end;
+    let forward = || labels.iter().position(|label| named(label) && label.at > at);
+    let backward = || labels.iter().rposition(|label| named(label) && label.at <= at);
+    match jump.direction {
+        Direction::Forward => forward(),
+        Direction::Backward => backward(),
+        Direction::Both | Direction::BothQuietly => forward().or_else(backward),
+        Direction::ToStart => None,
+    }
+}
+
+/// A name for each label: its own, but where jumps name one of several that have it.
+fn own_names(labels: &[Label], jumps: &[Pending]) -> Vec<Text> {
+    let mut taken: HashSet<Text> = labels.iter().map(|label| label.name.clone()).collect();
+    let mut seen: HashSet<&str> = HashSet::new();
+    let mut names = Vec::with_capacity(labels.len());
+    for label in labels {
+        let again = !seen.insert(&label.name) && jumps.iter().any(|jump| jump.name == label.name);
+        let name = match again {
+            false => label.name.clone(),
+            true => {
+                let free = (2u32..).map(|n| Text::from(format!("{}_{n}", label.name)));
+                free.into_iter().find(|name| !taken.contains(name)).unwrap_or_default()
+            }
+        };
+        taken.insert(name.clone());
+        names.push(name);
+    }
+    names
+}
+
+/// Puts the names of labels into jumps, and into labels and repetitions that have other names now.
+fn join(
+    body: &mut Vec<Stmt>,
+    jumps: &[(Text, Option<Text>)],
+    renamed: &[(u32, Text)],
+    now: &mut Vec<(Text, Text)>,
+) {
+    body.retain_mut(|stmt| {
+        let at = stmt.span.start;
+        match &mut stmt.op {
+            Op::Goto(to) => match jumps.iter().find(|(mark, _)| mark == to) {
+                Some((_, Some(name))) => *to = name.clone(),
+                // One that goes nowhere, and need not.
+                Some((_, None)) => return false,
+                None => {}
+            },
+            Op::Label(name) => {
+                let own = renamed.iter().find(|(label, _)| *label == at).map(|(_, own)| own.clone());
+                now.retain(|(written, _)| written != name);
+                if let Some(own) = own {
+                    now.push((name.clone(), own.clone()));
+                    *name = own;
+                }
+            }
+            Op::RepeatBlocks(repeat) => {
+                for name in [Some(&mut repeat.from), repeat.to.as_mut()].into_iter().flatten() {
+                    if let Some((_, own)) = now.iter().find(|(written, _)| written == name) {
+                        *name = own.clone();
+                    }
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|body| join(body, jumps, renamed, now)),
+            _ => {}
+        }
+        true
+    });
+}
