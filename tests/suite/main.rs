@@ -15,6 +15,7 @@ mod expected;
 mod faults;
 mod fmt;
 mod fold;
+mod generated;
 mod laws;
 mod machines;
 mod options;

@@ -7,7 +7,6 @@ use ncc_ir::program::{Call, Op, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::facts::State;
 use super::frame::Called;
 use super::lower::Lower;
 use super::sort::{Code, Words};
@@ -70,8 +69,9 @@ impl Lower {
         let shared = self.shares();
         let main = self.sub.is_none();
         self.o.subs.calls_numbered(name.clone(), block, main);
+        self.leave_motion(None, out);
         self.push(block, Op::Call(Box::new(Call { name, times, arguments: Vec::new(), shared })), out);
-        self.state = State::lost();
+        self.lose_state(out);
     }
 
     /// A return to the caller.
@@ -87,6 +87,7 @@ impl Lower {
             return self.fault(fault, code.span, out);
         }
         self.ended |= self.now.skip.is_none();
+        self.leave_motion(None, out);
         self.push(code.span, Op::Return, out);
     }
 }

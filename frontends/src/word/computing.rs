@@ -166,6 +166,7 @@ impl Lower {
                     let name = "jump in a text whose first part has numbered blocks, and is long".into();
                     return self.fault(Fault::NotSupported { code, name }, span, out);
                 }
+                self.leave_motion(None, out);
                 let jump = Op::Goto(label(*to));
                 match condition {
                     None => self.push(span, jump, out),
@@ -213,6 +214,7 @@ impl Lower {
             let name = "loop whose head or end can be skipped".into();
             return self.fault(Fault::NotSupported { code, name }, span, out);
         }
+        self.leave_motion(None, out);
         let stmts = self.target(out);
         let mut body = stmts.split_off(at.min(stmts.len()));
         if let Some(first) = body.first_mut() {

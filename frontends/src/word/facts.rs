@@ -396,7 +396,7 @@ impl Lower {
             let value = take(&mut self.state.no_shift, &mut out.assumed.no_origin_shift, none);
             report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
         }
-        self.state = State::lost();
+        self.lose_state(out);
     }
 
     /// What bare axis words do: `None` if that is only known when the program runs.

@@ -58,6 +58,10 @@ impl Lower {
             |axis: Axis| self.axis_row(axis).is_some_and(|r| r.quantity == Quantity::Length && r.sure);
         let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         let state = &self.state;
+        // Its code is not said yet.
+        if self.unmoved() {
+            return None;
+        }
         let feed = match state.motion {
             Know::Said(Motion::Traverse) | Know::Taken(Motion::Traverse) => false,
             Know::Said(Motion::Feed) | Know::Taken(Motion::Feed) => true,

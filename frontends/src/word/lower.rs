@@ -23,6 +23,7 @@ use super::number::{CentreSeen, UnitsSeen};
 use super::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
 use super::tilt::Met;
+use super::unmoved::Unmoved;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -53,6 +54,7 @@ pub(super) struct Lower {
     pub(super) ended: bool,
     pub(super) computes: Computes,
     pub(super) o: ODecides,
+    pub(super) unmoved: Unmoved,
     /// What plain moves need; `None` if a block must be looked at.
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
@@ -176,6 +178,7 @@ impl Lower {
             ended: false,
             computes: Computes::default(),
             o: ODecides::default(),
+            unmoved: Unmoved::default(),
             fast: None,
             now: Now::default(),
             codes: Vec::new(),
@@ -256,6 +259,9 @@ impl Lower {
         self.codes = codes;
         self.close(block, src, out);
         if let (Some(before), None) = (before, block.tail) {
+            if self.state.motion != before.motion {
+                self.leave_motion(self.now.skip, out);
+            }
             self.state.join(&before);
         }
         self.refresh();
@@ -370,6 +376,9 @@ impl Lower {
     /// Adds a statement to the block.
     #[inline]
     pub(super) fn push(&mut self, span: Span, op: Op, out: &mut Batch) {
+        if self.unmoved() {
+            self.moved(&op);
+        }
         let now = &mut self.now;
         let joined = now.pushed && now.last_skip == now.skip;
         let number = if now.pushed { None } else { now.number };

@@ -153,6 +153,7 @@ impl Lower {
         let name: Box<str> = name.to_string().into();
         out.whole = true;
         self.computes.calls(&name, arguments.len());
+        self.leave_motion(None, out);
         self.push(block.span, Op::Call(Box::new(Call { name, times, arguments, shared: false })), out);
         self.lose(block.span, out);
     }

@@ -49,6 +49,7 @@ mod tests;
 mod thread;
 pub(crate) mod tilt;
 pub(crate) mod token;
+mod unmoved;
 pub(crate) mod words;
 
 use ncc_dialects::Settings;

@@ -63,7 +63,9 @@ impl Lower {
                 self.state.rigid = false;
             }
             let lead = self.state.lead;
+            let before = self.state.motion;
             self.set_motion(motion);
+            self.said_motion(motion, before, code.span);
             self.state.after_cycle = false;
             if matches!(code.meaning, Meaning::SynchronisedFeed(_)) {
                 (self.state.thread, self.state.lead) = (Some(code.row), lead);
@@ -163,6 +165,7 @@ impl Lower {
                 let name = "position under a cycle of the caller after another return level".into();
                 self.fault(Fault::NotSupported { code: src.text(block), name }, block, out);
             }
+            self.bare_words(block, out);
             let to = self.point(None, block, words, src, out);
             self.push_move(block, Op::Position(Move { to, said: false }), src, out);
         }

@@ -5,6 +5,7 @@
 //! `#<_value>`, and whether it gives anything in `#<_value_returned>`. The two kinds of programs must be called by
 //! their own words.
 
+use ncc_ir::canon::Motion;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Many, Node, Scope, Var};
 use ncc_ir::num::{Num, Unit};
@@ -24,6 +25,8 @@ use crate::Batch;
 #[derive(Debug)]
 pub(super) struct Outer {
     state: State,
+    /// A code of motion that no move has said yet.
+    unmoved: Option<(Span, Motion)>,
     ended: bool,
     labels: Vec<Text>,
     numbered_program: bool,
@@ -134,6 +137,7 @@ impl Reader {
         self.lower.o.subs.known.push((name.clone(), false));
         let lower = &mut self.lower;
         let outer = Outer {
+            unmoved: lower.unmoved.aside(),
             state: std::mem::replace(&mut lower.state, State::lost()),
             ended: std::mem::replace(&mut lower.ended, false),
             labels: std::mem::take(&mut lower.o.labels),
@@ -175,6 +179,7 @@ impl Reader {
         out.procedures.push(procedure);
         (lower.state, lower.ended, lower.o.labels) = (outer.state, outer.ended, outer.labels);
         lower.o.numbered_program = outer.numbered_program;
+        lower.unmoved.again(outer.unmoved);
         lower.refresh();
         self.frame.faulty |= failed;
         // Its comment stands behind the subprogram.
@@ -216,6 +221,7 @@ impl Lower {
         let main = self.sub.is_none();
         self.o.subs.called.push((name.clone(), false, span, main));
         self.found_variables(out);
+        self.leave_motion(None, out);
         self.push(span, Op::Call(Box::new(Call { name, times: 1, arguments, shared: false })), out);
         self.lose(span, out);
     }
@@ -236,6 +242,7 @@ impl Lower {
             return self.fault(refused(label, FlowWord::Return, "return out of a repeat"), span, out);
         }
         self.results(values.first(), span, out);
+        self.leave_motion(None, out);
         self.push(span, Op::Return, out);
     }
 

@@ -422,6 +422,7 @@ impl Lower {
 
     /// Takes what was opened last, with its body.
     fn close_body(&mut self, out: &mut Batch) -> Option<(Open, Vec<Stmt>)> {
+        self.leave_motion(None, out);
         let open = self.o.open.pop()?;
         let stmts = self.target(out);
         let at = open.at.unwrap_or(stmts.len());
@@ -464,6 +465,7 @@ impl Lower {
             self.o.left.get_or_insert(span);
             self.check_break(span, out);
         }
+        self.leave_motion(None, out);
         let op = if word == FlowWord::Break { Op::Leave } else { Op::NextTurn };
         self.push(span, op, out);
     }

@@ -122,13 +122,15 @@ fn straight(
 
 /// Rounds what was computed to the target's digits; a length in inches has one more.
 fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnostic> {
+    // The writer rounds a feed, once, to the digits that feeds have.
+    let feed = matches!(stmt.op, Op::SetFeedRate(_));
     arguments::each(&mut stmt.op, &mut |argument: Argument, unit| {
         let Some(n) = argument.expr().and_then(Expr::literal) else { return Ok(()) };
         let decimals = target.decimals + u8::from(inches && n.unit == Unit::Entry);
         if n.scale < 8 {
             return Ok(());
         }
-        if n.scale <= decimals || unit == Unit::One {
+        if n.scale <= decimals || unit == Unit::One || feed {
             argument.set(Expr::Num(n.trimmed()));
             return Ok(());
         }
