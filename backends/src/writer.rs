@@ -109,8 +109,9 @@ impl Writer {
     pub fn know(&mut self, procedures: &[Procedure]) {
         match &mut self.kind {
             Kind::Word(writer) => writer.know(procedures),
-            // The text form says them all by itself; the others write no such programs.
-            Kind::Siemens(_) | Kind::Canon(_) | Kind::Ir(_) => {}
+            Kind::Siemens(writer) => writer.know(procedures),
+            // The text form says them all by itself; the other writes no such programs.
+            Kind::Canon(_) | Kind::Ir(_) => {}
         }
     }
 

@@ -12,8 +12,9 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{Legaliser, Target};
+use ncc_ir::passes::{Legaliser, Target, known_facts, variables};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -291,17 +292,31 @@ impl<'j> Line<'j> {
             self.take(unknown, Told::Reader);
             return Ok(());
         }
+        let mut program = source.clone();
+        let mut known = Known::default();
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             let caps = self.job.to.caps();
             // What is folded or rewritten by name must be known when it is.
             let plainly = self.job.passes.is_empty() && self.folder.is_none();
-            if let Some(fault) = computing(&source, caps.computes.as_deref().filter(|_| plainly)) {
-                self.take(vec![fault], Told::Reader);
+            let there = caps.computes.as_deref().filter(|_| plainly);
+            let mut found = Vec::new();
+            if let Some(there) = there {
+                if there.restates {
+                    known = known_facts::run(&mut program, self.legaliser.stands());
+                }
+                let decimals = self.job.to.dialect.numbers(ncc_dialects::Quantity::Length).decimals;
+                variables::run(&mut program, there, decimals, &mut found);
+            }
+            let refused = |found: &[Diagnostic]| found.iter().any(|d| d.fault.gravity() == Gravity::Error);
+            let fault = computing(&program, there).filter(|_| !refused(&found));
+            found.extend(fault);
+            if refused(&found) {
+                self.take(found, Told::Reader);
                 return Ok(());
             }
+            self.take(found, Told::Writer);
         }
-        let mut program = source.clone();
         if let Some(main) = program.procedures.first_mut() {
             self.state_given(&mut main.body);
         }
@@ -322,7 +337,7 @@ impl<'j> Line<'j> {
         self.renumbering.run(&mut program, &mut found);
         if computes {
             self.writer.know(&program.procedures);
-            self.legaliser.run_computing(&mut program, &mut found);
+            self.legaliser.run_computing(&mut program, &known, &mut found);
         } else {
             self.legaliser.run_program(&mut program, &mut found);
         }
@@ -538,9 +553,8 @@ impl<'j> Line<'j> {
     }
 
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
-        let verified = match &mut self.verifier {
+        let verified = match &self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
-                self.diagnostics.append(&mut verifier.take_notes());
                 if let Some(levels) = verifier.sampled() {
                     let warning = Fault::SkipSettingsSampled { levels };
                     self.diagnostics.push(Diagnostic::new(warning, Span::default()));

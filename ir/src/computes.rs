@@ -15,7 +15,21 @@ pub struct Computes {
     pub operators: Vec<Binary>,
     /// Functions.
     pub functions: Vec<Function>,
-    /// Numbers of variables, from and to, that live as long as a call; its variables have numbers for names.
+    /// With what the names of its variables begin; behind it they are numbers.
+    pub prefix: Text,
+    /// Whether a variable can have no value at all, which is another thing than zero.
+    pub vacant: bool,
+    /// Whether words round what is computed for them to their increment.
+    pub rounds: bool,
+    /// Whether the opposite of a condition can be said.
+    pub opposite: bool,
+    /// Whether comparisons find real numbers equal that are nearly so.
+    pub near: bool,
+    /// Whether blocks in loops and behind labels say every fact that is known there.
+    pub restates: bool,
+    /// Whether a decision can be about any blocks; else about one jump or one assignment.
+    pub blocks: bool,
+    /// Numbers of variables, from and to, that live as long as a call.
     pub local: Vec<[u32; 2]>,
     /// Of those that all programs see.
     pub common: Vec<[u32; 2]>,
@@ -33,6 +47,7 @@ impl Computes {
     /// Whether a variable can be said.
     pub fn says(&self, var: &Var) -> bool {
         let among = |ranges: &[[u32; 2]], name: &str| {
+            let name = name.strip_prefix(&*self.prefix).unwrap_or_default();
             let number: Option<u32> = name.parse().ok();
             number.is_some_and(|n| {
                 n.to_string() == name && ranges.iter().any(|[from, to]| (*from..=*to).contains(&n))
@@ -137,6 +152,12 @@ impl Look<'_> {
             Control::Until { .. } => Err(refuse("a loop that is tested behind each turn", at)),
             Control::If { condition, then, otherwise } => {
                 self.expr(condition, at)?;
+                if self.computes.blocks {
+                    if stmt.skip.is_some() {
+                        return Err(refuse("a decision that can be skipped", at));
+                    }
+                    return control.bodies().try_for_each(|body| self.body(body, loops));
+                }
                 match (&then[..], &otherwise[..]) {
                     ([only], []) if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => self.body(then, loops),
                     _ => Err(refuse("a decision about more than one statement", at)),
@@ -162,9 +183,11 @@ impl Look<'_> {
         let Expr::Node(node) = expr else { return Ok(()) };
         match &**node {
             Node::Var(var) => self.variable(var, at),
+            Node::Vacant if !self.computes.vacant => Err(refuse("no value at all", at)),
             Node::Vacant => Ok(()),
             Node::Element(_) => Err(refuse("a variable whose number is computed", at)),
             Node::Unary(Unary::Negate, a) => self.expr(a, at),
+            Node::Unary(Unary::Not, a) if self.computes.opposite => self.expr(a, at),
             Node::Unary(Unary::Not, _) => Err(refuse("the opposite of a condition", at)),
             Node::Binary(operator, a, b) => {
                 if !self.computes.operators.contains(operator) {
@@ -175,7 +198,9 @@ impl Look<'_> {
             }
             Node::Call(function, arguments) => {
                 // What rounds to digits does so for a word, whose own rounding that may be.
-                if *function != Function::RoundTo && !self.computes.functions.contains(function) {
+                let own =
+                    *function == Function::RoundTo || *function == Function::NearRatio && self.computes.near;
+                if !own && !self.computes.functions.contains(function) {
                     return Err(refuse(format!("the function {}", called(function)), at));
                 }
                 arguments.iter().try_for_each(|argument| self.expr(argument, at))

@@ -21,7 +21,6 @@ pub mod geometry;
 mod kinds;
 pub mod maps;
 pub mod num;
-pub mod open;
 pub mod passes;
 pub mod places;
 pub mod polar;

@@ -33,6 +33,8 @@ pub struct Tracker {
     pub cycle: Option<InForce>,
     /// Whether another cycle than `cycle` may be in force, because of a block that may be skipped.
     pub cycle_in_doubt: bool,
+    /// From which level it then works, if it is in force.
+    pub doubtful_initial: Option<Nanos>,
     /// The selected tool, if it is a literal.
     pub selected: Option<i64>,
     /// The tool in the spindle, if it is known.
@@ -230,6 +232,16 @@ impl Tracker {
                 a.drilled = false;
             }
             (a, b) => {
+                let level = |cycle: &Option<InForce>, doubtful: Option<Nanos>| match cycle {
+                    Some(cycle) => Some(cycle.initial),
+                    None => doubtful.map(Some),
+                };
+                let levels = (level(a, self.doubtful_initial), level(b, other.doubtful_initial));
+                self.doubtful_initial = match levels {
+                    (Some(one), None) | (None, Some(one)) => one,
+                    (Some(a), Some(b)) if a == b => a,
+                    (Some(_), Some(_)) | (None, None) => None,
+                };
                 self.cycle_in_doubt |= a != b;
                 both(a, b);
             }
@@ -524,7 +536,11 @@ impl Tracker {
         let normal = self.plane(cycle.plane).map(|p| p.axes().2);
         let initial = match &self.cycle {
             Some(before) => before.initial,
-            None if self.cycle_in_doubt => None,
+            // In force or not, it is the same level.
+            None if self.cycle_in_doubt => {
+                let here = normal.and_then(|axis| self.position[axis as usize]);
+                self.doubtful_initial.filter(|level| here == Some(*level))
+            }
             None => normal.and_then(|axis| self.position[axis as usize]),
         };
         let retract = self.resolve(&cycle.retract, initial);

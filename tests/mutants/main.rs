@@ -10,7 +10,6 @@
 
 mod classes;
 mod names;
-mod sources;
 mod words;
 
 use std::collections::BTreeMap;

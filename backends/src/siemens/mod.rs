@@ -7,6 +7,7 @@
 //!
 //! Not here: expanding what the control cannot say (passes), and judging the result (verification).
 
+mod computing;
 mod cycle;
 mod frame;
 mod motion;
@@ -37,6 +38,7 @@ use crate::word::codes::Letter;
 use crate::word::modes::cannot;
 use crate::word::number::{self, Format, Shaped};
 use crate::{Form, Layout};
+use computing::Computing;
 use names::Names;
 
 /// Whether the text has a cycle in force for the blocks that follow.
@@ -107,6 +109,7 @@ pub struct Writer {
     repeats: u32,
     /// Whether a subprogram has been written, so that every unit needs its header.
     units: bool,
+    computing: Computing,
     /// Calls whose rows nobody confirms, as far as told.
     told: BTreeSet<&'static str>,
 }
@@ -129,6 +132,7 @@ impl Writer {
             under_cycle: BTreeSet::new(),
             repeats: 0,
             units: false,
+            computing: Computing::default(),
             told: BTreeSet::new(),
         }
     }

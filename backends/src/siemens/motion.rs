@@ -183,6 +183,13 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let row = self.row(self.dialect.name_with(role))?;
+        if let Expr::Node(_) = value {
+            let text = self.words.behind(value, None, span, sink)?;
+            return Ok(match qualifier {
+                Some(qualifier) => format!("{}={qualifier}({})", row.name, text.trim_start_matches('=')),
+                None => format!("{}{text}", row.name),
+            });
+        }
         let letter = self.letter(&row.name, row.quantity.unwrap_or(Quantity::Length));
         let value = self.words.number(&letter, value, span, sink)?;
         Ok(match qualifier {
@@ -200,6 +207,14 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         let letter = self.words.centre_letter(axis)?;
+        if let Expr::Node(_) = value {
+            let name = letter.letter as char;
+            let text = self.words.behind(value, None, span, sink)?;
+            return Ok(match from {
+                CentreFrom::Start => format!("{name}{text}"),
+                CentreFrom::Zero => format!("{name}=AC({})", text.trim_start_matches('=')),
+            });
+        }
         let value = self.words.centre_number(&letter, axis, value, from, span, sink)?;
         let name = letter.letter as char;
         Ok(match from {

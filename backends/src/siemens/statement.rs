@@ -194,13 +194,14 @@ impl Writer {
             Op::Message(text) => self.message(text, sink),
             Op::Call(call) => self.call(call, span, sink),
             Op::RepeatBlocks(repeat) => self.repeat_blocks(repeat, span, sink),
+            Op::Label(name) if self.is_idle_label(name) => Ok(()),
             Op::Label(name) => self.label(name, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
             Op::MessageOf(_) => Err(cannot("a message with values in it")),
             Op::Alarm(_) => Err(cannot("an alarm")),
-            Op::Assign(..) => Err(cannot("an assignment to a variable")),
+            Op::Assign(to, value) => self.assign(to, value, span, sink),
             Op::Declare(_) => Err(cannot("a variable that is made known")),
-            Op::Goto(_) => Err(cannot("a jump")),
+            Op::Goto(label) => self.go_to(label, span, sink),
             Op::Leave | Op::NextTurn => Err(cannot("a loop that is left")),
         }
     }

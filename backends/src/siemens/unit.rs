@@ -68,6 +68,7 @@ impl Writer {
         }
         self.words.forget();
         self.words.tracker = Tracker::default();
+        self.no_labels_yet();
         self.standing = Standing::START;
         if self.under_cycle.contains(&p.name) {
             self.standing.modal = Modal::Doubtful;
@@ -95,7 +96,7 @@ impl Writer {
         tell(name, span, sink)
     }
 
-    fn label_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {
+    pub(super) fn label_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {
         let name = self.names.label(name);
         tell(name, span, sink)
     }
@@ -138,20 +139,21 @@ impl Writer {
     }
 
     /// What is in force is not known: after a call, at a label.
-    fn forget(&mut self) {
+    pub(super) fn forget(&mut self) {
         self.words.forget();
         (self.standing.feed, self.standing.speed, self.standing.feed_said) = (None, None, true);
     }
 
     pub(super) fn label(&mut self, name: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
-        let name = self.label_name(name, span, sink);
+        let text = self.label_name(name, span, sink);
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
             self.words.split = true;
         }
-        self.words.block.text(Part::Label, &format!("{name}:"));
+        self.words.block.text(Part::Label, &format!("{text}:"));
         self.forget();
+        self.label_written(name);
         Ok(())
     }
 
@@ -198,10 +200,11 @@ impl Writer {
     pub(super) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let (times, body) = match control {
             Control::Repeat { times, body } => (times, body),
-            Control::Loop { .. } => return Err(cannot("an endless loop")),
-            Control::Until { .. } | Control::While { .. } => return Err(cannot("a loop on a condition")),
-            Control::For { .. } => return Err(cannot("a counted loop")),
-            Control::If { .. } => return Err(cannot("a condition")),
+            Control::Loop { .. }
+            | Control::Until { .. }
+            | Control::While { .. }
+            | Control::For { .. }
+            | Control::If { .. } => return self.structure(control, stmt, sink),
         };
         let times = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
         let times = times.filter(|n| *n > 0 && stmt.skip.is_none());

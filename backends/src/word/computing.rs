@@ -315,7 +315,10 @@ impl Writer {
         }
         for (parameter, value) in parameters.iter().zip(&call.arguments) {
             let vacant = matches!(value, Expr::Node(node) if **node == Node::Vacant);
-            let number = number_of(parameter)?.parse().ok().filter(|_| matches!(parameter, Var::Local(_)));
+            let number = number_of(parameter, &self.dialect.formula.prefix)?
+                .parse()
+                .ok()
+                .filter(|_| matches!(parameter, Var::Local(_)));
             let number = number.ok_or_else(|| cannot_compute("an argument that is no local variable"))?;
             if !vacant {
                 given.insert(number, value);

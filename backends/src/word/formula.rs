@@ -20,28 +20,12 @@ pub(crate) fn cannot_compute(what: impl Into<Box<str>>) -> Fault {
     Fault::Computes { what: what.into() }
 }
 
-/// How tightly an operator binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Tie {
-    Comparison,
-    Sum,
-    Product,
-    Factor,
-}
+/// How tightly an operator binds: its group's place among those of the dictionary, of which the tightest is the
+/// first; a value binds more tightly than any.
+type Tie = usize;
 
-fn tie(operator: Binary) -> Option<Tie> {
-    Some(match operator {
-        Binary::Equal
-        | Binary::NotEqual
-        | Binary::Less
-        | Binary::LessOrEqual
-        | Binary::Greater
-        | Binary::GreaterOrEqual => Tie::Comparison,
-        Binary::Add | Binary::Subtract | Binary::Or | Binary::Xor => Tie::Sum,
-        Binary::Multiply | Binary::Divide | Binary::Modulo | Binary::And => Tie::Product,
-        Binary::Power => return None,
-    })
-}
+/// What binds as loosely as can be stands without brackets.
+const LOOSEST: Tie = usize::MAX;
 
 /// How expressions are spelt where one stands.
 #[derive(Clone, Copy, Debug)]
@@ -55,10 +39,26 @@ pub(crate) struct Spelling<'d> {
 }
 
 impl Spelling<'_> {
+    fn tie(&self, operator: Binary) -> Option<Tie> {
+        let group = |group: &Vec<_>| group.iter().any(|own| Binary::from(*own) == operator);
+        self.rules.priority.iter().position(group).map(|place| place + 1)
+    }
+
+    fn variable(&self, var: &Var, out: &mut String) -> Result<(), Fault> {
+        out.push_str(&self.rules.variable);
+        out.push_str(&self.rules.prefix);
+        out.push_str(&number_of(var, &self.rules.prefix)?);
+        Ok(())
+    }
+
     /// What is given a value.
     pub(crate) fn target(&self, to: &Target) -> Result<String, Fault> {
         match to {
-            Target::Var(var) => Ok(format!("#{}", number_of(var)?)),
+            Target::Var(var) => {
+                let mut out = String::new();
+                self.variable(var, &mut out)?;
+                Ok(out)
+            }
             Target::Element(_) => Err(cannot_compute("a variable whose number is computed")),
         }
     }
@@ -68,9 +68,9 @@ impl Spelling<'_> {
         if depth >= self.rules.brackets {
             return Err(cannot_compute("brackets within so many others"));
         }
-        out.push('[');
-        self.expr(e, Tie::Comparison, true, depth + 1, out)?;
-        out.push(']');
+        out.push_str(&self.rules.open);
+        self.expr(e, LOOSEST, true, depth + 1, out)?;
+        out.push_str(&self.rules.close);
         Ok(())
     }
 
@@ -87,19 +87,28 @@ impl Spelling<'_> {
             }
             Expr::Node(node) => &**node,
         };
+        if let Some((operator, a, b)) = nearly(node).filter(|_| self.rules.near) {
+            return self.operation(operator, [a, b], least, first, depth, out);
+        }
         match node {
             Node::Vacant => {
-                out.push_str("#0");
+                let word = self.rules.vacant.as_ref();
+                out.push_str(word.ok_or_else(|| cannot_compute("no value at all"))?);
                 Ok(())
             }
-            Node::Var(var) => {
-                out.push('#');
-                out.push_str(&number_of(var)?);
-                Ok(())
-            }
+            Node::Var(var) => self.variable(var, out),
             Node::Element(_) => Err(cannot_compute("a variable whose number is computed")),
             Node::Unary(Unary::Negate, a) => self.negative(e, a, first, depth, out),
-            Node::Unary(Unary::Not, _) => Err(cannot_compute("the opposite of a condition")),
+            Node::Unary(Unary::Not, a) => {
+                let word = self.rules.not.as_ref();
+                let word = word.ok_or_else(|| cannot_compute("the opposite of a condition"))?;
+                if !first {
+                    return self.bracketed(e, depth, out);
+                }
+                out.push_str(word);
+                out.push(' ');
+                self.expr(a, 0, false, depth, out)
+            }
             Node::Binary(Binary::Subtract, Expr::Num(zero), a @ Expr::Node(_))
                 if *zero == Num::int(0, Unit::One) =>
             {
@@ -109,22 +118,40 @@ impl Spelling<'_> {
                 if let Some((function, arguments)) = from_zero(*operator, a, b).filter(|_| self.turn) {
                     return self.plain_call(function, arguments, depth, out);
                 }
-                let own = tie(*operator).ok_or_else(|| cannot_compute("a power"))?;
-                if own < least {
-                    return self.bracketed(e, depth, out);
-                }
-                let word = self.rules.operator(*operator);
-                let word = word.ok_or_else(|| cannot_compute("this operator"))?;
-                self.expr(a, own, first, depth, out)?;
-                let apart = self.blanks || word.bytes().all(|b| b.is_ascii_alphabetic());
-                let blank = if apart { " " } else { "" };
-                out.push_str(blank);
-                out.push_str(word);
-                out.push_str(blank);
-                self.expr(b, tighter(own), false, depth, out)
+                self.operation(*operator, [a, b], least, first, depth, out)
             }
             Node::Call(function, arguments) => self.call(*function, arguments, depth, out),
         }
+    }
+
+    fn operation(
+        &self,
+        operator: Binary,
+        [a, b]: [&Expr; 2],
+        least: Tie,
+        first: bool,
+        depth: u8,
+        out: &mut String,
+    ) -> Result<(), Fault> {
+        let own = self.tie(operator).ok_or_else(|| cannot_compute("this operator"))?;
+        if own > least {
+            if depth >= self.rules.brackets {
+                return Err(cannot_compute("brackets within so many others"));
+            }
+            out.push_str(&self.rules.open);
+            self.operation(operator, [a, b], LOOSEST, true, depth + 1, out)?;
+            out.push_str(&self.rules.close);
+            return Ok(());
+        }
+        let word = self.rules.operator(operator);
+        let word = word.ok_or_else(|| cannot_compute("this operator"))?;
+        self.expr(a, own, first, depth, out)?;
+        let apart = self.blanks || word.bytes().all(|b| b.is_ascii_alphabetic());
+        let blank = if apart { " " } else { "" };
+        out.push_str(blank);
+        out.push_str(word);
+        out.push_str(blank);
+        self.expr(b, own - 1, false, depth, out)
     }
 
     fn negative(&self, e: &Expr, a: &Expr, first: bool, depth: u8, out: &mut String) -> Result<(), Fault> {
@@ -135,7 +162,7 @@ impl Spelling<'_> {
         match a {
             // A sign behind a sign.
             Expr::Num(n) if n.mantissa < 0 => self.bracketed(a, depth, out),
-            a => self.expr(a, Tie::Factor, false, depth, out),
+            a => self.expr(a, 0, false, depth, out),
         }
     }
 
@@ -172,6 +199,15 @@ impl Spelling<'_> {
     ) -> Result<(), Fault> {
         let word = self.rules.function(function);
         out.push_str(word.ok_or_else(|| cannot_compute("this function"))?);
+        if self.rules.together {
+            out.push_str(&self.rules.open);
+            for (at, argument) in arguments.iter().enumerate() {
+                out.push_str(if at > 0 { "," } else { "" });
+                self.expr(argument, LOOSEST, true, depth + 1, out)?;
+            }
+            out.push_str(&self.rules.close);
+            return Ok(());
+        }
         for (at, argument) in arguments.iter().enumerate() {
             if at > 0 {
                 out.push('/');
@@ -179,6 +215,52 @@ impl Spelling<'_> {
             self.bracketed(argument, depth, out)?;
         }
         Ok(())
+    }
+}
+
+/// A comparison that finds equal what is nearly so, as a control does it by itself.
+fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
+    fn equal(e: &Expr) -> Option<(&Expr, &Expr)> {
+        let Expr::Node(node) = e else { return None };
+        match &**node {
+            Node::Call(Function::NearRatio, arguments) => match &arguments[..] {
+                [a, b, _] => Some((a, b)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+    fn other(e: &Expr) -> Option<(&Expr, &Expr)> {
+        let Expr::Node(node) = e else { return None };
+        match &**node {
+            Node::Unary(Unary::Not, a) => equal(a),
+            _ => None,
+        }
+    }
+    fn compares(e: &Expr) -> Option<(Binary, &Expr, &Expr)> {
+        let Expr::Node(node) = e else { return None };
+        match &**node {
+            Node::Binary(operator, a, b) => Some((*operator, a, b)),
+            _ => None,
+        }
+    }
+    match node {
+        Node::Call(Function::NearRatio, arguments) => match &arguments[..] {
+            [a, b, _] => Some((Binary::Equal, a, b)),
+            _ => None,
+        },
+        Node::Unary(Unary::Not, a) => equal(a).map(|(a, b)| (Binary::NotEqual, a, b)),
+        Node::Binary(Binary::And, exact, near) => {
+            let found = compares(exact)?;
+            let same = other(near) == Some((found.1, found.2));
+            (same && matches!(found.0, Binary::Less | Binary::Greater)).then_some(found)
+        }
+        Node::Binary(Binary::Or, exact, near) => {
+            let found = compares(exact)?;
+            let same = equal(near) == Some((found.1, found.2));
+            (same && matches!(found.0, Binary::LessOrEqual | Binary::GreaterOrEqual)).then_some(found)
+        }
+        _ => None,
     }
 }
 
@@ -198,21 +280,14 @@ fn from_zero<'e>(operator: Binary, a: &'e Expr, b: &Expr) -> Option<(Function, &
     }
 }
 
-fn tighter(tie: Tie) -> Tie {
-    match tie {
-        Tie::Comparison => Tie::Sum,
-        Tie::Sum => Tie::Product,
-        Tie::Product | Tie::Factor => Tie::Factor,
-    }
-}
-
-/// The number of a variable, which is its name.
-pub(crate) fn number_of(var: &Var) -> Result<String, Fault> {
+/// The number of a variable, which is its name behind the prefix.
+pub(crate) fn number_of(var: &Var, prefix: &str) -> Result<String, Fault> {
     match var {
         Var::System(_) => Err(cannot_compute(format!("the system variable {}", var.name()))),
         Var::Local(name) | Var::Common(name) | Var::Retentive(name) => {
-            let number = !name.is_empty() && name.bytes().all(|b| b.is_ascii_digit());
-            if number { Ok(name.to_string()) } else { Err(cannot_compute(format!("the variable {name}"))) }
+            let number = name.strip_prefix(prefix).unwrap_or_default();
+            let plain = !number.is_empty() && number.bytes().all(|b| b.is_ascii_digit());
+            if plain { Ok(number.to_string()) } else { Err(cannot_compute(format!("the variable {name}"))) }
         }
     }
 }
@@ -236,13 +311,13 @@ pub(crate) fn literal(n: Num, point: bool, out: &mut String) {
 impl Writer {
     /// How expressions are spelt, in a word that rounds to digits or elsewhere.
     pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'static>, Fault> {
-        if !self.dialect.program.macro_b {
+        if self.dialect.formula.operators.is_empty() {
             return Err(cannot_compute("a value that is computed"));
         }
         Ok(Spelling {
             rules: &self.dialect.formula,
             blanks: self.dialect.block.blanks,
-            turn: self.settings.get(ANGLE_RANGE) != "half",
+            turn: self.settings.get(ANGLE_RANGE) == "turn",
             digits,
         })
     }
@@ -251,7 +326,7 @@ impl Writer {
     pub(crate) fn expression(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         self.rely_on_range(e, span, sink);
         let mut out = String::new();
-        self.spelling(None)?.expr(e, Tie::Comparison, true, 0, &mut out)?;
+        self.spelling(None)?.expr(e, LOOSEST, true, 0, &mut out)?;
         Ok(out)
     }
 
@@ -274,6 +349,11 @@ impl Writer {
         self.rely_on_range(e, span, sink);
         let spelling = self.spelling(digits)?;
         let mut out = String::new();
+        if !spelling.rules.behind.is_empty() {
+            out.push_str(&spelling.rules.behind);
+            spelling.expr(e, LOOSEST, true, 0, &mut out)?;
+            return Ok(out);
+        }
         let e = match e {
             Expr::Node(node) => match &**node {
                 Node::Unary(Unary::Negate, a) => {
@@ -286,7 +366,7 @@ impl Writer {
         };
         match e {
             Expr::Node(node) if matches!(**node, Node::Var(_) | Node::Vacant) => {
-                spelling.expr(e, Tie::Factor, true, 0, &mut out)?;
+                spelling.expr(e, 0, true, 0, &mut out)?;
             }
             e => spelling.bracketed(e, 0, &mut out)?,
         }
@@ -305,7 +385,8 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<Worth, Fault> {
         let (said, inner) = rounding(value);
-        let digits = match (said, letter.format.rounds) {
+        let rounds = letter.format.rounds.filter(|_| self.dialect.formula.rounds);
+        let digits = match (said, rounds) {
             (None, None) => None,
             (Some(said), Some([mm, inch])) if mm == inch && said == mm => Some(said),
             (Some(said), Some([mm, inch])) if mm != inch && (said == mm || said == inch) => {
@@ -313,6 +394,10 @@ impl Writer {
                 let unit = if said == mm { Unit::Mm } else { Unit::Inch };
                 self.check_unit(Num::int(1, unit), span)?;
                 Some(said)
+            }
+            (Some(_), None) if !self.dialect.formula.rounds => {
+                let text = self.behind(value, None, span, sink)?;
+                return Ok(self.block.formula(text));
             }
             (Some(_), _) => {
                 return Err(cannot_compute("a computed value that is rounded to other digits than its word"));

@@ -57,9 +57,17 @@ fn labels_and_repetitions() {
     let body = lines(vec![feed("X1."), rapid("X0.")]);
     let control = Op::Control(Box::new(Control::Repeat { times: Expr::int(3), body }));
     assert_eq!(text(&lines(vec![control])).0, "AGAIN_1:\nG90 G1 X1\nG0 X0\nREPEAT AGAIN_1 P=2\n");
-    refused(&lines(vec![rapid("X0."), Op::Goto("PASS".into())]));
-    let endless = Control::Loop { body: Vec::new() };
-    assert_eq!(refused(&lines(vec![rapid("X0."), Op::Control(Box::new(endless))])), "an endless loop");
+    assert_eq!(text(&lines(vec![rapid("X0."), Op::Goto("PASS".into())])).0, "G0 X0\nGOTOF PASS\n");
+    let endless = Op::Control(Box::new(Control::Loop { body: Vec::new() }));
+    assert_eq!(text(&lines(vec![rapid("X0."), endless])).0, "G0 X0\nLOOP\nENDLOOP\n");
+    let counted = Control::For {
+        variable: ncc_ir::expr::Var::Common("R1".into()),
+        from: Expr::int(1),
+        to: Expr::int(2),
+        step: Expr::int(1),
+        body: Vec::new(),
+    };
+    assert_eq!(refused(&lines(vec![rapid("X0."), Op::Control(Box::new(counted))])), "a counted loop");
 }
 
 #[test]

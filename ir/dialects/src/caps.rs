@@ -338,7 +338,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.can.flat
             || !dialect.comment.message.is_empty()
             || names(NameMeaning::Message),
-        computes: dialect.program.macro_b.then(|| {
+        computes: (!dialect.formula.operators.is_empty()).then(|| {
             let rules = &dialect.formula;
             Box::new(Computes {
                 operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
@@ -349,6 +349,13 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 loops: rules.loops,
                 arguments: says(Meaning::CallMacro),
                 arguments_again: rules.arguments_again,
+                prefix: rules.prefix.as_str().into(),
+                vacant: rules.vacant.is_some(),
+                rounds: rules.rounds,
+                blocks: rules.blocks,
+                opposite: rules.not.is_some(),
+                near: rules.near,
+                restates: rules.restates,
             })
         }),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },

@@ -12,8 +12,37 @@ use serde::Deserialize;
 pub struct FormulaRules {
     /// Operators.
     pub operators: BTreeMap<Operator, String>,
-    /// Functions. `atan2` has its two arguments with a division sign between them: `ATAN[a]/[b]`.
+    /// Functions.
     pub functions: BTreeMap<FunctionName, String>,
+    /// Operators in groups that bind alike, the tightest first.
+    pub priority: Vec<Vec<Operator>>,
+    /// The brackets.
+    pub open: String,
+    /// The closing ones.
+    pub close: String,
+    /// Whether the arguments of a function of several stand in one pair of brackets, with commas between:
+    /// `ATAN2(a,b)`; else each in its own with a division sign between: `ATAN[a]/[b]`.
+    pub together: bool,
+    /// What stands before the name of a variable.
+    pub variable: String,
+    /// What stands for no value at all, of a control that has such a thing.
+    pub vacant: Option<String>,
+    /// With what the names of variables begin that others know by their numbers alone: `R` of `R101`.
+    pub prefix: String,
+    /// What stands between a letter and what is computed; without, it is a variable or in brackets.
+    pub behind: String,
+    /// The word for the opposite of a condition.
+    pub not: Option<String>,
+    /// Whether comparisons find real numbers equal that are nearly so.
+    pub near: bool,
+    /// Whether a word rounds what is computed for it to its increment.
+    pub rounds: bool,
+    /// Whether blocks in loops and behind labels are written with every fact that is known there, since the words of
+    /// another language lead to them; else as they are, with what is in force.
+    pub restates: bool,
+    /// Whether a decision is about blocks of its own, and can have others where it does not hold; else about one jump
+    /// or one assignment.
+    pub blocks: bool,
     /// Numbers of variables, from and to, that live as long as a call.
     pub local: Vec<[u32; 2]>,
     /// Of those that all programs see, until the control is switched off.
@@ -68,6 +97,10 @@ pub enum FunctionName {
     Round,
     RoundUp,
     Truncate,
+    Floor,
+    Ceiling,
+    Min,
+    Max,
     Ln,
     Exp,
 }
@@ -107,6 +140,10 @@ impl From<FunctionName> for Function {
             FunctionName::Round => Function::Round,
             FunctionName::RoundUp => Function::RoundUp,
             FunctionName::Truncate => Function::Truncate,
+            FunctionName::Floor => Function::Floor,
+            FunctionName::Ceiling => Function::Ceiling,
+            FunctionName::Min => Function::Min,
+            FunctionName::Max => Function::Max,
             FunctionName::Ln => Function::Ln,
             FunctionName::Exp => Function::Exp,
         }

@@ -4,6 +4,7 @@
 //! target's capabilities by the same passes; behind each nothing is known. What a pass would have to change that is
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
+use super::super::known_facts::Known;
 use super::super::number_names;
 use super::{Legaliser, Target};
 use crate::arguments;
@@ -15,8 +16,14 @@ use crate::source::Span;
 use crate::track::Tracker;
 
 impl Legaliser {
+    /// What holds behind what has come so far.
+    pub fn stands(&self) -> &Tracker {
+        &self.walk.at
+    }
+
     /// Brings a program that computes within the target's capabilities, its structure kept.
-    pub fn run_computing(&mut self, program: &mut Program, diags: &mut Vec<Diagnostic>) {
+    /// `known` is what holds where stretches of its blocks begin.
+    pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
         number_names::over(program, &self.target, diags);
         let assumed = program.assumed;
         // What the target says of a program's flow has been looked at before.
@@ -29,18 +36,18 @@ impl Legaliser {
                 _ => None,
             };
             let inherits = has_positions(&procedure.body);
-            let mut region = Region { fresh: &fresh, inherits, diags };
+            let mut region = Region { fresh: &fresh, known, inherits, diags };
             region.body(&mut procedure.body, start);
         }
     }
 
-    /// The same legaliser where nothing is known of what was before.
-    fn anew(&self) -> Legaliser {
+    /// The same legaliser where nothing is known of what was before but this.
+    fn anew(&self, known: Option<Tracker>) -> Legaliser {
         let Target { caps, decimals, peck_clearance, .. } = &self.target;
         let mut own = Legaliser::new(caps, *decimals, *peck_clearance);
         own.target.clone_from(&self.target);
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
-        own.walk = super::Walk::new(Tracker::unknown());
+        own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.at_once = super::at_once::State::default();
         own
     }
@@ -57,6 +64,7 @@ fn has_positions(body: &[Stmt]) -> bool {
 
 struct Region<'l> {
     fresh: &'l Legaliser,
+    known: &'l Known,
     inherits: bool,
     diags: &'l mut Vec<Diagnostic>,
 }
@@ -85,7 +93,8 @@ impl Region<'_> {
         if stmts.is_empty() {
             return;
         }
-        let (mut own, assumed) = start.unwrap_or_else(|| (self.fresh.anew(), Modes::default()));
+        let known = stmts.first().and_then(|first| self.known.before(first));
+        let (mut own, assumed) = start.unwrap_or_else(|| (self.fresh.anew(known.cloned()), Modes::default()));
         let before = stmts.clone();
         let mut found = Vec::new();
         own.run(stmts, &assumed, &mut found);
@@ -105,14 +114,17 @@ impl Region<'_> {
 
     /// The place of a statement that a pass has changed though it is computed, or others rely on it.
     fn relied_on(&self, before: &[Stmt], after: &[Stmt]) -> Option<Span> {
-        let same = before.iter().zip(after).take_while(|(a, b)| a == b).count();
-        let rest = before.len().min(after.len()) - same;
-        let end = before.iter().rev().zip(after.iter().rev()).take(rest).take_while(|(a, b)| a == b).count();
-        let changed = before[same..before.len() - end].iter().chain(&after[same..after.len() - end]);
         let relies = |stmt: &&Stmt| {
             let cycle = matches!(stmt.op, drilling!() | Op::EndCycle | Op::Position(_));
             arguments::computed(&stmt.op) || matches!(stmt.op, Op::Assign(..)) || self.inherits && cycle
         };
-        changed.into_iter().find(relies).map(|stmt| stmt.span)
+        let (mut was, mut is) = (before.iter().filter(relies), after.iter().filter(relies));
+        loop {
+            match (was.next(), is.next()) {
+                (Some(a), Some(b)) if a.op == b.op && a.skip == b.skip => {}
+                (None, None) => return None,
+                (a, b) => return a.or(b).map(|stmt| stmt.span),
+            }
+        }
     }
 }

@@ -1,0 +1,215 @@
+//! Statements of programs that compute, in the language's own words: assignments, decisions with their blocks, loops,
+//! and jumps to labels.
+//!
+//! A jump says whether its label stands before it or behind. Expressions are the word writer's, by the dictionary.
+//!
+//! Not here: which variables there are (`passes/variables`), and calls with arguments, which are refused.
+
+use std::collections::BTreeSet;
+
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Expr, Target};
+use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::{Modal, Sink, Writer};
+use crate::word::modes::cannot;
+
+/// The last of the arithmetic parameters that every control has: R0 to R99 (PGA, arithmetic parameters).
+const LAST_EVERYWHERE: u32 = 99;
+
+/// What of a program that computes the writer must know before its statements.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Computing {
+    /// Whether the program computes at all.
+    pub(super) program: bool,
+    /// Labels that are jumped to.
+    targets: BTreeSet<Text>,
+    /// Those of the unit at hand that stand in the text already.
+    written: BTreeSet<Text>,
+    /// Whether there are cycles in it.
+    cycles: bool,
+    told_number: bool,
+    told_comparison: bool,
+}
+
+impl Writer {
+    /// Takes what jumps and loops need to know of the procedures of a program that computes.
+    pub(crate) fn know(&mut self, procedures: &[Procedure]) {
+        self.computing.program = true;
+        procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
+    }
+
+    /// A unit begins.
+    pub(super) fn no_labels_yet(&mut self) {
+        self.computing.written.clear();
+    }
+
+    /// Whether a label stands for nothing: a block that nothing jumps to.
+    pub(super) fn is_idle_label(&self, name: &str) -> bool {
+        self.computing.program && !self.computing.targets.contains(name)
+    }
+
+    /// A label has been written.
+    pub(super) fn label_written(&mut self, name: &str) {
+        if self.computing.program {
+            self.computing.written.insert(name.into());
+            self.doubt();
+        }
+    }
+
+    /// Control can come here from elsewhere.
+    fn doubt(&mut self) {
+        self.forget();
+        if self.computing.cycles {
+            self.standing.modal = Modal::Doubtful;
+        }
+    }
+
+    /// A value for a variable.
+    pub(super) fn assign(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let spelling = self.words.spelling(None)?;
+        let to = spelling.target(to)?;
+        let value = self.words.expression(value, span, sink)?;
+        self.tell_number(&to, span, sink);
+        self.alone(&format!("{to}={value}"), sink)
+    }
+
+    /// Variables beyond those that every control has are the machine's.
+    fn tell_number(&mut self, variable: &str, span: Span, sink: &mut Sink) {
+        let number = variable.strip_prefix(&self.dialect.formula.prefix).and_then(|n| n.parse::<u32>().ok());
+        if number.is_some_and(|n| n > LAST_EVERYWHERE)
+            && !std::mem::replace(&mut self.computing.told_number, true)
+        {
+            let parameter = "MD 28050 MM_NUM_R_PARAM".into();
+            let value = format!("more than {}", number.unwrap_or_default()).into();
+            sink.report(Fault::AssumedParameter { parameter, value }, span);
+        }
+    }
+
+    /// Two numbers that are nearly equal are so for `<` and `>` too, unless the machine has it otherwise.
+    fn tell_comparison(&mut self, condition: &str, span: Span, sink: &mut Sink) {
+        let exact = condition.contains(['<', '>']);
+        if exact && !std::mem::replace(&mut self.computing.told_comparison, true) {
+            let parameter = "MD 10280 PROG_FUNCTION_MASK bit 0".into();
+            let value = "0: real numbers that are nearly equal are not less or greater".into();
+            sink.report(Fault::AssumedParameter { parameter, value }, span);
+        }
+    }
+
+    /// A jump.
+    pub(super) fn go_to(&mut self, label: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        self.words.spelling(None)?;
+        self.flow(span, sink)?;
+        let text = self.jump(label, span, sink);
+        self.alone(&text, sink)
+    }
+
+    fn jump(&mut self, label: &str, span: Span, sink: &mut Sink) -> String {
+        let way = if self.computing.written.contains(label) { "GOTOB" } else { "GOTOF" };
+        format!("{way} {}", self.label_name(label, span, sink))
+    }
+
+    /// What comes next goes another way: what waits is written.
+    fn flow(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        self.settle_edge(span, sink)?;
+        self.pay_call(sink)?;
+        self.restate_feed(span, sink)
+    }
+
+    /// A decision or a loop.
+    pub(super) fn structure(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        let span = stmt.span;
+        self.words.spelling(None)?;
+        if stmt.skip.is_some() {
+            return Err(cannot("blocks that can be skipped together"));
+        }
+        self.flow(span, sink)?;
+        let condition = |writer: &mut Writer, e: &Expr, sink: &mut Sink| {
+            let text = writer.words.expression(e, span, sink)?;
+            writer.tell_comparison(&text, span, sink);
+            Ok::<String, Fault>(text)
+        };
+        match control {
+            Control::If { condition: e, then, otherwise } => {
+                let holds = condition(self, e, sink)?;
+                if let ([Stmt { op: Op::Goto(label), .. }], []) = (&then[..], &otherwise[..]) {
+                    let jump = self.jump(label, span, sink);
+                    return self.alone(&format!("IF {holds} {jump}"), sink);
+                }
+                self.opens(&format!("IF {holds}"), sink)?;
+                self.inner(then, stmt, sink);
+                if !otherwise.is_empty() {
+                    self.opens("ELSE", sink)?;
+                    self.inner(otherwise, stmt, sink);
+                }
+                self.closes("ENDIF", sink)
+            }
+            Control::While { condition: e, body } => {
+                let holds = condition(self, e, sink)?;
+                self.opens(&format!("WHILE {holds}"), sink)?;
+                self.inner(body, stmt, sink);
+                self.closes("ENDWHILE", sink)
+            }
+            Control::Loop { body } => {
+                self.opens("LOOP", sink)?;
+                self.inner(body, stmt, sink);
+                self.closes("ENDLOOP", sink)
+            }
+            Control::Until { condition: e, body } => {
+                self.opens("REPEAT", sink)?;
+                self.inner(body, stmt, sink);
+                let holds = condition(self, e, sink)?;
+                self.closes(&format!("UNTIL {holds}"), sink)
+            }
+            Control::For { .. } | Control::Repeat { .. } => Err(cannot("a counted loop")),
+        }
+    }
+
+    fn opens(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        self.alone(text, sink)?;
+        self.words.flush(false, sink);
+        self.words.block_written(sink.out);
+        self.doubt();
+        Ok(())
+    }
+
+    fn inner(&mut self, body: &[Stmt], stmt: &Stmt, sink: &mut Sink) {
+        self.body(body, sink);
+        self.words.open_block(&Stmt::new(stmt.span, Op::Blank));
+        if let Some(trace) = &mut self.words.trace {
+            trace.enter(std::slice::from_ref(stmt));
+        }
+        if let Err(fault) = self.flow(stmt.span, sink) {
+            sink.report(fault, stmt.span);
+        }
+    }
+
+    fn closes(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        self.alone(text, sink)?;
+        self.doubt();
+        Ok(())
+    }
+}
+
+impl Computing {
+    fn look(&mut self, body: &[Stmt]) {
+        for stmt in body {
+            self.cycles |= matches!(stmt.op, Op::StartCycle(_) | Op::Pattern(_));
+            if let Op::Goto(name) = &stmt.op {
+                self.targets.insert(name.clone());
+            } else if let Op::RepeatBlocks(repeat) = &stmt.op {
+                self.targets.insert(repeat.from.clone());
+                self.targets.extend(repeat.to.clone());
+            } else if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| self.look(body));
+            }
+        }
+    }
+}
