@@ -181,16 +181,11 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
 }
 
 /// What a dialect was given and cannot give back, and why.
-const NO_WAY_BACK: [(&str, &str); 4] = [
+const NO_WAY_BACK: [(&str, &str); 3] = [
     (
         "fanuc/g74-dwell.nc through siemens",
         "a tap with a chuck that dwells at R as well is written out as blocks with the chuck (G63), of which the \
          way back makes no cycle",
-    ),
-    (
-        "fanuc/rotation.nc through siemens",
-        "an incremental way along Z behind a change of the frame in X and Y, which setting data 42440 decides about; as \
-         what is written it is read with the machine's own choice",
     ),
     (
         "haas/g84.nc through siemens",

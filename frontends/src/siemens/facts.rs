@@ -106,6 +106,8 @@ pub(super) struct State {
     pub(super) tilt: Know<bool>,
     /// Axes that a frame was changed for and that no absolute word has moved since.
     pub(super) framed: [bool; AXES],
+    /// Axes that the frames in force may shift, turn, scale or mirror.
+    pub(super) in_frame: [bool; AXES],
 }
 
 impl State {
@@ -130,6 +132,7 @@ impl State {
             pole: Pole::Lost,
             tilt: Know::Lost,
             framed: [false; AXES],
+            in_frame: [true; AXES],
         }
     }
 
@@ -151,6 +154,7 @@ impl State {
         self.pole.join(before.pole);
         self.tilt.join(before.tilt);
         self.framed.iter_mut().zip(before.framed).for_each(|(axis, before)| *axis |= before);
+        self.in_frame.iter_mut().zip(before.in_frame).for_each(|(axis, before)| *axis |= before);
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost { own_feed: self.cycle.own_feed() || before.cycle.own_feed() };
         }

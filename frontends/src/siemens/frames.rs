@@ -26,11 +26,11 @@ impl Lower {
             return self.not_supported(code.name, "frame beside other functions", code.span, out);
         }
         self.stand.forget();
-        self.state.framed = [true; AXES];
         if words.no_address() {
             if added {
                 return self.not_supported(code.name, "appended frame without axes", code.span, out);
             }
+            self.frame_changes(false, [false; AXES]);
             return self.push(code.span, Op::ClearFrame(FrameSlot::Chain), out);
         }
         let step = match word {
@@ -45,7 +45,17 @@ impl Lower {
         if let Some(step) = step
             && !self.now.failed
         {
+            self.frame_changes(added, axes_of(&step));
             self.push(code.span, Op::SetFrame(Box::new(Frame { added, step })), out);
+        }
+    }
+
+    /// The chain of frames is another one for these axes, and where it is not added to, for those that it had before.
+    fn frame_changes(&mut self, added: bool, axes: [bool; AXES]) {
+        for (axis, within) in axes.into_iter().enumerate() {
+            let before = &mut self.state.in_frame[axis];
+            self.state.framed[axis] |= within || *before && !added;
+            *before = within || *before && added;
         }
     }
 
@@ -110,4 +120,20 @@ impl Lower {
         }
         Some(given)
     }
+}
+
+/// Axes whose coordinates a frame changes. A rotation changes two, of a plane that may not be known.
+fn axes_of(step: &FrameStep) -> [bool; AXES] {
+    let mut axes = [false; AXES];
+    match step {
+        FrameStep::Translate(by) => axes.iter_mut().zip(&**by).for_each(|(axis, by)| *axis = by.is_some()),
+        FrameStep::Scale(by) => axes.iter_mut().zip(&**by).for_each(|(axis, by)| *axis = by.is_some()),
+        FrameStep::Rotate { plane: Fact::Known(plane), .. } => {
+            let (first, second, _) = plane.axes();
+            (axes[first as usize], axes[second as usize]) = (true, true);
+        }
+        FrameStep::Rotate { .. } => axes[..3].fill(true),
+        FrameStep::Mirror(mirrored) => axes[..3].copy_from_slice(mirrored),
+    }
+    axes
 }
