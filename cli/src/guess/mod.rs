@@ -168,6 +168,23 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             Some(_) | None => {}
         }
     }
+    if is_o_word(&code) {
+        match dialect.program.o_words {
+            true => evidence.pro(number, "words of flow behind an `O`".to_owned()),
+            false => evidence.con(number, "words of flow behind an `O`".to_owned()),
+        }
+        return;
+    }
+    if code.windows(2).any(|two| two == b"#<") {
+        match dialect.program.o_words {
+            true => evidence.pro(number, "`#<` begins the name of a parameter".to_owned()),
+            false => evidence.con(number, "`#<` begins the name of a parameter".to_owned()),
+        }
+        return;
+    }
+    if dialect.program.o_words && code.iter().any(|b| b"#[=".contains(b)) {
+        return;
+    }
     if dialect.program.macros && code.contains(&b'=') && !code.contains(&b'#') {
         evidence.con(number, "`=` and no variable".to_owned());
         return;
@@ -207,7 +224,16 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
             evidence.con(number, format!("words behind `{}`", word.trim()));
         }
         word_of(dialect, number, letter, value, &word, from == 0, evidence);
+        if calls_a_macro(dialect, letter, value) {
+            // Any letter is an argument.
+            return;
+        }
     }
+}
+
+fn calls_a_macro(dialect: &Dialect, letter: u8, value: &str) -> bool {
+    let row = tenths(value).and_then(|tenths| dialect.code_row(letter, tenths));
+    letter == b'G' && row.is_some_and(|row| row.means == Some(Meaning::CallMacro))
 }
 
 fn word_of(
@@ -315,6 +341,37 @@ fn tenths(value: &str) -> Option<u32> {
     let (whole, tenth) = value.split_once('.').unwrap_or((value, ""));
     let number = |digits: &str| if digits.is_empty() { Some(0) } else { digits.parse::<u32>().ok() };
     number(whole)?.checked_mul(10)?.checked_add(number(tenth).filter(|t| *t < 10)?)
+}
+
+/// Whether a line says by an O word where the program goes: `O100 while [...]`, `o<pocket> call [1]`.
+fn is_o_word(code: &[u8]) -> bool {
+    let code = code.trim_ascii().to_ascii_lowercase();
+    let Some(rest) = code.strip_prefix(b"o") else { return false };
+    let rest = rest.trim_ascii_start();
+    let name = match rest.first() {
+        Some(b'<') => rest.iter().position(|b| *b == b'>').map_or(0, |end| end + 1),
+        _ => rest.iter().take_while(|b| b.is_ascii_digit()).count(),
+    };
+    let rest = rest[name..].trim_ascii_start();
+    let word = rest.iter().take_while(|b| b.is_ascii_alphabetic()).count();
+    const WORDS: [&[u8]; 15] = [
+        b"sub",
+        b"endsub",
+        b"call",
+        b"return",
+        b"if",
+        b"elseif",
+        b"else",
+        b"endif",
+        b"while",
+        b"endwhile",
+        b"do",
+        b"repeat",
+        b"endrepeat",
+        b"break",
+        b"continue",
+    ];
+    name > 0 && WORDS.contains(&&rest[..word])
 }
 
 /// Whether a line without variables is one of a macro language: a jump, or where a loop begins or ends.

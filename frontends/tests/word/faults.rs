@@ -174,11 +174,10 @@ fn the_macro_language_is_refused_by_name() {
     refused("N1 #29=1 GOTO10\n", "#29=1 GOTO10");
     refused("#1=2 #2=3\n", "#1=2 #2=3");
     refused("G65 P9000 A[ROUND[#1]]\n", "A[ROUND[#1]]");
-    // Of other controls nothing of it is known.
-    for id in ["haas", "linuxcnc"] {
-        assert_eq!(faults(id, "X[#1+2]\n"), ["MacroLanguage { what: 'X[#1+2]' } at 'X[#1+2]'"], "{id}");
-        assert_eq!(faults(id, "#1=#2 AND 7\n").len(), 1, "{id}");
-    }
+    // A control has the functions that its dictionary lists.
+    assert_eq!(faults("haas", "#1=FUP[#2]\n").len(), 1);
+    assert!(faults("haas", "#1=FIX[#2]\n").is_empty());
+    assert!(faults("fanuc", "#1=FUP[#2]\n").is_empty());
     assert_eq!(
         faults("fanuc", "G66 P9000 A1.\n")[0],
         "NotSupported { code: 'G66', name: 'modal macro call' } at 'G66'"
