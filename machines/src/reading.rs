@@ -249,6 +249,18 @@ fn slug(words: &str) -> String {
     key
 }
 
+/// What programs that compute take for granted of a control, as it is told.
+const COMPUTING: [&str; 8] = [
+    "increment to which computed words are rounded",
+    "axes U, V and W, which the machine does not have",
+    "alarms 61000 to 61999 and 65000 to 66999",
+    "MD 10280 PROG_FUNCTION_MASK bit 0",
+    "MD 28050 MM_NUM_R_PARAM",
+    "ROUNDUP of a negative number",
+    "half of a negative number, rounded",
+    "what is rounded up",
+];
+
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.
 pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
     let readings = [
@@ -263,6 +275,9 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         TIP,
         TILT,
     ];
+    if COMPUTING.iter().any(|parameter| slug(parameter) == key) {
+        return true;
+    }
     if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE, SWIVEL_RECORD].contains(&key) {
         return true;
     }
