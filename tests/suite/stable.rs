@@ -25,7 +25,7 @@ use ncc_ir::track::Tracker;
 use ncc_ir::world::World;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
-use ncc_tests::translate::{job, read, settings, translate};
+use ncc_tests::translate::{computes, job, read, settings, translate};
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 
 /// How many edits are tried; a variable of that name asks for more.
@@ -36,7 +36,8 @@ const SLACK: usize = 2;
 
 #[test]
 fn an_edit_of_one_block_stays_where_it_is() {
-    let programs = corpus::all();
+    // What a program computes another digit changes everywhere, or without end.
+    let programs: Vec<_> = corpus::all().into_iter().filter(|program| !computes(program)).collect();
     let edits = std::env::var("NCC_STABLE_EDITS").ok().and_then(|n| n.parse().ok()).unwrap_or(EDITS);
     let mut rng = Rng::with_seed(20_260_728);
     let mut before = BTreeMap::new();

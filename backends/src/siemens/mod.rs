@@ -346,6 +346,10 @@ impl Writer {
 
     /// A value as it is written behind a name.
     fn value(&mut self, letter: &Letter, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        if let Expr::Node(_) = value {
+            let text = self.words.behind(value, None, span, sink)?;
+            return Ok(text.trim_start_matches('=').to_owned());
+        }
         let trimmed;
         let value = match value {
             // Milliseconds and sums have zeros at their end that nobody wrote.
