@@ -553,8 +553,9 @@ impl<'j> Line<'j> {
     }
 
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
-        let verified = match &self.verifier {
+        let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
+                self.diagnostics.append(&mut verifier.take_notes());
                 if let Some(levels) = verifier.sampled() {
                     let warning = Fault::SkipSettingsSampled { levels };
                     self.diagnostics.push(Diagnostic::new(warning, Span::default()));

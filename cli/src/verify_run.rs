@@ -1,15 +1,17 @@
 //! Verification of a translation as it streams by: source and emitted text are executed in the same
 //! worlds and under the same block-skip settings, and their events compared.
 
+mod whole;
+
 use std::collections::BTreeMap;
 
 use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
-use ncc_ir::exec::{Event, Exec, Progress, Runner, named_tool};
+use ncc_ir::exec::{Event, Exec, named_tool};
 use ncc_ir::num::Nanos;
-use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
+use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
 use ncc_ir::world::World;
@@ -27,15 +29,6 @@ const MOST_LEVELS: u8 = 10;
 /// Levels of block skip of which every setting is tried; of more, only pairs.
 const ALL_SETTINGS: u32 = 6;
 
-/// Events that are made on each side before they are compared, in a program kept whole.
-const PIECE: usize = 4096;
-
-/// Pieces of a source that are executed by itself, to see whether it can be.
-const MOST_PIECES: usize = 4096;
-
-/// Events of a run after which a program that is kept whole is taken for one without an end.
-const MOST_EVENTS: u64 = 50_000_000;
-
 /// Why a verification ends early.
 #[derive(Debug)]
 pub(crate) enum Stop {
@@ -48,6 +41,8 @@ pub(crate) enum Stop {
 /// One world under one setting of the block-skip switches.
 #[derive(Clone)]
 pub(crate) struct Run {
+    /// The seed of its world.
+    seed: u32,
     /// Levels that are on in the source: bit n is level n.
     skip: u16,
     source: Exec,
@@ -77,6 +72,8 @@ pub(crate) struct Verifier {
     own_facts: Modes,
     /// Last place of the source that was executed, for differences without an event.
     last: Span,
+    /// What was not executed, or with values that were made up.
+    notes: Vec<Diagnostic>,
 }
 
 /// Facts that hold at power-on of every such control.
@@ -182,6 +179,7 @@ impl Verifier {
                 comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
                 comparison.see(job.to.dialect.caps.seen());
                 Run {
+                    seed,
                     skip: 0,
                     comparison,
                     source: Exec::new(&source, 0),
@@ -222,7 +220,13 @@ impl Verifier {
             stood: false,
             own_facts: own_facts(job),
             last: Span::default(),
+            notes: Vec::new(),
         }
+    }
+
+    /// What the verification has to say of its own reach.
+    pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
+        std::mem::take(&mut self.notes)
     }
 
     /// Keeps the pairs of events of the first world, with every block-skip switch off.
@@ -404,95 +408,6 @@ impl Verifier {
         Ok(())
     }
 
-    /// Ends a program of which the rest was kept whole: runs both rests against each other.
-    pub(crate) fn whole(
-        &mut self,
-        source: &Program,
-        text: &[u8],
-        base: u32,
-        inherited: &Modes,
-    ) -> Result<(), Stop> {
-        self.whole_telling(source, text, base, inherited, &mut |_| {})
-    }
-
-    /// As [`Verifier::whole`]; pairs of events go to `pairs` as they are found, if they are kept.
-    pub(crate) fn whole_telling(
-        &mut self,
-        source: &Program,
-        text: &[u8],
-        base: u32,
-        inherited: &Modes,
-        pairs: &mut dyn FnMut(&[Pair]),
-    ) -> Result<(), Stop> {
-        for procedure in &source.procedures {
-            self.prepare(&procedure.body, &source.assumed);
-        }
-        let before: Vec<Exec> = self.runs.iter().map(|run| run.source.clone()).collect();
-        let verdict = self.whole_compared(source, text, base, inherited, pairs);
-        match verdict {
-            // A program that cannot be executed is told as that, whatever was made of it.
-            Err(Stop::Target(told)) => Err(alone(source, before).unwrap_or(Stop::Target(told))),
-            Ok(()) | Err(Stop::Source(_)) => verdict,
-        }
-    }
-
-    fn whole_compared(
-        &mut self,
-        source: &Program,
-        text: &[u8],
-        base: u32,
-        inherited: &Modes,
-        pairs: &mut dyn FnMut(&[Pair]),
-    ) -> Result<(), Stop> {
-        self.reader.read(text, base, &mut self.batch);
-        self.reader.finish(&mut self.batch);
-        self.read_back(inherited)?;
-        let body = std::mem::take(&mut self.batch.stmts);
-        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
-        procedures.append(&mut self.batch.procedures);
-        let target = Program { procedures, ..Program::default() };
-        let found: Vec<u16> = target.procedures.iter().map(|p| levels(&p.body)).collect();
-        self.fork_for_target(&found);
-        for run in &mut self.runs {
-            let mut a = Runner::new(source);
-            let mut b = Runner::new(&target);
-            loop {
-                let more_a = a.run(&mut run.source, PIECE, &mut run.source_events).map_err(Stop::Source)?;
-                let more_b = b
-                    .run(&mut run.target, PIECE, &mut run.target_events)
-                    .map_err(|d| unreadable(&d, self.last))?;
-                let over = more_a == Progress::Done && more_b == Progress::Done;
-                if run.comparison.events > MOST_EVENTS {
-                    return Err(Stop::Source(Diagnostic::new(
-                        Fault::NoEnd { steps: MOST_EVENTS },
-                        self.last,
-                    )));
-                }
-                if over {
-                    run.source.no_open_corner().map_err(Stop::Source)?;
-                    run.source.end_of_text(&mut run.source_events);
-                    run.target.end_of_text(&mut run.target_events);
-                }
-                run.comparison
-                    .advance(&mut run.source_events, &mut run.target_events, over)
-                    .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
-                if self.watched {
-                    pairs(&run.comparison.take_pairs());
-                }
-                if over {
-                    break;
-                }
-                // One side is done and the other goes on: it must be going nowhere.
-                if run.source_events.len().max(run.target_events.len()) >= PIECE {
-                    run.comparison
-                        .advance(&mut run.source_events, &mut run.target_events, true)
-                        .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
-                }
-            }
-        }
-        Ok(())
-    }
-
     /// What was covered.
     pub(crate) fn covered(&self) -> Verified {
         Verified {
@@ -593,22 +508,6 @@ pub(crate) fn levels(stmts: &[Stmt]) -> u16 {
         }
     }
     found
-}
-
-/// Why the source cannot be executed by itself, if it cannot be.
-fn alone(source: &Program, starts: Vec<Exec>) -> Option<Stop> {
-    let mut events = Vec::new();
-    for mut exec in starts {
-        let mut runner = Runner::new(source);
-        for _ in 0..MOST_PIECES {
-            match runner.run(&mut exec, PIECE, &mut events) {
-                Err(fault) => return Some(Stop::Source(fault)),
-                Ok(Progress::Done) => break,
-                Ok(Progress::More) => events.clear(),
-            }
-        }
-    }
-    None
 }
 
 fn unreadable(d: &Diagnostic, at: Span) -> Stop {

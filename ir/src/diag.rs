@@ -364,4 +364,9 @@ faults! {
     NotReadBack { code: u16 } = 602, Error;
     /// Not every setting of the block-skip switches was tried.
     SkipSettingsSampled { levels: u8 } = 603, Warning;
+    /// A variable is read that the program may not have set: it was given values, the same on both sides.
+    VariableGiven { name: Box<str> } = 604, Warning;
+    /// A way that the program can go was not gone when it was run against the output: where the decision holds, where
+    /// it does not, or both.
+    NotTaken { holds: bool, fails: bool } = 605, Warning;
 }

@@ -21,6 +21,7 @@ pub mod geometry;
 mod kinds;
 pub mod maps;
 pub mod num;
+pub mod open;
 pub mod passes;
 pub mod places;
 pub mod polar;

@@ -122,7 +122,7 @@ impl Control {
                 Go::Again => loops.iter().find(|l| l.1 == at).map_or(at, |l| l.0),
             };
             self.steps += 1;
-            if self.steps > 2_000_000 {
+            if self.steps > 100_000 {
                 return self.m.halt("a program without an end");
             }
         }

@@ -10,6 +10,7 @@
 
 mod classes;
 mod names;
+mod sources;
 mod words;
 
 use std::collections::BTreeMap;

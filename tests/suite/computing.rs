@@ -1,7 +1,7 @@
 //! Programs that compute, `tests/computing/<dialect>/`: executed, written as straight blocks, and verified.
 //!
-//! Beside each program stands what it comes to in its own dialect, `<name>.flat`, and how targets that compute say it,
-//! `<name>.<dialect>`. Programs of `tests/computing/refused` cannot be executed;
+//! Beside each program stands what it comes to in its own dialect, `<name>.flat`, and in `kept` how targets that compute say it.
+//! Programs of `tests/computing/refused` cannot be executed;
 //! beside them stands why.
 
 use std::fmt::Write;
@@ -68,7 +68,7 @@ fn what_they_come_to() {
     failures.finish();
 }
 
-/// Targets with variables of the same language keep a program as it is; beside it stands their text, `<name>.<to>`,
+/// Targets with variables of the same language keep a program as it is; in `kept` stands their text,
 /// or why they do not take it. No other target but the text form takes any.
 #[test]
 fn what_is_kept() {
@@ -83,7 +83,8 @@ fn what_is_kept() {
                 let verified = outcome.release.is_ok() && outcome.verified.is_some_and(|v| v.events > 0);
                 if KEEPING.contains(&to) {
                     let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
-                    let file = corpus::root().join("tests/computing").join(from).join(format!("{stem}.{to}"));
+                    let file =
+                        corpus::root().join("tests/computing/kept").join(format!("{from}-{stem}.{to}"));
                     let told = rendered(&job, &name, &text, &outcome.diagnostics);
                     let said = if verified { &written[..] } else { told.as_bytes() };
                     failures.check(&what, expect::file(&file, said));

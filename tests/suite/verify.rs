@@ -13,7 +13,7 @@ use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::page;
-use ncc_tests::translate::{job, translate};
+use ncc_tests::translate::{computes, job, translate};
 use serde_json::Value;
 
 use crate::schema::faults_of;
@@ -87,6 +87,10 @@ fn a_mutant_is_different() {
             // Of a source that is coarser than its target all are looked at, of other pairs a third.
             let coarser = program.dialect == "siemens" && to == "canon";
             if to == program.dialect || (at + to_at) % 3 != 0 && !coarser {
+                continue;
+            }
+            // A loop of which a word is changed may have no end, and is followed to where that is certain.
+            if computes(&program) {
                 continue;
             }
             let mut job = job(program.dialect, to, &program.file);

@@ -211,7 +211,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "this is a fault of ncc, not of your program; nothing is released".to_owned(),
             "please report it with the program, or the lines around this place".to_owned(),
         ],
-        Fault::SkipSettingsSampled { .. } => Vec::new(),
+        Fault::NotTaken { .. } => own("look at what is written for it yourself"),
+        Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } => Vec::new(),
     }
 }
 

@@ -305,6 +305,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NotInMap { .. }
         | Fault::NotTheSame { .. }
         | Fault::NotReadBack { .. }
+        | Fault::VariableGiven { .. }
+        | Fault::NotTaken { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
     }
 }

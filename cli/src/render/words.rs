@@ -381,6 +381,19 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "the output cannot be read back".into(),
             format!("reading what was written for this gives NC{code:04}"),
         ),
+        Fault::VariableGiven { name } => (
+            format!("the variable {name} is read before the program sets it"),
+            "values were made up for it, the same for both programs".into(),
+        ),
+        Fault::NotTaken { holds, fails } => (
+            "not all of the program was executed when it was verified".into(),
+            match (holds, fails) {
+                (true, true) => "this decision was not come to",
+                (true, false) => "this never held",
+                (false, _) => "this always held",
+            }
+            .into(),
+        ),
         Fault::SkipSettingsSampled { levels } => (
             format!("not every setting of {levels} block-skip switches was tried"),
             "each switch alone and every pair were".into(),

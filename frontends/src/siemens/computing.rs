@@ -334,6 +334,9 @@ impl Lower {
         if let Some((attribute, _)) = definition.attributes.first() {
             return self.not_supported(&src.text(*attribute), "attribute of a variable", *attribute, out);
         }
+        if self.skipped() {
+            return self.not_supported("DEF", "definition that can be skipped", span, out);
+        }
         if self.executed {
             return self.not_supported("DEF", "definition behind blocks that are executed", span, out);
         }

@@ -174,10 +174,12 @@ fn the_macro_language_is_refused_by_name() {
     refused("N1 #29=1 GOTO10\n", "#29=1 GOTO10");
     refused("#1=2 #2=3\n", "#1=2 #2=3");
     refused("G65 P9000 A[ROUND[#1]]\n", "A[ROUND[#1]]");
-    // A control has the functions that its dictionary lists.
-    assert_eq!(faults("haas", "#1=FUP[#2]\n").len(), 1);
-    assert!(faults("haas", "#1=FIX[#2]\n").is_empty());
-    assert!(faults("fanuc", "#1=FUP[#2]\n").is_empty());
+    // Where the language is that of O words, a value is no sum without brackets, and nothing of this one.
+    assert_eq!(faults("linuxcnc", "G0 X[#1+2]\n"), [""; 0]);
+    for piece in ["#1=#2 AND 7\n", "#1=#2+1\n", "IF [#1 EQ 1] GOTO 5\n", "WHILE [#1 LT 5] DO1\n", "G0 X#0\n"]
+    {
+        assert_eq!(faults("linuxcnc", piece).len(), 1, "{piece}");
+    }
     assert_eq!(
         faults("fanuc", "G66 P9000 A1.\n")[0],
         "NotSupported { code: 'G66', name: 'modal macro call' } at 'G66'"

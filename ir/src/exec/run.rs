@@ -10,7 +10,7 @@ use super::{Event, Exec};
 use crate::arguments;
 use crate::canon::FeedMode;
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::Expr;
+use crate::expr::{Expr, Var};
 use crate::num::{Num, ONE, Unit};
 use crate::program::{Centre, Coord, Op, Piece, Program, Stmt};
 use crate::source::Span;
@@ -52,6 +52,10 @@ pub struct Runner<'p> {
     /// Statements with what was computed for them last.
     now: Vec<Stmt>,
     steps: u64,
+    /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
+    taken: Vec<u8>,
+    /// Most steps between two statements that are executed by themselves.
+    most_idle: u64,
 }
 
 #[derive(Clone, Debug)]
@@ -102,8 +106,48 @@ impl<'p> Runner<'p> {
             variables: Variables::new(&code.names),
             now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
             steps: 0,
+            taken: vec![0; code.steps.len()],
+            most_idle: MOST_IDLE,
             code: Rc::new(code),
         }
+    }
+
+    /// Gives variables their values before the program begins: local ones of the main procedure, and those that
+    /// all procedures see.
+    pub fn give(&mut self, value: &mut dyn FnMut(&Var) -> Option<Value>) {
+        for (var, place) in self.code.names.all() {
+            if let Some(value) = value(&var) {
+                self.variables.set(place, value);
+            }
+        }
+    }
+
+    /// Has a run that decides and computes without doing anything be taken for one without an end after so many
+    /// steps.
+    pub fn limit_idle(&mut self, most: u64) {
+        self.most_idle = most;
+    }
+
+    /// Adds the ways of decisions that were taken to those of other runs of the same program.
+    pub fn add_taken(&self, all: &mut Vec<u8>) {
+        all.resize(self.taken.len(), 0);
+        all.iter_mut().zip(&self.taken).for_each(|(all, taken)| *all |= taken);
+    }
+
+    /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
+    /// were, 0 to 2, as of [`Runner::add_taken`].
+    pub fn untaken(&self, all: &[u8]) -> Vec<(Span, u8)> {
+        let steps = self.code.steps.iter().zip(all);
+        let mut found: Vec<(Span, u8)> = steps
+            .filter_map(|(step, taken)| match step {
+                Step::Unless(stmt, ..) | Step::UnlessCounted(stmt, ..) if *taken != 3 => {
+                    Some((stmt.span, *taken))
+                }
+                _ => None,
+            })
+            .collect();
+        found.sort_by_key(|(span, _)| span.start);
+        found
     }
 
     /// Executes statements until at least `enough` events are in `out`, or the program is over.
@@ -184,8 +228,8 @@ impl<'p> Runner<'p> {
             if self.steps > MOST_STEPS {
                 return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_STEPS }, span));
             }
-            if self.steps - before > MOST_IDLE {
-                return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_IDLE }, span));
+            if self.steps - before > self.most_idle {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
             }
             if stmt.skip.is_some_and(|level| exec.skip >> level & 1 == 1) {
                 if let Step::Unskipped(_, to) = step {
@@ -225,6 +269,7 @@ impl<'p> Runner<'p> {
                 Step::Unless(_, condition, to) => {
                     let value =
                         self.variables.number(condition, asked).map_err(|why| self.no_value(why, span))?;
+                    self.taken[self.at as usize - 1] |= if value == 0.0 { 2 } else { 1 };
                     if value == 0.0 {
                         self.at = *to;
                     }
@@ -232,7 +277,9 @@ impl<'p> Runner<'p> {
                 Step::UnlessCounted(_, counter, to) => {
                     let [count, end, pace] = [counter.place, counter.end, counter.pace]
                         .map(|place| self.variables.get(place).number());
-                    if if pace < 0.0 { count < end } else { count > end } {
+                    let over = if pace < 0.0 { count < end } else { count > end };
+                    self.taken[self.at as usize - 1] |= if over { 2 } else { 1 };
+                    if over {
                         self.at = *to;
                     }
                 }

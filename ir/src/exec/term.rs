@@ -127,6 +127,13 @@ impl Names {
         }
     }
 
+    /// All variables that have names, with their places.
+    pub(super) fn all(&self) -> Vec<(Var, Place)> {
+        let locals = self.locals.iter().map(|(name, at)| (Var::Local(name.clone()), Place::Local(*at)));
+        let shared = self.shared.iter().map(|(var, at)| (var.clone(), Place::Shared(*at)));
+        locals.chain(shared).collect()
+    }
+
     /// A further local, without a name.
     pub(super) fn unnamed(&mut self) -> u32 {
         self.count += 1;

@@ -34,6 +34,11 @@ pub fn run(program: &mut Program, computes: &Computes, decimals: u8, diags: &mut
     if !computes.functions.contains(&Function::RoundUp) && computes.functions.contains(&Function::Ceiling) {
         up(program, diags);
     }
+    if !computes.operators.contains(&Binary::Modulo) {
+        program.procedures.iter_mut().for_each(|procedure| {
+            expressions(&mut procedure.body, &mut |_, value| remainder(value));
+        });
+    }
     if !computes.prefix.is_empty() {
         let own = program.procedures.iter().any(|p| !p.parameters.is_empty() || calls_with_own(&p.body));
         let names = Names { prefix: &computes.prefix, locals: !own };
@@ -41,6 +46,29 @@ pub fn run(program: &mut Program, computes: &Computes, decimals: u8, diags: &mut
     }
     if !computes.rounds {
         program.procedures.iter_mut().for_each(|procedure| unrounded(&mut procedure.body, decimals));
+    }
+}
+
+/// A remainder as what it is: what is divided, less the divisor as often as it goes into it.
+fn remainder(expr: &mut Expr) {
+    let Expr::Node(node) = expr else { return };
+    match &mut **node {
+        Node::Var(_) | Node::Vacant => {}
+        Node::Element(element) => element.at.iter_mut().for_each(remainder),
+        Node::Unary(_, a) => remainder(a),
+        Node::Call(_, arguments) => arguments.iter_mut().for_each(remainder),
+        Node::Binary(operator, a, b) => {
+            remainder(a);
+            remainder(b);
+            if *operator == Binary::Modulo {
+                let of = |operator, a: &Expr, b: &Expr| {
+                    Expr::Node(Box::new(Node::Binary(operator, a.clone(), b.clone())))
+                };
+                let quotient = of(Binary::Divide, a, b);
+                let often = Expr::Node(Box::new(Node::Call(Function::Truncate, vec![quotient])));
+                *expr = of(Binary::Subtract, a, &of(Binary::Multiply, &often, b));
+            }
+        }
     }
 }
 

@@ -22,6 +22,7 @@ fn what_is_computed_and_has_no_meaning() {
     refused("UNTIL R1>2", "UNTIL", "end of nothing", "UNTIL R1>2");
     refused("ELSE", "ELSE", "branch of no IF", "ELSE");
     refused("DEF REAL A_B=5", "DEF", "definition behind blocks that are executed", "DEF REAL A_B=5");
+    refused("/DEF REAL A_B", "DEF", "definition that can be skipped", "/DEF REAL A_B");
     refused("DEFINE A_B AS M8", "DEFINE", "macro", "DEFINE A_B AS M8");
     refused("REDEF X", "REDEF", "definition anew", "REDEF X");
     refused("F=_FEED", "_FEED", "variable that the program does not define", "_FEED");

@@ -1,0 +1,316 @@
+//! Programs that are kept whole: both are run from where they begin to their ends, against each other.
+//!
+//! What a program reads and has not set is given values, the same in both by the variables' names: made of the
+//! numbers of the program itself, so that its decisions go both ways, and nothing at all for local variables. With
+//! which values the source cannot be executed, it says nothing. Ways that were not gone are told.
+
+use ncc_ir::canon::Modes;
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::exec::{Exec, Progress, Runner};
+use ncc_ir::expr::Var;
+use ncc_ir::open::{literals, open_variables};
+use ncc_ir::program::{Procedure, Program};
+use ncc_ir::source::Span;
+use ncc_ir::valid::anything;
+use ncc_ir::value::Value;
+use ncc_ir::verify::Pair;
+
+use super::{Run, Stop, Verifier, different, levels, unreadable};
+
+/// Events that are made on each side before they are compared.
+const PIECE: usize = 4096;
+
+/// Pieces of a source that are executed by itself, to see whether it can be.
+const MOST_PIECES: usize = 4096;
+
+/// Events of a run after which a program is taken for one without an end.
+const MOST_EVENTS: u64 = 50_000_000;
+
+/// Sets of values with which a program is run that reads what it has not set, in each world.
+const SETS: u32 = 200;
+
+/// Events of a run with such a set, and steps that it may do nothing.
+const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
+
+/// Decisions that are told; of more, the first ones.
+const MOST_TOLD: usize = 20;
+
+/// Values that any variable may have.
+const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
+
+/// Values for what a program reads and has not set.
+struct Given {
+    open: Vec<(Var, Span)>,
+    /// What is tried first: the numbers of the program, and those beside them.
+    pool: Vec<f64>,
+}
+
+impl Given {
+    fn new(source: &Program) -> Given {
+        let open = open_variables(source);
+        let mut pool = FIRST.to_vec();
+        if !open.is_empty() {
+            let own = literals(source);
+            pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
+        }
+        Given { open, pool }
+    }
+
+    /// The value of a variable in a set: in the first one, a local variable has none.
+    fn value(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
+        if !self.open.iter().any(|(open, _)| open == var) {
+            return None;
+        }
+        let local = matches!(var, Var::Local(_));
+        let name = var.name();
+        let hash = name.bytes().chain(seed.to_le_bytes()).chain(set.to_le_bytes());
+        let hash =
+            hash.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
+        let hash = mixed(hash);
+        // In every second set all of them are given, else some are not.
+        if local && (set == 0 || set.is_multiple_of(2) && hash.is_multiple_of(4)) {
+            return Some(Value::Vacant);
+        }
+        let among = if set % 3 == 1 { FIRST.len() } else { self.pool.len() };
+        Some(Value::Number(self.pool[(mixed(hash) >> 20) as usize % among]))
+    }
+}
+
+/// Ways that were gone, of both programs.
+#[derive(Default)]
+struct Gone {
+    source: Vec<u8>,
+    target: Vec<u8>,
+}
+
+/// Bits well mixed (splitmix64).
+fn mixed(n: u64) -> u64 {
+    let n = n.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let n = (n ^ n >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let n = (n ^ n >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    n ^ n >> 31
+}
+
+/// Why a run ends before its end.
+enum Ended {
+    /// The source cannot be executed.
+    Source(Diagnostic),
+    /// The output does something else.
+    Target(Diagnostic),
+    /// It is long enough.
+    Enough,
+}
+
+impl Verifier {
+    /// Ends a program of which the rest was kept whole: runs both rests against each other.
+    pub(crate) fn whole(
+        &mut self,
+        source: &Program,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+    ) -> Result<(), Stop> {
+        self.whole_telling(source, text, base, inherited, &mut |_| {})
+    }
+
+    /// As [`Verifier::whole`]; pairs of events go to `pairs` as they are found, if they are kept.
+    pub(crate) fn whole_telling(
+        &mut self,
+        source: &Program,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Stop> {
+        for procedure in &source.procedures {
+            self.prepare(&procedure.body, &source.assumed);
+        }
+        let before: Vec<(u32, Exec)> = self.runs.iter().map(|run| (run.seed, run.source.clone())).collect();
+        let mut given = Given::new(source);
+        let verdict = self.whole_compared(source, &mut given, text, base, inherited, pairs);
+        match verdict {
+            // A program that cannot be executed is told as that, whatever was made of it.
+            Err(Stop::Target(told)) => Err(alone(source, &given, before).unwrap_or(Stop::Target(told))),
+            Ok(()) | Err(Stop::Source(_)) => verdict,
+        }
+    }
+
+    fn whole_compared(
+        &mut self,
+        source: &Program,
+        given: &mut Given,
+        text: &[u8],
+        base: u32,
+        inherited: &Modes,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Stop> {
+        self.reader.read(text, base, &mut self.batch);
+        self.reader.finish(&mut self.batch);
+        self.read_back(inherited)?;
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        procedures.append(&mut self.batch.procedures);
+        let target = Program { procedures, ..Program::default() };
+        let found: Vec<u16> = target.procedures.iter().map(|p| levels(&p.body)).collect();
+        self.fork_for_target(&found);
+        let computes = anything(&target).is_some();
+        if !computes {
+            // It is what the source comes to with nothing given.
+            given.open.clear();
+        }
+        let given = &*given;
+        let mut gone = Gone::default();
+        let mut starts = Vec::new();
+        let mut failed = None;
+        let mut runs = std::mem::take(&mut self.runs);
+        for run in &mut runs {
+            let start = (!given.open.is_empty() && run.skip == 0).then(|| run.clone());
+            let ended = self.run_against(run, [source, &target], given, 0, &mut gone, pairs);
+            match ended {
+                Ok(()) => {}
+                // With other values it may be executed.
+                Err(Ended::Source(fault)) if !given.open.is_empty() => failed = failed.or(Some(fault)),
+                Err(Ended::Source(fault)) => return Err(Stop::Source(fault)),
+                Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+                Err(Ended::Enough) => {
+                    let fault = Fault::NoEnd { steps: MOST_EVENTS };
+                    return Err(Stop::Source(Diagnostic::new(fault, self.last)));
+                }
+            }
+            starts.extend(start);
+        }
+        self.runs = runs;
+        let mut executed = failed.is_none();
+        let (a, b) = (Runner::new(source), Runner::new(&target));
+        for set in 1..=SETS {
+            let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
+            if starts.is_empty() || set > 2 && executed && all() {
+                break;
+            }
+            for start in &starts {
+                let mut run = start.clone();
+                run.comparison.keep_pairs(false);
+                match self.run_against(&mut run, [source, &target], given, set, &mut gone, &mut |_| {}) {
+                    Ok(()) | Err(Ended::Enough) => executed = true,
+                    Err(Ended::Source(_)) => {}
+                    Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+                }
+            }
+        }
+        if let Some(fault) = failed.filter(|_| !executed) {
+            return Err(Stop::Source(fault));
+        }
+        if computes {
+            self.tell(source, &target, given, &gone);
+        }
+        Ok(())
+    }
+
+    /// Runs both programs from where they begin, with one set of values.
+    fn run_against(
+        &self,
+        run: &mut Run,
+        [source, target]: [&Program; 2],
+        given: &Given,
+        set: u32,
+        gone: &mut Gone,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Ended> {
+        let (mut a, mut b) = (Runner::new(source), Runner::new(target));
+        for runner in [&mut a, &mut b] {
+            runner.give(&mut |var| given.value(var, run.seed, set));
+            if set > 0 {
+                runner.limit_idle(MOST_OF_SET.1);
+            }
+        }
+        let most = if set == 0 { MOST_EVENTS } else { MOST_OF_SET.0 };
+        let first = run.comparison.events;
+        let ended = loop {
+            let more_a = match a.run(&mut run.source, PIECE, &mut run.source_events) {
+                Ok(more) => more,
+                Err(fault) => break Err(Ended::Source(fault)),
+            };
+            let more_b = match b.run(&mut run.target, PIECE, &mut run.target_events) {
+                Ok(more) => more,
+                Err(fault) => break Err(Ended::target(unreadable(&fault, self.last))),
+            };
+            let over = more_a == Progress::Done && more_b == Progress::Done;
+            if run.comparison.events - first > most {
+                break Err(Ended::Enough);
+            }
+            if over {
+                if let Err(fault) = run.source.no_open_corner() {
+                    break Err(Ended::Source(fault));
+                }
+                run.source.end_of_text(&mut run.source_events);
+                run.target.end_of_text(&mut run.target_events);
+            }
+            // Where one side is done and the other goes on, that must be going nowhere.
+            let advanced = self.advance(run, over);
+            if self.watched && set == 0 {
+                pairs(&run.comparison.take_pairs());
+            }
+            let ahead = run.source_events.len().max(run.target_events.len()) >= PIECE;
+            let advanced = match advanced {
+                Ok(()) if !over && ahead => self.advance(run, true),
+                advanced => advanced,
+            };
+            match advanced {
+                Err(stop) => break Err(Ended::target(stop)),
+                Ok(()) if over => break Ok(()),
+                Ok(()) => {}
+            }
+        };
+        a.add_taken(&mut gone.source);
+        b.add_taken(&mut gone.target);
+        ended
+    }
+
+    fn advance(&self, run: &mut Run, over: bool) -> Result<(), Stop> {
+        let advanced = run.comparison.advance(&mut run.source_events, &mut run.target_events, over);
+        advanced.map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))
+    }
+
+    /// Tells what was given values, and which ways were not gone.
+    fn tell(&mut self, source: &Program, target: &Program, given: &Given, gone: &Gone) {
+        for (var, span) in &given.open {
+            let fault = Fault::VariableGiven { name: var.name().into() };
+            self.notes.push(Diagnostic::new(fault, *span));
+        }
+        let ways = |taken: u8| Fault::NotTaken { holds: taken & 1 == 0, fails: taken & 2 == 0 };
+        let untaken = Runner::new(source).untaken(&gone.source);
+        let of_target = Runner::new(target).untaken(&gone.target).len();
+        let told = untaken.iter().take(MOST_TOLD);
+        self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
+        if of_target > untaken.len() {
+            // The output decides what the source does not.
+            self.notes.push(Diagnostic::new(ways(0), self.last));
+        }
+    }
+}
+
+impl Ended {
+    fn target(stop: Stop) -> Ended {
+        match stop {
+            Stop::Source(fault) => Ended::Source(fault),
+            Stop::Target(fault) => Ended::Target(fault),
+        }
+    }
+}
+
+/// Why the source cannot be executed by itself, if it cannot be.
+fn alone(source: &Program, given: &Given, starts: Vec<(u32, Exec)>) -> Option<Stop> {
+    let mut events = Vec::new();
+    for (seed, mut exec) in starts {
+        let mut runner = Runner::new(source);
+        runner.give(&mut |var| given.value(var, seed, 0));
+        for _ in 0..MOST_PIECES {
+            match runner.run(&mut exec, PIECE, &mut events) {
+                Err(fault) => return Some(Stop::Source(fault)),
+                Ok(Progress::Done) => break,
+                Ok(Progress::More) => events.clear(),
+            }
+        }
+    }
+    None
+}

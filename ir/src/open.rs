@@ -1,0 +1,147 @@
+//! Variables that a program reads and may not have set before: what they hold comes from elsewhere.
+//!
+//! In the order of the text, so that a variable that is set further down, or on another way, is among them. Not here:
+//! what they are given.
+
+use std::collections::HashSet;
+use std::convert::Infallible;
+
+use crate::arguments;
+use crate::expr::{Expr, Node, Target, Var};
+use crate::program::{Control, Op, Program, Stmt};
+use crate::source::Span;
+
+/// Local variables of the main procedure, and those that all procedures see, each with the first place that reads it.
+pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
+    let mut look = Look::default();
+    for (at, procedure) in program.procedures.iter().enumerate() {
+        look.main = at == 0;
+        look.body(&procedure.body);
+    }
+    look.open
+}
+
+/// The literals of a program's expressions and decisions, as a control counts them.
+pub fn literals(program: &Program) -> Vec<f64> {
+    let mut found = Vec::new();
+    let mut each = |e: &Expr| numbers(e, &mut found);
+    for procedure in &program.procedures {
+        expressions(&procedure.body, &mut each);
+    }
+    found.sort_by(f64::total_cmp);
+    found.dedup();
+    found
+}
+
+fn numbers(e: &Expr, found: &mut Vec<f64>) {
+    if let Some(n) = e.literal() {
+        found.push(n.mantissa as f64 / 10_f64.powi(i32::from(n.scale)));
+    }
+    parts(e, &mut |part| numbers(part, found));
+}
+
+/// Shows the expressions that an expression is made of.
+fn parts(e: &Expr, seen: &mut dyn FnMut(&Expr)) {
+    let Expr::Node(node) = e else { return };
+    match &**node {
+        Node::Var(_) | Node::Vacant => {}
+        Node::Element(element) => element.at.iter().for_each(seen),
+        Node::Unary(_, a) => seen(a),
+        Node::Binary(_, a, b) => {
+            seen(a);
+            seen(b);
+        }
+        Node::Call(_, arguments) => arguments.iter().for_each(seen),
+    }
+}
+
+fn expressions(body: &[Stmt], seen: &mut dyn FnMut(&Expr)) {
+    for stmt in body {
+        of_stmt(stmt, seen);
+        if let Op::Control(control) = &stmt.op {
+            control.bodies().for_each(|body| expressions(body, seen));
+        }
+    }
+}
+
+/// The expressions that a statement itself computes.
+fn of_stmt(stmt: &Stmt, seen: &mut dyn FnMut(&Expr)) {
+    if let Op::Assign(to, value) = &stmt.op {
+        seen(value);
+        if let Target::Element(element) = to {
+            element.at.iter().for_each(seen);
+        }
+    } else if let Op::Call(call) = &stmt.op {
+        call.arguments.iter().for_each(seen);
+    } else if let Op::Declare(declare) = &stmt.op {
+        declare.initial.iter().flatten().for_each(seen);
+    } else if let Op::Control(control) = &stmt.op {
+        match &**control {
+            Control::If { condition, .. }
+            | Control::While { condition, .. }
+            | Control::Until { condition, .. } => seen(condition),
+            Control::For { from, to, step, .. } => [from, to, step].into_iter().for_each(seen),
+            Control::Repeat { times, .. } => seen(times),
+            Control::Loop { .. } => {}
+        }
+    } else if arguments::computed(&stmt.op) {
+        let each = arguments::each(&mut stmt.op.clone(), &mut |argument, _| {
+            if let Some(e @ Expr::Node(_)) = argument.expr() {
+                seen(e);
+            }
+            Ok::<(), Infallible>(())
+        });
+        each.unwrap_or_else(|never| match never {});
+    }
+}
+
+#[derive(Default)]
+struct Look {
+    main: bool,
+    set: HashSet<Var>,
+    open: Vec<(Var, Span)>,
+}
+
+impl Look {
+    fn body(&mut self, body: &[Stmt]) {
+        for stmt in body {
+            of_stmt(stmt, &mut |e| self.reads(e, stmt.span));
+            if let Op::Assign(Target::Var(var), _) = &stmt.op {
+                self.sets(var);
+            } else if let Op::Declare(declare) = &stmt.op {
+                self.sets(&declare.var);
+            } else if let Op::Control(control) = &stmt.op {
+                if let Control::For { variable, .. } = &**control {
+                    self.sets(variable);
+                }
+                control.bodies().for_each(|body| self.body(body));
+            }
+        }
+    }
+
+    fn concerns(&self, var: &Var) -> bool {
+        match var {
+            Var::Local(_) => self.main,
+            Var::Common(_) | Var::Retentive(_) => true,
+            Var::System(_) => false,
+        }
+    }
+
+    fn sets(&mut self, var: &Var) {
+        if self.concerns(var) {
+            self.set.insert(var.clone());
+        }
+    }
+
+    fn reads(&mut self, e: &Expr, at: Span) {
+        if let Expr::Node(node) = e
+            && let Node::Var(var) = &**node
+            && self.concerns(var)
+            && !self.set.contains(var)
+            && !self.open.iter().any(|(known, _)| known == var)
+        {
+            self.open.push((var.clone(), at));
+        }
+        parts(e, &mut |part| self.reads(part, at));
+    }
+}
