@@ -338,6 +338,10 @@ impl<'j> Line<'j> {
         if computes {
             self.writer.know(&program.procedures);
             self.legaliser.run_computing(&mut program, &known, &mut found);
+            if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
+                self.take(found, Told::Writer);
+                return Ok(());
+            }
         } else {
             self.legaliser.run_program(&mut program, &mut found);
         }

@@ -12,7 +12,7 @@ use ncc_ir::expr::{Expr, Target};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
-use super::{Modal, Sink, Writer};
+use super::{Sink, Writer};
 use crate::word::modes::cannot;
 
 /// The last of the arithmetic parameters that every control has: R0 to R99 (PGA, arithmetic parameters).
@@ -50,20 +50,18 @@ impl Writer {
         self.computing.program && !self.computing.targets.contains(name)
     }
 
-    /// A label has been written.
-    pub(super) fn label_written(&mut self, name: &str) {
+    /// A label is about to be written, at which no cycle is in force.
+    pub(super) fn before_label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
         if self.computing.program {
             self.computing.written.insert(name.into());
-            self.doubt();
+            self.without_cycle(self.computing.cycles, sink)?;
         }
+        Ok(())
     }
 
-    /// Control can come here from elsewhere.
-    fn doubt(&mut self) {
-        self.forget();
-        if self.computing.cycles {
-            self.standing.modal = Modal::Doubtful;
-        }
+    /// Where control goes, or comes from, no cycle is left in force that blocks there call up or end.
+    fn without_cycle(&mut self, changes: bool, sink: &mut Sink) -> Result<(), Fault> {
+        if changes { self.end_modal(sink) } else { Ok(()) }
     }
 
     /// A value for a variable.
@@ -107,6 +105,7 @@ impl Writer {
     pub(super) fn go_to(&mut self, label: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.words.spelling(None)?;
         self.flow(span, sink)?;
+        self.without_cycle(self.computing.cycles, sink)?;
         let text = self.jump(label, span, sink);
         self.alone(&text, sink)
     }
@@ -130,7 +129,14 @@ impl Writer {
         if stmt.skip.is_some() {
             return Err(cannot("blocks that can be skipped together"));
         }
+        let within = |is: fn(&Op) -> bool| control.bodies().any(|body| any(body, is));
+        let changes = if within(|op| matches!(op, Op::Goto(_))) {
+            self.computing.cycles
+        } else {
+            within(changes_cycle)
+        };
         self.flow(span, sink)?;
+        self.without_cycle(changes, sink)?;
         let condition = |writer: &mut Writer, e: &Expr, sink: &mut Sink| {
             let text = writer.words.expression(e, span, sink)?;
             writer.tell_comparison(&text, span, sink);
@@ -144,27 +150,27 @@ impl Writer {
                     return self.alone(&format!("IF {holds} {jump}"), sink);
                 }
                 self.opens(&format!("IF {holds}"), sink)?;
-                self.inner(then, stmt, sink);
+                self.inner(then, changes, stmt, sink);
                 if !otherwise.is_empty() {
                     self.opens("ELSE", sink)?;
-                    self.inner(otherwise, stmt, sink);
+                    self.inner(otherwise, changes, stmt, sink);
                 }
                 self.closes("ENDIF", sink)
             }
             Control::While { condition: e, body } => {
                 let holds = condition(self, e, sink)?;
                 self.opens(&format!("WHILE {holds}"), sink)?;
-                self.inner(body, stmt, sink);
+                self.inner(body, changes, stmt, sink);
                 self.closes("ENDWHILE", sink)
             }
             Control::Loop { body } => {
                 self.opens("LOOP", sink)?;
-                self.inner(body, stmt, sink);
+                self.inner(body, changes, stmt, sink);
                 self.closes("ENDLOOP", sink)
             }
             Control::Until { condition: e, body } => {
                 self.opens("REPEAT", sink)?;
-                self.inner(body, stmt, sink);
+                self.inner(body, changes, stmt, sink);
                 let holds = condition(self, e, sink)?;
                 self.closes(&format!("UNTIL {holds}"), sink)
             }
@@ -176,26 +182,44 @@ impl Writer {
         self.alone(text, sink)?;
         self.words.flush(false, sink);
         self.words.block_written(sink.out);
-        self.doubt();
+        self.forget();
         Ok(())
     }
 
-    fn inner(&mut self, body: &[Stmt], stmt: &Stmt, sink: &mut Sink) {
+    fn inner(&mut self, body: &[Stmt], changes: bool, stmt: &Stmt, sink: &mut Sink) {
         self.body(body, sink);
         self.words.open_block(&Stmt::new(stmt.span, Op::Blank));
         if let Some(trace) = &mut self.words.trace {
             trace.enter(std::slice::from_ref(stmt));
         }
-        if let Err(fault) = self.flow(stmt.span, sink) {
+        let over = self.flow(stmt.span, sink).and_then(|()| self.without_cycle(changes, sink));
+        if let Err(fault) = over {
             sink.report(fault, stmt.span);
         }
     }
 
     fn closes(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         self.alone(text, sink)?;
-        self.doubt();
+        self.forget();
         Ok(())
     }
+}
+
+/// Whether any of the blocks, or of those in their bodies, is one of these.
+fn any(body: &[Stmt], is: fn(&Op) -> bool) -> bool {
+    body.iter().any(|stmt| {
+        if let Op::Control(control) = &stmt.op
+            && control.bodies().any(|body| any(body, is))
+        {
+            return true;
+        }
+        is(&stmt.op)
+    })
+}
+
+/// Calls cycles up or ends them.
+fn changes_cycle(op: &Op) -> bool {
+    matches!(op, Op::StartCycle(_) | Op::EndCycle | Op::Pattern(_) | Op::Call(_))
 }
 
 impl Computing {

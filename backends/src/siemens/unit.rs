@@ -146,6 +146,7 @@ impl Writer {
 
     pub(super) fn label(&mut self, name: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         self.pay_call(sink)?;
+        self.before_label(name, sink)?;
         let text = self.label_name(name, span, sink);
         if !self.words.block.is_empty() {
             self.words.flush(false, sink);
@@ -153,7 +154,6 @@ impl Writer {
         }
         self.words.block.text(Part::Label, &format!("{text}:"));
         self.forget();
-        self.label_written(name);
         Ok(())
     }
 
