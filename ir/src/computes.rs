@@ -4,13 +4,44 @@
 
 use crate::arguments;
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
-use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
+use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
+use crate::program::{Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
+
+/// A statement of programs that compute which not every language has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Said {
+    /// [`Op::Goto`].
+    Jump,
+    /// [`Op::Declare`] of a single value.
+    Declare,
+    /// [`Op::Declare`] of an array, and its elements.
+    Array,
+    /// Variables whose number is computed ([`Many::Numbered`]).
+    Numbered,
+    /// [`Control::Loop`].
+    Endless,
+    /// [`Control::Until`].
+    Until,
+    /// [`Control::For`].
+    Count,
+    /// [`Control::Repeat`] of a number that is computed.
+    Times,
+    /// [`Op::Leave`].
+    Leave,
+    /// [`Op::NextTurn`].
+    NextTurn,
+    /// [`Op::MessageOf`].
+    Values,
+    /// [`Op::Alarm`].
+    Alarm,
+}
 
 /// What a target computes with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Computes {
+    /// Statements that not every language has.
+    pub statements: Vec<Said>,
     /// Operators.
     pub operators: Vec<Binary>,
     /// Functions.
@@ -44,6 +75,11 @@ pub struct Computes {
 }
 
 impl Computes {
+    /// Whether there is such a statement.
+    pub fn has(&self, statement: Said) -> bool {
+        self.statements.contains(&statement)
+    }
+
     /// Whether a variable can be said.
     pub fn says(&self, var: &Var) -> bool {
         let among = |ranges: &[[u32; 2]], name: &str| {
@@ -104,13 +140,32 @@ impl Look<'_> {
     fn stmt(&self, stmt: &Stmt, loops: u8) -> Result<(), Diagnostic> {
         let at = stmt.span;
         match &stmt.op {
-            Op::Declare(_) => Err(refuse("a variable that is made known", at)),
-            Op::Leave | Op::NextTurn => Err(refuse("a loop that is left", at)),
-            Op::MessageOf(_) => Err(refuse("a message with values in it", at)),
+            Op::Declare(declare) => {
+                match declare.sizes.is_empty() {
+                    true => self.has(Said::Declare, "a variable that is made known", at)?,
+                    false => self.has(Said::Array, "an array", at)?,
+                }
+                self.variable(&declare.var, at)?;
+                declare.initial.iter().flatten().try_for_each(|value| self.expr(value, at))
+            }
+            Op::Leave => self.has(Said::Leave, "a loop that is left", at),
+            Op::NextTurn => self.has(Said::NextTurn, "a turn of a loop that is left", at),
+            Op::Goto(_) => self.has(Said::Jump, "a jump", at),
+            Op::MessageOf(pieces) => {
+                self.has(Said::Values, "a message with values in it", at)?;
+                pieces.iter().try_for_each(|piece| match piece {
+                    Piece::Text(_) => Ok(()),
+                    Piece::Value { value, .. } => self.expr(value, at),
+                })
+            }
+            Op::Alarm(alarm) => {
+                self.has(Said::Alarm, "an alarm", at)?;
+                alarm.number.iter().try_for_each(|number| self.expr(number, at))
+            }
             Op::Assign(to, value) => {
                 match to {
                     Target::Var(var) => self.variable(var, at)?,
-                    Target::Element(_) => return Err(refuse("a variable whose number is computed", at)),
+                    Target::Element(element) => self.element(element, at)?,
                 }
                 self.expr(value, at)
             }
@@ -148,8 +203,15 @@ impl Look<'_> {
                 self.body(body, deeper()?)
             }
             Control::Loop { body } if !ends(body) => Err(refuse("a loop that has no end", at)),
-            Control::Loop { body } => self.body(body, deeper()?),
-            Control::Until { .. } => Err(refuse("a loop that is tested behind each turn", at)),
+            Control::Loop { body } => {
+                self.has(Said::Endless, "a loop without a condition", at)?;
+                self.body(body, deeper()?)
+            }
+            Control::Until { condition, body } => {
+                self.has(Said::Until, "a loop that is tested behind each turn", at)?;
+                self.body(body, deeper()?)?;
+                self.expr(condition, at)
+            }
             Control::If { condition, then, otherwise } => {
                 self.expr(condition, at)?;
                 if self.computes.blocks {
@@ -164,9 +226,33 @@ impl Look<'_> {
                 }
             }
             Control::Repeat { times, body } if times.literal().is_some() => self.body(body, loops),
-            Control::Repeat { .. } => Err(refuse("a loop that is repeated a number of times", at)),
-            Control::For { .. } => Err(refuse("a loop that counts", at)),
+            Control::Repeat { times, body } => {
+                self.has(Said::Times, "a loop that is repeated a computed number of times", at)?;
+                self.expr(times, at)?;
+                self.body(body, deeper()?)
+            }
+            Control::For { variable, from, to, step, body } => {
+                self.has(Said::Count, "a loop that counts", at)?;
+                self.variable(variable, at)?;
+                [from, to, step].into_iter().try_for_each(|value| self.expr(value, at))?;
+                self.body(body, deeper()?)
+            }
         }
+    }
+
+    fn has(&self, statement: Said, what: &str, at: Span) -> Result<(), Diagnostic> {
+        if self.computes.has(statement) { Ok(()) } else { Err(refuse(what, at)) }
+    }
+
+    fn element(&self, element: &Element, at: Span) -> Result<(), Diagnostic> {
+        match &element.of {
+            Many::Array { var, .. } => {
+                self.has(Said::Array, "an array", at)?;
+                self.variable(var, at)?;
+            }
+            Many::Numbered(_) => self.has(Said::Numbered, "a variable whose number is computed", at)?,
+        }
+        element.at.iter().try_for_each(|index| self.expr(index, at))
     }
 
     fn variable(&self, var: &Var, at: Span) -> Result<(), Diagnostic> {
@@ -185,7 +271,7 @@ impl Look<'_> {
             Node::Var(var) => self.variable(var, at),
             Node::Vacant if !self.computes.vacant => Err(refuse("no value at all", at)),
             Node::Vacant => Ok(()),
-            Node::Element(_) => Err(refuse("a variable whose number is computed", at)),
+            Node::Element(element) => self.element(element, at),
             Node::Unary(Unary::Negate, a) => self.expr(a, at),
             Node::Unary(Unary::Not, a) if self.computes.opposite => self.expr(a, at),
             Node::Unary(Unary::Not, _) => Err(refuse("the opposite of a condition", at)),

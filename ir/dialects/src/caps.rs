@@ -341,6 +341,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         computes: (!dialect.formula.operators.is_empty()).then(|| {
             let rules = &dialect.formula;
             Box::new(Computes {
+                statements: rules.statements.iter().map(|statement| (*statement).into()).collect(),
                 operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
                 functions: rules.functions.keys().map(|function| (*function).into()).collect(),
                 local: rules.local.clone(),

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use ncc_ir::computes::Said;
 use ncc_ir::expr::{Binary, Function, Var};
 use serde::Deserialize;
 
@@ -10,6 +11,8 @@ use serde::Deserialize;
 #[derive(Clone, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FormulaRules {
+    /// Statements that not every language has.
+    pub statements: Vec<Statement>,
     /// Operators.
     pub operators: BTreeMap<Operator, String>,
     /// Functions.
@@ -58,6 +61,44 @@ pub struct FormulaRules {
     pub arguments_again: bool,
     /// Who says so.
     pub source: String,
+}
+
+/// A statement that not every language has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // As [`Said`].
+pub enum Statement {
+    Jump,
+    Declare,
+    Array,
+    Numbered,
+    Endless,
+    Until,
+    Count,
+    Times,
+    Leave,
+    NextTurn,
+    Values,
+    Alarm,
+}
+
+impl From<Statement> for Said {
+    fn from(statement: Statement) -> Said {
+        match statement {
+            Statement::Jump => Said::Jump,
+            Statement::Declare => Said::Declare,
+            Statement::Array => Said::Array,
+            Statement::Numbered => Said::Numbered,
+            Statement::Endless => Said::Endless,
+            Statement::Until => Said::Until,
+            Statement::Count => Said::Count,
+            Statement::Times => Said::Times,
+            Statement::Leave => Said::Leave,
+            Statement::NextTurn => Said::NextTurn,
+            Statement::Values => Said::Values,
+            Statement::Alarm => Said::Alarm,
+        }
+    }
 }
 
 /// An operator with two operands.
