@@ -235,6 +235,8 @@ faults! {
     VariableUnset { name: Box<str> } = 232, Error;
     /// What is computed when the program runs, where no target is given variables, expressions or jumps.
     Computes { what: Box<str> } = 233, Error;
+    /// A loop that is never left: a turn of it changes nothing by which the program goes.
+    Endless = 234, Error;
 
     /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.

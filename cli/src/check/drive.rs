@@ -212,7 +212,8 @@ impl<'d> Drive<'d> {
             self.subprogram = true;
             return true;
         }
-        let endless = matches!(refusal.fault, Fault::CallRecursive { .. } | Fault::NoEnd { .. });
+        let endless =
+            matches!(refusal.fault, Fault::CallRecursive { .. } | Fault::NoEnd { .. } | Fault::Endless);
         if endless {
             self.checker.give_up();
         }

@@ -80,7 +80,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::CallUnknown { .. } => {
             own("put the subprogram into the same file, after the main program, or name its folder: -I DIR")
         }
-        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } => Vec::new(),
+        Fault::CallRecursive { .. } | Fault::ProgramTwice { .. } | Fault::NoEnd { .. } | Fault::Endless => {
+            Vec::new()
+        }
         Fault::LabelUnknown { .. } => own(
             "put the label where the block looks for it: before one that repeats, in its direction from a jump",
         ),

@@ -296,6 +296,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::EntryFactNeeded { .. }
         | Fault::NotExecuted { .. }
         | Fault::NoEnd { .. }
+        | Fault::Endless
         | Fault::CannotSay { .. }
         | Fault::SecondWorkOffset { .. }
         | Fault::FactUnsaid { .. }

@@ -229,6 +229,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::PatternFolded { pattern, holes, .. } => {
             (format!("{holes} positions written as a {}", plain(pattern)), "positions here".into())
         }
+        Fault::Endless => (
+            "this loop is never left".into(),
+            "here all is as it was a turn before: the program comes round again and again".into(),
+        ),
         Fault::NoEnd { steps } => {
             ("the program does not come to an end".into(), format!("still running after {steps} blocks"))
         }

@@ -18,6 +18,7 @@ mod frame;
 mod holes;
 mod message;
 mod polar;
+mod rounds;
 mod run;
 mod slots;
 mod speed;

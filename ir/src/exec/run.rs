@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::code::{Again, At, Called, Code, Declared, Step};
 use super::message;
+use super::rounds::Rounds;
 use super::term::{Asked, Place, Variables, Why, real};
 use super::{Event, Exec};
 use crate::arguments;
@@ -19,8 +20,9 @@ use crate::value::Value;
 /// Deepest nesting of calls and repetitions.
 const DEEPEST: usize = 64;
 
-/// Most steps of one run; a program that needs more does not come to an end.
-const MOST_STEPS: u64 = 2_000_000_000;
+/// Most steps of a run, unless another number is asked for; a program that needs more is taken for one without an
+/// end.
+const MOST_STEPS: u64 = 200_000_000;
 
 /// Most of them between two statements that are executed by themselves.
 const MOST_IDLE: u64 = 10_000_000;
@@ -52,14 +54,17 @@ pub struct Runner<'p> {
     /// Statements with what was computed for them last.
     now: Vec<Stmt>,
     steps: u64,
+    rounds: Rounds,
     /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
     taken: Vec<u8>,
+    /// Most steps of all.
+    most: u64,
     /// Most steps between two statements that are executed by themselves.
     most_idle: u64,
 }
 
-#[derive(Clone, Debug)]
-struct Frame {
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Frame {
     entry: At,
     back: At,
     /// Further times after this one.
@@ -74,8 +79,8 @@ struct Frame {
     given: Rc<[Value]>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Blocks {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Blocks {
     begin: At,
     end: At,
     back: At,
@@ -106,7 +111,9 @@ impl<'p> Runner<'p> {
             variables: Variables::new(&code.names),
             now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
             steps: 0,
+            rounds: Rounds::default(),
             taken: vec![0; code.steps.len()],
+            most: MOST_STEPS,
             most_idle: MOST_IDLE,
             code: Rc::new(code),
         }
@@ -120,6 +127,11 @@ impl<'p> Runner<'p> {
                 self.variables.set(place, value);
             }
         }
+    }
+
+    /// Has a run be taken for one without an end after so many steps.
+    pub fn limit(&mut self, most: u64) {
+        self.most = most;
     }
 
     /// Has a run that decides and computes without doing anything be taken for one without an end after so many
@@ -225,8 +237,8 @@ impl<'p> Runner<'p> {
                 }
             };
             let span = stmt.span;
-            if self.steps > MOST_STEPS {
-                return Err(Diagnostic::new(Fault::NoEnd { steps: MOST_STEPS }, span));
+            if self.steps > self.most {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most }, span));
             }
             if self.steps - before > self.most_idle {
                 return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
@@ -263,7 +275,10 @@ impl<'p> Runner<'p> {
                     self.variables.set(place, value);
                 }
                 Step::Declare(_, declared) => self.declare(declared, asked, span)?,
-                Step::Jump(_, to) => self.at = *to,
+                Step::Jump(_, to) => {
+                    let from = std::mem::replace(&mut self.at, *to);
+                    self.goes_on(from, span)?;
+                }
                 Step::Again(_, to) => self.another_turn(*to),
                 Step::Unskipped(..) | Step::End => {}
                 Step::Unless(_, condition, to) => {
@@ -292,7 +307,7 @@ impl<'p> Runner<'p> {
                     exec.no_open_corner()?;
                     let times =
                         self.variables.number(times, asked).map_err(|why| self.no_value(why, span))?;
-                    if times < 0.0 || times != times.trunc() || times > MOST_STEPS as f64 {
+                    if times < 0.0 || times != times.trunc() || times > self.most as f64 {
                         return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
                     }
                     if times == 0.0 {
@@ -303,7 +318,9 @@ impl<'p> Runner<'p> {
                 }
                 Step::Goto(_, to) => {
                     exec.no_open_corner()?;
+                    let from = self.at;
                     self.jump(*to, stmt)?;
+                    self.goes_on(from, span)?;
                 }
                 Step::Call(_, called) => {
                     exec.no_open_corner()?;
@@ -322,6 +339,16 @@ impl<'p> Runner<'p> {
                 }
             }
         }
+    }
+
+    /// That a way back leads to where something is different.
+    #[inline]
+    fn goes_on(&mut self, from: At, span: Span) -> Result<(), Diagnostic> {
+        let back = self.at < from && !self.asks();
+        if back && self.rounds.again(self.at, &self.variables, &self.calls, &self.turns, &self.blocks) {
+            return Err(Diagnostic::new(Fault::Endless, span));
+        }
+        Ok(())
     }
 
     /// Whether the program asks for values of the control's own.

@@ -292,7 +292,7 @@ impl Asked<'_> {
 }
 
 /// Variables while a program runs.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Variables {
     /// Those of all calls in force, one after the other.
     pub(super) locals: Vec<Value>,
