@@ -4,7 +4,7 @@
 
 use crate::arguments;
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
+use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use crate::program::{Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
 
@@ -95,6 +95,17 @@ impl Computes {
             Var::Retentive(name) => among(&self.retentive, name),
             Var::System(_) => false,
         }
+    }
+
+    /// Whether variables that have numbers can all be said, by the same numbers.
+    fn says_all(&self, range: &Numbers) -> bool {
+        let ranges = match range.scope {
+            Scope::Local => &self.local,
+            Scope::Common => &self.common,
+            Scope::Retentive => &self.retentive,
+        };
+        *range.prefix == *self.prefix
+            && ranges.iter().any(|[from, to]| *from <= range.from && range.to <= *to)
     }
 
     /// The first place that cannot be said.
@@ -250,7 +261,12 @@ impl Look<'_> {
                 self.has(Said::Array, "an array", at)?;
                 self.variable(var, at)?;
             }
-            Many::Numbered(_) => self.has(Said::Numbered, "a variable whose number is computed", at)?,
+            Many::Numbered(numbers) => {
+                self.has(Said::Numbered, "a variable whose number is computed", at)?;
+                if !numbers.iter().all(|range| self.computes.says_all(range)) {
+                    return Err(refuse("a variable whose number is computed, of other variables", at));
+                }
+            }
         }
         element.at.iter().try_for_each(|index| self.expr(index, at))
     }

@@ -7,7 +7,7 @@
 
 use ncc_dialects::{ANGLE_RANGE, FormulaRules};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
@@ -59,8 +59,23 @@ impl Spelling<'_> {
                 self.variable(var, &mut out)?;
                 Ok(out)
             }
-            Target::Element(_) => Err(cannot_compute("a variable whose number is computed")),
+            Target::Element(element) => {
+                let mut out = String::new();
+                self.element(element, 0, &mut out)?;
+                Ok(out)
+            }
         }
+    }
+
+    /// A variable whose number is computed.
+    fn element(&self, element: &Element, depth: u8, out: &mut String) -> Result<(), Fault> {
+        let (Many::Numbered(_), [number]) = (&element.of, &element.at[..]) else {
+            return Err(cannot_compute("an array"));
+        };
+        out.push_str(&self.rules.variable);
+        out.push_str(&self.rules.prefix);
+        // Within its brackets ROUND goes to a whole number, whatever the word does that it stands in.
+        Spelling { digits: None, ..*self }.bracketed(number, depth, out)
     }
 
     /// An expression in brackets.
@@ -97,7 +112,7 @@ impl Spelling<'_> {
                 Ok(())
             }
             Node::Var(var) => self.variable(var, out),
-            Node::Element(_) => Err(cannot_compute("a variable whose number is computed")),
+            Node::Element(element) => self.element(element, depth, out),
             Node::Unary(Unary::Negate, a) => self.negative(e, a, first, depth, out),
             Node::Unary(Unary::Not, a) => {
                 let word = self.rules.not.as_ref();
@@ -120,7 +135,10 @@ impl Spelling<'_> {
                 }
                 self.operation(*operator, [a, b], least, first, depth, out)
             }
-            Node::Call(function, arguments) => self.call(*function, arguments, depth, out),
+            Node::Call(function, arguments) => match (self.rules.by_bits(*function), &arguments[..]) {
+                (Some(operator), [a, b]) => self.operation(operator, [a, b], least, first, depth, out),
+                _ => self.call(*function, arguments, depth, out),
+            },
         }
     }
 
@@ -365,7 +383,7 @@ impl Writer {
             Expr::Num(_) => e,
         };
         match e {
-            Expr::Node(node) if matches!(**node, Node::Var(_) | Node::Vacant) => {
+            Expr::Node(node) if matches!(**node, Node::Var(_) | Node::Element(_) | Node::Vacant) => {
                 spelling.expr(e, 0, true, 0, &mut out)?;
             }
             e => spelling.bracketed(e, 0, &mut out)?,

@@ -275,8 +275,8 @@ impl Sink<'_> {
     }
 
     /// An assignment; what is no variable, or nothing, takes no value.
-    pub(crate) fn assign(&mut self, start: usize, end: usize, to: Option<u32>, value: Formula) {
-        let to = to.filter(|to| *to > 0 && !value.condition).map(formula::variable);
+    pub(crate) fn assign(&mut self, start: usize, end: usize, to: Index, value: Formula) {
+        let to = Formula::target(to).filter(|_| !value.condition);
         self.piece(start, end, to.map(|to| Piece::Assign(to, value.expr)));
     }
 

@@ -8,7 +8,7 @@
 use ncc_dialects::{ANGLE_RANGE, Quantity};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Binary, Expr, Function, Node};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
@@ -156,9 +156,8 @@ impl Lower {
         }
         match statement {
             Statement::Assign(to, value) => {
-                let value = self.value(value, span, out);
-                self.assigned(span, out);
-                self.push(span, Op::Assign(to.clone().into(), value), out);
+                let assign = self.assignment(to, value, span, out);
+                self.push(span, assign, out);
             }
             Statement::Goto(condition, to) => {
                 if self.computes.unnamed {
@@ -174,9 +173,8 @@ impl Lower {
                 }
             }
             Statement::Then(condition, to, value) => {
-                let value = self.value(value, span, out);
-                self.assigned(span, out);
-                self.decide(condition, Op::Assign(to.clone().into(), value), span, out);
+                let assign = self.assignment(to, value, span, out);
+                self.decide(condition, assign, span, out);
             }
             Statement::Do(condition, number) => {
                 let twice = self.computes.loops.iter().any(|open| open.number == *number);
@@ -247,6 +245,36 @@ impl Lower {
         let then = vec![Stmt::new(span, then)];
         let control = Control::If { condition, then, otherwise: Vec::new() };
         self.push(span, Op::Control(Box::new(control)), out);
+    }
+
+    /// A value for a variable, or for the one whose number is computed.
+    fn assignment(&mut self, to: &Target, value: &Expr, span: Span, out: &mut Batch) -> Op {
+        let value = self.value(value, span, out);
+        let to = match to {
+            Target::Var(var) => Target::Var(var.clone()),
+            Target::Element(element) => {
+                let Element { at, .. } = &**element;
+                let at = at.iter().map(|index| self.value(index, span, out)).collect();
+                Target::Element(Box::new(Element { of: self.numbered(), at }))
+            }
+        };
+        self.assigned(span, out);
+        Op::Assign(to, value)
+    }
+
+    /// The variables that have numbers.
+    fn numbered(&self) -> Many {
+        let rules = &self.settings.dialect.formula;
+        let of = |scope, ranges: &[[u32; 2]]| {
+            let numbers = |&[from, to]: &[u32; 2]| Numbers { scope, prefix: "".into(), from, to };
+            ranges.iter().map(numbers).collect::<Vec<_>>()
+        };
+        let scopes = [
+            of(Scope::Local, &rules.local),
+            of(Scope::Common, &rules.common),
+            of(Scope::Retentive, &rules.retentive),
+        ];
+        Many::Numbered(scopes.concat().into())
     }
 
     /// A variable gets another value: what has been computed from variables and is not said yet must not be
@@ -363,11 +391,13 @@ impl Lower {
                 self.mean(b, round, at, out);
             }
             Node::Element(element) => {
-                element.at.iter_mut().for_each(|index| self.mean(index, round, at, out));
+                element.of = self.numbered();
+                let whole = |a| Node::Call(Function::Round, vec![a]);
+                element.at.iter_mut().for_each(|index| self.mean(index, &whole, at, out));
             }
             Node::Call(function, arguments) => {
                 let function = *function;
-                if self.settings.dialect.formula.function(function).is_none() {
+                if !self.settings.dialect.formula.has(function) {
                     let (code, name) = (format!("{function:?}").to_uppercase().into(), "function".into());
                     self.fault(Fault::NotSupported { code, name }, at, out);
                 }
@@ -394,10 +424,10 @@ impl Lower {
 pub(super) fn has_round(expr: &Expr) -> bool {
     let Expr::Node(node) = expr else { return false };
     match &**node {
-        Node::Var(_) | Node::Vacant => false,
+        // Within the number of a variable it goes to a whole number wherever that stands.
+        Node::Var(_) | Node::Vacant | Node::Element(_) => false,
         Node::Unary(_, a) => has_round(a),
         Node::Binary(_, a, b) => has_round(a) || has_round(b),
-        Node::Element(element) => element.at.iter().any(has_round),
         Node::Call(function, arguments) => *function == Function::Round || arguments.iter().any(has_round),
     }
 }

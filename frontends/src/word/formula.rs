@@ -1,16 +1,19 @@
 //! Expressions and statements of the macro language, as the grammar makes them.
 //!
-//! Operands of `AND`, `OR` and `XOR` are conditions here: on numbers they work bit by bit, which is refused by
+//! `AND`, `OR` and `XOR` join two conditions, or two whole numbers bit by bit (B-63684EN, custom macro, arithmetic and
+//! logic operation: "logical operation performed on binary numbers bit by bit"); of one of each they are refused by
 //! name. A condition is no number, and a number is no condition (16-C, custom macro: a condition stands in the
 //! brackets of `IF` and `WHILE`; other controls store it, and none says as what).
 //!
-//! Not here: what rounding and angles mean where an expression stands (`computing`).
+//! Not here: what rounding and angles mean where an expression stands, and which variables have numbers that are
+//! computed (`computing`).
 
-use ncc_ir::expr::{Binary, Expr, Function, Node, Var};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::system::System;
 
 use super::block::Digits;
+use super::parameters::Index;
 
 /// Deepest nesting of an expression.
 const DEEPEST: u32 = 64;
@@ -27,7 +30,7 @@ pub(crate) struct Formula {
 /// A statement, or a part of one, in the order of the text.
 #[derive(Clone, Debug)]
 pub(crate) enum Piece {
-    Assign(Var, Expr),
+    Assign(Target, Expr),
     If(Expr),
     Then,
     Goto(u32),
@@ -41,11 +44,11 @@ pub(crate) enum Piece {
 /// The statement of a block.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Statement {
-    Assign(Var, Expr),
+    Assign(Target, Expr),
     /// A jump to a block number, if this holds.
     Goto(Option<Expr>, u32),
     /// An assignment, if this holds.
-    Then(Expr, Var, Expr),
+    Then(Expr, Target, Expr),
     /// A loop with its number begins; without a condition it is endless.
     Do(Option<Expr>, u32),
     /// It ends.
@@ -78,13 +81,32 @@ impl Formula {
         Formula::new(Expr::int(0), 0, false)
     }
 
-    /// A variable by its number; `#0` is nothing.
-    pub(crate) fn variable(number: u32) -> Formula {
-        let node = match number {
-            0 => Node::Vacant,
-            number => Node::Var(variable(number)),
+    /// A variable by its number, written or computed; `#0` is nothing. `None` has no number (`##1` is written `#[#1]`:
+    /// B-63684EN, custom macro, variables).
+    pub(crate) fn variable(index: Index) -> Option<Formula> {
+        let (node, depth) = match index {
+            Index::Number(digits) => match digits.whole()? {
+                0 => (Node::Vacant, 0),
+                number => (Node::Var(variable(number)), 0),
+            },
+            Index::Computed(of) => {
+                let depth = of.depth + 1;
+                (Node::Element(indexed(of)?), depth)
+            }
+            Index::Name(_) => return None,
         };
-        Formula::new(Expr::Node(Box::new(node)), 0, false)
+        (depth <= DEEPEST).then(|| Formula::new(Expr::Node(Box::new(node)), depth, false))
+    }
+
+    /// What is given a value, by its number; nothing takes none.
+    pub(crate) fn target(index: Index) -> Option<Target> {
+        match index {
+            Index::Number(digits) => {
+                digits.whole().filter(|number| *number > 0).map(|number| Target::Var(variable(number)))
+            }
+            Index::Computed(of) => indexed(of).map(|element| Target::Element(Box::new(element))),
+            Index::Name(_) => None,
+        }
     }
 
     /// The negative of an operand: of nothing it is zero, as of every calculation.
@@ -110,8 +132,18 @@ impl Formula {
                 | Binary::GreaterOrEqual
         );
         let depth = a.depth.max(b.depth) + 1;
-        if a.condition != logical || b.condition != logical || depth > DEEPEST {
+        if a.condition != b.condition || a.condition && !logical || depth > DEEPEST {
             return None;
+        }
+        let by_bits = match operator {
+            Binary::And => Some(Function::BitAnd),
+            Binary::Or => Some(Function::BitOr),
+            Binary::Xor => Some(Function::BitXor),
+            _ => None,
+        };
+        if let Some(function) = by_bits.filter(|_| !a.condition) {
+            let node = Node::Call(function, vec![a.expr, b.expr]);
+            return Some(Formula::new(Expr::Node(Box::new(node)), depth, false));
         }
         let node = Node::Binary(operator, a.expr, b.expr);
         Some(Formula::new(Expr::Node(Box::new(node)), depth, logical || compares))
@@ -127,6 +159,11 @@ impl Formula {
         let arguments = arguments.into_iter().map(|a| a.expr).collect();
         Some(Formula::new(Expr::Node(Box::new(Node::Call(function, arguments))), depth, false))
     }
+}
+
+/// A variable whose number is computed; which numbers there are is not known here.
+fn indexed(of: Formula) -> Option<Element> {
+    (!of.condition).then(|| Element { of: Many::Numbered(Box::new([])), at: vec![of.expr] })
 }
 
 /// A variable that has a number: `#1` to `#33` are local, `#100` to `#199` common, `#500` to `#999` are kept when

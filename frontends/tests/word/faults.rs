@@ -141,7 +141,6 @@ fn the_macro_language_is_refused_by_name() {
             "{piece}"
         );
     };
-    refused("G0 X#[#1+2] Y2.\n", "#[#1+2]");
     refused("G0 X##1\n", "##1");
     refused("X[#1.]\n", "#1.");
     refused("G#1\n", "G#1");

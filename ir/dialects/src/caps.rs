@@ -5,6 +5,7 @@ use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
 use ncc_ir::computes::Computes;
+use ncc_ir::expr::Function;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
 
 use crate::cycles::{CycleRow, PatternRow};
@@ -343,7 +344,11 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             Box::new(Computes {
                 statements: rules.statements.iter().map(|statement| (*statement).into()).collect(),
                 operators: rules.operators.keys().map(|operator| (*operator).into()).collect(),
-                functions: rules.functions.keys().map(|function| (*function).into()).collect(),
+                functions: {
+                    let by_bits = [Function::BitAnd, Function::BitOr, Function::BitXor];
+                    let own = rules.functions.keys().map(|function| (*function).into());
+                    own.chain(by_bits.into_iter().filter(|f| rules.by_bits(*f).is_some())).collect()
+                },
                 local: rules.local.clone(),
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),

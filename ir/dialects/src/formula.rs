@@ -56,6 +56,8 @@ pub struct FormulaRules {
     pub loops: u8,
     /// How deep brackets can.
     pub brackets: u8,
+    /// Whether the words that join conditions work bit by bit where they stand between numbers.
+    pub bits: bool,
     /// Whether a call that is made several times begins each of them with the same arguments and no other
     /// variables; else a program with variables of its own is called once.
     pub arguments_again: bool,
@@ -203,6 +205,22 @@ impl FormulaRules {
             .iter()
             .find(|(own, _)| Function::from(**own) == function)
             .map(|(_, word)| word.as_str())
+    }
+
+    /// Whether there is a function, by a word of its own or by that of an operator.
+    pub fn has(&self, function: Function) -> bool {
+        self.function(function).is_some() || self.by_bits(function).is_some()
+    }
+
+    /// The operator whose word is that of a function of whole numbers, bit by bit, too.
+    pub fn by_bits(&self, function: Function) -> Option<Binary> {
+        let operator = match function {
+            Function::BitAnd => Binary::And,
+            Function::BitOr => Binary::Or,
+            Function::BitXor => Binary::Xor,
+            _ => return None,
+        };
+        (self.bits && self.operator(operator).is_some()).then_some(operator)
     }
 
     /// The variable of a number, if it is one of a program's own.
