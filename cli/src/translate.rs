@@ -14,7 +14,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{Legaliser, Target, known_facts, variables};
+use ncc_ir::passes::{Legaliser, Target, control_forms, exact_comparisons, known_facts, variables};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -302,6 +302,8 @@ impl<'j> Line<'j> {
             let there = caps.computes.as_deref().filter(|_| plainly);
             let mut found = Vec::new();
             if let Some(there) = there {
+                exact_comparisons::run(&mut program, there, &mut found);
+                control_forms::run(&mut program, there);
                 if there.restates {
                     known = known_facts::run(&mut program, self.legaliser.stands());
                 }

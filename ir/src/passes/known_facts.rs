@@ -104,7 +104,11 @@ impl Flow {
             let before = state.clone();
             let flow = matches!(stmt.op, flow!());
             if let (true, false, true, Some(state)) = (begins, flow, self.settles, &state) {
-                self.starts.insert(stmt.span.start, state.clone());
+                // Statements that were made of one have its place.
+                self.starts
+                    .entry(stmt.span.start)
+                    .and_modify(|at| at.join(state))
+                    .or_insert_with(|| state.clone());
             }
             begins = flow;
             state = self.stmt(stmt, state);

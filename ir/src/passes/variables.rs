@@ -111,7 +111,7 @@ fn up(program: &mut Program, diags: &mut Vec<Diagnostic>) {
 }
 
 /// Shows every expression of a body, each with its statement as it was.
-fn expressions(body: &mut [Stmt], seen: &mut dyn FnMut(&Stmt, &mut Expr)) {
+pub(super) fn expressions(body: &mut [Stmt], seen: &mut dyn FnMut(&Stmt, &mut Expr)) {
     for stmt in body {
         let at = Stmt::new(stmt.span, Op::Blank);
         match &mut stmt.op {

@@ -6,12 +6,14 @@
 //! (where the axes stand), `clearance 1.0` and `lift 0.5` (the parameters of peck drilling and of chip
 //! breaking, mm), `tools 3:7`, `entries`, `offsets`, `programs` (maps to another machine's numbers),
 //! `edge-entries 7:27` (entries of its tools), `radii 5:4.0` (by entries, mm), `interpreter yes` (contours as
-//! LinuxCNC's interpreter goes beside them), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`). In the folder
+//! LinuxCNC's interpreter goes beside them), `can tool-edges=yes` (a capability that is other than the target's; `no`, `either`;
+//! so are statements of programs that compute, `leave=yes`). In the folder
 //! `legaliser` the passes are picked by the target.
 //!
 //! Besides the text, every case that is not refused is executed before and after, in two worlds:
 //! the events must be the same.
 
+mod control;
 mod law;
 
 use std::collections::BTreeMap;
@@ -24,12 +26,13 @@ use ncc_frontends::{Batch, ir::Reader};
 use ncc_ir::beside::Rules;
 use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::caps::Caps;
+use ncc_ir::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::maps::{Maps, Renaming};
 use ncc_ir::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{Legaliser, PASSES, Target};
+use ncc_ir::passes::{Legaliser, PASSES, Target, control_forms, exact_comparisons};
 use ncc_ir::program::{Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::verify::{Comparison, Resolution};
@@ -131,8 +134,28 @@ fn can(caps: &mut Caps, what: &str) -> Result<(), String> {
         "arc-forms" => caps.arc_forms = says()?,
         "repeats" => caps.repeats = says()?,
         "repeat-blocks" => caps.repeat_blocks = says()?,
+        "blocks" => computes(caps)?.blocks = says()?,
+        "opposite" => computes(caps)?.opposite = says()?,
+        "loops" => computes(caps)?.loops = value.parse().map_err(|e| format!("{value}: {e}"))?,
+        "jump" => statement(caps, Said::Jump, says()?)?,
+        "endless" => statement(caps, Said::Endless, says()?)?,
+        "leave" => statement(caps, Said::Leave, says()?)?,
+        "next-turn" => statement(caps, Said::NextTurn, says()?)?,
+        "until" => statement(caps, Said::Until, says()?)?,
         _ => return Err(format!("no capability {name}")),
     }
+    Ok(())
+}
+
+/// What the target computes with.
+fn computes(caps: &mut Caps) -> Result<&mut Computes, String> {
+    caps.computes.as_deref_mut().ok_or_else(|| "a target that does not compute".into())
+}
+
+fn statement(caps: &mut Caps, statement: Said, has: bool) -> Result<(), String> {
+    let computes = computes(caps)?;
+    computes.statements.retain(|own| *own != statement);
+    computes.statements.extend(has.then_some(statement));
     Ok(())
 }
 
@@ -210,6 +233,9 @@ fn refused(diags: &[Diagnostic]) -> bool {
 /// The folder of cases of the pass that is in no list.
 const NUMBERS: &str = "machine-numbers";
 
+/// Those of the passes that programs go through which compute.
+const COMPUTING: [&str; 2] = ["control-forms", "exact-comparisons"];
+
 fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnostic>, String> {
     let mut diags = Vec::new();
     if pass == "legaliser" {
@@ -219,6 +245,13 @@ fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnosti
     }
     if pass == NUMBERS {
         Renumbering::new(told.maps.clone()).run(program, &mut diags);
+        return Ok(diags);
+    }
+    if let (true, Some(computes)) = (COMPUTING.contains(&pass), &told.target.caps.computes) {
+        match pass {
+            "control-forms" => control_forms::run(program, computes),
+            _ => exact_comparisons::run(program, computes, &mut diags),
+        }
         return Ok(diags);
     }
     let pass = PASSES.iter().find(|p| p.name == pass).ok_or("a folder is named after a pass")?;
@@ -396,7 +429,7 @@ impl<'p> Machine<'p> {
 #[test]
 fn every_pass_has_a_case() {
     let cases = cases();
-    for pass in PASSES.iter().map(|pass| pass.name).chain([NUMBERS]) {
+    for pass in PASSES.iter().map(|pass| pass.name).chain([NUMBERS]).chain(COMPUTING) {
         assert!(cases.iter().any(|(name, _)| name == pass), "no case for {pass}");
     }
 }

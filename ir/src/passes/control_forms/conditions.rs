@@ -1,0 +1,84 @@
+//! Conditions, and their opposites without a word for it.
+
+use crate::expr::{Binary, Expr, Node, Unary};
+
+/// An expression of two operands.
+pub(super) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
+    Expr::Node(Box::new(Node::Binary(operator, a, b)))
+}
+
+/// The comparison that holds where another one does not.
+const fn other(operator: Binary) -> Option<Binary> {
+    Some(match operator {
+        Binary::Equal => Binary::NotEqual,
+        Binary::NotEqual => Binary::Equal,
+        Binary::Less => Binary::GreaterOrEqual,
+        Binary::GreaterOrEqual => Binary::Less,
+        Binary::Greater => Binary::LessOrEqual,
+        Binary::LessOrEqual => Binary::Greater,
+        Binary::Add
+        | Binary::Subtract
+        | Binary::Multiply
+        | Binary::Divide
+        | Binary::Modulo
+        | Binary::Power
+        | Binary::And
+        | Binary::Or
+        | Binary::Xor => return None,
+    })
+}
+
+/// What holds where a condition does not. With `word`, a number has its opposite by a word for it; else it is
+/// compared with zero, as every condition of such a control is a comparison.
+pub(super) fn opposite(condition: &Expr, word: bool) -> Expr {
+    let node = match condition {
+        Expr::Num(n) => return Expr::int(i64::from(n.is_zero())),
+        Expr::Node(node) => &**node,
+    };
+    match node {
+        Node::Unary(Unary::Not, a) => compared(a, word),
+        Node::Binary(operator, a, b) => match (other(*operator), operator) {
+            (Some(other), _) => binary(other, a.clone(), b.clone()),
+            // De Morgan.
+            (None, Binary::And) => binary(Binary::Or, opposite(a, word), opposite(b, word)),
+            (None, Binary::Or) => binary(Binary::And, opposite(a, word), opposite(b, word)),
+            (None, Binary::Xor) => binary(Binary::Xor, opposite(a, word), compared(b, word)),
+            (None, _) => not(condition, word),
+        },
+        Node::Var(_) | Node::Element(_) | Node::Vacant | Node::Unary(Unary::Negate, _) | Node::Call(..) => {
+            not(condition, word)
+        }
+    }
+}
+
+/// The opposite of a number that stands for a condition.
+fn not(number: &Expr, word: bool) -> Expr {
+    match word {
+        true => Expr::Node(Box::new(Node::Unary(Unary::Not, number.clone()))),
+        false => binary(Binary::Equal, number.clone(), Expr::int(0)),
+    }
+}
+
+/// A condition; a number that stands for one is compared with zero, unless the control takes numbers.
+pub(super) fn compared(condition: &Expr, numbers: bool) -> Expr {
+    if numbers {
+        return condition.clone();
+    }
+    let node = match condition {
+        Expr::Num(n) => return Expr::int(i64::from(!n.is_zero())),
+        Expr::Node(node) => &**node,
+    };
+    match node {
+        Node::Unary(Unary::Not, a) => opposite(a, false),
+        Node::Binary(operator, ..) if other(*operator).is_some() => condition.clone(),
+        Node::Binary(operator @ (Binary::And | Binary::Or | Binary::Xor), a, b) => {
+            binary(*operator, compared(a, false), compared(b, false))
+        }
+        Node::Binary(..)
+        | Node::Var(_)
+        | Node::Element(_)
+        | Node::Vacant
+        | Node::Unary(Unary::Negate, _)
+        | Node::Call(..) => binary(Binary::NotEqual, condition.clone(), Expr::int(0)),
+    }
+}
