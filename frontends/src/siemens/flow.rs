@@ -197,13 +197,15 @@ impl Lower {
         self.no_idle_tap(at, src, out);
         self.no_stale_offset(at, out);
         self.settle(at, out);
+        self.leave_motion_before(at, out);
         let cycle = std::mem::take(&mut self.state.cycle);
         self.state = State::lost(cycle);
         self.stand.forget();
         self.again.use_all();
         self.forget_texts();
+        // Behind a cycle, what was in force before it is still not known where it was not told.
+        self.cycled &= self.moved.is_none();
         self.moved = None;
-        self.cycled = false;
     }
 
     /// A block that a jump names, by its number or its label.
@@ -289,6 +291,7 @@ impl Lower {
         };
         self.no_idle_tap(jump.span, src, out);
         self.no_stale_offset(jump.span, out);
+        self.leave_motion(jump.span, out);
         let (direction, span, found) = (jump.direction, jump.span, self.in_place());
         let mark = marked(&name, span);
         self.flow.jumps.push(Pending { name, direction, span, found });
@@ -364,6 +367,7 @@ impl Lower {
         // A head that is refused has its end all the same.
         let condition = self.condition(condition, src, out).unwrap_or(Expr::int(0));
         self.settle(head.span, out);
+        self.leave_motion_before(head.span, out);
         let other = Box::new((self.state.clone(), self.moved));
         self.open(What::If { condition, then: None, other }, head, src, out);
     }
@@ -431,6 +435,7 @@ impl Lower {
         self.now.heading = true;
         self.no_stale_offset(head.span, out);
         self.no_idle_tap(head.span, src, out);
+        self.leave_motion_before(head.span, out);
         let at = self.flow.open.last().map(|open| open.at);
         let stmts = self.target(out);
         let body = at.map(|at| stmts.split_off(at.min(stmts.len()))).unwrap_or_default();
@@ -480,6 +485,7 @@ impl Lower {
         }
         self.no_idle_tap(head.span, src, out);
         self.no_stale_offset(head.span, out);
+        self.leave_motion_before(head.span, out);
         let condition = condition.map(|c| self.condition(c, src, out).unwrap_or(Expr::int(1)));
         let Some(Open { what, at, head: begin, number, comment, found }) = self.flow.open.pop() else {
             return;

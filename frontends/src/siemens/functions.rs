@@ -435,6 +435,7 @@ impl Lower {
                 self.flow.has_end = true;
                 self.flow.over |= last;
                 if self.sub.is_some() {
+                    self.leave_motion(code.span, out);
                     self.leave(code.span, out);
                     Op::Return
                 } else if code.name == "RET" && !self.sub_alone {

@@ -53,6 +53,8 @@ pub(super) struct Lower {
     pub(super) stand: Stand,
     /// What the statements have put in force last, as a subprogram's position would find it.
     pub(super) moved: Option<Motion>,
+    /// Whether no move has followed the code of the motion in force.
+    pub(super) unmoved: bool,
     /// Whether a cycle was called up where the motion in force is not known: it is not known after
     /// it either.
     pub(super) cycled: bool,
@@ -158,6 +160,7 @@ impl Lower {
             again: Again::default(),
             stand: Stand::default(),
             moved: None,
+            unmoved: false,
             cycled: false,
             recall: false,
             idle_tap: false,
@@ -306,9 +309,12 @@ impl Lower {
     /// Lowers a block that the grammar has read.
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
         let head = Head::of(block);
-        let before = self.enter_stretch(&head);
+        let before = self.enter_stretch(&head, out);
         self.begin(&head, src, out);
         self.statement(&block.statement, &head, src, out);
+        if before.as_ref().is_some_and(|(before, _)| before.motion != self.state.motion) {
+            self.leave_motion(head.span, out);
+        }
         self.close(&head, src, out);
         if let (Some((before, moved)), Some((level, _))) = (before, head.skip) {
             let (inside, moved_inside) = (self.state.clone(), self.moved);
@@ -332,7 +338,7 @@ impl Lower {
 
     /// What was in force before a block that may be skipped, or before the first of several that are
     /// skipped together.
-    fn enter_stretch(&mut self, head: &Head) -> Option<(State, Option<Motion>)> {
+    fn enter_stretch(&mut self, head: &Head, out: &mut Batch) -> Option<(State, Option<Motion>)> {
         let stretch = self.stretch.take();
         let (level, _) = head.skip?;
         match stretch {
@@ -341,7 +347,11 @@ impl Lower {
                 self.moved = stretch.moved_inside;
                 Some((stretch.before, stretch.moved))
             }
-            _ => Some((self.state.clone(), self.moved)),
+            _ => {
+                // What a block in it says in its place is not in force where that is skipped.
+                self.leave_motion_before(head.span, out);
+                Some((self.state.clone(), self.moved))
+            }
         }
     }
 

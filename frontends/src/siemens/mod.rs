@@ -47,6 +47,7 @@ mod tilt;
 mod token;
 mod tree;
 mod unit;
+mod unmoved;
 pub(crate) mod words;
 
 pub use reader::Reader;

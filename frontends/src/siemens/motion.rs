@@ -64,12 +64,14 @@ impl Lower {
         let arc_now = self.state.motion.value().is_some_and(|m| !line(m));
         let arc_words = words.has_any(CENTRE) || NAMED.iter().any(|&role| words.named(role).is_some());
         if !(words.has_point() || arc_now && arc_words) {
+            self.unmoved |= motion.is_some();
             if let Some(code) = machine {
                 // Without a move it does nothing.
                 self.push(code.span, Op::NoEffect(code.name.into()), out);
             }
             return;
         }
+        self.unmoved = false;
         self.again.use_fact(CYCLE);
         self.again.use_fact(MOTION);
         if let Some(Motion::Thread(thread)) = self.state.motion.value() {

@@ -337,6 +337,7 @@ impl Reader {
             };
             if in_sub {
                 self.lower.now.failed = false;
+                self.lower.leave_motion_before(at, out);
                 self.lower.leave(at, out);
                 self.faulty |= self.lower.now.failed;
             }

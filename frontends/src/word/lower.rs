@@ -193,6 +193,10 @@ impl Lower {
     pub(super) fn block(&mut self, block: &Block, src: Source, out: &mut Batch) {
         self.in_loop(out);
         self.o_body(out);
+        if block.skip != 0 && block.tail.is_none() {
+            // What it says in its place is not in force where it is skipped.
+            self.leave_motion(None, out);
+        }
         let before = (block.skip != 0).then(|| self.state.clone());
         let level = (block.skip != 0).then_some(block.skip);
         self.now = Now {
