@@ -111,6 +111,8 @@ pub enum What {
     Upright,
     /// A program stop.
     Stop,
+    /// The program stops the machine by an alarm, and is over.
+    Alarm,
     /// A text for the operator.
     Message,
     /// An optional stop.

@@ -2,20 +2,26 @@
 //!
 //! What it takes for granted of the machine: M6 changes and takes edge 1 with it; a tool's length
 //! lies along Z in every plane; the plain slash is the first skip level; F stays in millimetres under
-//! G70. Not here: variables and expressions, rounded corners, frames about other
-//! axes than the plane's, patterns out of G17.
+//! G70. Not here: rounded corners, frames about other axes than the plane's, patterns out of G17.
 
 pub(super) mod arcs;
 mod cycles;
+mod flow;
+mod formula;
 pub(super) mod frame;
 mod moves;
+mod shape;
 mod text;
 mod threads;
 mod tilt;
+mod variables;
+
+use std::collections::BTreeMap;
 
 use super::{Corner, Cut, Halt, Machine, Per, Place, Setup, Spindle, What, characters};
 use frame::Frame;
-use text::{ADVICE, Argument, Block, Item, Mark, NOTHING, Unit, Value};
+use text::{ADVICE, Argument, Item, Mark, NOTHING, Unit, Value};
+use variables::Variables;
 
 /// Runs the main program of a text.
 ///
@@ -42,6 +48,9 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         angle: None,
         floating: false,
         depth: 0,
+        variables: Variables::default(),
+        bounds: BTreeMap::new(),
+        steps: 0,
     };
     let Some(main) = units.iter().find(|unit| unit.main) else { return control.m.halt("no main program") };
     if control.blocks(main, 0, main.blocks.len())? != Next::End {
@@ -94,6 +103,11 @@ struct Control<'a> {
     /// G63 stands in the block.
     floating: bool,
     depth: u32,
+    variables: Variables,
+    /// Ends of the FOR loops that were begun, by how deep their program was called and their place in it.
+    bounds: BTreeMap<(u32, usize), f64>,
+    /// Blocks so far.
+    steps: u64,
 }
 
 /// The words of a block.
@@ -132,79 +146,7 @@ const POLAR: [&str; 3] = ["AP", "RP", "ANG"];
 /// corner behind a move.
 const ROUNDING: [&str; 8] = ["ADIS", "ADISPOS", "LIMS", "SPOS", "RND", "RNDM", "CHF", "CHR"];
 
-impl<'a> Control<'a> {
-    /// Runs the blocks from one place up to another.
-    fn blocks(&mut self, unit: &'a Unit, from: usize, to: usize) -> Result<Next, Halt> {
-        for at in from..to {
-            let (line, block) = &unit.blocks[at];
-            self.m.line = *line;
-            let block = match block {
-                Ok(block) => block,
-                Err(why) => return self.m.halt(why.as_str()),
-            };
-            if block.skip.is_some_and(|place| self.m.setup.skip[place]) {
-                continue;
-            }
-            let next = match block.items.first() {
-                Some(Item::Name(name)) if name == "REPEAT" || name == "REPEATB" => {
-                    self.repeat(unit, at, block, name == "REPEATB")?
-                }
-                _ => self.block(block)?,
-            };
-            if next != Next::Block {
-                return Ok(next);
-            }
-        }
-        Ok(Next::Block)
-    }
-
-    /// `REPEAT LABEL P=n`, `REPEAT FIRST LAST P=n` and `REPEATB LABEL P=n`, of that block `alone`.
-    fn repeat(&mut self, unit: &'a Unit, at: usize, block: &Block, alone: bool) -> Result<Next, Halt> {
-        let mut labels = Vec::new();
-        let mut times = 1;
-        for item in &block.items[1..] {
-            match item {
-                Item::Name(name) => labels.push(name.as_str()),
-                Item::Named(name, value) if name == "P" => times = self.whole(value.number)?,
-                Item::Word('P', value, _) => times = self.whole(value.number)?,
-                _ => return self.m.halt("REPEAT and other words"),
-            }
-        }
-        let place = |label: &str| -> Result<usize, Halt> {
-            let has = |b: &Result<Block, String>| b.as_ref().is_ok_and(|b| b.label.as_deref() == Some(label));
-            let mut found = (0..unit.blocks.len()).filter(|k| has(&unit.blocks[*k].1));
-            match (found.next(), found.next()) {
-                (Some(place), None) => Ok(place),
-                _ => self.m.halt(format!("no label {label}, or several")),
-            }
-        };
-        let (from, to) = match labels[..] {
-            [label] => {
-                let from = place(label)?;
-                if from > at {
-                    return self.m.halt("REPEAT of a label further on");
-                }
-                let ends = |k: &usize| {
-                    unit.blocks[*k].1.as_ref().is_ok_and(|b| b.label.as_deref() == Some("ENDLABEL"))
-                };
-                let to = (from..at).find(ends).map_or(at, |end| end + 1);
-                (from, if alone { from + 1 } else { to })
-            }
-            [first, last] if !alone => (place(first)?, place(last)? + 1),
-            _ => return self.m.halt("REPEAT of one label or two"),
-        };
-        if from >= to || (from..to).contains(&at) {
-            return self.m.halt("REPEAT of itself");
-        }
-        for _ in 0..times {
-            let next = self.blocks(unit, from, to)?;
-            if next != Next::Block {
-                return Ok(next);
-            }
-        }
-        Ok(Next::Block)
-    }
-
+impl Control<'_> {
     fn whole(&self, number: f64) -> Result<u32, Halt> {
         if !(0.0..=9999.0).contains(&number) || number.fract() != 0.0 {
             return self.m.halt(format!("a whole number, not {number}"));
@@ -212,9 +154,10 @@ impl<'a> Control<'a> {
         Ok(number as u32)
     }
 
-    fn block(&mut self, block: &'a Block) -> Result<Next, Halt> {
+    /// A block of words.
+    fn block(&mut self, items: &[Item]) -> Result<Next, Halt> {
         let mut w = Words::default();
-        for item in &block.items {
+        for item in items {
             match item {
                 Item::Word(letter, value, written) => {
                     let twice = *letter != 'G' && *letter != 'M' && w.letter(*letter).is_some();
@@ -238,6 +181,7 @@ impl<'a> Control<'a> {
                 Item::Name(name) => w.names.push(name),
                 Item::Call(name, arguments) if w.call.is_none() => w.call = Some((name, arguments)),
                 Item::Call(..) => return self.m.halt("two calls in a block"),
+                Item::Set(..) => {}
             }
         }
         let events = self.m.events.len();
@@ -258,11 +202,14 @@ impl<'a> Control<'a> {
     }
 
     /// Statements that stand alone in their block.
-    fn alone(&mut self, w: &Words<'a>) -> Result<Option<Next>, Halt> {
+    fn alone(&mut self, w: &Words) -> Result<Option<Next>, Halt> {
         if self.five_axes(w)? {
             return Ok(Some(Next::Block));
         }
         let bare = w.letters.is_empty() && w.named.is_empty();
+        if let Some((name, arguments)) = w.call.filter(|call| self.has_program(call.0)) {
+            return self.call(name, w, 0, arguments).map(Some);
+        }
         if let Some((name, arguments)) = w.call {
             match (name, bare, &w.names[..]) {
                 ("MSG", true, []) => {
@@ -300,7 +247,7 @@ impl<'a> Control<'a> {
                 (self.modal, self.modal_call) = (None, Some(name));
                 return Ok(Some(Next::Block));
             }
-            return self.call(&name, w, 1).map(Some);
+            return self.call(&name, w, 1, &[]).map(Some);
         }
         let Some(first) = w.names.first() else { return Ok(None) };
         match *first {
@@ -317,42 +264,14 @@ impl<'a> Control<'a> {
                 return Ok(Some(Next::Back));
             }
             "SETMS" if bare && w.names.len() == 1 => {}
-            "PROC" if bare && w.names.len() >= 2 => {}
             name if FRAMES.contains(&name) && w.names.len() == 1 => self.change_frame(name, w)?,
-            name if w.names.len() == 1 => return self.call(name, w, 0).map(Some),
+            name if w.names.len() == 1 => return self.call(name, w, 0, &[]).map(Some),
             name => return self.m.halt(format!("{name} and other names")),
         }
         Ok(Some(Next::Block))
     }
 
-    /// A subprogram of the same text, P times; `letters` other words belong to the call.
-    fn call(&mut self, name: &str, w: &Words<'a>, letters: usize) -> Result<Next, Halt> {
-        let times = w.letter('P').or(w.named("P"));
-        let beside = w.letters.len() + w.named.len() - letters - usize::from(times.is_some());
-        if beside != 0 || w.names.len() + letters != 1 {
-            return self.m.halt(format!("other words beside the call of {name}"));
-        }
-        let times = times.map_or(Ok(1), |p| self.whole(p.number))?;
-        let units = self.units;
-        let mut found = units.iter().filter(|unit| !unit.main && unit.name == name);
-        let (Some(unit), None) = (found.next(), found.next()) else {
-            return self.m.halt(format!("no subprogram {name}, or several"));
-        };
-        if self.depth == 11 || times == 0 {
-            return self.m.halt("calls too deep, or P0");
-        }
-        for _ in 0..times {
-            let line = self.m.line;
-            self.depth += 1;
-            // M30 in a subprogram leads back too.
-            self.blocks(unit, 0, unit.blocks.len())?;
-            self.depth -= 1;
-            self.m.line = line;
-        }
-        Ok(Next::Block)
-    }
-
-    fn change_frame(&mut self, name: &str, w: &Words<'a>) -> Result<(), Halt> {
+    fn change_frame(&mut self, name: &str, w: &Words) -> Result<(), Halt> {
         let kind = name.strip_prefix('A').unwrap_or(name);
         let scale = if kind == "TRANS" { self.unit() } else { 1.0 };
         let mut by = [None; 3];
@@ -431,7 +350,7 @@ impl<'a> Control<'a> {
         std::array::from_fn(|axis| shift[axis] + if axis < 3 { xyz[axis] } else { place[axis] })
     }
 
-    fn words(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
+    fn words(&mut self, w: &Words) -> Result<Next, Halt> {
         self.m.begin_block();
         if w.letters.iter().any(|l| l.0 == 'G' && (110.0..=112.0).contains(&l.1.number)) {
             self.set_pole(w)?;
@@ -459,7 +378,7 @@ impl<'a> Control<'a> {
         result
     }
 
-    fn with_modes(&mut self, w: &Words<'a>) -> Result<Next, Halt> {
+    fn with_modes(&mut self, w: &Words) -> Result<Next, Halt> {
         self.floating = false;
         let dwell = self.modes(w)?;
         let m_codes: Vec<u32> = w
@@ -549,7 +468,7 @@ impl<'a> Control<'a> {
             }
             if let Some(name) = self.modal_call.take() {
                 let alone = Words { names: vec![""], ..Words::default() };
-                self.call(&name, &alone, 0)?;
+                self.call(&name, &alone, 0, &[])?;
                 self.modal_call = Some(name);
             }
         }
@@ -557,7 +476,7 @@ impl<'a> Control<'a> {
     }
 
     /// The corner behind the block's move.
-    fn ask_corner(&mut self, w: &Words<'a>) {
+    fn ask_corner(&mut self, w: &Words) {
         let word = |name: &str| w.named(name).map(|v| v.number * self.unit());
         let own = word("RND").map(Cut::Round).or(word("CHR").map(Cut::Leg)).or(word("CHF").map(Cut::Long));
         let (first, second, _) = self.m.axes();
@@ -568,7 +487,7 @@ impl<'a> Control<'a> {
     }
 
     /// G codes and their like; true at G4.
-    fn modes(&mut self, w: &Words<'a>) -> Result<bool, Halt> {
+    fn modes(&mut self, w: &Words) -> Result<bool, Halt> {
         let mut seen = Vec::new();
         let mut group = |number: u32| {
             let twice = seen.contains(&number);

@@ -157,7 +157,7 @@ fn what_cannot_be_executed_is_refused_at_its_place() {
 #[test]
 fn the_second_interpreter_agrees() {
     let mut failures = Failures::default();
-    for from in ["fanuc", "linuxcnc"] {
+    for from in ["fanuc", "linuxcnc", "siemens"] {
         for program in corpus::computing(from) {
             let what = format!("{from}/{}", program.file);
             let Some(read) = failures.check(&what, translate::read(from, &program.text)) else { continue };

@@ -4,7 +4,7 @@ use super::super::{Halt, Place};
 use super::text::{Mark, Value};
 use super::{AXES, Control, Motion, Words, arcs};
 
-impl<'a> Control<'a> {
+impl Control<'_> {
     /// Length is that of an edge of the tool in the spindle; like another work offset it moves nothing.
     pub(super) fn take_edge(&mut self, edge: u32, tool: Option<u32>) {
         if (edge, tool) != (self.edge, self.m.tool) {
@@ -36,7 +36,7 @@ impl<'a> Control<'a> {
         self.m.go_beside(left, reversed, entry)
     }
 
-    pub(super) fn go(&mut self, w: &Words<'a>, axes: &[usize]) -> Result<(), Halt> {
+    pub(super) fn go(&mut self, w: &Words, axes: &[usize]) -> Result<(), Halt> {
         let from = self.here();
         let mut to = from;
         for &axis in axes {
@@ -105,7 +105,7 @@ impl<'a> Control<'a> {
 
     /// G110 from the place reached last, G111 from zero, G112 from the last pole: by coordinates or by
     /// radius and angle. What was said about the pole before is forgotten.
-    pub(super) fn set_pole(&mut self, w: &Words<'a>) -> Result<(), Halt> {
+    pub(super) fn set_pole(&mut self, w: &Words) -> Result<(), Halt> {
         let (first, second, _) = self.m.axes();
         let code = w.letter('G').map_or(0.0, |v| v.number);
         let others = w.letters.iter().any(|l| l.0 != 'G' && l.0 != AXES[first] && l.0 != AXES[second]);
@@ -133,7 +133,7 @@ impl<'a> Control<'a> {
         Ok(())
     }
 
-    fn polar_point(&mut self, w: &Words<'a>) -> Result<(f64, f64), Halt> {
+    fn polar_point(&mut self, w: &Words) -> Result<(f64, f64), Halt> {
         if let Some(radius) = w.named("RP") {
             self.radius = Some(radius.number * self.unit());
         }
@@ -195,14 +195,7 @@ impl<'a> Control<'a> {
     }
 
     /// G2 and G3.
-    fn arc(
-        &mut self,
-        w: &Words<'a>,
-        axes: &[usize],
-        from: Place,
-        mut to: Place,
-        cw: bool,
-    ) -> Result<(), Halt> {
+    fn arc(&mut self, w: &Words, axes: &[usize], from: Place, mut to: Place, cw: bool) -> Result<(), Halt> {
         let (first, second, _) = self.m.axes();
         let start = (from[first], from[second]);
         let ended = axes.iter().any(|axis| *axis == first || *axis == second);
@@ -270,7 +263,7 @@ impl<'a> Control<'a> {
     }
 
     /// CIP.
-    fn through_point(&mut self, w: &Words<'a>, from: Place, to: Place) -> Result<(), Halt> {
+    fn through_point(&mut self, w: &Words, from: Place, to: Place) -> Result<(), Halt> {
         if w.letters.iter().any(|l| "IJK".contains(l.0)) || w.named.iter().any(|n| !n.0.ends_with('1')) {
             return self.m.halt("CIP and other words than a point on the way");
         }

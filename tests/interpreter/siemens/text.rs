@@ -1,7 +1,10 @@
 //! Sinumerik text into units, blocks and words, from `reference/siemens.md` sections 1 and 2.
 //!
-//! A block that cannot be read is kept as such: it stops the run only if it is reached. Not here:
-//! what words mean.
+//! What stands behind a block's label is read each time that it runs, with the values that variables have then: a
+//! block that cannot be read stops the run only if it is reached. Not here: what words mean.
+
+use super::shape::{self, Shape};
+use super::variables::{Place, Variables, Worth};
 
 /// A program of the text.
 pub(super) struct Unit {
@@ -10,7 +13,9 @@ pub(super) struct Unit {
     /// Its type is MPF, or the text has no headers.
     pub(super) main: bool,
     /// Its blocks, each with its line.
-    pub(super) blocks: Vec<(usize, Result<Block, String>)>,
+    pub(super) blocks: Vec<(usize, Block)>,
+    /// Where its structures begin and end.
+    pub(super) shape: Result<Shape, String>,
 }
 
 /// A block.
@@ -19,8 +24,10 @@ pub(super) struct Block {
     pub(super) skip: Option<usize>,
     /// Upper case.
     pub(super) label: Option<String>,
-    /// Its words.
-    pub(super) items: Vec<Item>,
+    /// Its number with the letter or the colon, without zeros in front.
+    pub(super) number: Option<String>,
+    /// What stands behind that.
+    pub(super) rest: Vec<char>,
 }
 
 /// How a number is marked.
@@ -54,6 +61,8 @@ pub(super) enum Item {
     Name(String),
     /// A name with arguments.
     Call(String, Vec<Argument>),
+    /// A variable gets a value, or several places from it on get theirs.
+    Set(Place, Vec<Option<Worth>>),
 }
 
 /// An argument of a call.
@@ -115,7 +124,7 @@ pub(super) fn units(text: &str) -> Vec<Unit> {
     let mut units: Vec<Unit> = Vec::new();
     for (index, line) in text.lines().enumerate() {
         if let Some((name, main)) = header(line) {
-            units.push(Unit { name, main, blocks: Vec::new() });
+            units.push(Unit { name, main, blocks: Vec::new(), shape: Ok(Shape::default()) });
             continue;
         }
         let bare = comment_off(line);
@@ -125,13 +134,78 @@ pub(super) fn units(text: &str) -> Vec<Unit> {
         }
         if units.is_empty() {
             // The heading is no part of the program on the control (section 1).
-            units.push(Unit { name: String::new(), main: true, blocks: Vec::new() });
+            units.push(Unit {
+                name: String::new(),
+                main: true,
+                blocks: Vec::new(),
+                shape: Ok(Shape::default()),
+            });
         }
         if let Some(unit) = units.last_mut() {
-            unit.blocks.push((index + 1, Reader { text: bare.chars().collect(), at: 0 }.block()));
+            unit.blocks.push((index + 1, block(bare)));
         }
     }
+    for unit in &mut units {
+        unit.shape = shape::of(&unit.blocks);
+    }
     units
+}
+
+/// Parts a block from its head.
+fn block(text: &str) -> Block {
+    let none = Variables::default();
+    let mut reader = Reader { text: &text.chars().collect::<Vec<_>>(), at: 0, variables: &none };
+    let mut skip = None;
+    if reader.take('/') {
+        // `/` is `/0`, the first level; `/1` is one of its own behind the others.
+        skip = Some(match reader.peek(0).to_digit(10) {
+            None => 1,
+            Some(digit) => {
+                reader.at += 1;
+                [1, 10, 2, 3, 4, 5, 6, 7, 8, 9][digit as usize]
+            }
+        });
+        reader.blanks();
+    }
+    let mut label = reader.label();
+    let mut number = None;
+    let letter = reader.peek(0).to_ascii_uppercase();
+    if label.is_none() && matches!(letter, ':' | 'N') && reader.peek(1).is_ascii_digit() {
+        reader.at += 1;
+        number = Some(format!("{letter}{}", reader.digits().trim_start_matches('0')));
+        reader.blanks();
+        label = reader.label();
+    }
+    reader.blanks();
+    Block { skip, label, number, rest: reader.text[reader.at..].to_vec() }
+}
+
+/// The words of a block; variables have the values that they have before it.
+pub(super) fn items(text: &[char], variables: &Variables) -> Result<Vec<Item>, String> {
+    let mut reader = Reader { text, at: 0, variables };
+    let mut items = Vec::new();
+    while !reader.over() {
+        items.push(reader.item()?);
+    }
+    Ok(items)
+}
+
+/// The words of a block; variables have the values that the words in front of each leave.
+pub(super) fn items_in_order(text: &[char], variables: &mut Variables) -> Result<Vec<Item>, String> {
+    let mut at = 0;
+    let mut items = Vec::new();
+    loop {
+        let mut reader = Reader { text, at, variables };
+        if reader.over() {
+            return Ok(items);
+        }
+        let item = reader.item()?;
+        at = reader.at;
+        if let Item::Set(place, values) = &item {
+            variables.set(place, values)?;
+        }
+        items.push(item);
+    }
 }
 
 /// Name of the unit that a line opens, and whether it is a main program.
@@ -156,30 +230,42 @@ fn comment_off(line: &str) -> String {
         .collect()
 }
 
-struct Reader {
-    text: Vec<char>,
-    at: usize,
+/// Reads a text, sign by sign.
+pub(super) struct Reader<'t> {
+    pub(super) text: &'t [char],
+    pub(super) at: usize,
+    pub(super) variables: &'t Variables,
 }
 
-impl Reader {
-    fn peek(&self, ahead: usize) -> char {
+impl<'t> Reader<'t> {
+    pub(super) fn new(text: &'t [char], variables: &'t Variables) -> Reader<'t> {
+        Reader { text, at: 0, variables }
+    }
+
+    /// Nothing but blanks is left.
+    pub(super) fn over(&mut self) -> bool {
+        self.blanks();
+        self.at >= self.text.len()
+    }
+
+    pub(super) fn peek(&self, ahead: usize) -> char {
         self.text.get(self.at + ahead).copied().unwrap_or('\0')
     }
 
-    fn blanks(&mut self) {
+    pub(super) fn blanks(&mut self) {
         while self.peek(0).is_ascii_whitespace() {
             self.at += 1;
         }
     }
 
-    fn take(&mut self, c: char) -> bool {
+    pub(super) fn take(&mut self, c: char) -> bool {
         self.blanks();
         let found = self.peek(0) == c;
         self.at += usize::from(found);
         found
     }
 
-    fn digits(&mut self) -> String {
+    pub(super) fn digits(&mut self) -> String {
         let mut digits = String::new();
         while self.peek(0).is_ascii_digit() {
             digits.push(self.peek(0));
@@ -189,7 +275,7 @@ impl Reader {
     }
 
     /// Two letters or underscores, then also digits.
-    fn name(&mut self) -> Option<String> {
+    pub(super) fn name(&mut self) -> Option<String> {
         let letter = |c: char| c.is_ascii_alphabetic() || c == '_';
         if !(letter(self.peek(0)) && letter(self.peek(1))) {
             return None;
@@ -212,40 +298,14 @@ impl Reader {
         None
     }
 
-    fn block(mut self) -> Result<Block, String> {
-        let mut skip = None;
-        if self.take('/') {
-            // `/` is `/0`, the first level; `/1` is one of its own behind the others.
-            skip = Some(match self.peek(0).to_digit(10) {
-                None => 1,
-                Some(digit) => {
-                    self.at += 1;
-                    [1, 10, 2, 3, 4, 5, 6, 7, 8, 9][digit as usize]
-                }
-            });
-            self.blanks();
-        }
-        let mut label = self.label();
-        let numbered = self.peek(0) == ':' || self.peek(0).eq_ignore_ascii_case(&'N');
-        if label.is_none() && numbered && self.peek(1).is_ascii_digit() {
-            self.at += 1;
-            self.digits();
-            self.blanks();
-            label = self.label();
-        }
-        let mut items = Vec::new();
-        loop {
-            self.blanks();
-            if self.at == self.text.len() {
-                return Ok(Block { skip, label, items });
-            }
-            items.push(self.item()?);
-        }
-    }
-
     fn item(&mut self) -> Result<Item, String> {
+        let start = self.at;
         if let Some(name) = self.name() {
             self.blanks();
+            if self.variables.has(&name) {
+                self.at = start;
+                return self.assignment();
+            }
             return match self.peek(0) {
                 '(' if NOTHING.contains(&name.to_ascii_uppercase().as_str()) => {
                     self.parentheses()?;
@@ -259,6 +319,9 @@ impl Reader {
         let letter = self.peek(0).to_ascii_uppercase();
         if !letter.is_ascii_uppercase() {
             return Err(format!("unexpected {letter}"));
+        }
+        if letter == 'R' && (self.peek(1).is_ascii_digit() || self.peek(1) == '[') {
+            return self.assignment();
         }
         self.at += 1;
         self.blanks();
@@ -275,6 +338,10 @@ impl Reader {
         let start = self.at;
         let digits = self.digits();
         self.blanks();
+        // `L20(7)`: as they are written, for zeros in front count.
+        if letter == 'L' && !digits.is_empty() && self.peek(0) == '(' {
+            return Ok(Item::Call(format!("L{digits}"), self.arguments()?));
+        }
         // The first spindle is the master spindle.
         if digits == "1" && self.peek(0) == '=' && "SMT".contains(letter) {
             self.take('=');
@@ -282,7 +349,8 @@ impl Reader {
             return match self.quoted() {
                 Some(text) => Ok(Item::Quoted(letter, text)),
                 None => {
-                    Ok(Item::Word(letter, Value { number: self.number()?, mark: Mark::None }, String::new()))
+                    let value = Value { number: self.amount()?, mark: Mark::None };
+                    Ok(Item::Word(letter, value, String::new()))
                 }
             };
         }
@@ -295,8 +363,16 @@ impl Reader {
         Ok(Item::Word(letter, Value { number, mark: Mark::None }, written))
     }
 
+    /// A variable's name is next.
+    fn names_variable(&mut self) -> bool {
+        let start = self.at;
+        let name = self.name();
+        self.at = start;
+        name.is_some_and(|name| self.variables.has(&name))
+    }
+
     /// A text in quotation marks.
-    fn quoted(&mut self) -> Option<String> {
+    pub(super) fn quoted(&mut self) -> Option<String> {
         let end = (self.at + 1..self.text.len()).find(|at| self.text[*at] == '"');
         let end = end.filter(|_| self.peek(0) == '"')?;
         let text = self.text[self.at + 1..end].iter().collect();
@@ -304,21 +380,24 @@ impl Reader {
         Some(text)
     }
 
+    /// What stands behind `=`.
     fn assigned(&mut self) -> Result<Value, String> {
         self.take('=');
         self.blanks();
+        let start = self.at;
         let mark = match self.name().as_deref() {
-            None => return Ok(Value { number: self.number()?, mark: Mark::None }),
             // Which way round an axis goes leads to the same angle.
             Some("AC" | "DC" | "ACP" | "ACN") => Mark::Absolute,
             Some("IC") => Mark::Incremental,
-            Some(other) => return Err(format!("an expression: {other}")),
+            _ => {
+                self.at = start;
+                return Ok(Value { number: self.amount()?, mark: Mark::None });
+            }
         };
         if !self.take('(') {
             return Err("AC or IC without parentheses".into());
         }
-        self.blanks();
-        let number = self.number()?;
+        let number = self.amount()?;
         if !self.take(')') {
             return Err("an expression in parentheses".into());
         }
@@ -342,41 +421,33 @@ impl Reader {
         Err("no end of arguments".into())
     }
 
-    fn arguments(&mut self) -> Result<Vec<Argument>, String> {
+    pub(super) fn arguments(&mut self) -> Result<Vec<Argument>, String> {
         self.take('(');
         let mut arguments = Vec::new();
         loop {
             self.blanks();
             arguments.push(match self.peek(0) {
                 ',' | ')' => Argument::Empty,
-                '"' => {
-                    self.at += 1;
-                    while self.peek(0) != '"' {
-                        if self.at >= self.text.len() {
-                            return Err("a string without an end".into());
-                        }
-                        self.at += 1;
-                    }
-                    self.at += 1;
-                    Argument::Text
-                }
                 // A constant by its name.
-                '_' => {
+                '_' if !self.names_variable() => {
                     let named = self.name().is_some();
                     if named { Argument::Text } else { return Err("a name of one sign".into()) }
                 }
-                _ => Argument::Number(self.number()?),
+                _ => match self.expression()? {
+                    Worth::Number(number, _) => Argument::Number(number),
+                    Worth::Text(_) => Argument::Text,
+                },
             });
             if self.take(')') {
                 return Ok(arguments);
             }
             if !self.take(',') {
-                return Err("an expression as an argument, or no end of arguments".into());
+                return Err("no end of arguments".into());
             }
         }
     }
 
-    fn number(&mut self) -> Result<f64, String> {
+    pub(super) fn number(&mut self) -> Result<f64, String> {
         let mut text = String::new();
         if matches!(self.peek(0), '+' | '-') {
             text.push(self.peek(0));

@@ -4,12 +4,12 @@ use super::super::threads::other;
 use super::super::{Halt, Place, Spindle, What};
 use super::{Control, Next, Words};
 
-impl<'a> Control<'a> {
+impl Control<'_> {
     /// G33, G331 and G332 by the lead of their axis; the sign turns the spindle the other way.
     pub(super) fn thread(
         &mut self,
         turns: Option<Spindle>,
-        w: &Words<'a>,
+        w: &Words,
         axes: &[usize],
         to: Place,
     ) -> Result<(), Halt> {
