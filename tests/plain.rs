@@ -223,6 +223,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
             What::Message => Happening::Message,
+            What::Alarm => Happening::Alarm,
             What::Data(table, entry, values) => Happening::Data(table, entry, values),
             What::Plane(plane) => Happening::Plane(plane),
             What::Upright => Happening::Upright,

@@ -206,7 +206,8 @@ impl Verifier {
         }
         if !job.to.dialect.caps.messages {
             // Their loss is a verdict of its own, that stops unless it is allowed.
-            runs.iter_mut().for_each(|run| run.source.mute());
+            let stops = job.to.dialect.caps.stop_messages;
+            runs.iter_mut().for_each(|run| run.source.mute(stops));
         }
         Verifier {
             reader: Reader::new(job.to.clone(), false),

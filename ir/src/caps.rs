@@ -178,6 +178,8 @@ pub struct Caps {
     pub corners: Corners,
     /// Messages to the operator.
     pub messages: bool,
+    /// Those that stand right before a program stop in its block.
+    pub stop_messages: bool,
     /// Modes of taking corners, a bit each.
     pub path_modes: u16,
     /// Whether the length of rounding can be another one in rapids.
@@ -463,6 +465,11 @@ impl Caps {
     /// Whether advice can be written.
     pub fn advises(&self, kind: AdviceKind, value: u8) -> bool {
         self.advice.contains(&(kind, value))
+    }
+
+    /// Whether it shows what a program stop says.
+    pub fn shows_at_stops(&self) -> bool {
+        self.messages || self.stop_messages
     }
 
     /// Whether a length that stands in no table can be written.

@@ -35,6 +35,8 @@ pub enum Said {
     Values,
     /// [`Op::Alarm`].
     Alarm,
+    /// [`Op::ProgramStop`] with [`Op::Message`] before it in its block.
+    Stop,
 }
 
 /// What a target computes with.
@@ -78,6 +80,15 @@ impl Computes {
     /// Whether there is such a statement.
     pub fn has(&self, statement: Said) -> bool {
         self.statements.contains(&statement)
+    }
+
+    /// Whether a decision can be about these statements without blocks of its own.
+    pub fn decides(&self, then: &[Stmt]) -> bool {
+        match then {
+            [only] if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => true,
+            [only] if matches!(only.op, Op::Alarm(_)) => self.has(Said::Alarm),
+            then => self.has(Said::Stop) && stops(then),
+        }
     }
 
     /// Whether a variable can be said.
@@ -126,6 +137,17 @@ fn ends(body: &[Stmt]) -> bool {
         Op::Control(control) => control.bodies().any(|body| ends(body)),
         _ => false,
     })
+}
+
+/// Whether statements are a stop of the program, with a message or without.
+fn stops(body: &[Stmt]) -> bool {
+    match body {
+        [stop] => matches!(stop.op, Op::ProgramStop),
+        [message, stop] => {
+            matches!((&message.op, &stop.op), (Op::Message(_), Op::ProgramStop)) && stop.joined
+        }
+        _ => false,
+    }
 }
 
 /// The name of an operator or a function, as in the text form.
@@ -231,8 +253,8 @@ impl Look<'_> {
                     }
                     return control.bodies().try_for_each(|body| self.body(body, loops));
                 }
-                match (&then[..], &otherwise[..]) {
-                    ([only], []) if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => self.body(then, loops),
+                match &otherwise[..] {
+                    [] if self.computes.decides(then) => self.body(then, loops),
                     _ => Err(refuse("a decision about more than one statement", at)),
                 }
             }

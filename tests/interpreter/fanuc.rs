@@ -118,6 +118,17 @@ impl Control {
                 },
                 Go::On => at + 1,
                 Go::To(number) => jump(blocks, &loops, at, number).or_else(|why| self.m.halt(why))?,
+                Go::Perhaps(number) => match jump(blocks, &loops, at, number) {
+                    Ok(to) => to,
+                    Err(_) => {
+                        self.m.record(What::Alarm);
+                        return Ok(true);
+                    }
+                },
+                Go::Alarm => {
+                    self.m.record(What::Alarm);
+                    return Ok(true);
+                }
                 Go::Behind => loops.iter().find(|l| l.0 == at).map_or(at, |l| l.1) + 1,
                 Go::Again => loops.iter().find(|l| l.1 == at).map_or(at, |l| l.0),
             };

@@ -79,6 +79,13 @@ impl Comments {
         }
     }
 
+    /// Whether a text is written as it is.
+    pub(crate) fn keeps(&mut self, text: &str) -> bool {
+        let mut line = Vec::new();
+        let mut after = Vec::new();
+        !self.write(text, &mut line, &mut after, b"") && after.is_empty()
+    }
+
     /// Whether a line has a message to the operator.
     pub(crate) fn shows_message(&self, line: &[u8]) -> bool {
         let sign = format!("{}{}", self.open, self.message);

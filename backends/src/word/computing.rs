@@ -126,7 +126,7 @@ impl Writer {
     }
 
     /// What comes next goes another way: what waits is written, and the block is one of its own.
-    fn flow(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+    pub(super) fn flow(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.call_up_now(stmt, sink)?;
         if !self.block.is_empty() {
             self.flush(false, sink);
@@ -135,7 +135,7 @@ impl Writer {
         Ok(())
     }
 
-    fn statement_alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+    pub(super) fn statement_alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         self.admit(&Need::new(Rank::Alone), sink)?;
         self.block.text(Part::Tail, text);
         Ok(())
@@ -163,8 +163,13 @@ impl Writer {
         self.spelling(None)?;
         self.variable_changes()?;
         let value = self.expression(value, span, sink)?;
+        Ok(self.sets(&self.spelling(None)?.target(to)?, &value))
+    }
+
+    /// A text in which something is set to something.
+    pub(super) fn sets(&self, to: &str, value: &str) -> String {
         let blank = if self.dialect.block.blanks { " " } else { "" };
-        Ok(format!("{}{blank}={blank}{value}", self.spelling(None)?.target(to)?))
+        format!("{to}{blank}={blank}{value}")
     }
 
     /// A variable gets another value: what was said with it is not what the same words would say now.
@@ -188,6 +193,11 @@ impl Writer {
         self.statement_alone(&text, sink)
     }
 
+    /// The number of the block that a label is.
+    pub(super) fn number_of_label(&self, label: &str) -> Option<u32> {
+        self.computing.numbers.get(label).copied()
+    }
+
     fn jump(&self, label: &str) -> Result<String, Fault> {
         let number = self.computing.numbers.get(label);
         let number = number.ok_or_else(|| Fault::LabelUnknown { name: label.into() })?;
@@ -200,6 +210,10 @@ impl Writer {
         self.spelling(None)?;
         match control {
             Control::If { condition, then, otherwise } => match (&then[..], &otherwise[..]) {
+                ([Stmt { op: Op::Message(text), .. }, stop], []) => {
+                    self.stop_text = Some(text.clone());
+                    self.decide(condition, stop, stmt, sink)
+                }
                 ([only], []) => self.decide(condition, only, stmt, sink),
                 _ => Err(cannot_compute("a decision about more than one statement")),
             },
@@ -221,6 +235,12 @@ impl Writer {
             let condition = self.condition(condition, stmt.span, sink)?;
             let assignment = self.assignment(to, value, stmt.span, sink)?;
             format!("IF{blank}{condition}{blank}THEN{blank}{assignment}")
+        } else if let Op::Alarm(alarm) = &then.op {
+            let condition = self.condition(condition, stmt.span, sink)?;
+            format!("IF{blank}{condition}{blank}THEN{blank}{}", self.alarm_setting(alarm, stmt, sink)?)
+        } else if let Op::ProgramStop = &then.op {
+            let condition = self.condition(condition, stmt.span, sink)?;
+            format!("IF{blank}{condition}{blank}THEN{blank}{}", self.stop_setting(stmt, sink)?)
         } else {
             return Err(cannot_compute("a decision about another statement"));
         };

@@ -6,6 +6,7 @@
 //!
 //! Not here: expanding what a control cannot say (passes), and judging the result (verification).
 
+mod alarm;
 pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
@@ -17,6 +18,7 @@ mod force;
 pub(crate) mod formula;
 mod frame;
 mod frames;
+mod jump_of;
 pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod number;
@@ -32,7 +34,7 @@ use ncc_dialects::{Dialect, Settings};
 use ncc_ir::canon::{AXES, Axis, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Nanos, Num, Unit};
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::program::{Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -108,6 +110,8 @@ pub struct Writer {
     first_left: Option<Span>,
     /// Whether the source block at hand had to be split.
     pub(crate) split: bool,
+    /// What the program stop that comes next says.
+    stop_text: Option<Text>,
     /// A cycle has said a dwell that stays in force for others: for those of its series, or for all.
     pub(crate) dwell_left: bool,
     /// Whether the pecks that the text has in force decrease, if it has said any since a cycle ended.
@@ -199,6 +203,7 @@ impl Writer {
             numbers_left: 0,
             first_left: None,
             split: false,
+            stop_text: None,
             dwell_left: false,
             pecks_left: None,
             offset_waits: None,
@@ -331,7 +336,8 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
-        for (at, stmt) in stmts.iter().enumerate() {
+        let (before, jump) = jump_of::found(stmts);
+        for (at, stmt) in before.iter().enumerate() {
             let before = self.open(stmt, sink);
             // What the tool change does itself.
             let implied = self.dialect.can.change_stops_spindle
@@ -345,6 +351,14 @@ impl Writer {
                 Err(ref fault) => Err(fault.clone()),
             };
             self.close(stmt, before.ok(), written, sink);
+        }
+        if let (Some(jump), Some(first), Some(last)) = (jump, stmts.get(before.len()), stmts.last()) {
+            let force = self.open(first, sink);
+            let written = match force {
+                Ok(_) => self.jump_to_number(&jump, first, sink),
+                Err(ref fault) => Err(fault.clone()),
+            };
+            self.close(last, force.ok(), written, sink);
         }
         self.close_block(stmts, sink);
     }

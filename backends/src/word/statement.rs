@@ -27,6 +27,7 @@ impl Writer {
             self.limit_in_turns(&stmt.op, sink);
         }
         self.leave_polar(stmt, sink)?;
+        self.stop_has_text(stmt)?;
         let span = stmt.span;
         let codes = &self.codes;
         if matches!(
@@ -159,14 +160,19 @@ impl Writer {
             Op::Hole(to) => self.hole(to, stmt, sink),
             Op::Pattern(pattern) => self.pattern(pattern, stmt, sink),
             Op::EndCycle => self.end_cycle(span, sink),
+            Op::ProgramStop if self.stop_text.is_some() => self.stop_with_text(stmt, sink),
             Op::ProgramStop => self.m_code(Rank::Stop, codes.stop, "a program stop", sink),
             Op::OptionalProgramStop => self.m_code(Rank::Stop, codes.optional_stop, "an optional stop", sink),
             Op::ProgramEnd => self.m_code(Rank::Stop, codes.end, "the program's end", sink),
+            Op::Message(text) if self.dialect.caps.stop_messages => {
+                self.stop_text = Some(text.clone());
+                Ok(())
+            }
             Op::Message(text) => self.message(text, sink),
             Op::Call(call) => self.call(call, stmt, sink),
             Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
             Op::MessageOf(_) => Err(cannot("a message with values in it")),
-            Op::Alarm(_) => Err(cannot("an alarm")),
+            Op::Alarm(alarm) => self.alarm(alarm, stmt, sink),
             Op::Declare(_) => Err(cannot_compute("a variable that is made known")),
             Op::Leave | Op::NextTurn => Err(cannot_compute("a loop that is left")),
             Op::Assign(to, value) => self.assign(to, value, span, sink),

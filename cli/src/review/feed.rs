@@ -20,8 +20,8 @@ const PIECE: usize = 8192;
 pub(crate) struct Settings {
     /// Block-skip switches that are on: bit n is level n.
     pub(crate) skip: u16,
-    /// Whether messages make no events, because one side's control has none.
-    pub(crate) mute: bool,
+    /// Messages make no events where one side's control has none: whether those of program stops do.
+    pub(crate) mute: Option<bool>,
     /// The control's own parameters of cycles.
     pub(crate) clearances: [Option<Nanos>; 2],
 }
@@ -41,8 +41,8 @@ pub(crate) fn records(
             let mut exec = Exec::new(world, settings.skip);
             exec.narrate();
             exec.every_move();
-            if settings.mute {
-                exec.mute();
+            if let Some(but_stops) = settings.mute {
+                exec.mute(but_stops);
             }
             exec
         })

@@ -8,7 +8,7 @@
 use ncc_dialects::{ANGLE_RANGE, Quantity};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target};
+use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
@@ -16,7 +16,8 @@ use ncc_ir::source::Span;
 use super::Source;
 use super::block::{Block, Value, Word};
 use super::facts::InForce;
-use super::formula::Statement;
+use super::formula::{Statement, To};
+use super::jump_of::JumpOf;
 use super::lower::Lower;
 use super::macro_call::parameters;
 use super::number::{spell, unit_of};
@@ -38,6 +39,8 @@ pub(super) struct Computes {
     loops: Vec<Open>,
     /// How many arguments programs are called with, by their names.
     called: Vec<(Text, usize)>,
+    /// Jumps to blocks whose number is computed.
+    pub(super) jumps_of: Vec<JumpOf>,
 }
 
 /// A loop that has not ended.
@@ -53,7 +56,7 @@ struct Open {
 }
 
 /// The name by which jumps know the block of a number.
-fn label(number: u32) -> Text {
+pub(super) fn label(number: u32) -> Text {
     format!("N{number}").into()
 }
 
@@ -141,7 +144,7 @@ impl Lower {
     }
 
     /// A statement of the macro language.
-    pub(super) fn statement(&mut self, statement: &Statement, block: &Block, out: &mut Batch) {
+    pub(super) fn statement(&mut self, statement: &Statement, block: &Block, src: Source, out: &mut Batch) {
         out.whole = true;
         let span = block.span;
         if self.now.failed {
@@ -156,25 +159,33 @@ impl Lower {
         }
         match statement {
             Statement::Assign(to, value) => {
-                let assign = self.assignment(to, value, span, out);
-                self.push(span, assign, out);
+                for op in self.assignment(to, value, block, src, out) {
+                    self.push(span, op, out);
+                }
             }
             Statement::Goto(condition, to) => {
                 if self.computes.unnamed {
-                    let code = format!("GOTO {to}").into();
+                    let code = "GOTO".into();
                     let name = "jump in a text whose first part has numbered blocks, and is long".into();
                     return self.fault(Fault::NotSupported { code, name }, span, out);
                 }
                 self.leave_motion(None, out);
-                let jump = Op::Goto(label(*to));
-                match condition {
-                    None => self.push(span, jump, out),
-                    Some(condition) => self.decide(condition, jump, span, out),
+                match (to, condition) {
+                    (To::Number(to), None) => self.push(span, Op::Goto(label(*to)), out),
+                    (To::Number(to), Some(condition)) => {
+                        self.decide(condition, vec![Op::Goto(label(*to))], span, out);
+                    }
+                    (To::Computed(to), condition) => {
+                        let to = self.value(to, span, out);
+                        let condition = condition.as_ref().map(|c| self.value(c, span, out));
+                        let mark = self.computes.jump_of(condition, to);
+                        self.push(span, Op::Goto(mark), out);
+                    }
                 }
             }
             Statement::Then(condition, to, value) => {
-                let assign = self.assignment(to, value, span, out);
-                self.decide(condition, assign, span, out);
+                let then = self.assignment(to, value, block, src, out);
+                self.decide(condition, then, span, out);
             }
             Statement::Do(condition, number) => {
                 let twice = self.computes.loops.iter().any(|open| open.number == *number);
@@ -240,16 +251,28 @@ impl Lower {
         }
     }
 
-    fn decide(&mut self, condition: &Expr, then: Op, span: Span, out: &mut Batch) {
+    fn decide(&mut self, condition: &Expr, then: Vec<Op>, span: Span, out: &mut Batch) {
         let condition = self.value(condition, span, out);
-        let then = vec![Stmt::new(span, then)];
+        let mut then: Vec<Stmt> = then.into_iter().map(|op| Stmt::new(span, op)).collect();
+        then.iter_mut().skip(1).for_each(|stmt| stmt.joined = true);
         let control = Control::If { condition, then, otherwise: Vec::new() };
         self.push(span, Op::Control(Box::new(control)), out);
     }
 
-    /// A value for a variable, or for the one whose number is computed.
-    fn assignment(&mut self, to: &Target, value: &Expr, span: Span, out: &mut Batch) -> Op {
+    /// A value for a variable, or for the one whose number is computed; one of the control's own may act by it.
+    fn assignment(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> Vec<Op> {
+        let span = block.span;
         let value = self.value(value, span, out);
+        if let Target::Var(Var::System(system)) = to {
+            return self.control_set(system, value, block, src, out);
+        }
         let to = match to {
             Target::Var(var) => Target::Var(var.clone()),
             Target::Element(element) => {
@@ -259,7 +282,7 @@ impl Lower {
             }
         };
         self.assigned(span, out);
-        Op::Assign(to, value)
+        vec![Op::Assign(to, value)]
     }
 
     /// The variables that have numbers.

@@ -27,13 +27,29 @@ pub(crate) struct Formula {
     depth: u32,
 }
 
+/// Where a jump goes.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum To {
+    /// The block of a number.
+    Number(u32),
+    /// The block of a number that is computed.
+    Computed(Expr),
+}
+
+impl To {
+    /// A number that is computed; a condition is none.
+    pub(crate) fn computed(of: Formula) -> Option<To> {
+        (!of.condition).then_some(To::Computed(of.expr))
+    }
+}
+
 /// A statement, or a part of one, in the order of the text.
 #[derive(Clone, Debug)]
 pub(crate) enum Piece {
     Assign(Target, Expr),
     If(Expr),
     Then,
-    Goto(u32),
+    Goto(To),
     While(Expr),
     Do(u32),
     End(u32),
@@ -46,7 +62,7 @@ pub(crate) enum Piece {
 pub(crate) enum Statement {
     Assign(Target, Expr),
     /// A jump to a block number, if this holds.
-    Goto(Option<Expr>, u32),
+    Goto(Option<Expr>, To),
     /// An assignment, if this holds.
     Then(Expr, Target, Expr),
     /// A loop with its number begins; without a condition it is endless.

@@ -236,7 +236,7 @@ impl Lower {
             self.settings(block, false, out);
             self.message(block, src, out);
             if let Some(statement) = &block.statement {
-                self.statement(statement, block, out);
+                self.statement(statement, block, src, out);
             } else if let Some(decision) = &block.decision {
                 self.decide_flow(decision, block, out);
                 words.left = 0;
@@ -253,7 +253,7 @@ impl Lower {
             }
         } else {
             if let Some(statement) = &block.statement {
-                self.statement(statement, block, out);
+                self.statement(statement, block, src, out);
             }
             // The modes that it says still count.
             for code in &codes {

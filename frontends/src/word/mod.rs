@@ -16,6 +16,7 @@ pub(crate) mod block;
 mod call;
 mod compensation;
 mod computing;
+mod control_set;
 mod corner;
 mod cycle;
 mod data;
@@ -26,6 +27,7 @@ mod formula;
 mod frame;
 mod frames;
 pub(crate) mod functions;
+mod jump_of;
 pub(crate) mod jumps;
 pub(crate) mod lower;
 mod machine;
@@ -183,6 +185,7 @@ impl Reader {
             self.end_of_program(out);
             self.end_of_text(out);
             self.lower.computes.give_parameters(&mut out.procedures);
+            self.lower.computes.join_jumps(out);
             self.lower.settle_calls(out);
         }
     }

@@ -9,6 +9,7 @@ use ncc_ir::expr::Function;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
 
 use crate::cycles::{CycleRow, PatternRow};
+use crate::formula::Statement;
 use crate::meaning::{Meaning, Thread};
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
 use crate::power_on::SafeStart;
@@ -339,6 +340,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             || dialect.can.flat
             || !dialect.comment.message.is_empty()
             || names(NameMeaning::Message),
+        stop_messages: dialect.formula.statements.contains(&Statement::Stop),
         computes: (!dialect.formula.operators.is_empty()).then(|| {
             let rules = &dialect.formula;
             Box::new(Computes {

@@ -56,6 +56,10 @@ pub struct FormulaRules {
     pub loops: u8,
     /// How deep brackets can.
     pub brackets: u8,
+    /// Numbers of alarms that a program can give, from and to.
+    pub alarms: Option<[u32; 2]>,
+    /// How many characters the text of an alarm, or of a stop with a message, can have.
+    pub alarm_text: usize,
     /// Whether the words that join conditions work bit by bit where they stand between numbers.
     pub bits: bool,
     /// Whether a call that is made several times begins each of them with the same arguments and no other
@@ -82,6 +86,7 @@ pub enum Statement {
     NextTurn,
     Values,
     Alarm,
+    Stop,
 }
 
 impl From<Statement> for Said {
@@ -99,6 +104,7 @@ impl From<Statement> for Said {
             Statement::NextTurn => Said::NextTurn,
             Statement::Values => Said::Values,
             Statement::Alarm => Said::Alarm,
+            Statement::Stop => Said::Stop,
         }
     }
 }

@@ -45,8 +45,18 @@ fn text(pieces: &[Piece]) -> Option<Text> {
 }
 
 impl Exec {
+    /// Makes no events of messages: for a comparison with a control that cannot show them, but for those of a
+    /// program stop if it can show these.
+    pub fn mute(&mut self, but_stops: bool) {
+        self.muted = true;
+        self.stops_speak = but_stops;
+    }
+
     pub(super) fn message(&mut self, op: &Op, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         match op {
+            Op::Message(text) if self.muted && self.stops_speak => {
+                self.unspoken = Some(Box::new((text.clone(), span)));
+            }
             Op::Message(_) | Op::MessageOf(_) if self.muted => {}
             Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,
             Op::MessageOf(pieces) => {

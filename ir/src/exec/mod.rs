@@ -44,7 +44,7 @@ use crate::expr::Expr;
 use crate::kinds::variables;
 use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
-use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
+use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt, Text};
 use crate::source::Span;
 use crate::world::World;
 use arcs::Heading;
@@ -110,8 +110,12 @@ pub struct Exec {
     cycle: Option<InForce>,
     /// Whether the program has ended.
     ended: bool,
-    /// Whether messages make no events.
+    /// Whether messages make no events, but for those of program stops.
     muted: bool,
+    stops_speak: bool,
+    /// The message of the statement at hand, and of the one before it, if it makes none but for a program stop.
+    unspoken: Option<Box<(Text, Span)>>,
+    before: Option<Box<(Text, Span)>>,
     /// Whether events are counted only.
     quiet: bool,
     /// Whether functions are told that make no events.
@@ -198,6 +202,9 @@ impl Exec {
             cycle: None,
             ended: false,
             muted: false,
+            stops_speak: false,
+            unspoken: None,
+            before: None,
             quiet: false,
             narrating: false,
             every_move: false,
@@ -261,11 +268,6 @@ impl Exec {
         let passed = stmts.iter().try_for_each(|stmt| self.step(stmt, &mut none));
         self.quiet = false;
         passed.map(|()| self.counted)
-    }
-
-    /// Makes no events of messages: for a comparison with a control that cannot show them.
-    pub fn mute(&mut self) {
-        self.muted = true;
     }
 
     /// Tells functions one by one: those that set an attribute make events too, and so do straight
@@ -486,6 +488,9 @@ impl Exec {
     #[inline]
     fn do_step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
+        if self.muted {
+            self.before = self.unspoken.take();
+        }
         match &stmt.op {
             Op::StraightFeed(m) => self.straight(&m.to, true, span, out),
             Op::StraightTraverse(m) => self.straight(&m.to, false, span, out),
@@ -658,7 +663,12 @@ impl Exec {
             Op::Hole(m) => self.hole(&m.to, span, out)?,
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
             Op::EndCycle => self.cycle = None,
-            Op::ProgramStop => self.emit(Kind::ProgramStop, span, out)?,
+            Op::ProgramStop => {
+                if let Some(before) = self.before.take().filter(|_| stmt.joined) {
+                    self.emit(Kind::Message(before.0), before.1, out)?;
+                }
+                self.emit(Kind::ProgramStop, span, out)?;
+            }
             Op::OptionalProgramStop => self.emit(Kind::OptionalProgramStop, span, out)?,
             Op::ProgramEnd => {
                 self.emit(Kind::ProgramEnd, span, out)?;

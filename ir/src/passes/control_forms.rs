@@ -117,6 +117,9 @@ impl Forms<'_> {
 
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Control(control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
+        if self.says_about_one(&control) {
+            return out.push(Stmt { op: Op::Control(control), ..stmt });
+        }
         // Its blocks are skipped together, which jumps would have to be as well.
         if stmt.skip.is_some() && !is_plain(&control) {
             let mut control = control;
@@ -174,6 +177,16 @@ impl Forms<'_> {
                 first.comment = comment;
             }
         }
+    }
+
+    /// Whether it is an alarm or a stop that depends on something, which the target says in one block.
+    fn says_about_one(&self, control: &Control) -> bool {
+        let Control::If { then, otherwise, .. } = control else { return false };
+        let acts = then.iter().all(|stmt| {
+            let acts = matches!(stmt.op, Op::Alarm(_) | Op::Message(_) | Op::ProgramStop);
+            acts && stmt.skip.is_none() && stmt.comment.is_none()
+        });
+        acts && otherwise.is_empty() && !self.computes.blocks && self.computes.decides(then)
     }
 
     /// A loop that stays as it is.

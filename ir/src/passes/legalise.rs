@@ -5,6 +5,7 @@
 //! not looked into: a target that has such control can say everything, or it is `computing`.
 
 mod computing;
+mod messages;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -623,7 +624,7 @@ impl Legaliser {
     /// Refuses what no pass can mend.
     fn check(&self, stmts: &mut [Stmt], walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
         let caps = &self.target.caps;
-        for stmt in stmts {
+        for stmt in &mut *stmts {
             walk.enter(stmt.skip);
             if !caps.offset_turns {
                 work_offset::leave_straight(&mut stmt.op);
@@ -667,13 +668,9 @@ impl Legaliser {
                 _ => {}
             }
             walk.step(stmt);
-            if let Op::Message(text) = &mut stmt.op
-                && !caps.messages
-            {
-                let text = std::mem::take(text);
-                diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
-                stmt.op = Op::Comment(text);
-            }
+        }
+        if !caps.messages {
+            messages::drop_messages(stmts, caps.stop_messages, diags);
         }
     }
 }

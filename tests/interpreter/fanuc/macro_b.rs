@@ -8,8 +8,8 @@ use std::collections::BTreeMap;
 
 use formula::{Formula, Worth};
 
-use super::super::Halt;
-use super::programs::Program;
+use super::super::{Halt, What};
+use super::programs::{Program, TEXT};
 use super::{Control, Next, Word};
 
 /// What ROUND means in an expression.
@@ -188,6 +188,10 @@ pub(super) enum Go {
     Behind,
     /// Back to where the loop begins that ends here.
     Again,
+    /// To the block of a computed number; an alarm where there is none.
+    Perhaps(u32),
+    /// Nowhere: an alarm.
+    Alarm,
 }
 
 /// Where a jump leads: forward first, then from the top; never into a loop.
@@ -237,8 +241,7 @@ impl Control {
 
     fn do_statement(&mut self, text: &str) -> Result<Go, String> {
         if text.starts_with('#') {
-            self.assign(text)?;
-            return Ok(Go::On);
+            return self.assign(text);
         }
         if let Some(rest) = keyword(text, "IF") {
             let (holds, rest) = self.holds(rest)?;
@@ -249,10 +252,7 @@ impl Control {
             if !then.starts_with('#') {
                 return Err("THEN without an assignment".into());
             }
-            if holds {
-                self.assign(then)?;
-            }
-            return Ok(Go::On);
+            return if holds { self.assign(then) } else { Ok(Go::On) };
         }
         if let Some(rest) = keyword(text, "WHILE") {
             let (holds, rest) = self.holds(rest)?;
@@ -285,22 +285,33 @@ impl Control {
     }
 
     fn go_to(&self, text: &str) -> Result<Go, String> {
-        let number = match text.parse::<u32>() {
-            Ok(number) => f64::from(number),
-            Err(_) => round(self.number_of(text, Rounding::Whole)?.ok_or("GOTO nowhere")?),
-        };
-        match (1.0..=99999.0).contains(&number) {
-            true => Ok(Go::To(number as u32)),
-            false => Err(format!("GOTO {number}")),
+        if let Ok(number) = text.parse::<u32>() {
+            return if (1..=99999).contains(&number) { Ok(Go::To(number)) } else { Err("GOTO".into()) };
         }
+        let number = self.number_of(text, Rounding::Whole)?.unwrap_or(0.0);
+        let whole = number == number.floor() && (1.0..=99999.0).contains(&number);
+        Ok(if whole { Go::Perhaps(number as u32) } else { Go::Alarm })
     }
 
-    fn assign(&mut self, text: &str) -> Result<(), String> {
+    fn assign(&mut self, text: &str) -> Result<Go, String> {
+        let shown = text.contains(TEXT);
+        let text = &*text.replace(TEXT, "");
         let mut left = self.formula(&text[1..]);
         let number = left.variable_number()?;
         let Some(right) = left.rest.strip_prefix('=') else { return Err("a variable without =".into()) };
         let value = self.number_of(right, Rounding::Whole)?;
-        self.variables.write(number, value)
+        match number {
+            // 3000: an alarm. 3006: the control stops and shows the text.
+            3000 => return Ok(Go::Alarm),
+            3006 => {
+                if shown {
+                    self.m.record(What::Message);
+                }
+                self.m.record(What::Stop);
+            }
+            number => self.variables.write(number, value)?,
+        }
+        Ok(Go::On)
     }
 
     /// What an expression is worth that is a whole text.

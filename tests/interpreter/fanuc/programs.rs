@@ -9,6 +9,9 @@ pub(super) struct Program {
     pub(super) blocks: Vec<(usize, String)>,
 }
 
+/// Stands for a comment that the control shows.
+pub(super) const TEXT: char = '"';
+
 /// Parts the text into programs and blocks, without comments, blanks and end-of-block signs.
 pub(super) fn programs(text: &str) -> Vec<Program> {
     let framed = text.lines().any(|line| line.trim_start().starts_with('%'));
@@ -29,7 +32,13 @@ pub(super) fn programs(text: &str) -> Vec<Program> {
         let (mut inside, mut named) = (false, false);
         for c in line.chars() {
             match c {
-                '(' => inside = true,
+                '(' => {
+                    inside = true;
+                    // It is a text for the operator.
+                    if bare.contains("#3000=") || bare.contains("#3006=") {
+                        bare.push(TEXT);
+                    }
+                }
                 ')' => inside = false,
                 _ if inside || c.is_whitespace() => {}
                 '<' | '>' => {

@@ -62,7 +62,9 @@ pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Res
     let clearances =
         [0, 1].map(|side| std::array::from_fn(|which: usize| own[side][which].or(own[1 - side][which])));
     let mut found = Collector::default();
-    let settings = |skip| clearances.map(|clearances| Settings { skip, mute, clearances });
+    let stops = sides.iter().all(|side| side.dialect().caps.shows_at_stops());
+    let muted = mute.then_some(stops);
+    let settings = |skip| clearances.map(|clearances| Settings { skip, mute: muted, clearances });
     let courses = once(sides, settings(0), measure, &mut found)?;
     let levels = courses[0].skip_levels | courses[1].skip_levels;
     let one_level = sides.iter().any(|side| side.dialect().caps.skip_levels <= 1);

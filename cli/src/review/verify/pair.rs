@@ -136,6 +136,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         worlds,
         starts,
         muted,
+        stops_speak: caps.shows_at_stops() && other.shows_at_stops(),
         lines: job.from.dialect.can.flat || job.to.dialect.can.flat,
         between_controls: job.between_controls(),
         unsaid: Unsaid::Only(found.shared),
@@ -282,6 +283,8 @@ struct Plan {
     worlds: Vec<[World; 2]>,
     starts: Vec<[Nanos; AXES]>,
     muted: bool,
+    /// Whether both show what a program stop says.
+    stops_speak: bool,
     /// One of the texts has no blocks; both are for controls of different kinds.
     lines: bool,
     between_controls: bool,
@@ -303,7 +306,7 @@ impl Plan {
                 exec.be_at(*start);
             }
             if self.muted {
-                exec.mute();
+                exec.mute(self.stops_speak);
             }
             if self.lines {
                 exec.without_blocks();
