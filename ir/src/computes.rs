@@ -50,6 +50,10 @@ pub struct Computes {
     pub functions: Vec<Function>,
     /// With what the names of its variables begin; behind it they are numbers.
     pub prefix: Text,
+    /// Whether variables that live as long as a call, and are declared or given with it, have names.
+    pub names: bool,
+    /// Whether the remainder is one of numbers alone that are whole by their types ([`crate::types`]).
+    pub whole_remainder: bool,
     /// Whether a variable can have no value at all, which is another thing than zero.
     pub vacant: bool,
     /// Whether words round what is computed for them to their increment.
@@ -101,7 +105,7 @@ impl Computes {
             })
         };
         match var {
-            Var::Local(name) => among(&self.local, name),
+            Var::Local(name) => among(&self.local, name) || self.names && is_name(name),
             Var::Common(name) => among(&self.common, name),
             Var::Retentive(name) => among(&self.retentive, name),
             Var::System(_) => false,
@@ -124,6 +128,11 @@ impl Computes {
         let look = Look { computes: self };
         program.procedures.iter().find_map(|procedure| look.procedure(procedure).err())
     }
+}
+
+/// Whether it is a name, and no number.
+fn is_name(name: &str) -> bool {
+    name.bytes().any(|b| !b.is_ascii_digit())
 }
 
 fn refuse(what: impl Into<Text>, at: Span) -> Diagnostic {

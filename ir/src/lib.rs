@@ -30,6 +30,7 @@ pub mod round;
 pub mod source;
 pub mod system;
 pub mod track;
+pub mod types;
 pub mod valid;
 pub mod value;
 pub mod verify;

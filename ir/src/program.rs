@@ -62,6 +62,9 @@ pub struct Procedure {
     pub title: Option<Text>,
     /// Parameters, in the order of a call's arguments.
     pub parameters: Vec<Var>,
+    /// What the parameters hold, in their order, where that is said; else any number. A call has converted what it
+    /// hands over.
+    pub kinds: Vec<Type>,
     /// What it does.
     pub body: Vec<Stmt>,
 }

@@ -73,7 +73,7 @@ fn what_they_come_to() {
 #[test]
 fn what_is_kept() {
     let mut failures = Failures::default();
-    for from in ["fanuc"] {
+    for from in ["fanuc", "siemens"] {
         for (name, text) in programs(from) {
             for to in DIALECTS {
                 let what = format!("{from}/{name} to {to}");

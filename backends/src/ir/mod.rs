@@ -14,7 +14,7 @@ use ncc_dialects::Settings;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::Var;
-use ncc_ir::program::{Control, Op, Procedure, Stmt};
+use ncc_ir::program::{Control, Op, Procedure, Stmt, Type};
 use ncc_ir::source::Span;
 
 use crate::canon::text::{quote, whole};
@@ -74,7 +74,7 @@ impl Writer {
         }
         if !p.parameters.is_empty() {
             out.extend_from_slice(b" (");
-            self.list(&p.parameters, out);
+            self.list(&p.parameters, &p.kinds, out);
             out.push(b')');
         }
         out.extend_from_slice(b" {");
@@ -122,10 +122,14 @@ impl Writer {
         Modes::default()
     }
 
-    fn list(&self, variables: &[Var], out: &mut Vec<u8>) {
+    fn list(&self, variables: &[Var], kinds: &[Type], out: &mut Vec<u8>) {
         for (place, v) in variables.iter().enumerate() {
             if place > 0 {
                 out.extend_from_slice(b", ");
+            }
+            if let Some(kind) = kinds.get(place) {
+                out.extend_from_slice(kind.name().as_bytes());
+                out.push(b' ');
             }
             expr::var(v, out);
         }

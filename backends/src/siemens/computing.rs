@@ -3,12 +3,12 @@
 //!
 //! A jump says whether its label stands before it or behind. Expressions are the word writer's, by the dictionary.
 //!
-//! Not here: which variables there are (`passes/variables`), and calls with arguments, which are refused.
+//! Not here: which variables there are (`passes/variables`), their types, and calls with arguments (`variable`).
 
 use std::collections::BTreeSet;
 
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Expr, Target};
+use ncc_ir::expr::Expr;
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -38,6 +38,8 @@ impl Writer {
     pub(crate) fn know(&mut self, procedures: &[Procedure]) {
         self.computing.program = true;
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
+        self.know_parameters(procedures);
+        self.main = procedures.first().cloned();
     }
 
     /// A unit begins.
@@ -64,23 +66,8 @@ impl Writer {
         if changes { self.end_modal(sink) } else { Ok(()) }
     }
 
-    /// A value for a variable.
-    pub(super) fn assign(
-        &mut self,
-        to: &Target,
-        value: &Expr,
-        span: Span,
-        sink: &mut Sink,
-    ) -> Result<(), Fault> {
-        let spelling = self.words.spelling(None)?;
-        let to = spelling.target(to)?;
-        let value = self.words.expression(value, span, sink)?;
-        self.tell_number(&to, span, sink);
-        self.alone(&format!("{to}={value}"), sink)
-    }
-
     /// Variables beyond those that every control has are the machine's.
-    fn tell_number(&mut self, variable: &str, span: Span, sink: &mut Sink) {
+    pub(super) fn tell_number(&mut self, variable: &str, span: Span, sink: &mut Sink) {
         let number = variable.strip_prefix(&self.dialect.formula.prefix).and_then(|n| n.parse::<u32>().ok());
         if number.is_some_and(|n| n > LAST_EVERYWHERE)
             && !std::mem::replace(&mut self.computing.told_number, true)
@@ -92,7 +79,7 @@ impl Writer {
     }
 
     /// Two numbers that are nearly equal are so for `<` and `>` too, unless the machine has it otherwise.
-    fn tell_comparison(&mut self, condition: &str, span: Span, sink: &mut Sink) {
+    pub(super) fn tell_comparison(&mut self, condition: &str, span: Span, sink: &mut Sink) {
         let exact = condition.contains(['<', '>']);
         if exact && !std::mem::replace(&mut self.computing.told_comparison, true) {
             let parameter = "MD 10280 PROG_FUNCTION_MASK bit 0".into();
@@ -174,7 +161,13 @@ impl Writer {
                 let holds = condition(self, e, sink)?;
                 self.closes(&format!("UNTIL {holds}"), sink)
             }
-            Control::For { .. } | Control::Repeat { .. } => Err(cannot("a counted loop")),
+            Control::For { body, .. } => {
+                let head = self.counted(control, span, sink)?;
+                self.opens(&head, sink)?;
+                self.inner(body, changes, stmt, sink);
+                self.closes("ENDFOR", sink)
+            }
+            Control::Repeat { .. } => Err(cannot("a repetition that is not made a known number of times")),
         }
     }
 

@@ -19,6 +19,7 @@ mod statement;
 mod tilt;
 mod tool;
 mod unit;
+mod variable;
 
 use std::collections::BTreeSet;
 
@@ -27,7 +28,7 @@ use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Nanos, Num, Unit};
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::program::{Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 
 use crate::origin::Trace;
@@ -40,6 +41,7 @@ use crate::word::number::{self, Format, Shaped};
 use crate::{Form, Layout};
 use computing::Computing;
 use names::Names;
+use variable::Variables;
 
 /// Whether the text has a cycle in force for the blocks that follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +112,9 @@ pub struct Writer {
     /// Whether a subprogram has been written, so that every unit needs its header.
     units: bool,
     computing: Computing,
+    variables: Variables,
+    /// The main procedure of a program that computes, until it is written.
+    main: Option<Procedure>,
     /// Calls whose rows nobody confirms, as far as told.
     told: BTreeSet<&'static str>,
 }
@@ -133,6 +138,8 @@ impl Writer {
             repeats: 0,
             units: false,
             computing: Computing::default(),
+            variables: Variables::default(),
+            main: None,
             told: BTreeSet::new(),
         }
     }
@@ -172,7 +179,11 @@ impl Writer {
     /// that the source relies on without having said them; it may grow from piece to piece.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         self.words.take_for_granted(assumed);
-        self.body(stmts, &mut Sink { out, diags });
+        let mut sink = Sink { out, diags };
+        if let Some(main) = self.main.take() {
+            self.begin_variables(&main, &mut sink);
+        }
+        self.body(stmts, &mut sink);
     }
 
     fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
@@ -238,13 +249,18 @@ impl Writer {
         let before = self.standing;
         let tilt = tilt::of(rest);
         let both = self.speed_and_feed(rest);
+        let defined = variable::defined_together(rest);
         let said = match (tilt, both) {
+            _ if defined > 0 => defined,
             (Some(tilt), _) => tilt.said(),
             (None, Some(_)) => 2,
             (None, None) => cycle::called_here(rest),
         };
         let written = match (&opened, tilt, both) {
             (Err(fault), ..) => Err(fault.clone()),
+            (Ok(_), ..) if defined > 1 => {
+                self.before_statement(stmt, sink).and_then(|()| self.declare(&rest[..defined], sink))
+            }
             (Ok(_), Some(tilt), _) => self.tilt(tilt, stmt.span, sink),
             (Ok(_), None, Some(both)) => self.write_both(both, stmt.span, sink),
             (Ok(_), None, None) => self.statement(stmt, said, sink),

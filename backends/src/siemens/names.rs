@@ -2,12 +2,25 @@
 //!
 //! A name that the control can have stays; any other one is changed, always to the same.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_ir::diag::Fault;
 
 /// Longest name of a program.
 const LONGEST: usize = 24;
+
+/// Longest name of a variable (PGA: 31 characters).
+const LONGEST_VARIABLE: usize = 31;
+
+/// Words of the language that no dictionary has, and no variable can be.
+const WORDS: [&str; 67] = [
+    "IF", "ELSE", "ENDIF", "LOOP", "ENDLOOP", "FOR", "TO", "ENDFOR", "WHILE", "ENDWHILE", "REPEAT",
+    "REPEATB", "UNTIL", "CASE", "OF", "DEFAULT", "GOTO", "GOTOC", "GOTOF", "GOTOB", "GOTOS", "CALL", "BLOCK",
+    "PCALL", "EXTCALL", "ISOCALL", "MCALL", "DEF", "EXTERN", "PROC", "VAR", "DEFINE", "AS", "REAL", "INT",
+    "BOOL", "CHAR", "STRING", "AXIS", "FRAME", "DIV", "MOD", "NOT", "B_NOT", "B_AND", "B_XOR", "B_OR", "AND",
+    "XOR", "OR", "AC", "IC", "DC", "ACP", "ACN", "QU", "WHEN", "WHENEVER", "FROM", "EVERY", "DO", "REDEF",
+    "TRUE", "FALSE", "RET", "SET", "REP",
+];
 
 /// A name as it is written.
 pub(super) struct Name {
@@ -21,6 +34,8 @@ pub(super) struct Name {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Names {
     made: BTreeMap<Box<str>, String>,
+    /// Names of programs, that no variable has.
+    reserved: BTreeSet<String>,
 }
 
 impl Names {
@@ -32,6 +47,26 @@ impl Names {
     /// The name for a label.
     pub(super) fn label(&mut self, name: &str) -> Name {
         self.unique("label ", name, identifier(name, "L_"))
+    }
+
+    /// The name for a variable of the unit at hand; `taken` are words of the language.
+    pub(super) fn variable(&mut self, name: &str, taken: &dyn Fn(&str) -> bool) -> Name {
+        let mut wanted = named(name, "V_", LONGEST_VARIABLE);
+        let programs = |text: &str| self.reserved.contains(text);
+        if taken(&wanted) || WORDS.contains(&wanted.as_str()) || programs(&wanted) {
+            wanted = named(&format!("V_{wanted}"), "", LONGEST_VARIABLE);
+        }
+        self.unique("variable ", name, wanted)
+    }
+
+    /// The variables of another unit begin.
+    pub(super) fn new_variables(&mut self) {
+        self.made.retain(|key, _| !key.starts_with("variable "));
+    }
+
+    /// No variable has the name of a program.
+    pub(super) fn reserve(&mut self, program_name: &str) {
+        self.reserved.insert(program(program_name));
     }
 
     /// The name for the main program, which no subprogram may have.
@@ -80,6 +115,10 @@ fn program(name: &str) -> String {
 
 /// Capitals, digits and underlines that begin with two letters or underlines.
 fn identifier(name: &str, prefix: &str) -> String {
+    named(name, prefix, LONGEST)
+}
+
+fn named(name: &str, prefix: &str, longest: usize) -> String {
     let mut made: String = name
         .chars()
         .map(|c| if c.is_ascii_alphanumeric() || c == '_' { c.to_ascii_uppercase() } else { '_' })
@@ -88,7 +127,7 @@ fn identifier(name: &str, prefix: &str) -> String {
     if !begins {
         made.insert_str(0, prefix);
     }
-    cut(&made, LONGEST).to_owned()
+    cut(&made, longest).to_owned()
 }
 
 fn cut(text: &str, longest: usize) -> &str {

@@ -12,7 +12,7 @@ use crate::word::modes::cannot;
 use ncc_ir::expr::Expr;
 
 /// Longest text of a message.
-const LONGEST_MESSAGE: usize = 200;
+pub(super) const LONGEST_MESSAGE: usize = 200;
 
 impl Writer {
     /// Puts a statement into the block at hand, or into a new one if it does not fit. `with` is how
@@ -22,7 +22,8 @@ impl Writer {
     /// # Errors
     /// The control cannot say it.
     pub(super) fn statement(&mut self, stmt: &Stmt, with: usize, sink: &mut Sink) -> Result<(), Fault> {
-        if self.words.preamble.is_some() {
+        self.before_statement(stmt, sink)?;
+        if self.words.preamble.is_some() && !matches!(stmt.op, Op::Declare(_)) {
             // No edge is no length, which belongs to the start.
             let none = Op::UseToolLengthOffset(Expr::int(0));
             let absorbed = match no_edge(&stmt.op) {
@@ -197,10 +198,11 @@ impl Writer {
             Op::Label(name) if self.is_idle_label(name) => Ok(()),
             Op::Label(name) => self.label(name, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
-            Op::MessageOf(_) => Err(cannot("a message with values in it")),
-            Op::Alarm(_) => Err(cannot("an alarm")),
+            Op::MessageOf(pieces) => self.message_of(pieces, span, sink),
+            Op::Alarm(alarm) => self.alarm(alarm, span, sink),
             Op::Assign(to, value) => self.assign(to, value, span, sink),
-            Op::Declare(_) => Err(cannot("a variable that is made known")),
+            // With those of its block.
+            Op::Declare(_) => self.declare(std::slice::from_ref(stmt), sink),
             Op::Goto(label) => self.go_to(label, span, sink),
             Op::Leave | Op::NextTurn => Err(cannot("a loop that is left")),
         }

@@ -55,11 +55,17 @@ impl Writer {
         self.words.no_event(&mut sink);
         self.units = true;
         let span = p.body.first().map_or(Span::default(), |s| s.span);
-        if !p.parameters.is_empty() {
-            return sink.report(cannot("a subprogram with parameters"), span);
-        }
         let name = self.program_name(&p.name, span, &mut sink);
         self.header(&name, "SPF", sink.out);
+        self.begin_variables(p, &mut sink);
+        match self.parameters(p, &name) {
+            Ok(None) => {}
+            Ok(Some(head)) => {
+                sink.out.extend_from_slice(head.as_bytes());
+                sink.out.extend_from_slice(self.words.eol);
+            }
+            Err(fault) => return sink.report(fault, span),
+        }
         if let Some(title) = &p.title {
             self.words.comment_line(title, sink.out);
         }
@@ -91,7 +97,7 @@ impl Writer {
         self.words.finish(out, diags);
     }
 
-    fn program_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {
+    pub(super) fn program_name(&mut self, name: &str, span: Span, sink: &mut Sink) -> String {
         let name = self.names.program(name);
         tell(name, span, sink)
     }
@@ -102,9 +108,7 @@ impl Writer {
     }
 
     pub(super) fn call(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<(), Fault> {
-        if !call.arguments.is_empty() {
-            return Err(cannot("a call with arguments"));
-        }
+        let arguments = self.arguments(call, span, sink)?;
         let times = match call.times {
             0 => return Err(cannot("a call that is made no times")),
             1 => String::new(),
@@ -121,7 +125,7 @@ impl Writer {
             self.restate_feed(span, sink)?;
         }
         let name = self.program_name(&call.name, span, sink);
-        self.alone(&format!("{name}{times}"), sink)?;
+        self.alone(&format!("{name}{arguments}{times}"), sink)?;
         self.forget();
         Ok(())
     }
@@ -237,7 +241,7 @@ impl Writer {
 }
 
 /// Tells that a name is not the program's own.
-fn tell(name: Name, span: Span, sink: &mut Sink) -> String {
+pub(super) fn tell(name: Name, span: Span, sink: &mut Sink) -> String {
     if let Some(fault) = name.changed {
         sink.report(fault, span);
     }

@@ -5,10 +5,13 @@
 //!
 //! Not here: statements (`computing`), and whether the target has variables at all (`computes`).
 
+use std::collections::BTreeMap;
+
 use ncc_dialects::{ANGLE_RANGE, FormulaRules};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::Text;
 use ncc_ir::source::Span;
 
 use super::codes::Letter;
@@ -36,6 +39,8 @@ pub(crate) struct Spelling<'d> {
     turn: bool,
     /// The digits to which the address rounds; outside of an address, none.
     digits: Option<u8>,
+    /// Names of the variables of the procedure at hand, as they are spelt.
+    names: &'d BTreeMap<Text, String>,
 }
 
 impl Spelling<'_> {
@@ -45,6 +50,12 @@ impl Spelling<'_> {
     }
 
     fn variable(&self, var: &Var, out: &mut String) -> Result<(), Fault> {
+        if let Var::Local(name) = var
+            && let Some(name) = self.names.get(name)
+        {
+            out.push_str(name);
+            return Ok(());
+        }
         out.push_str(&self.rules.variable);
         out.push_str(&self.rules.prefix);
         out.push_str(&number_of(var, &self.rules.prefix)?);
@@ -67,15 +78,32 @@ impl Spelling<'_> {
         }
     }
 
-    /// A variable whose number is computed.
+    /// One of many variables: its array's name or the prefix of all, and which in brackets of their own, where the control
+    /// rounds; or in those of expressions.
     fn element(&self, element: &Element, depth: u8, out: &mut String) -> Result<(), Fault> {
-        let (Many::Numbered(_), [number]) = (&element.of, &element.at[..]) else {
-            return Err(cannot_compute("an array"));
-        };
-        out.push_str(&self.rules.variable);
-        out.push_str(&self.rules.prefix);
+        match &element.of {
+            Many::Array { var, .. } if self.rules.index.is_some() => self.variable(var, out)?,
+            Many::Array { .. } => return Err(cannot_compute("an array")),
+            Many::Numbered(_) => {
+                out.push_str(&self.rules.variable);
+                out.push_str(&self.rules.prefix);
+            }
+        }
         // Within its brackets ROUND goes to a whole number, whatever the word does that it stands in.
-        Spelling { digits: None, ..*self }.bracketed(number, depth, out)
+        let within = Spelling { digits: None, ..*self };
+        let Some([open, close]) = &self.rules.index else {
+            return match &element.at[..] {
+                [number] => within.bracketed(number, depth, out),
+                _ => Err(cannot_compute("a variable of several numbers")),
+            };
+        };
+        out.push_str(open);
+        for (place, at) in element.at.iter().enumerate() {
+            out.push_str(if place > 0 { "," } else { "" });
+            within.expr(whole(at), LOOSEST, true, depth + 1, out)?;
+        }
+        out.push_str(close);
+        Ok(())
     }
 
     /// An expression in brackets.
@@ -215,6 +243,15 @@ impl Spelling<'_> {
         depth: u8,
         out: &mut String,
     ) -> Result<(), Fault> {
+        if let (Some(word), [a, b]) = (self.rules.between(function), arguments) {
+            let sum = self.tie(Binary::Add).unwrap_or(0);
+            out.push_str(&self.rules.open);
+            self.expr(a, sum, true, depth + 1, out)?;
+            out.push_str(&format!(" {word} "));
+            self.expr(b, sum, false, depth + 1, out)?;
+            out.push_str(&self.rules.close);
+            return Ok(());
+        }
         let word = self.rules.function(function);
         out.push_str(word.ok_or_else(|| cannot_compute("this function"))?);
         if self.rules.together {
@@ -298,6 +335,17 @@ fn from_zero<'e>(operator: Binary, a: &'e Expr, b: &Expr) -> Option<(Function, &
     }
 }
 
+/// What is rounded to a whole number where an index does that by itself.
+fn whole(at: &Expr) -> &Expr {
+    match at {
+        Expr::Node(node) => match &**node {
+            Node::Call(Function::Round, arguments) => arguments.first().unwrap_or(at),
+            _ => at,
+        },
+        Expr::Num(_) => at,
+    }
+}
+
 /// The number of a variable, which is its name behind the prefix.
 pub(crate) fn number_of(var: &Var, prefix: &str) -> Result<String, Fault> {
     match var {
@@ -328,7 +376,7 @@ pub(crate) fn literal(n: Num, point: bool, out: &mut String) {
 
 impl Writer {
     /// How expressions are spelt, in a word that rounds to digits or elsewhere.
-    pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'static>, Fault> {
+    pub(crate) fn spelling(&self, digits: Option<u8>) -> Result<Spelling<'_>, Fault> {
         if self.dialect.formula.operators.is_empty() {
             return Err(cannot_compute("a value that is computed"));
         }
@@ -337,6 +385,7 @@ impl Writer {
             blanks: self.dialect.block.blanks,
             turn: self.settings.get(ANGLE_RANGE) == "turn",
             digits,
+            names: &self.variables,
         })
     }
 

@@ -30,6 +30,8 @@ mod start;
 pub(crate) mod statement;
 mod thread;
 
+use std::collections::BTreeMap;
+
 use ncc_dialects::{Dialect, Settings};
 use ncc_ir::canon::{AXES, Axis, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -135,6 +137,8 @@ pub struct Writer {
     pub(crate) labels: repeat::Labels,
     /// What is known of a program that computes.
     computing: computing::Computing,
+    /// Names of the variables of the procedure at hand, as they are spelt.
+    pub(crate) variables: BTreeMap<Text, String>,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
     /// Whether lengths are taken up with control of the tool's tip.
@@ -216,6 +220,7 @@ impl Writer {
             told_corner: false,
             labels: repeat::Labels::default(),
             computing: computing::Computing::default(),
+            variables: BTreeMap::new(),
             polar: false,
             tip: false,
             units_stated: [false; 2],

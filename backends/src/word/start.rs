@@ -95,6 +95,19 @@ impl Writer {
         preamble.up_from_here = first.is_some_and(|z| z.distance == Fact::Known(Distance::Incremental));
     }
 
+    /// What waits for the safe start stands before it: definitions, and the comments among them.
+    pub(crate) fn before_start(&mut self, sink: &mut Sink) {
+        let number = self.block.number.take();
+        self.flush(false, sink);
+        self.block.number = number;
+        if let Some(preamble) = &mut self.preamble {
+            if let Some(trace) = &mut self.trace {
+                trace.started(sink.out, &preamble.held);
+            }
+            sink.out.append(&mut preamble.held);
+        }
+    }
+
     /// Writes the safe start and what waits behind it, before the first event.
     pub(crate) fn start(&mut self, sink: &mut Sink) {
         // What stands in the block at hand belongs to comments that come before.

@@ -6,7 +6,9 @@ use ncc_ir::canon::{AXES, AdviceKind, Axis, Modes, PathMode, RotaryWay, SpindleM
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node, Numbers, Scope, Var};
 use ncc_ir::num::Num;
-use ncc_ir::program::{Advice, Coord, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text};
+use ncc_ir::program::{
+    Advice, Coord, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text, Type,
+};
 use ncc_ir::source::Span;
 
 use super::lexer::{LexFault, Literal};
@@ -30,6 +32,13 @@ pub(crate) enum Line {
     End,
     /// Closes a body and opens the other branch.
     Else,
+}
+
+/// The head of a procedure; types are said of its first parameters, or of none.
+pub(crate) fn procedure(name: Text, title: Option<Text>, parameters: Vec<(Option<Type>, Var)>) -> Procedure {
+    let kinds = parameters.iter().map_while(|(kind, _)| *kind).collect();
+    let parameters = parameters.into_iter().map(|(_, var)| var).collect();
+    Procedure { name, title, parameters, kinds, body: Vec::new() }
 }
 
 /// Why a line that has the form of one is refused.

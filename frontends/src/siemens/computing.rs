@@ -458,12 +458,7 @@ impl Lower {
         // One whose first value is refused is known all the same.
         self.variables.insert(name.as_str().into(), variable);
         let Some(initial) = initial else { return };
-        let stored = match kind {
-            Kind::Real => Stored::Real,
-            Kind::Int => Stored::Int,
-            Kind::Bool | Kind::Text => Stored::Bool,
-        };
-        let declare = Declare { var: Var::Local(name.into()), kind: stored, sizes, initial };
+        let declare = Declare { var: Var::Local(name.into()), kind: stored(kind), sizes, initial };
         self.push(span, Op::Declare(Box::new(declare)), out);
     }
 
@@ -575,6 +570,15 @@ impl Lower {
             let name = "word that reads a variable which its own block sets";
             self.not_supported(&src.text(at), name, at, out);
         }
+    }
+}
+
+/// What a variable of a type holds, of those that are kept.
+pub(super) fn stored(kind: Kind) -> Stored {
+    match kind {
+        Kind::Real => Stored::Real,
+        Kind::Int => Stored::Int,
+        Kind::Bool | Kind::Text => Stored::Bool,
     }
 }
 

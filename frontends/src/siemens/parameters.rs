@@ -10,6 +10,7 @@ use ncc_ir::expr::{Expr, Node};
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::computing::stored;
 use super::formula::{Kind, Typed};
 use super::lower::Lower;
 use super::tree::{Expr as Tree, Parameter, Value};
@@ -79,6 +80,7 @@ impl Lower {
         }
         match &mut self.sub {
             Some(procedure) => {
+                procedure.kinds = taken.iter().map(|taken| stored(taken.kind)).collect();
                 procedure.parameters = vars;
                 self.handed.parameters.push((procedure.name.clone(), taken));
             }

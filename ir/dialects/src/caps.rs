@@ -349,13 +349,17 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 functions: {
                     let by_bits = [Function::BitAnd, Function::BitOr, Function::BitXor];
                     let own = rules.functions.keys().map(|function| (*function).into());
-                    own.chain(by_bits.into_iter().filter(|f| rules.by_bits(*f).is_some())).collect()
+                    own.chain(rules.between.keys().map(|function| (*function).into()))
+                        .chain(by_bits.into_iter().filter(|f| rules.by_bits(*f).is_some()))
+                        .collect()
                 },
+                names: rules.names,
+                whole_remainder: rules.whole_remainder,
                 local: rules.local.clone(),
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),
                 loops: rules.loops,
-                arguments: says(Meaning::CallMacro),
+                arguments: rules.calls || says(Meaning::CallMacro),
                 arguments_again: rules.arguments_again,
                 prefix: rules.prefix.as_str().into(),
                 vacant: rules.vacant.is_some(),

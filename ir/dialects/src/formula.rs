@@ -17,6 +17,12 @@ pub struct FormulaRules {
     pub operators: BTreeMap<Operator, String>,
     /// Functions.
     pub functions: BTreeMap<FunctionName, String>,
+    /// Functions of two values whose word stands between them, in brackets with them: `(R1 B_AND 7)`. They bind less
+    /// tightly than sums and more tightly than `and`.
+    pub between: BTreeMap<FunctionName, String>,
+    /// Whether the remainder's operator is one of whole numbers alone, as their types have it; of others it is written
+    /// as what it is.
+    pub whole_remainder: bool,
     /// Operators in groups that bind alike, the tightest first.
     pub priority: Vec<Vec<Operator>>,
     /// The brackets.
@@ -28,6 +34,14 @@ pub struct FormulaRules {
     pub together: bool,
     /// What stands before the name of a variable.
     pub variable: String,
+    /// What stands around the number of a variable that is computed, and around the indices of an array: `[` and `]` of
+    /// `R[R1+1]`. The control rounds what is not whole there.
+    pub index: Option<[String; 2]>,
+    /// Whether the variables that a program declares, and those that it is called with, have names.
+    pub names: bool,
+    /// Whether a program can be called with values, and with variables of its own, by its name; else by the code of a
+    /// macro call, if there is one.
+    pub calls: bool,
     /// What stands for no value at all, of a control that has such a thing.
     pub vacant: Option<String>,
     /// With what the names of variables begin that others know by their numbers alone: `R` of `R101`.
@@ -152,6 +166,9 @@ pub enum FunctionName {
     Max,
     Ln,
     Exp,
+    BitAnd,
+    BitOr,
+    BitXor,
 }
 
 impl From<Operator> for Binary {
@@ -195,6 +212,9 @@ impl From<FunctionName> for Function {
             FunctionName::Max => Function::Max,
             FunctionName::Ln => Function::Ln,
             FunctionName::Exp => Function::Exp,
+            FunctionName::BitAnd => Function::BitAnd,
+            FunctionName::BitOr => Function::BitOr,
+            FunctionName::BitXor => Function::BitXor,
         }
     }
 }
@@ -207,15 +227,19 @@ impl FormulaRules {
 
     /// The word of a function.
     pub fn function(&self, function: Function) -> Option<&str> {
-        self.functions
-            .iter()
-            .find(|(own, _)| Function::from(**own) == function)
-            .map(|(_, word)| word.as_str())
+        word(&self.functions, function)
+    }
+
+    /// The word of a function that stands between its values.
+    pub fn between(&self, function: Function) -> Option<&str> {
+        word(&self.between, function)
     }
 
     /// Whether there is a function, by a word of its own or by that of an operator.
     pub fn has(&self, function: Function) -> bool {
-        self.function(function).is_some() || self.by_bits(function).is_some()
+        self.function(function).is_some()
+            || self.between(function).is_some()
+            || self.by_bits(function).is_some()
     }
 
     /// The operator whose word is that of a function of whole numbers, bit by bit, too.
@@ -240,4 +264,8 @@ impl FormulaRules {
             () => None,
         }
     }
+}
+
+fn word(words: &BTreeMap<FunctionName, String>, function: Function) -> Option<&str> {
+    words.iter().find(|(own, _)| Function::from(**own) == function).map(|(_, word)| word.as_str())
 }

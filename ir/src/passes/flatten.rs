@@ -42,7 +42,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
             }
             let title = program.procedures.first().and_then(|main| main.title.clone());
             let name = program.procedures.first().map(|main| main.name.clone()).unwrap_or_default();
-            program.procedures = vec![Procedure { name, title, parameters: Vec::new(), body }];
+            program.procedures = vec![Procedure { name, title, body, ..Procedure::default() }];
         }
         Err(fault) => diags.push(fault),
     }

@@ -70,6 +70,8 @@ struct Flow {
     changed: bool,
     settles: bool,
     starts: HashMap<u32, Tracker>,
+    /// What the text has said so far, for blocks to which no way leads: they are written as they stand there.
+    text: Tracker,
 }
 
 /// What holds where another way comes in; whether that is less than before.
@@ -103,12 +105,13 @@ impl Flow {
         for stmt in body {
             let before = state.clone();
             let flow = matches!(stmt.op, flow!());
-            if let (true, false, true, Some(state)) = (begins, flow, self.settles, &state) {
+            if let (true, false, true) = (begins, flow, self.settles) {
+                let known = state.as_ref().unwrap_or(&self.text);
                 // Statements that were made of one have its place.
                 self.starts
                     .entry(stmt.span.start)
-                    .and_modify(|at| at.join(state))
-                    .or_insert_with(|| state.clone());
+                    .and_modify(|at| at.join(known))
+                    .or_insert_with(|| known.clone());
             }
             begins = flow;
             state = self.stmt(stmt, state);
@@ -161,7 +164,8 @@ impl Flow {
             }),
             Op::Control(control) => self.control(control, state),
             op => {
-                let mut state = state?;
+                let reached = state.is_some();
+                let mut state = state.unwrap_or_else(|| self.text.clone());
                 if self.settles {
                     if let Op::Position(m) = op {
                         settle_point(&mut m.to, &state);
@@ -170,7 +174,8 @@ impl Flow {
                     }
                 }
                 state.apply(op);
-                Some(state)
+                self.text.clone_from(&state);
+                reached.then_some(state)
             }
         }
     }

@@ -16,6 +16,7 @@ use crate::expr::{Binary, Expr, Function, Many, Node, Target, Var};
 use crate::num::{Num, Unit};
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
 use crate::source::Span;
+use crate::types::Types;
 
 /// Most calls one within another that are looked into.
 const DEEPEST: u32 = 10;
@@ -34,9 +35,11 @@ pub fn run(program: &mut Program, computes: &Computes, decimals: u8, diags: &mut
     if !computes.functions.contains(&Function::RoundUp) && computes.functions.contains(&Function::Ceiling) {
         up(program, diags);
     }
-    if !computes.operators.contains(&Binary::Modulo) {
+    let whole = computes.whole_remainder;
+    if whole || !computes.operators.contains(&Binary::Modulo) {
         program.procedures.iter_mut().for_each(|procedure| {
-            expressions(&mut procedure.body, &mut |_, value| remainder(value));
+            let types = whole.then(|| Types::of_procedure(procedure));
+            expressions(&mut procedure.body, &mut |_, value| remainder(value, types.as_ref()));
         });
     }
     if !computes.prefix.is_empty() {
@@ -49,18 +52,20 @@ pub fn run(program: &mut Program, computes: &Computes, decimals: u8, diags: &mut
     }
 }
 
-/// A remainder as what it is: what is divided, less the divisor as often as it goes into it.
-fn remainder(expr: &mut Expr) {
+/// A remainder as what it is: what is divided, less the divisor as often as it goes into it; where there are types,
+/// one of whole numbers stays.
+fn remainder(expr: &mut Expr, types: Option<&Types>) {
     let Expr::Node(node) = expr else { return };
     match &mut **node {
         Node::Var(_) | Node::Vacant => {}
-        Node::Element(element) => element.at.iter_mut().for_each(remainder),
-        Node::Unary(_, a) => remainder(a),
-        Node::Call(_, arguments) => arguments.iter_mut().for_each(remainder),
+        Node::Element(element) => element.at.iter_mut().for_each(|index| remainder(index, types)),
+        Node::Unary(_, a) => remainder(a, types),
+        Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| remainder(a, types)),
         Node::Binary(operator, a, b) => {
-            remainder(a);
-            remainder(b);
-            if *operator == Binary::Modulo {
+            let whole = types.is_some_and(|types| types.are_whole(a) && types.are_whole(b));
+            remainder(a, types);
+            remainder(b, types);
+            if *operator == Binary::Modulo && !whole {
                 let of = |operator, a: &Expr, b: &Expr| {
                     Expr::Node(Box::new(Node::Binary(operator, a.clone(), b.clone())))
                 };
@@ -135,6 +140,7 @@ pub(super) fn expressions(body: &mut [Stmt], seen: &mut dyn FnMut(&Stmt, &mut Ex
                 control.bodies_mut().for_each(|body| expressions(body, seen));
             }
             Op::Call(call) => call.arguments.iter_mut().for_each(|value| seen(&at, value)),
+            Op::Declare(declare) => declare.initial.iter_mut().flatten().for_each(|value| seen(&at, value)),
             op => each_value(op, &mut |value, _| seen(&at, value)),
         }
     }
@@ -167,6 +173,7 @@ impl Names<'_> {
             match &mut stmt.op {
                 Op::Assign(Target::Var(var), _) => self.var(var),
                 Op::Assign(Target::Element(element), _) => self.many(&mut element.of),
+                Op::Declare(declare) => self.var(&mut declare.var),
                 Op::Control(control) => {
                     if let Control::For { variable, .. } = &mut **control {
                         self.var(variable);
@@ -302,6 +309,10 @@ impl<'p> Assigned<'p> {
                         element.at.iter().try_for_each(|index| self.reads(index, stmt.span))?;
                     }
                 }
+            }
+            Op::Declare(declare) => {
+                declare.initial.iter().flatten().try_for_each(|value| self.reads(value, stmt.span))?;
+                self.sets(&declare.var);
             }
             Op::Control(control) => self.control(control, stmt)?,
             Op::Goto(label) => {

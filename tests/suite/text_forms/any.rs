@@ -94,10 +94,14 @@ pub(super) fn expr() -> impl Strategy<Value = Expr> {
     })
 }
 
+/// What a variable holds.
+fn holds() -> impl Strategy<Value = Type> {
+    select(vec![Type::Real, Type::Int, Type::Bool])
+}
+
 fn declare() -> impl Strategy<Value = Declare> {
-    let kind = select(vec![Type::Real, Type::Int, Type::Bool]);
     let sizes = prop::collection::vec(1u32..9, 0..3);
-    (var(), kind, sizes, prop::collection::vec(of(expr()), 0..3))
+    (var(), holds(), sizes, prop::collection::vec(of(expr()), 0..3))
         .prop_map(|(var, kind, sizes, initial)| Declare { var, kind, sizes: sizes.into(), initial })
 }
 
@@ -637,8 +641,17 @@ fn modes() -> impl Strategy<Value = Modes> {
 
 /// A whole program.
 pub(super) fn program() -> impl Strategy<Value = Program> {
-    let procedure = (name(), of(text()), prop::collection::vec(var(), 0..3), body())
-        .prop_map(|(name, title, parameters, body)| Procedure { name, title, parameters, body });
+    let procedure = (
+        name(),
+        of(text()),
+        prop::collection::vec(var(), 0..3),
+        prop::collection::vec(holds(), 0..3),
+        body(),
+    )
+        .prop_map(|(name, title, parameters, kinds, body)| {
+            let kinds = kinds.into_iter().take(parameters.len()).collect();
+            Procedure { name, title, parameters, kinds, body }
+        });
     let name = (of(any::<u32>()), of(text())).prop_map(|(number, title)| ProgramName { number, title });
     (name, modes(), body(), prop::collection::vec(procedure, 0..3)).prop_map(|(name, assumed, main, subs)| {
         let mut procedures = vec![Procedure { body: main, ..Procedure::default() }];

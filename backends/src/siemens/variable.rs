@@ -1,0 +1,393 @@
+//! Variables that a unit declares or is called with: definitions, values by their types, messages and alarms, and calls
+//! that hand values over.
+//!
+//! A variable of whole numbers rounds what it is given, and a truth value is any number but 0: what a program says of
+//! that is said by the type. Subprograms with parameters are made known where they are called (`EXTERN`).
+//!
+//! Not here: decisions and loops (`computing`), and how expressions are spelt (the word writer's).
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use ncc_dialects::NameMeaning;
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
+use ncc_ir::program::{Alarm, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
+use ncc_ir::source::Span;
+use ncc_ir::types::Types;
+
+use super::statement::LONGEST_MESSAGE;
+use super::unit::tell;
+use super::{Sink, Writer};
+use crate::word::formula::cannot_compute;
+use crate::word::modes::cannot;
+
+/// Digits behind the point that a real number has in a message, zeros at their end left out.
+const DIGITS: u8 = 9;
+
+/// What calls and definitions need to know of the program.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Variables {
+    /// Types of the unit at hand.
+    types: Types,
+    /// What subprograms take, by name: types of parameters.
+    takes: BTreeMap<Text, Vec<Type>>,
+    /// Subprograms with parameters that the unit at hand calls, as far as they are not made known.
+    externs: BTreeSet<Text>,
+    /// Whether definitions have been written, and the safe start has not.
+    heading: bool,
+    /// Whether a block of the unit has been written that is no definition.
+    executed: bool,
+    told_alarm: bool,
+}
+
+/// A number that the program writes.
+fn is(expr: &Expr, whole: i64) -> bool {
+    expr.literal().and_then(|n| n.whole()) == Some(whole)
+}
+
+/// What is rounded to a whole number.
+fn rounded(expr: &Expr) -> Option<&Expr> {
+    let Expr::Node(node) = expr else { return None };
+    match &**node {
+        Node::Call(Function::Round, arguments) => arguments.first(),
+        _ => None,
+    }
+}
+
+impl Writer {
+    /// Takes what subprograms have for parameters.
+    pub(super) fn know_parameters(&mut self, procedures: &[Procedure]) {
+        for procedure in procedures.iter().skip(1).filter(|p| !p.parameters.is_empty()) {
+            let kind = |place: usize| procedure.kinds.get(place).copied().unwrap_or(Type::Real);
+            let kinds = (0..procedure.parameters.len()).map(kind).collect();
+            self.variables.takes.insert(procedure.name.clone(), kinds);
+        }
+        for procedure in procedures.iter().skip(1) {
+            self.names.reserve(&procedure.name);
+        }
+    }
+
+    /// A unit begins: its variables get their names.
+    pub(super) fn begin_variables(&mut self, procedure: &Procedure, sink: &mut Sink) {
+        self.variables.types = Types::of_procedure(procedure);
+        (self.variables.executed, self.variables.heading) = (false, false);
+        self.variables.externs.clear();
+        self.words.variables.clear();
+        self.names.new_variables();
+        let at = procedure.body.first().map_or(Span::default(), |stmt| stmt.span);
+        for parameter in &procedure.parameters {
+            self.name_variable(parameter, at, sink);
+        }
+        self.look_for_variables(&procedure.body, sink);
+        // It knows itself.
+        self.variables.externs.remove(&procedure.name);
+    }
+
+    fn name_variable(&mut self, var: &Var, at: Span, sink: &mut Sink) {
+        let Var::Local(name) = var else { return };
+        let dialect = self.dialect;
+        let taken = |name: &str| dialect.name_row(name).is_some() || dialect.call_row(name).is_some();
+        let text = tell(self.names.variable(name, &taken), at, sink);
+        self.words.variables.insert(name.clone(), text);
+    }
+
+    fn look_for_variables(&mut self, body: &[Stmt], sink: &mut Sink) {
+        for stmt in body {
+            if let Op::Declare(declare) = &stmt.op {
+                self.name_variable(&declare.var, stmt.span, sink);
+            } else if let Op::Call(call) = &stmt.op {
+                if self.variables.takes.contains_key(&call.name) {
+                    self.variables.externs.insert(call.name.clone());
+                }
+            } else if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| self.look_for_variables(body, sink));
+            }
+        }
+    }
+
+    /// Before a statement: what is made known of subprograms stands before definitions, and these before all that is
+    /// executed, the safe start too.
+    pub(super) fn before_statement(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        if matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)) {
+            return Ok(());
+        }
+        let externs = std::mem::take(&mut self.variables.externs);
+        if !externs.is_empty() {
+            let number = self.words.block.number.take();
+            for name in externs {
+                let takes = self.variables.takes.get(&name).cloned().unwrap_or_default();
+                let takes: Vec<&str> = takes.into_iter().map(word).collect();
+                let name = self.program_name(&name, stmt.span, sink);
+                self.alone(&format!("EXTERN {name}({})", takes.join(",")), sink)?;
+                self.words.flush(false, sink);
+                self.words.split = true;
+            }
+            self.words.block.number = number;
+            self.variables.heading = true;
+        }
+        if matches!(stmt.op, Op::Declare(_)) {
+            self.variables.heading = true;
+        } else {
+            self.variables.executed = true;
+            if std::mem::replace(&mut self.variables.heading, false) {
+                self.words.before_start(sink);
+            }
+        }
+        Ok(())
+    }
+
+    /// The head of a subprogram with parameters.
+    pub(super) fn parameters(&self, procedure: &Procedure, name: &str) -> Result<Option<String>, Fault> {
+        if procedure.parameters.is_empty() {
+            return Ok(None);
+        }
+        let mut all = Vec::with_capacity(procedure.parameters.len());
+        for parameter in &procedure.parameters {
+            let written = match parameter {
+                Var::Local(name) => self.words.variables.get(name),
+                Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
+            };
+            let written = written.ok_or_else(|| cannot_compute("a parameter that all programs see"))?;
+            all.push(format!("{} {written}", word(self.variables.types.of_var(parameter))));
+        }
+        Ok(Some(format!("PROC {name}({})", all.join(", "))))
+    }
+
+    /// A call's arguments, each as its parameter takes it.
+    pub(super) fn arguments(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        if call.arguments.is_empty() {
+            return Ok(String::new());
+        }
+        let takes = self.variables.takes.get(&call.name).cloned().unwrap_or_default();
+        if takes.len() != call.arguments.len() {
+            return Err(cannot_compute("a call with other arguments than its program has parameters"));
+        }
+        if call.times > 1 && call.arguments.iter().any(common) {
+            let what = "a call that is made several times, with values that the called program may change";
+            return Err(cannot_compute(what));
+        }
+        let arguments = call.arguments.iter().zip(takes);
+        let arguments: Vec<String> =
+            arguments.map(|(value, kind)| self.of_type(kind, value, span, sink)).collect::<Result<_, _>>()?;
+        Ok(format!("({})", arguments.join(",")))
+    }
+
+    /// A value for a variable of a type.
+    ///
+    /// # Errors
+    /// The variable would make another value of it.
+    fn of_type(&mut self, kind: Type, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        let types = &self.variables.types;
+        let value = match kind {
+            Type::Real => value,
+            Type::Int => match rounded(value) {
+                Some(inner) => inner,
+                None if types.are_whole(value) => value,
+                None if value.literal().is_some_and(|n| n.whole().is_some()) => value,
+                None => {
+                    return Err(cannot_compute("a value that is not whole, in a variable of whole numbers"));
+                }
+            },
+            Type::Bool => {
+                if is(value, 1) || is(value, 0) {
+                    return Ok(if is(value, 1) { "TRUE" } else { "FALSE" }.to_owned());
+                }
+                match not_zero(value) {
+                    Some(number) => number,
+                    None if types.of(value) == Type::Bool => value,
+                    None => return Err(cannot_compute("a number in a variable of truth values")),
+                }
+            }
+        };
+        let text = self.words.expression(value, span, sink)?;
+        self.tell_comparison(&text, span, sink);
+        Ok(text)
+    }
+
+    /// A value for a variable.
+    pub(super) fn assign(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let kind = match to {
+            Target::Var(var) => self.variables.types.of_var(var),
+            Target::Element(element) => self.variables.types.of_many(&element.of),
+        };
+        let to = self.words.spelling(None)?.target(to)?;
+        let value = self.of_type(kind, value, span, sink)?;
+        self.tell_number(&to, span, sink);
+        self.alone(&format!("{to}={value}"), sink)
+    }
+
+    /// Definitions of one type that stand in one block.
+    pub(super) fn declare(&mut self, rest: &[Stmt], sink: &mut Sink) -> Result<(), Fault> {
+        let mut text = String::new();
+        for stmt in rest {
+            let Op::Declare(declare) = &stmt.op else { continue };
+            if self.variables.executed {
+                return Err(cannot_compute("a variable that is made known behind blocks that are executed"));
+            }
+            if stmt.skip.is_some() {
+                return Err(cannot_compute("a variable that is made known in a block that can be skipped"));
+            }
+            let one = self.definition(declare, stmt.span, sink)?;
+            text = if text.is_empty() {
+                format!("DEF {} {one}", word(declare.kind))
+            } else {
+                text + ", " + &one
+            };
+        }
+        self.alone(&text, sink)
+    }
+
+    fn definition(&mut self, declare: &Declare, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        let name = match &declare.var {
+            Var::Local(name) => self.words.variables.get(name).cloned(),
+            Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
+        };
+        let name = name.ok_or_else(|| cannot_compute("a variable that all programs see, made known"))?;
+        let sizes: Vec<String> = declare.sizes.iter().map(u32::to_string).collect();
+        let sizes = if sizes.is_empty() { String::new() } else { format!("[{}]", sizes.join(",")) };
+        let mut values = Vec::with_capacity(declare.initial.len());
+        for value in &declare.initial {
+            values.push(match value {
+                Some(value) => self.of_type(declare.kind, value, span, sink)?,
+                None => String::new(),
+            });
+        }
+        let total = declare.sizes.iter().fold(1usize, |all, size| all.saturating_mul(*size as usize));
+        let initial = match &values[..] {
+            [] => String::new(),
+            [value] if declare.sizes.is_empty() => format!("={value}"),
+            _ if declare.sizes.is_empty() => {
+                return Err(cannot_compute("several first values of one variable"));
+            }
+            [first, rest @ ..] if rest.len() + 1 == total && total > 1 && rest.iter().all(|v| v == first) => {
+                format!("=REP({first})")
+            }
+            values => format!("=SET({})", values.join(",")),
+        };
+        Ok(format!("{name}{sizes}{initial}"))
+    }
+
+    /// A message with values in it.
+    pub(super) fn message_of(&mut self, pieces: &[Piece], span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let row = self.dialect.name_for(NameMeaning::Message).ok_or_else(|| cannot("a message"))?;
+        let mut texts = Vec::with_capacity(pieces.len() + 1);
+        let mut long = 0;
+        for piece in pieces {
+            match piece {
+                Piece::Text(text) => {
+                    if text.contains('"') || text.chars().any(char::is_control) {
+                        return Err(cannot("a message with a quotation mark"));
+                    }
+                    long += text.chars().count();
+                    texts.push(format!("\"{text}\""));
+                }
+                Piece::Value { value, digits, short } => {
+                    let fits = match self.variables.types.of(value) {
+                        Type::Int => *short || *digits == 0,
+                        Type::Real => *short && *digits == DIGITS,
+                        Type::Bool => false,
+                    };
+                    if !fits {
+                        return Err(cannot_compute("a value with these digits in a message"));
+                    }
+                    if texts.is_empty() {
+                        texts.push("\"\"".into());
+                    }
+                    texts.push(self.words.expression(value, span, sink)?);
+                }
+            }
+        }
+        if long > LONGEST_MESSAGE {
+            return Err(cannot("a message of more than 200 characters"));
+        }
+        self.alone(&format!("{}({})", row.name, texts.join("<<")), sink)
+    }
+
+    /// An alarm of the numbers that end a program.
+    pub(super) fn alarm(&mut self, alarm: &Alarm, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let number = alarm.number.as_ref().and_then(|n| n.literal()).and_then(|n| n.whole());
+        let number = number.filter(|number| matches!(number, 61_000..=61_999 | 65_000..=66_999));
+        let number = number.ok_or_else(|| {
+            cannot_compute("an alarm whose number is not among 61000 to 61999 and 65000 to 66999")
+        })?;
+        if alarm.text.contains('"') || alarm.text.chars().any(char::is_control) {
+            return Err(cannot("an alarm with a quotation mark"));
+        }
+        if !std::mem::replace(&mut self.variables.told_alarm, true) {
+            let parameter = "alarms 61000 to 61999 and 65000 to 66999".into();
+            sink.report(Fault::AssumedParameter { parameter, value: "end the program".into() }, span);
+        }
+        let text = if alarm.text.is_empty() { String::new() } else { format!(",\"{}\"", alarm.text) };
+        self.alone(&format!("SETAL({number}{text})"), sink)
+    }
+
+    /// The head of a loop that counts by ones.
+    pub(super) fn counted(
+        &mut self,
+        control: &Control,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<String, Fault> {
+        let Control::For { variable, from, to, step, .. } = control else {
+            return Err(cannot_compute("a loop of another kind"));
+        };
+        if !is(step, 1) {
+            return Err(cannot_compute("a loop that counts otherwise than by ones"));
+        }
+        let from = self.of_type(Type::Int, from, span, sink)?;
+        let to = self.words.expression(to, span, sink)?;
+        let counter = self.words.spelling(None)?.target(&Target::Var(variable.clone()))?;
+        self.tell_number(&counter, span, sink);
+        Ok(format!("FOR {counter}={from} TO {to}"))
+    }
+}
+
+/// How many statements are definitions of one type in one block.
+pub(super) fn defined_together(rest: &[Stmt]) -> usize {
+    let kind = |stmt: &Stmt| if let Op::Declare(declare) = &stmt.op { Some(declare.kind) } else { None };
+    let first = rest.first().and_then(kind);
+    let more = rest.iter().skip(1).take_while(|stmt| first.is_some() && kind(stmt) == first).count();
+    if first.is_some() { more + 1 } else { 0 }
+}
+
+/// The word of a type.
+fn word(kind: Type) -> &'static str {
+    match kind {
+        Type::Real => "REAL",
+        Type::Int => "INT",
+        Type::Bool => "BOOL",
+    }
+}
+
+/// What is looked at whether it is zero, where that is a literal.
+fn not_zero(expr: &Expr) -> Option<&Expr> {
+    let Expr::Node(node) = expr else { return None };
+    match &**node {
+        Node::Binary(Binary::NotEqual, number, zero) if number.literal().is_some() && is(zero, 0) => {
+            Some(number)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a value follows from variables that other programs see.
+fn common(expr: &Expr) -> bool {
+    let Expr::Node(node) = expr else { return false };
+    match &**node {
+        Node::Var(var) => !matches!(var, Var::Local(_)),
+        Node::Element(element) => {
+            !matches!(&element.of, ncc_ir::expr::Many::Array { var: Var::Local(_), .. })
+                || element.at.iter().any(common)
+        }
+        Node::Vacant => false,
+        Node::Unary(_, a) => common(a),
+        Node::Binary(_, a, b) => common(a) || common(b),
+        Node::Call(_, arguments) => arguments.iter().any(common),
+    }
+}

@@ -1,0 +1,108 @@
+//! Types of expressions, by what variables are declared to hold.
+//!
+//! As the languages with types have it: a sum, a difference, a product and a remainder of whole numbers are whole, a
+//! quotient is not; what is rounded is whole; a comparison is a truth value (Siemens, Job planning 03/2006, 1.6 and 1.7).
+//!
+//! Not here: values (`value`), and converting one type into another, which a program says where it assigns.
+
+use std::collections::HashMap;
+
+use crate::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
+use crate::program::{Op, Procedure, Stmt, Text, Type};
+
+/// What the variables of a procedure hold; what is not declared is any number.
+#[derive(Clone, Debug, Default)]
+pub struct Types {
+    held: HashMap<Text, Type>,
+}
+
+impl Types {
+    /// Those of a procedure.
+    pub fn of_procedure(procedure: &Procedure) -> Types {
+        let mut types = Types::default();
+        for (var, kind) in procedure.parameters.iter().zip(&procedure.kinds) {
+            types.held.insert(var.name().into(), *kind);
+        }
+        types.look(&procedure.body);
+        types
+    }
+
+    fn look(&mut self, body: &[Stmt]) {
+        for stmt in body {
+            match &stmt.op {
+                Op::Declare(declare) => {
+                    self.held.insert(declare.var.name().into(), declare.kind);
+                }
+                Op::Control(control) => control.bodies().for_each(|body| self.look(body)),
+                _ => {}
+            }
+        }
+    }
+
+    /// What a variable holds.
+    pub fn of_var(&self, var: &Var) -> Type {
+        match var {
+            Var::Local(name) => self.held.get(name).copied().unwrap_or(Type::Real),
+            Var::Common(_) | Var::Retentive(_) | Var::System(_) => Type::Real,
+        }
+    }
+
+    /// What one of many variables holds.
+    pub fn of_many(&self, many: &Many) -> Type {
+        match many {
+            Many::Array { var, .. } => self.of_var(var),
+            Many::Numbered(_) => Type::Real,
+        }
+    }
+
+    /// The type of an expression.
+    pub fn of(&self, expr: &Expr) -> Type {
+        let node = match expr {
+            Expr::Num(n) if n.point || n.scale > 0 => return Type::Real,
+            Expr::Num(_) => return Type::Int,
+            Expr::Node(node) => &**node,
+        };
+        let number = |a: &Expr| if self.of(a) == Type::Real { Type::Real } else { Type::Int };
+        let both = |a: &Expr, b: &Expr| if self.are_whole(a) { number(b) } else { Type::Real };
+        match node {
+            Node::Var(var) => self.of_var(var),
+            Node::Element(element) => self.of_many(&element.of),
+            Node::Vacant => Type::Real,
+            Node::Unary(Unary::Negate, a) => number(a),
+            Node::Unary(Unary::Not, _) => Type::Bool,
+            Node::Binary(operator, a, b) => match operator {
+                Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Modulo => both(a, b),
+                Binary::Divide | Binary::Power => Type::Real,
+                Binary::Equal
+                | Binary::NotEqual
+                | Binary::Less
+                | Binary::LessOrEqual
+                | Binary::Greater
+                | Binary::GreaterOrEqual
+                | Binary::And
+                | Binary::Or
+                | Binary::Xor => Type::Bool,
+            },
+            Node::Call(function, arguments) => match (function, &arguments[..]) {
+                (Function::Abs, [a]) => number(a),
+                (Function::Min | Function::Max, [a, b]) => both(a, b),
+                (
+                    Function::Round
+                    | Function::Truncate
+                    | Function::Ceiling
+                    | Function::BitAnd
+                    | Function::BitOr
+                    | Function::BitXor,
+                    _,
+                ) => Type::Int,
+                (Function::Near | Function::NearRatio, _) => Type::Bool,
+                _ => Type::Real,
+            },
+        }
+    }
+
+    /// Whether an expression is a whole number, or a truth value.
+    pub fn are_whole(&self, expr: &Expr) -> bool {
+        self.of(expr) != Type::Real
+    }
+}
