@@ -228,7 +228,6 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Plane(plane) => Happening::Plane(plane),
             What::Upright => Happening::Upright,
             What::Stop => Happening::Stop,
-            What::Alarm => Happening::Alarm,
             What::OptionalStop => Happening::OptionalStop,
             What::End => Happening::End,
             What::TextEnd => Happening::TextEnd,

@@ -115,8 +115,6 @@ pub enum What {
     Alarm,
     /// A text for the operator.
     Message,
-    /// An alarm, with which the program is over.
-    Alarm,
     /// An optional stop.
     OptionalStop,
     /// The end.
