@@ -12,6 +12,7 @@
 
 mod conditions;
 mod names;
+mod structures;
 
 use std::collections::HashSet;
 
@@ -33,6 +34,9 @@ pub fn run(program: &mut Program, computes: &Computes) {
             continue;
         }
         forms.taken.only_once(procedure);
+        if !computes.has(Said::Jump) && computes.blocks && computes.has(Said::Leave) {
+            structures::over(procedure, &mut forms.taken, computes.opposite);
+        }
         let body = std::mem::take(&mut procedure.body);
         procedure.body = forms.body(body);
         one_label_a_place(&mut procedure.body);
@@ -40,7 +44,7 @@ pub fn run(program: &mut Program, computes: &Computes) {
 }
 
 fn has_control(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| matches!(stmt.op, Op::Control(_)))
+    body.iter().any(|stmt| matches!(stmt.op, Op::Control(_) | Op::Goto(_)))
 }
 
 /// How a body is left, or how its next turn is begun.

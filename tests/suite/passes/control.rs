@@ -16,7 +16,7 @@ use ncc_ir::source::Span;
 use super::{same_events, told, write};
 
 /// Programs of a run.
-const MANY: u64 = 1500;
+const MANY: u64 = 1000;
 
 const VARIABLES: [&str; 4] = ["A", "B", "C", "D"];
 
@@ -53,11 +53,14 @@ struct Maker {
     loops: u32,
     labels: Vec<&'static str>,
     calls: bool,
+    /// Whether there are jumps back.
+    back: bool,
 }
 
 impl Maker {
-    fn program(seed: u64) -> Program {
-        let mut maker = Maker { dice: Rng::with_seed(seed), loops: 0, labels: vec!["STOP"], calls: true };
+    fn program(seed: u64, back: bool) -> Program {
+        let mut maker =
+            Maker { dice: Rng::with_seed(seed), loops: 0, labels: vec!["STOP"], calls: true, back };
         let mut body = vec![Stmt::new(Span::default(), Op::SetFeedRate(Expr::Num(Num::int(100, Unit::Mm))))];
         body.push(assign("FUEL", Expr::int(FUEL)));
         for name in VARIABLES {
@@ -158,7 +161,7 @@ impl Maker {
     fn statement(&mut self, depth: u32, out: &mut Vec<Stmt>) {
         let name = VARIABLES[self.dice.usize(..4)];
         let deeper = depth.saturating_sub(1);
-        match self.dice.u8(..16) {
+        match self.dice.u8(..18) {
             0..3 => {
                 let value = binary(Binary::Modulo, self.number(2), Expr::int(50));
                 out.push(assign(name, value));
@@ -188,6 +191,25 @@ impl Maker {
                 self.body(deeper, out);
                 self.labels.pop();
                 out.push(Stmt::new(Span::default(), Op::Label(label.into())));
+            }
+            16 if depth > 0 && self.back => {
+                // Gone back to, and perhaps come into from before.
+                if self.dice.u8(..3) == 0 {
+                    let condition = self.condition(1);
+                    out.push(when(condition, vec![goto("M1")]));
+                }
+                let label = ["B1", "B2"][self.dice.usize(..2)];
+                out.push(Stmt::new(Span::default(), Op::Label(label.into())));
+                let less = binary(Binary::Subtract, value("FUEL"), Expr::int(1));
+                let over = binary(Binary::Less, value("FUEL"), Expr::int(0));
+                out.extend([assign("FUEL", less), when(over, vec![goto("STOP")])]);
+                self.labels.push(label);
+                self.body(deeper, out);
+                out.push(Stmt::new(Span::default(), Op::Label("M1".into())));
+                self.body(deeper, out);
+                self.labels.pop();
+                let condition = self.condition(1);
+                out.push(when(condition, vec![goto(label)]));
             }
             10 | 11 if depth > 0 => {
                 let condition = self.condition(2);
@@ -234,6 +256,11 @@ impl Maker {
 /// A target that has some of it, and jumps.
 fn target(dice: &mut Rng) -> Computes {
     let all = [Said::Endless, Said::Until, Said::Count, Said::Times, Said::Leave, Said::NextTurn];
+    if dice.u8(..3) == 0 {
+        // As RS274/NGC: words that leave a loop, and no jumps.
+        let statements = vec![Said::Until, Said::Times, Said::Leave, Said::NextTurn];
+        return Computes { statements, blocks: true, loops: u8::MAX, ..Computes::default() };
+    }
     let statements = all.into_iter().filter(|_| dice.bool()).chain([Said::Jump]).collect();
     Computes {
         statements,
@@ -247,6 +274,7 @@ fn target(dice: &mut Rng) -> Computes {
 /// What the target has not, nothing is left of.
 fn is_left(body: &[Stmt], computes: &Computes, open: u8) -> Option<&'static str> {
     body.iter().find_map(|stmt| match &stmt.op {
+        Op::Goto(_) if !computes.has(Said::Jump) => Some("GOTO"),
         Op::Leave if !computes.has(Said::Leave) => Some("LEAVE"),
         Op::NextTurn if !computes.has(Said::NextTurn) => Some("NEXT_TURN"),
         Op::Control(control) => {
@@ -275,7 +303,7 @@ fn control_in_other_forms_does_the_same() {
     let plain = told("").expect("nothing is told");
     let mut executed = 0;
     for seed in 0..MANY {
-        let before = Maker::program(seed);
+        let before = Maker::program(seed, seed.is_multiple_of(2));
         if same_events(&before, &before, &plain).is_err() {
             continue;
         }
