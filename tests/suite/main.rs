@@ -16,6 +16,7 @@ mod faults;
 mod fmt;
 mod fold;
 mod generated;
+mod kept;
 mod laws;
 mod machines;
 mod options;
