@@ -47,7 +47,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         polar: None,
         radius: None,
         lead: None,
-        variables: Variables::default(),
+        variables: Variables::of(haas),
         steps: 0,
         haas,
     };

@@ -155,6 +155,10 @@ impl<'t> Formula<'t> {
         let Some(name) = full.copied().or((name == "SQR").then_some("SQRT")) else {
             return Err(format!("the function {name}"));
         };
+        // The others are in no list of its functions, and of these two the range or the arguments are open.
+        if self.variables.haas && matches!(name, "FUP" | "LN" | "EXP" | "ASIN" | "ATAN") {
+            return Err(format!("{name} on a Haas"));
+        }
         let a = self.argument()?;
         let n = match name {
             "SIN" => a.to_radians().sin(),
