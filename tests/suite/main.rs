@@ -3,6 +3,7 @@
 // What was tried is told with `--nocapture`.
 #![allow(clippy::print_stdout)]
 
+mod anywhere;
 mod beside;
 mod check;
 mod computing;

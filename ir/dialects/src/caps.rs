@@ -26,7 +26,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
     let everything = dialect.can.everything;
     let calls = |kind| dialect.call_for(kind);
     let names = |meaning| dialect.name_for(meaning).is_some();
-    let states = dialect.call.iter().any(|row| row.place(ParameterRole::ReturnPlane).is_some());
+    let states = dialect.states_return_planes();
     let either = |says: bool| (!everything).then_some(says);
     let in_machine = |length| {
         [false, true].into_iter().any(|rapid| {

@@ -13,7 +13,7 @@ use crate::corners::CornerRules;
 use crate::cycles::{CycleRow, CycleRules, PatternRow};
 use crate::formula::FormulaRules;
 use crate::meaning::Meaning;
-use crate::names::{CallRow, NameRow};
+use crate::names::{CallRow, NameRow, ParameterRole};
 use crate::power_on::{PathName, PowerOn, SafeStart};
 use crate::repeats::{PolarRules, RepeatRules};
 use crate::stored::{DataRow, SystemRow};
@@ -472,6 +472,11 @@ impl Dialect {
     pub fn address_row(&self, letter: u8) -> Option<&Address> {
         let at = letter.checked_sub(b'A')?;
         self.index.letter.get(at as usize).copied().flatten().map(|row| &self.address[row as usize])
+    }
+
+    /// Whether calls of cycles state the plane to which they return.
+    pub fn states_return_planes(&self) -> bool {
+        self.call.iter().any(|row| row.place(ParameterRole::ReturnPlane).is_some())
     }
 
     /// The letter that has a role.
