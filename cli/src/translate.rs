@@ -305,7 +305,9 @@ impl<'j> Line<'j> {
                 exact_comparisons::run(&mut program, there, &mut found);
                 control_forms::run(&mut program, there);
                 if there.restates {
-                    known = known_facts::run(&mut program, self.legaliser.stands());
+                    let mut entry = self.legaliser.stands().clone();
+                    entry.modes = entry.modes.or(assumed);
+                    known = known_facts::run(&mut program, &entry);
                 }
                 let decimals = self.job.to.dialect.numbers(ncc_dialects::Quantity::Length).decimals;
                 variables::run(&mut program, there, decimals, &mut found);
@@ -670,6 +672,7 @@ fn target(job: &Job) -> Target {
         peck_clearance: parameter(job, PECK_CLEARANCE),
         break_lift: parameter(job, BREAK_LIFT),
         compensating: job.compensating(),
+        given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
         // What is asked for by name is done in the source's numbers.
         ..Target::default()
     }

@@ -280,7 +280,7 @@ impl Lower {
         let scaled = match self.state.scaled {
             Know::Said(scaled) | Know::Taken(scaled) => scaled,
             Know::Unsaid => false,
-            Know::Lost => match self.only_scaled.rely(Some(false), at) {
+            Know::Lost | Know::Open => match self.only_scaled.rely(Some(false), at) {
                 Some(scaled) => scaled,
                 None => return self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
             },
@@ -361,7 +361,7 @@ impl Lower {
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
         self.again.use_fact(super::again::MOTION);
         match self.state.motion {
-            Know::Lost => Ok(None),
+            Know::Lost | Know::Open => Ok(None),
             Know::Said(motion) | Know::Taken(motion) => Ok(Some(motion)),
             Know::Unsaid if !self.assume => Ok(None),
             Know::Unsaid => {

@@ -372,8 +372,8 @@ impl Lower {
             _ if !takes => None,
             Know::Said(dwell) | Know::Taken(dwell) => Some(dwell),
             Know::Unsaid => None,
-            Know::Lost if self.dwells.said => self.refuse(left_open(row), code.span, out),
-            Know::Lost => {
+            Know::Lost | Know::Open if self.dwells.said => self.refuse(left_open(row), code.span, out),
+            Know::Lost | Know::Open => {
                 self.dwells.relied.get_or_insert(code.span);
                 None
             }

@@ -30,6 +30,9 @@ pub(crate) enum Know<T> {
     Taken(T),
     /// Said on some way to here, or by somebody else.
     Lost,
+    /// The program has not said it up to a place that can be come to from elsewhere: the first time here it is as the
+    /// program began, and any other time perhaps not.
+    Open,
 }
 
 impl<T: Copy> Know<T> {
@@ -37,8 +40,23 @@ impl<T: Copy> Know<T> {
     pub(crate) fn fact(self) -> Fact<T> {
         match self {
             Know::Said(value) | Know::Taken(value) => Fact::Known(value),
-            Know::Unsaid | Know::Lost => Fact::Entry,
+            Know::Unsaid | Know::Lost | Know::Open => Fact::Entry,
         }
+    }
+
+    /// Whether what relies on it relies on how the program begins.
+    pub(crate) fn unsaid(self) -> bool {
+        matches!(self, Know::Unsaid | Know::Open)
+    }
+
+    /// What is known where control may come from elsewhere.
+    fn lost(self) -> Know<T> {
+        if self.unsaid() { Know::Open } else { Know::Lost }
+    }
+
+    /// Takes a value for granted.
+    fn take(&mut self, value: T) {
+        *self = if matches!(self, Know::Open) { Know::Lost } else { Know::Taken(value) };
     }
 
     pub(crate) fn value(self) -> Option<T> {
@@ -225,6 +243,20 @@ impl State {
         }
     }
 
+    /// What is known where control may come from elsewhere, too.
+    pub(super) fn met(&self) -> State {
+        State {
+            units: self.units.lost(),
+            distance: self.distance.lost(),
+            plane: self.plane.lost(),
+            feed_mode: self.feed_mode.lost(),
+            return_level: self.return_level.lost(),
+            work_offset: self.work_offset.lost(),
+            length_offset: self.length_offset.lost(),
+            ..State::lost()
+        }
+    }
+
     /// What is known after a block that may have been skipped.
     pub(super) fn join(&mut self, before: &State) {
         self.units.join(before.units);
@@ -282,7 +314,7 @@ pub(crate) fn take<T: Copy, U: Copy + From<T>>(
 ) -> Option<U> {
     let row = power_on.as_ref()?;
     let value = U::from(row.value);
-    *know = Know::Taken(value);
+    know.take(value);
     *assumed = Some(value);
     (!row.always).then_some(value)
 }
@@ -290,7 +322,7 @@ pub(crate) fn take<T: Copy, U: Copy + From<T>>(
 /// Facts as they are asked for. Each is reported once, where the program first relies on it.
 impl Lower {
     pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
-        if self.assume && self.state.distance == Know::Unsaid {
+        if self.assume && self.state.distance.unsaid() {
             let (know, row) = (&mut self.state.distance, &self.settings.dialect.power_on.distance);
             let value = take(know, &mut out.assumed.distance, row).map(|d| match d {
                 Distance::Absolute => "absolute",
@@ -302,19 +334,23 @@ impl Lower {
     }
 
     pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
-        if self.assume && self.state.units == Know::Unsaid {
+        if self.assume && self.state.units.unsaid() {
             let (know, row) = (&mut self.state.units, &self.settings.dialect.power_on.units);
             let value = take(know, &mut out.assumed.units, row).map(|u| match u {
                 Units::Mm => "mm",
                 Units::Inch => "inch",
             });
             report(out, at, ModeName::Units, value);
+            // Behind this place others may be in force, if the text says others.
+            if let Some(units) = out.assumed.units {
+                self.see_units(units, out);
+            }
         }
         self.state.units.fact()
     }
 
     pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
-        if self.assume && self.state.plane == Know::Unsaid {
+        if self.assume && self.state.plane.unsaid() {
             let (know, row) = (&mut self.state.plane, &self.settings.dialect.power_on.plane);
             let value = take(know, &mut out.assumed.plane, row).map(|p| match p {
                 Plane::Xy => "XY",
@@ -328,7 +364,7 @@ impl Lower {
 
     /// A feed word relies on what it counts.
     pub(super) fn rely_on_feed_mode(&mut self, at: Span, out: &mut Batch) {
-        if self.assume && self.state.feed_mode == Know::Unsaid {
+        if self.assume && self.state.feed_mode.unsaid() {
             let (know, row) = (&mut self.state.feed_mode, &self.settings.dialect.power_on.feed_mode);
             let value = take(know, &mut out.assumed.feed_mode, row).map(|f| match f {
                 FeedMode::PerMinute => "per minute",
@@ -343,7 +379,7 @@ impl Lower {
         if let Some(level) = self.settings.dialect.cycles.return_level {
             return Fact::Known(level.into());
         }
-        if self.assume && self.state.return_level == Know::Unsaid {
+        if self.assume && self.state.return_level.unsaid() {
             let (know, row) = (&mut self.state.return_level, &self.settings.dialect.power_on.return_level);
             let value = take(know, &mut out.assumed.return_level, row).map(|r| match r {
                 ReturnLevel::Initial => "initial level",
@@ -361,7 +397,7 @@ impl Lower {
             return;
         }
         let power_on = &self.settings.dialect.power_on;
-        if self.state.work_offset == Know::Unsaid {
+        if self.state.work_offset.unsaid() {
             let know = &mut self.state.work_offset;
             if let Some(offset) = take(know, &mut out.assumed.work_offset, &power_on.work_offset) {
                 if self.settings.dialect.caps.work_offsets == 0 {
@@ -377,10 +413,10 @@ impl Lower {
             report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
         }
         if with_z
-            && self.state.length_offset == Know::Unsaid
+            && self.state.length_offset.unsaid()
             && let Some(row) = &power_on.length_offset
         {
-            self.state.length_offset = Know::Taken(());
+            self.state.length_offset.take(());
             out.assumed.length_offset = Some(row.value);
             if !row.always {
                 report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
@@ -410,7 +446,7 @@ impl Lower {
         }
         let power_on = &self.settings.dialect.power_on.motion;
         match self.state.motion {
-            Know::Lost => Ok(None),
+            Know::Lost | Know::Open => Ok(None),
             Know::Unsaid if !self.assume => Ok(None),
             Know::Unsaid => match take(&mut self.state.motion, &mut out.assumed.motion, power_on) {
                 None if self.state.motion == Know::Unsaid => {

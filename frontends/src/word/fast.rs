@@ -68,11 +68,11 @@ impl Lower {
             _ => return None,
         };
         let open = self.assume
-            && (state.distance == Know::Unsaid
-                || state.units == Know::Unsaid
-                || state.work_offset == Know::Unsaid
+            && (state.distance.unsaid()
+                || state.units.unsaid()
+                || state.work_offset.unsaid()
                 || state.no_shift == Know::Unsaid
-                || state.length_offset == Know::Unsaid);
+                || state.length_offset.unsaid());
         // A time counts for one move, so every block is looked at.
         if state.feed_mode.value() == Some(FeedMode::InverseTime) {
             return None;
@@ -111,7 +111,7 @@ impl Lower {
     fn settled_feed(&self) -> Option<FeedWord> {
         let state = &self.state;
         let row = self.letters.get(usize::from(self.roles.feed.wrapping_sub(b'A'))).copied().flatten()?;
-        let open = self.assume && state.feed_mode == Know::Unsaid;
+        let open = self.assume && state.feed_mode.unsaid();
         if !row.sure || open || state.feed != Know::Said(()) || state.cycle_feed.is_some() {
             return None;
         }

@@ -140,8 +140,8 @@ impl Lower {
             Know::Said(from) | Know::Taken(from) => Some(from),
             Know::Unsaid => Some(row.value.into()),
             // Open here, but if the whole text says no other, it is that at power-on.
-            Know::Lost if self.centre_seen.other => self.refuse(centre_open(), at, out),
-            Know::Lost => {
+            Know::Lost | Know::Open if self.centre_seen.other => self.refuse(centre_open(), at, out),
+            Know::Lost | Know::Open => {
                 self.centre_seen.relied.get_or_insert(at);
                 Some(row.value.into())
             }

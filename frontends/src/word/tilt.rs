@@ -32,7 +32,7 @@ impl Met {
         match now {
             Know::Said(on) | Know::Taken(on) => on,
             Know::Unsaid => false,
-            Know::Lost => {
+            Know::Lost | Know::Open => {
                 self.taken_for_none |= !self.on;
                 self.on
             }

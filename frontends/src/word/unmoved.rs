@@ -64,7 +64,7 @@ impl Lower {
     /// All facts are lost, as control can come here from elsewhere, or goes there.
     pub(super) fn lose_state(&mut self, out: &mut Batch) {
         self.leave_motion(None, out);
-        self.state = State::lost();
+        self.state = if self.assume { self.state.met() } else { State::lost() };
     }
 
     /// The facts of motion are lost, or others than the next block may go on with them; `skip` is that of the code.
