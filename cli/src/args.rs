@@ -150,6 +150,9 @@ pub struct Translate {
     /// Where it begins.
     #[command(flatten, next_help_heading = "What to translate")]
     pub standing: Standing,
+    /// What variables may be given before the program begins, by a caller or an operator: a TOML file
+    #[arg(long, value_name = "FILE", help_heading = "What to translate")]
+    pub args: Option<PathBuf>,
 
     /// Send the program through a pass first; `ncc passes` lists them [may be repeated]
     #[arg(long, value_name = "NAME", value_parser = pass, help_heading = "What to translate")]

@@ -19,6 +19,7 @@ use ncc_machines::reading::{Place, Side};
 use tempfile::SpooledTempFile;
 
 use crate::called::Called;
+use crate::given::Given;
 use crate::machines::pair::Machines;
 
 /// The pass that writes the path of the tool's centre.
@@ -47,6 +48,8 @@ pub struct Job {
     /// Where the axes stand in program coordinates before the first block, as stated by the user
     /// (millimetres or degrees, in nanos); `None` is not known.
     pub start: [Option<Nanos>; AXES],
+    /// What the source's variables may be given before it begins.
+    pub given: Given,
     /// The program number of the output, where the target has one.
     pub program_number: Option<u32>,
     /// Name of the source for the head and the report: a file name without folders, or `-`.
@@ -73,6 +76,7 @@ impl Job {
             verify: true,
             head: true,
             start: [None; AXES],
+            given: Given::default(),
             program_number: None,
             source_name: source_name.into(),
             called: None,

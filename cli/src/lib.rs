@@ -16,6 +16,7 @@ pub mod doctor;
 pub mod explain;
 pub mod files;
 pub mod fmt;
+pub mod given;
 pub mod guess;
 pub mod head;
 pub mod job;

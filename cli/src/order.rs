@@ -9,6 +9,7 @@ use ncc_dialects::{Dialect, Settings};
 use ncc_machines::reading::Side;
 
 use crate::args::{Eol, Translate};
+use crate::given::Given;
 use crate::job::Job;
 use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
@@ -23,6 +24,8 @@ pub(crate) struct Order {
     pub(crate) machines: Machines,
     /// The target, with what was chosen of it.
     pub(crate) to: Settings,
+    /// What variables may be given.
+    given: Given,
     /// The dialect of the sources; `None` if it is to be recognised.
     pub(crate) named: Option<&'static Dialect>,
     /// The same with what was chosen of it. What a profile states is put in once: it is kept for good.
@@ -58,7 +61,8 @@ impl Order {
             args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
         let named = agreed(named, machines.from.as_deref(), "from")?;
         let from = named.map(|from| settings(machines.settings(Side::From, from), &args.from_option));
-        Ok(Order { from: from.transpose()?, machines, to, named })
+        let given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
+        Ok(Order { from: from.transpose()?, machines, to, given, named })
     }
 
     /// Line ends, as far as they are the same for all.
@@ -91,6 +95,7 @@ impl Order {
             verify: !args.no_verify,
             head: !args.no_head,
             start: args.standing.start.unwrap_or_default(),
+            given: self.given.clone(),
             program_number: args.program_number,
             source_name: source_name.to_owned(),
             called: None,

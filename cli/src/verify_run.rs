@@ -17,6 +17,7 @@ use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
 use ncc_ir::world::World;
 
 use crate::difference;
+use crate::given::Given;
 use crate::job::{Job, Verified};
 use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 
@@ -70,6 +71,8 @@ pub(crate) struct Verifier {
     stood: bool,
     /// What the target's control always begins with, and the source's does not.
     own_facts: Modes,
+    /// What variables may be given.
+    given: Given,
     /// Last place of the source that was executed, for differences without an event.
     last: Span,
     /// What was not executed, or with values that were made up.
@@ -220,6 +223,7 @@ impl Verifier {
             start: job.start,
             stood: false,
             own_facts: own_facts(job),
+            given: job.given.clone(),
             last: Span::default(),
             notes: Vec::new(),
         }

@@ -371,4 +371,6 @@ faults! {
     /// A way that the program can go was not gone when it was run against the output: where the decision holds, where
     /// it does not, or both.
     NotTaken { holds: bool, fails: bool } = 605, Warning;
+    /// A value was stated for a variable, and the program does not rely on it.
+    ValueNotRead { name: Box<str> } = 606, Warning;
 }

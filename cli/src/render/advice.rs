@@ -214,7 +214,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "please report it with the program, or the lines around this place".to_owned(),
         ],
         Fault::NotTaken { .. } => own("look at what is written for it yourself"),
-        Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } => Vec::new(),
+        Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } | Fault::ValueNotRead { .. } => {
+            Vec::new()
+        }
     }
 }
 

@@ -307,6 +307,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::NotTheSame { .. }
         | Fault::NotReadBack { .. }
         | Fault::VariableGiven { .. }
+        | Fault::ValueNotRead { .. }
         | Fault::NotTaken { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
     }

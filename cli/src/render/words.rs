@@ -389,6 +389,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("the variable {name} is read before the program sets it"),
             "values were made up for it, the same for both programs".into(),
         ),
+        Fault::ValueNotRead { name } => (
+            format!("a value is stated for the variable {name}, and the program does not rely on it"),
+            "it is read nowhere before the program sets it".into(),
+        ),
         Fault::NotTaken { holds, fails } => (
             "not all of the program was executed when it was verified".into(),
             match (holds, fails) {

@@ -15,6 +15,8 @@ use ncc_ir::valid::anything;
 use ncc_ir::value::Value;
 use ncc_ir::verify::Pair;
 
+use crate::given::Given as Stated;
+
 use super::{Run, Stop, Verifier, different, levels, unreadable};
 
 /// Events that are made on each side before they are compared.
@@ -39,21 +41,23 @@ const MOST_TOLD: usize = 20;
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
 /// Values for what a program reads and has not set.
-struct Given {
+struct Given<'g> {
     open: Vec<(Var, Span)>,
+    /// What is stated of them.
+    stated: &'g Stated,
     /// What is tried first: the numbers of the program, and those beside them.
     pool: Vec<f64>,
 }
 
-impl Given {
-    fn new(source: &Program) -> Given {
+impl<'g> Given<'g> {
+    fn new(source: &Program, stated: &'g Stated) -> Given<'g> {
         let open = open_variables(source);
         let mut pool = FIRST.to_vec();
         if !open.is_empty() {
             let own = literals(source);
             pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
         }
-        Given { open, pool }
+        Given { open, stated, pool }
     }
 
     /// The value of a variable in a set: in the first one, a local variable has none.
@@ -67,6 +71,9 @@ impl Given {
         let hash =
             hash.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
         let hash = mixed(hash);
+        if let Some(value) = self.stated.value(&name, set, hash) {
+            return Some(value.map_or(Value::Vacant, Value::Number));
+        }
         // In every second set all of them are given, else some are not.
         if local && (set == 0 || set.is_multiple_of(2) && hash.is_multiple_of(4)) {
             return Some(Value::Vacant);
@@ -126,7 +133,13 @@ impl Verifier {
             self.prepare(&procedure.body, &source.assumed);
         }
         let before: Vec<(u32, Exec)> = self.runs.iter().map(|run| (run.seed, run.source.clone())).collect();
-        let mut given = Given::new(source);
+        let stated = std::mem::take(&mut self.given);
+        let mut given = Given::new(source, &stated);
+        for name in stated.names() {
+            if !given.open.iter().any(|(var, _)| stated.is_name(name, &var.name())) {
+                self.notes.push(Diagnostic::new(Fault::ValueNotRead { name: name.into() }, Span::default()));
+            }
+        }
         let verdict = self.whole_compared(source, &mut given, text, base, inherited, pairs);
         match verdict {
             // A program that cannot be executed is told as that, whatever was made of it.
@@ -156,7 +169,7 @@ impl Verifier {
         let computes = anything(&target).is_some();
         if !computes {
             // It is what the source comes to with nothing given.
-            given.open.clear();
+            given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
         }
         let given = &*given;
         let mut gone = Gone::default();
@@ -273,7 +286,7 @@ impl Verifier {
 
     /// Tells what was given values, and which ways were not gone.
     fn tell(&mut self, source: &Program, target: &Program, given: &Given, gone: &Gone) {
-        for (var, span) in &given.open {
+        for (var, span) in given.open.iter().filter(|(var, _)| !given.stated.says(&var.name())) {
             let fault = Fault::VariableGiven { name: var.name().into() };
             self.notes.push(Diagnostic::new(fault, *span));
         }

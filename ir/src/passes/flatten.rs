@@ -19,6 +19,7 @@ use crate::num::{Num, POW10, Unit};
 use crate::program::{Op, Procedure, Program, Stmt};
 use crate::track::Tracker;
 use crate::valid;
+use crate::value::Value;
 use crate::world::World;
 
 /// Executes the program; only a main procedure of straight blocks is left.
@@ -76,6 +77,9 @@ fn straight(
     let mut out: Vec<Stmt> = Vec::new();
     let mut numbered = HashSet::new();
     let mut runner = Runner::new(program);
+    runner.give(&mut |var| {
+        target.given.get(&*var.name().to_ascii_lowercase()).map(|value| Value::Number(*value))
+    });
     // Else what is executed depends on nothing of the machine; what a feed counts depends on the program.
     let asks = runner.asks();
     let mut unseen = Vec::new();

@@ -73,7 +73,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::caps::Caps;
 use crate::diag::Diagnostic;
 use crate::num::{Num, Unit};
-use crate::program::{Program, Stmt};
+use crate::program::{Program, Stmt, Text};
 use crate::track::Tracker;
 use crate::world::Sideways;
 use walk::Walk;
@@ -105,6 +105,8 @@ pub struct Target {
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.
     pub other_control: bool,
+    /// Variables, by their names in lower case, that have a value before the program begins.
+    pub given: BTreeMap<Text, f64>,
     /// How compensation is worked out, where that is asked for.
     pub compensating: Compensating,
 }

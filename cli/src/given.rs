@@ -1,0 +1,217 @@
+//! `--args FILE`: the values that a program may be given by who calls it, or by who set its variables before.
+//!
+//! A TOML file with a table `[variables]`: a number, a list of numbers, or `from` and `to`, with `vacant = true` where
+//! there may be no value at all. Names are as the program has them.
+//!
+//! Not here: which of them a run gets (`verify_run/whole`), and values of the control's own.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::problem::{Exit, Problem};
+
+/// What variables may be given, by their names without signs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Given(BTreeMap<String, Values>);
+
+/// The values that one may be given.
+#[derive(Clone, Debug, PartialEq)]
+struct Values {
+    kind: Kind,
+    vacant: bool,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    Among(Vec<f64>),
+    Between { from: f64, to: f64, step: f64 },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    variables: BTreeMap<String, Row>,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Row {
+    Always(f64),
+    Among(Vec<f64>),
+    Table(Table),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    #[serde(default)]
+    among: Vec<f64>,
+    from: Option<f64>,
+    to: Option<f64>,
+    /// How far values between them are apart, counted from `from`.
+    step: Option<f64>,
+    #[serde(default)]
+    vacant: bool,
+}
+
+/// How far values are apart where the file does not say it.
+const STEP: f64 = 0.001;
+
+/// A name without the signs that stand around it: `#101`, `#<depth>`, `R5`.
+fn plain(name: &str) -> String {
+    name.trim_start_matches('#').trim_start_matches('<').trim_end_matches('>').to_ascii_lowercase()
+}
+
+impl Given {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// It cannot be read, or is not of this form.
+    pub fn read(path: &Path) -> Result<Given, Problem> {
+        let name = path.display().to_string();
+        let text = fs::read_to_string(path).map_err(|error| Problem::file("read", &name, &error))?;
+        Given::parse(&text).map_err(|message| Problem {
+            exit: Exit::File,
+            message: format!("{name}: {message}"),
+            help: vec![
+                "write [variables], and below it a line for each: \"#1\" = { from = 1, to = 20 }".into(),
+                "or \"#2\" = [0, 1], or \"R5\" = 12.5".into(),
+            ],
+        })
+    }
+
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// It is not of this form, in words.
+    pub fn parse(text: &str) -> Result<Given, String> {
+        let file: File = toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())?;
+        let rows = file.variables.into_iter().map(|(name, row)| {
+            let wrong = |what: &str| Err(format!("the variable {name}: {what}"));
+            let (kind, vacant) = match row {
+                Row::Always(value) => (Kind::Among(vec![value]), false),
+                Row::Among(values) => (Kind::Among(values), false),
+                Row::Table(Table { among, from: None, to: None, step: None, vacant }) => {
+                    (Kind::Among(among), vacant)
+                }
+                Row::Table(Table { among, from: Some(from), to: Some(to), step, vacant })
+                    if among.is_empty() =>
+                {
+                    (Kind::Between { from, to, step: step.unwrap_or(STEP) }, vacant)
+                }
+                Row::Table(_) => return wrong("`from` and `to` belong together, without `among`"),
+            };
+            match &kind {
+                Kind::Among(values) if values.is_empty() && !vacant => return wrong("no value"),
+                Kind::Among(values) if values.iter().any(|v| !v.is_finite()) => return wrong("no number"),
+                Kind::Between { from, to, step }
+                    if !(from <= to && *step > 0.0 && (to - from).is_finite()) =>
+                {
+                    return wrong("`from` is above `to`, or `step` is not above 0");
+                }
+                Kind::Among(_) | Kind::Between { .. } => {}
+            }
+            Ok((plain(&name), Values { kind, vacant }))
+        });
+        rows.collect::<Result<_, String>>().map(Given)
+    }
+
+    /// Whether anything is said of a variable.
+    pub fn says(&self, name: &str) -> bool {
+        self.0.contains_key(&plain(name))
+    }
+
+    /// The names of which something is said.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
+    /// Whether a name of the file is that of a variable.
+    pub fn is_name(&self, name: &str, variable: &str) -> bool {
+        name == plain(variable)
+    }
+
+    /// The value of a variable that is said to have one alone.
+    pub fn only(&self, name: &str) -> Option<f64> {
+        match self.0.get(&plain(name))? {
+            Values { kind: Kind::Among(values), vacant: false } => match values[..] {
+                [value] => Some(value),
+                _ => None,
+            },
+            Values { kind: Kind::Between { from, to, .. }, vacant: false } if from == to => Some(*from),
+            Values { .. } => None,
+        }
+    }
+
+    /// The value of a variable in one of many runs: first the lowest, then the highest, then no value, then any by
+    /// chance. `None` within is no value at all.
+    pub fn value(&self, name: &str, set: u32, chance: u64) -> Option<Option<f64>> {
+        let Values { kind, vacant } = self.0.get(&plain(name))?;
+        if *vacant && (set == 2 || set > 3 && chance.is_multiple_of(4)) {
+            return Some(None);
+        }
+        // The lowest bits have decided about having a value.
+        let chance = chance >> 2;
+        Some(match kind {
+            Kind::Among(values) if values.is_empty() => None,
+            Kind::Among(values) => {
+                let at = if set < 2 { set as usize } else { chance as usize };
+                Some(values[at % values.len()])
+            }
+            Kind::Between { from, to, step } => {
+                let steps = ((to - from) / step).floor().max(0.0);
+                Some(match set {
+                    0 => *from,
+                    1 => *to,
+                    _ => (from + step * (chance % (steps as u64 + 1)) as f64).min(*to),
+                })
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "[variables]\n\"#1\" = { from = 1, to = 3, step = 1 }\nR5 = 12.5\n\"#<depth>\" = [0, 2.5]\n\
+                        \"#7\" = { among = [4], vacant = true }\n";
+
+    #[test]
+    fn values_are_of_the_file() {
+        let given = Given::parse(FILE).unwrap();
+        for set in 0..50 {
+            for chance in 0..50 {
+                let value = |name| given.value(name, set, chance);
+                assert!(matches!(value("1"), Some(Some(n)) if [1.0, 2.0, 3.0].contains(&n)));
+                assert_eq!(value("R5"), Some(Some(12.5)));
+                assert!(matches!(value("depth"), Some(Some(n)) if [0.0, 2.5].contains(&n)));
+                assert!(matches!(value("7"), Some(None | Some(4.0))));
+                assert_eq!(value("2"), None);
+            }
+        }
+        assert_eq!((given.value("1", 0, 9), given.value("1", 1, 9)), (Some(Some(1.0)), Some(Some(3.0))));
+        assert_eq!(given.value("7", 2, 1), Some(None));
+        assert_eq!((given.only("r5"), given.only("1"), given.only("7")), (Some(12.5), None, None));
+    }
+
+    #[test]
+    fn another_form_is_told() {
+        for wrong in [
+            "",
+            "[variables]\n\"#1\" = \"two\"\n",
+            "[variables]\n\"#1\" = []\n",
+            "[variables]\n\"#1\" = { from = 1 }\n",
+            "[variables]\n\"#1\" = { from = 2, to = 1 }\n",
+            "[variables]\n\"#1\" = { from = 1, to = 2, step = 0 }\n",
+            "[variables]\n\"#1\" = { from = 1, to = 2, among = [1] }\n",
+            "[variables]\n\"#1\" = nan\n",
+            "[other]\n",
+        ] {
+            assert!(Given::parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}
