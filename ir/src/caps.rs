@@ -13,7 +13,7 @@ use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
 
 /// Capabilities of a target, filled from its dictionary.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Caps {
     /// Cycles that it has words for, by [`crate::cycle::CycleKind::name`], each with the return
     /// levels that it can ask for.

@@ -40,7 +40,7 @@ pub enum Said {
 }
 
 /// What a target computes with.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Computes {
     /// Statements that not every language has.
     pub statements: Vec<Said>,
@@ -48,6 +48,8 @@ pub struct Computes {
     pub operators: Vec<Binary>,
     /// Functions.
     pub functions: Vec<Function>,
+    /// Values of the control's own that have a name, of one or of several in a sum.
+    pub values: Vec<Expr>,
     /// With what the names of its variables begin; behind it they are numbers.
     pub prefix: Text,
     /// Whether variables that live as long as a call, and are declared or given with it, have names.
@@ -315,6 +317,7 @@ impl Look<'_> {
     fn expr(&self, expr: &Expr, at: Span) -> Result<(), Diagnostic> {
         let Expr::Node(node) = expr else { return Ok(()) };
         match &**node {
+            _ if self.computes.values.contains(expr) => Ok(()),
             Node::Var(var) => self.variable(var, at),
             Node::Vacant if !self.computes.vacant => Err(refuse("no value at all", at)),
             Node::Vacant => Ok(()),

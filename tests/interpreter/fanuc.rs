@@ -4,6 +4,7 @@
 
 mod machine;
 mod macro_b;
+mod own;
 mod polar;
 mod programs;
 mod tilt;
@@ -110,6 +111,7 @@ impl Control {
         let mut at = 0;
         while let Some((line, block)) = blocks.get(at) {
             self.m.line = *line;
+            self.look(block);
             at = match self.statement(block)? {
                 Go::Not => match self.block(block, all)? {
                     Next::Block => at + 1,

@@ -57,12 +57,15 @@ pub(crate) struct Computing {
     numbers: BTreeMap<Text, u32>,
     /// Loops that are open.
     open: u8,
+    /// Values of the control's own, by their numbers.
+    pub(super) own: Vec<(u32, Expr)>,
 }
 
 impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
     pub(crate) fn know(&mut self, procedures: &[Procedure]) {
         self.computing.variables = true;
+        self.computing.own = self.dialect.named_values().collect();
         let known = procedures.iter().skip(1).map(|p| (p.name.clone(), p.parameters.clone()));
         self.computing.parameters = known.collect();
     }

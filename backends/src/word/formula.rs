@@ -34,6 +34,8 @@ const LOOSEST: Tie = usize::MAX;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spelling<'d> {
     rules: &'d FormulaRules,
+    /// Values of the control's own.
+    own: &'d [(u32, Expr)],
     blanks: bool,
     /// Whether angles of arcs go from 0 to a turn.
     turn: bool,
@@ -130,6 +132,11 @@ impl Spelling<'_> {
             }
             Expr::Node(node) => &**node,
         };
+        if let Some((number, _)) = self.own.iter().find(|(_, value)| value == e) {
+            out.push_str(&self.rules.variable);
+            out.push_str(&number.to_string());
+            return Ok(());
+        }
         if let Some((operator, a, b)) = nearly(node).filter(|_| self.rules.near) {
             return self.operation(operator, [a, b], least, first, depth, out);
         }
@@ -382,6 +389,7 @@ impl Writer {
         }
         Ok(Spelling {
             rules: &self.dialect.formula,
+            own: &self.computing.own,
             blanks: self.dialect.block.blanks,
             turn: self.settings.get(ANGLE_RANGE) == "turn",
             digits,

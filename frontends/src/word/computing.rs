@@ -12,6 +12,7 @@ use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, 
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::system::System;
 
 use super::Source;
 use super::block::{Block, Value, Word};
@@ -304,7 +305,8 @@ impl Lower {
     /// said with it.
     pub(super) fn assigned(&mut self, span: Span, out: &mut Batch) {
         if let InForce::Active(active) = &self.state.cycle
-            && [&active.depth, &active.retract].iter().any(|word| word.value.literal().is_none())
+            && ([&active.depth, &active.retract].iter().any(|word| word.value.literal().is_none())
+                || active.peck.as_ref().is_some_and(|peck| peck.literal().is_none()))
         {
             if self.state.cycle_feed.is_some() {
                 let name =
@@ -380,17 +382,7 @@ impl Lower {
     ) -> Option<Option<u8>> {
         let rules = self.rules[quantity as usize];
         Some(match quantity {
-            Quantity::Length => {
-                let units = self.units(word.span, out);
-                debug_assert!(unit_of(units) != Unit::One);
-                Some(match rules.increment_inch.filter(|inch| *inch != rules.increment) {
-                    None => rules.increment,
-                    Some(inch) => match self.units_of_increment(units, word.span, out)? {
-                        Units::Mm => rules.increment,
-                        Units::Inch => inch,
-                    },
-                })
-            }
+            Quantity::Length => Some(self.digits_of(quantity, word.span, out)?),
             Quantity::Angle | Quantity::Seconds => Some(rules.increment),
             Quantity::Feed => {
                 self.units(word.span, out);
@@ -403,10 +395,30 @@ impl Lower {
         })
     }
 
+    /// To how many digits a length is rounded, in the units in force.
+    pub(super) fn digits_of(&mut self, quantity: Quantity, at: Span, out: &mut Batch) -> Option<u8> {
+        let rules = self.rules[quantity as usize];
+        let units = self.units(at, out);
+        debug_assert!(unit_of(units) != Unit::One);
+        Some(match rules.increment_inch.filter(|inch| *inch != rules.increment) {
+            None => rules.increment,
+            Some(inch) => match self.units_of_increment(units, at, out)? {
+                Units::Mm => rules.increment,
+                Units::Inch => inch,
+            },
+        })
+    }
+
     /// Puts in what `ROUND` means where an expression stands, and in which range angles are.
     fn mean(&mut self, expr: &mut Expr, round: &dyn Fn(Expr) -> Node, at: Span, out: &mut Batch) {
         let Expr::Node(node) = expr else { return };
         match &mut **node {
+            Node::Var(Var::System(System::Other(name))) => {
+                let name = name.clone();
+                if let Some(value) = self.control_value(&name, at, out) {
+                    *expr = value;
+                }
+            }
             Node::Var(_) | Node::Vacant => {}
             Node::Unary(_, a) => self.mean(a, round, at, out),
             Node::Binary(_, a, b) => {

@@ -1,16 +1,21 @@
-//! Variables of the control's own that a program sets: those by which it gives an alarm, or stops with a message. The
+//! Variables of the control's own: what they are worth, and those that a program sets: zeros of work offsets, which is
+//! the data input of them, and those by which it gives an alarm, or stops with a message. The
 //! comment of the block is the text (16-C, custom macro, system variables, alarms: `#3000 = n (MESSAGE)`; B-63684EN,
 //! stop with a message: `#3006 = 1 (MESSAGE)`).
 //!
 //! Which numbers they have is in the dictionary, `[[system]]`.
 
+use ncc_dialects::{Quantity, SystemRow};
+use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
-use ncc_ir::program::{Alarm, Op, Text};
+use ncc_ir::expr::{Expr, Function, Node, Var};
+use ncc_ir::program::{Alarm, Data, DataMode, Op, Text};
+use ncc_ir::source::Span;
 use ncc_ir::system::System;
 
 use super::Source;
 use super::block::Block;
+use super::facts::InForce;
 use super::lower::{Lower, decode};
 use crate::Batch;
 
@@ -25,9 +30,14 @@ impl Lower {
         out: &mut Batch,
     ) -> Vec<Op> {
         let name = to.to_string();
-        let number: Option<u32> = name.strip_prefix('#').and_then(|number| number.parse().ok());
-        let rows = &self.settings.dialect.system;
-        let row = number.and_then(|number| rows.iter().find(|row| row.numbers().contains(&number)));
+        let found = self.row_of(&name);
+        if let Some((row, place)) = found
+            && let Some(Expr::Node(node)) = row.value(place, "")
+            && let Node::Var(Var::System(System::WorkOffset { number, axis, .. })) = *node
+        {
+            return self.offset_set(number, axis, value, block.span, out);
+        }
+        let row = found.map(|(row, _)| row);
         match row.map(|row| &*row.means) {
             Some("alarm") => {
                 let text = self.text_of(block, src, out).unwrap_or_default();
@@ -45,6 +55,41 @@ impl Lower {
                 Vec::new()
             }
         }
+    }
+
+    /// The row of a variable of the control's own, and which of the row's it is.
+    fn row_of(&self, name: &str) -> Option<(&'static SystemRow, u32)> {
+        let number: u32 = name.strip_prefix('#')?.parse().ok()?;
+        let row = self.settings.dialect.system.iter().find(|row| row.numbers().contains(&number))?;
+        Some((row, number - row.number))
+    }
+
+    /// What a variable of the control's own is worth, by its name; what is not known is refused by name.
+    pub(super) fn control_value(&mut self, name: &str, at: Span, out: &mut Batch) -> Option<Expr> {
+        let found = self.row_of(name);
+        if let Some((row, place)) = found
+            && row.refuse.is_none()
+            && let Some(value) = self.value_of(row, place, at, out)
+        {
+            return Some(value);
+        }
+        let told =
+            found.and_then(|(row, _)| row.refuse.as_deref()).unwrap_or("variable of the control's own");
+        self.refuse(Fault::NotSupported { code: name.into(), name: told.into() }, at, out)
+    }
+
+    /// The zero of a work offset along an axis, as the code of data input sets it.
+    fn offset_set(&mut self, offset: u16, axis: Axis, value: Expr, at: Span, out: &mut Batch) -> Vec<Op> {
+        if let InForce::Active(_) = self.state.cycle {
+            let name = "data input while a cycle is in force".into();
+            self.fault(Fault::NotSupported { code: "#".into(), name }, at, out);
+        }
+        let Some(digits) = self.digits_of(Quantity::Length, at, out) else { return Vec::new() };
+        let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
+        let mut words = [const { None }; AXES];
+        words[axis as usize] = Some(Expr::Node(Box::new(rounded(value))));
+        let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
+        vec![Op::SetData(Box::new(data))]
     }
 
     /// The text of an alarm or a stop: the comment of its block.

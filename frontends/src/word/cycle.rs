@@ -35,7 +35,7 @@ impl Lower {
         }
         self.rely_on_feed_mode(word.span, out);
         if let Value::Computed(_) = word.value {
-            return self.computed_feed(&word, motion, words, src, out);
+            return self.computed_feed(&word, words, src, out);
         }
         let Some(mut num) = self.number(&word, Quantity::Feed, src, out) else {
             return;
@@ -72,11 +72,10 @@ impl Lower {
         self.push(word.span, Op::SetFeedRate(Expr::Num(num)), out);
     }
 
-    /// A feed that is computed; not of a cycle, which would say it anew where its variables may be others.
-    fn computed_feed(&mut self, word: &Word, motion: &[Code], words: &Words, src: Source, out: &mut Batch) {
-        use ncc_dialects::Meaning::StartCycle;
-        let cycle = motion.iter().any(|c| c.meaning == StartCycle);
-        if cycle || matches!(&self.state.cycle, InForce::Active(active) if active.feed.is_some()) {
+    /// A feed that is computed. That of a cycle's block is one as any other, which is in force from there on: the cycle
+    /// itself would say it anew where its variables may be others.
+    fn computed_feed(&mut self, word: &Word, words: &Words, src: Source, out: &mut Batch) {
+        if matches!(&self.state.cycle, InForce::Active(active) if active.feed.is_some()) {
             return self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
         }
         let Some(value) = self.amount(word, Quantity::Feed, words, src, out) else { return };
@@ -151,9 +150,9 @@ impl Lower {
         self.note_dwell(row, given.dwell, out);
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
         let dwell = dwell.or_else(|| self.dwell_left(row, code, out));
-        let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck));
+        let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck.clone()));
         let shrinking = given.shrinking.or_else(|| kept.as_ref().and_then(|k| k.shrinking));
-        let pecks = self.pecks(row, peck, shrinking, code.span, out);
+        let pecks = self.pecks(row, peck.clone(), shrinking, code.span, out);
         let blame = !self.now.failed;
         for (letter, missing) in [(depth_letter, depth.is_none()), (row.retract, retract.is_none())] {
             if missing && blame {
@@ -257,10 +256,10 @@ impl Lower {
             active.retract = retract;
         }
         active.dwell = given.dwell.or(active.dwell);
-        active.peck = given.peck.or(active.peck);
+        active.peck = given.peck.or(active.peck.take());
         active.shrinking = given.shrinking.or(active.shrinking);
         let rigid = active.kind.name() == "tap-rigid";
-        let (dwell, peck, shrinking) = (active.dwell, active.peck, active.shrinking);
+        let (dwell, peck, shrinking) = (active.dwell, active.peck.clone(), active.shrinking);
         let bottom = self.dwells(row, dwell, block, out);
         let pecks = self.pecks(row, peck, shrinking, block, out);
         if let (Ok(kind), InForce::Active(active)) =
@@ -411,7 +410,11 @@ impl Lower {
         });
         let peck = row.peck.or(row.shift).and_then(|letter| {
             let word = words.take(letter as u8)?;
-            let num = self.number(&word, Quantity::Length, src, out)?;
+            // Execution looks at what is computed.
+            let num = match self.amount(&word, Quantity::Length, words, src, out)? {
+                Expr::Num(num) => num,
+                computed => return Some(computed),
+            };
             if num.is_zero() {
                 return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
             }
@@ -419,7 +422,7 @@ impl Lower {
                 return self.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
             }
             // A peck's sign is ignored by the other controls that take one.
-            Some(Num { mantissa: num.mantissa.abs(), ..num })
+            Some(Expr::Num(Num { mantissa: num.mantissa.abs(), ..num }))
         });
         let shrinking = self.shrinking(row, words, src, out);
         Given { depth, retract, dwell, peck, shrinking }
@@ -463,7 +466,7 @@ impl Lower {
     fn pecks(
         &mut self,
         row: &CycleRow,
-        peck: Option<Num>,
+        peck: Option<Expr>,
         shrinking: Option<[Num; 3]>,
         at: Span,
         out: &mut Batch,
@@ -474,7 +477,9 @@ impl Lower {
                 self.refuse(Fault::NotSupported { code: row.code.as_str().into(), name }, at, out)
             }
             (Some(peck), None) => Some(Pecks { peck, shrinking: None }),
-            (None, Some([first, less, peck])) => Some(Pecks { peck, shrinking: Some([first, less]) }),
+            (None, Some([first, less, peck])) => {
+                Some(Pecks { peck: Expr::Num(peck), shrinking: Some([first, less]) })
+            }
             (None, None) => None,
         }
     }
@@ -548,15 +553,15 @@ struct Given {
     depth: Option<Coord>,
     retract: Option<Coord>,
     dwell: Option<Num>,
-    peck: Option<Num>,
+    peck: Option<Expr>,
     shrinking: Option<[Num; 3]>,
 }
 
 /// How deep pecks are.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Pecks {
     /// Each of them; the least of those that decrease.
-    peck: Num,
+    peck: Expr,
     /// The first, and how much less each further one is.
     shrinking: Option<[Num; 2]>,
 }
@@ -564,8 +569,8 @@ struct Pecks {
 /// The cycle of a row; `Err` with the letter of the word that it lacks.
 fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>) -> Result<CycleKind, char> {
     let (own, to_level) = (row.own(), row.feed_to_level);
+    let shrinking = pecks.as_ref().and_then(|pecks| pecks.shrinking);
     let peck = pecks.map(|pecks| pecks.peck);
-    let shrinking = pecks.and_then(|pecks| pecks.shrinking);
     let (first, less) = (shrinking.map(|s| Expr::Num(s[0])), shrinking.map(|s| Expr::Num(s[1])));
     if row.dwell_needed && dwell.is_none() {
         return Err(row.dwell.map_or(' ', |d| d.letter));
@@ -577,7 +582,7 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>
     Ok(match row.kind.as_str() {
         "drill-dwell" => CycleKind::DrillDwell { dwell: bottom.ok_or(row.dwell.map_or(' ', |d| d.letter))? },
         "drill-peck" => CycleKind::DrillPeck {
-            peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
+            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
             first,
             less,
             clearance: Clearance::Parameter,
@@ -586,7 +591,7 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>
             dwell: bottom,
         },
         "drill-break" => CycleKind::DrillBreak {
-            peck: Expr::Num(peck.ok_or(row.peck.unwrap_or(' '))?),
+            peck: peck.ok_or(row.peck.unwrap_or(' '))?,
             first,
             less,
             lift: Clearance::Parameter,
@@ -606,7 +611,7 @@ fn kind_of(row: &CycleRow, rigid: bool, dwell: Option<Num>, pecks: Option<Pecks>
             CycleKind::Tap(Box::new(Tap { turn, pitch, chuck, dwell, back, settle, after, to_level }))
         }
         "bore-fine" => {
-            let shift = Shift::Parameter(Expr::Num(peck.ok_or(row.shift.unwrap_or(' '))?));
+            let shift = Shift::Parameter(peck.ok_or(row.shift.unwrap_or(' '))?);
             let after = own.after();
             CycleKind::FineBore(Box::new(FineBore { turn: None, dwell: bottom, angle: None, shift, after }))
         }

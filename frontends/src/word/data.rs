@@ -66,7 +66,7 @@ impl Lower {
     fn table(&mut self, code: &Code, row: &'static DataRow, words: &mut Words, src: Source, out: &mut Batch) {
         let row_name = || Box::<str>::from(row.name.as_str());
         // Where the program computes, execution looks at what is not known here.
-        let computes = self.settings.dialect.program.o_words && self.computes_anything();
+        let computes = self.computes_anything();
         let in_force = match self.state.cycle {
             InForce::None => false,
             InForce::Active(_) => true,
@@ -122,7 +122,7 @@ impl Lower {
         for axis in Axis::ALL {
             let Some(axis_row) = self.axis_row(axis) else { continue };
             if let Some(word) = words.take(axis.letter()) {
-                by[axis as usize] = self.number(&word, axis_row.quantity, src, out).map(Expr::Num);
+                by[axis as usize] = self.amount(&word, axis_row.quantity, words, src, out);
             }
         }
         let turn = row.turns.and_then(|letter| words.take(letter as u8));
@@ -229,16 +229,18 @@ impl Lower {
             let Some(word) = words.take(value.letter as u8) else { continue };
             any = true;
             let which = ToolValue::from(value.of);
-            let Some(mut num) = self.number(&word, Quantity::Length, src, out) else { continue };
+            let Some(value) = self.amount(&word, Quantity::Length, words, src, out) else { continue };
             let radius = matches!(which, ToolValue::Radius | ToolValue::RadiusWear);
-            if radius && self.option(RADIUS_DATA, word.span, out) == "diameter" {
-                let Some(half) = half(num) else {
+            let value = if radius && self.option(RADIUS_DATA, word.span, out) == "diameter" {
+                let Some(half) = value.literal().and_then(half) else {
                     self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out);
                     continue;
                 };
-                num = half;
-            }
-            let data = Data::Tool { entry, which, added, value: Expr::Num(num) };
+                Expr::Num(half)
+            } else {
+                value
+            };
+            let data = Data::Tool { entry, which, added, value };
             self.push(code.span, Op::SetData(Box::new(data)), out);
         }
         if !any {

@@ -10,6 +10,7 @@ use ncc_dialects::{CodeRow, PowerOnFact};
 use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::cycle::CycleKind;
 use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
 use ncc_ir::program::{CentreFrom, Coord};
 use ncc_ir::source::Span;
@@ -126,7 +127,7 @@ pub(super) struct Active {
     pub(super) depth: Coord,
     pub(super) kind: CycleKind,
     pub(super) dwell: Option<Num>,
-    pub(super) peck: Option<Num>,
+    pub(super) peck: Option<Expr>,
     /// Of pecks that decrease: the first, how much less each further one is, and the least.
     pub(super) shrinking: Option<[Num; 3]>,
     /// Feed of the cycle's own block.

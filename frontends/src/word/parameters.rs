@@ -9,7 +9,6 @@
 use std::collections::HashSet;
 
 use ncc_dialects::{Quantity, SystemRow};
-use ncc_ir::canon::Axis;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Unary, Var};
 use ncc_ir::num::{Num, Unit};
@@ -242,26 +241,15 @@ impl Lower {
     }
 
     /// The value of a row; of one that counts axes, along the one with this place.
-    fn value_of(&mut self, row: &SystemRow, place: u32, at: Span, out: &mut Batch) -> Option<Expr> {
+    pub(super) fn value_of(
+        &mut self,
+        row: &SystemRow,
+        place: u32,
+        at: Span,
+        out: &mut Batch,
+    ) -> Option<Expr> {
         let unit =
             if row.machine_units { self.option("machine_units", at, out).to_owned() } else { String::new() };
-        let value = |means: &str| {
-            let mut name = means.to_owned();
-            if row.axes {
-                let axis = *Axis::ALL.get(place as usize)?;
-                name.push('.');
-                name.push(char::from(axis.letter().to_ascii_lowercase()));
-            }
-            if !unit.is_empty() {
-                name.push('.');
-                name.push_str(&unit);
-            }
-            match System::named(&name) {
-                System::Other(_) => None,
-                system => Some(node(Node::Var(Var::System(system)))),
-            }
-        };
-        let mut all = None;
         if row.zero {
             if self.assume && !std::mem::replace(&mut self.o.no_such_axes, true) {
                 let parameter = "axes U, V and W, which the machine does not have".into();
@@ -269,18 +257,7 @@ impl Lower {
             }
             return Some(Expr::int(0));
         }
-        if row.sum.is_empty() {
-            return value(&row.means);
-        }
-        for term in &row.sum {
-            let times = Expr::int(term.times);
-            let worth = node(Node::Binary(Binary::Multiply, value(&term.means)?, times));
-            all = Some(match all {
-                None => worth,
-                Some(before) => node(Node::Binary(Binary::Add, before, worth)),
-            });
-        }
-        all
+        row.value(place, &unit)
     }
 
     /// The value of a word that is computed, as the quantity of its letter.

@@ -201,6 +201,21 @@ const OPERATORS: &[(&[u8], Token)] = &[
     (b"GE", Token::Compare(Binary::GreaterOrEqual)),
     (b"LT", Token::Compare(Binary::Less)),
     (b"LE", Token::Compare(Binary::LessOrEqual)),
+    // Two letters are enough (B-63684EN, custom macro, codes and reserved words: abbreviations).
+    (b"RO", Token::Function(Some(Function::Round))),
+    (b"AS", Token::Function(Some(Function::Asin))),
+    (b"AC", Token::Function(Some(Function::Acos))),
+    (b"AT", Token::Atan),
+    (b"SQ", Token::Function(Some(Function::Sqrt))),
+    (b"SI", Token::Function(Some(Function::Sin))),
+    (b"CO", Token::Function(Some(Function::Cos))),
+    (b"TA", Token::Function(Some(Function::Tan))),
+    (b"AB", Token::Function(Some(Function::Abs))),
+    (b"FI", Token::Function(Some(Function::Truncate))),
+    (b"FU", Token::Function(Some(Function::RoundUp))),
+    (b"EX", Token::Function(Some(Function::Exp))),
+    (b"XO", Token::Or(Binary::Xor)),
+    (b"AN", Token::And(Binary::And)),
 ];
 
 /// What stands behind the name of a block that begins with the letter of programs, longest first.

@@ -145,10 +145,7 @@ fn the_macro_language_is_refused_by_name() {
     refused("X[#1.]\n", "#1.");
     refused("G#1\n", "G#1");
     refused("M[#1+3]\n", "M[#1+3]");
-    refused("G10 L2 P1 X#1\n", "X#1");
     refused("G92 X#1\n", "X#1");
-    refused("G81 X1. Z-1. R1. F#9\n", "F#9");
-    refused("G83 X1. Z-1. R1. Q#17\n", "Q#17");
     refused("X[#1 EQ 2]\n", "X[#1 EQ 2]");
     refused("F[ROUND[#1]]\n", "F[ROUND[#1]]");
     refused("DPRNT[X#100[53]*Y]\n", "DPRNT[X#100[53]*Y]");

@@ -355,6 +355,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 },
                 names: rules.names,
                 whole_remainder: rules.whole_remainder,
+                values: dialect.named_values().map(|(_, value)| value).collect(),
                 local: rules.local.clone(),
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),

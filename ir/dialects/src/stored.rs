@@ -2,7 +2,10 @@
 //!
 //! Not here: what the values are for (`ncc_ir::program::Data`).
 
+use ncc_ir::canon::Axis;
+use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::ToolValue;
+use ncc_ir::system::System;
 use serde::Deserialize;
 
 use crate::schema::Dialect;
@@ -119,6 +122,14 @@ impl Dialect {
         [any(DataKind::Offset, false), any(DataKind::Offset, true), any(DataKind::OffsetHere, false)]
     }
 
+    /// Values of the control's own that have numbers, with these; in the unit in force.
+    pub fn named_values(&self) -> impl Iterator<Item = (u32, Expr)> {
+        let rows = self.system.iter().filter(|row| row.refuse.is_none() && !row.machine_units && !row.zero);
+        rows.flat_map(|row| {
+            row.numbers().filter_map(|number| Some((number, row.value(number - row.number, "")?)))
+        })
+    }
+
     /// Which values of tools can be set, in the order of [`ToolValue::ALL`].
     pub(crate) fn sets_tools(&self) -> [bool; 4] {
         let words = || self.data.iter().flat_map(|row| &row.values);
@@ -132,7 +143,7 @@ impl Dialect {
 pub struct SystemRow {
     /// Number of the parameter, or of the first of several; 0 for none.
     pub number: u32,
-    /// How many there are, where it is no value of each axis; 0 is one.
+    /// How many there are; 0 is one, or as many as there are axes of X, Y, Z, A, B and C.
     pub count: u32,
     /// Name of the parameter, as programs write it within `<` and `>`; empty for none.
     pub name: String,
@@ -163,9 +174,42 @@ pub struct SystemTerm {
 }
 
 impl SystemRow {
+    /// The value of one of its parameters by its place among them, lengths in this unit, or else in the one in force;
+    /// `None` where it is none that is known.
+    pub fn value(&self, place: u32, unit: &str) -> Option<Expr> {
+        let node = |node| Expr::Node(Box::new(node));
+        let of = |means: &str| {
+            let mut name = means.to_owned();
+            if self.axes {
+                let axis = *Axis::ALL.get(place as usize)?;
+                name.push('.');
+                name.push(char::from(axis.letter().to_ascii_lowercase()));
+            }
+            if !unit.is_empty() {
+                name.push('.');
+                name.push_str(unit);
+            }
+            match System::named(&name) {
+                System::Other(_) => None,
+                system => Some(node(Node::Var(Var::System(system)))),
+            }
+        };
+        if self.sum.is_empty() {
+            return of(&self.means);
+        }
+        self.sum.iter().try_fold(None, |all, term| {
+            let worth = node(Node::Binary(Binary::Multiply, of(&term.means)?, Expr::int(term.times)));
+            Some(Some(match all {
+                None => worth,
+                Some(before) => node(Node::Binary(Binary::Add, before, worth)),
+            }))
+        })?
+    }
+
     /// The numbers of its parameters.
     pub fn numbers(&self) -> std::ops::Range<u32> {
-        let count = if self.axes { ncc_ir::canon::AXES as u32 } else { self.count.max(1) };
+        let axes = if self.count == 0 { ncc_ir::canon::AXES as u32 } else { self.count };
+        let count = if self.axes { axes } else { self.count.max(1) };
         if self.number == 0 { 0..0 } else { self.number..self.number + count }
     }
 }

@@ -36,11 +36,13 @@ pub(super) struct Variables {
     /// They are a Haas': by the VF series manual (96-8000, June 1999, p. 365 to 376) its macros are these, with fewer
     /// functions and variables, and the words that a macro computes are rounded (Address Substitution, diy.haascnc.com).
     haas: bool,
+    /// Those of the control that a block names or may compute, as they are at its beginning.
+    own: BTreeMap<u32, f64>,
 }
 
 impl Default for Variables {
     fn default() -> Variables {
-        Variables { local: vec![[None; 34]], shared: BTreeMap::new(), haas: false }
+        Variables { local: vec![[None; 34]], shared: BTreeMap::new(), haas: false, own: BTreeMap::new() }
     }
 }
 
@@ -59,7 +61,7 @@ impl Variables {
                 // What ran before may have left something in it.
                 None => Err(format!("#{number} is read before it is set")),
             },
-            _ => Err(format!("the system variable #{number}")),
+            _ => self.own.get(&number).map(|n| Some(*n)).ok_or(format!("the system variable #{number}")),
         }
     }
 
@@ -222,7 +224,22 @@ pub(super) fn jump(
     }
 }
 
+/// The numbers of system variables that a block names.
+fn named(block: &str) -> Vec<u32> {
+    let parts = block.split('#').skip(1);
+    let digits = |part: &str| part.find(|c: char| !c.is_ascii_digit()).unwrap_or(part.len());
+    parts.filter_map(|part| part[..digits(part)].parse().ok()).filter(|n| *n >= 1000).collect()
+}
+
 impl Control {
+    /// Looks at the system variables that a block names.
+    pub(super) fn look(&mut self, block: &str) {
+        if block.contains('#') {
+            self.variables.own =
+                named(block).into_iter().filter_map(|number| Some((number, self.own(number)?))).collect();
+        }
+    }
+
     fn formula<'t>(&'t self, text: &'t str) -> Formula<'t> {
         Formula::new(text, &self.variables, Rounding::Whole)
     }
@@ -315,6 +332,7 @@ impl Control {
                 }
                 self.m.record(What::Stop);
             }
+            1000.. => self.set_own(number, value).map_err(|halt| halt.why)?,
             number => self.variables.write(number, value)?,
         }
         Ok(Go::On)
