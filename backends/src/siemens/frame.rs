@@ -36,7 +36,7 @@ impl Writer {
                         let name = (axis.letter() as char).to_string();
                         let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
                         let letter = self.letter(&name, quantity);
-                        values.push(format!("{name}{}", self.value(&letter, value, span, sink)?));
+                        values.push(self.lettered(&name, &letter, value, span, sink)?);
                     }
                 }
                 (FrameWord::Translate, values)
@@ -57,7 +57,7 @@ impl Writer {
                     if let Some(value) = value {
                         let name = (axis.letter() as char).to_string();
                         let letter = self.letter(&name, Quantity::Factor);
-                        values.push(format!("{name}{}", self.value(&letter, value, span, sink)?));
+                        values.push(self.lettered(&name, &letter, value, span, sink)?);
                     }
                 }
                 (FrameWord::Scale, values)

@@ -360,6 +360,19 @@ impl Writer {
         Letter { letter, format: Format::new(self.dialect.numbers(quantity), counts) }
     }
 
+    /// A value behind the letter of its word; what is computed stands behind `=`.
+    fn lettered(
+        &mut self,
+        name: &str,
+        letter: &Letter,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<String, Fault> {
+        let between = if matches!(value, Expr::Node(_)) { "=" } else { "" };
+        Ok(format!("{name}{between}{}", self.value(letter, value, span, sink)?))
+    }
+
     /// A value as it is written behind a name.
     fn value(&mut self, letter: &Letter, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         if let Expr::Node(_) = value {

@@ -28,11 +28,11 @@ impl Writer {
                 for axis in [Axis::X, Axis::Y, Axis::Z].into_iter().filter(|a| *a == first || *a == second) {
                     let name = (axis.letter() as char).to_string();
                     let letter = self.letter(&name, Quantity::Length);
-                    let value = match &words[axis as usize] {
-                        Some(value) => self.value(&letter, value, span, sink)?.to_string(),
-                        None => "0".to_owned(),
+                    let word = match &words[axis as usize] {
+                        Some(value) => self.lettered(&name, &letter, value, span, sink)?,
+                        None => format!("{name}0"),
                     };
-                    text.push_str(&format!(" {name}{value}"));
+                    text.push_str(&format!(" {word}"));
                 }
             }
             PoleWords::Polar { radius, angle } => {

@@ -255,9 +255,10 @@ impl Writer {
     /// A dwell, which stands alone because its F is no feed.
     fn dwell(&mut self, seconds: &Expr, span: ncc_ir::source::Span, sink: &mut Sink) -> Result<(), Fault> {
         let (code, dwell) = self.words.codes.dwell.ok_or_else(|| cannot("a dwell"))?;
-        let value = self.value(&dwell.word, seconds, span, sink)?;
+        let name = (dwell.word.letter as char).to_string();
+        let word = self.lettered(&name, &dwell.word, seconds, span, sink)?;
         let code = String::from_utf8_lossy(code.text()).into_owned();
-        self.alone(&format!("{code} {}{value}", dwell.word.letter as char), sink)
+        self.alone(&format!("{code} {word}"), sink)
     }
 
     fn message(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
