@@ -14,7 +14,9 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{Legaliser, Target, control_forms, exact_comparisons, known_facts, variables};
+use ncc_ir::passes::{
+    Legaliser, Target, arithmetic, control_forms, exact_comparisons, known_facts, variables,
+};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -304,7 +306,12 @@ impl<'j> Line<'j> {
             if let Some(there) = there {
                 exact_comparisons::run(&mut program, there, &mut found);
                 control_forms::run(&mut program, there);
-                if there.restates {
+                let own = self.job.from.dialect.formula.tolerance();
+                arithmetic::run(&mut program, there, own, &mut found);
+                // Its own words are left as they are, where they say by themselves where they lead.
+                let own =
+                    self.job.to.dialect.program.o_words && self.job.from.dialect.id == self.job.to.dialect.id;
+                if there.restates && !own {
                     let mut entry = self.legaliser.stands().clone();
                     entry.modes = entry.modes.or(assumed);
                     known = known_facts::run(&mut program, &entry);

@@ -5,8 +5,10 @@
 use crate::arguments;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
+use crate::num::Num;
 use crate::program::{Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
+use crate::system::System;
 
 /// A statement of programs that compute which not every language has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,9 +41,84 @@ pub enum Said {
     Stop,
 }
 
+/// How arguments come to the variables of what is called.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Handed {
+    /// Each letter is a variable of its own, by its number: `A` is 1, `X` is 24.
+    #[default]
+    Letters,
+    /// One after the other: the first one is variable 1.
+    Places,
+    /// By the names in the head of what is called.
+    Names,
+}
+
+/// Variables that have names.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Named {
+    /// With what the names of those begin that all programs see; without, only those of a call have names.
+    pub common: Option<Text>,
+    /// Whether they are written in capitals; else in small letters.
+    pub capitals: bool,
+    /// How many letters or underlines they begin with.
+    pub letters: usize,
+    /// Most characters.
+    pub longest: usize,
+    /// What no variable can be called, in capitals.
+    pub reserved: Vec<Text>,
+}
+
+impl Named {
+    /// A name in the target's characters, for a variable that all programs see or for one of a call.
+    pub(crate) fn adapted(&self, name: &str, common: bool) -> Text {
+        let fits = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' };
+        let mut made: String = name.chars().map(fits).collect();
+        let global = self.common.as_deref();
+        if !common && let Some(global) = global.filter(|global| made.starts_with(global)) {
+            made.drain(..global.len());
+        }
+        let begins = |made: &str| {
+            let first = made.bytes().take(self.letters);
+            made.len() >= self.letters && first.into_iter().all(|b| b.is_ascii_alphabetic() || b == b'_')
+        };
+        let reserved = |made: &str| self.reserved.iter().any(|word| word.eq_ignore_ascii_case(made));
+        if made.is_empty() || !begins(&made) || reserved(&made) {
+            made.insert_str(0, "V_");
+        }
+        if common && let Some(global) = global.filter(|global| !made.starts_with(global)) {
+            made.insert_str(0, global);
+        }
+        made.truncate(self.longest.max(1));
+        if self.capitals {
+            made.make_ascii_uppercase()
+        } else {
+            made.make_ascii_lowercase()
+        }
+        made.into()
+    }
+}
+
 /// What a target computes with.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Computes {
+    /// Variables with names, if it has such.
+    pub named: Option<Named>,
+    /// How arguments are handed over.
+    pub handed: Handed,
+    /// Whether a call can have its caller's own variables.
+    pub shares: bool,
+    /// Whether there is a word for whether a variable with a name has a value.
+    pub exists: bool,
+    /// How far apart two numbers are that comparisons do not find equal, where that is more than the least bit.
+    pub equal_within: Option<Num>,
+    /// To how many digits behind the point a number is looked at that must be whole, where that is not exactly so.
+    pub whole: Option<u8>,
+    /// Values of the control's own that a program can ask for.
+    pub system: Vec<System>,
+    /// Whether a condition is worth 1 or 0 wherever a number can stand.
+    pub worth: bool,
+    /// Whether programs with variables of their own have names.
+    pub named_programs: bool,
     /// Statements that not every language has.
     pub statements: Vec<Said>,
     /// Operators.
@@ -107,10 +184,12 @@ impl Computes {
             })
         };
         match var {
-            Var::Local(name) => among(&self.local, name) || self.names && is_name(name),
-            Var::Common(name) => among(&self.common, name),
+            Var::Local(name) => {
+                among(&self.local, name) || self.names && is_name(name) || self.is_name(name, false)
+            }
+            Var::Common(name) => among(&self.common, name) || self.is_name(name, true),
             Var::Retentive(name) => among(&self.retentive, name),
-            Var::System(_) => false,
+            Var::System(system) => self.system.contains(system),
         }
     }
 
@@ -123,6 +202,13 @@ impl Computes {
         };
         *range.prefix == *self.prefix
             && ranges.iter().any(|[from, to]| *from <= range.from && range.to <= *to)
+    }
+
+    /// Whether it is a name that a variable can have, of a call or of all programs; letters count as the same, large
+    /// or small.
+    pub fn is_name(&self, name: &str, common: bool) -> bool {
+        let Some(named) = &self.named else { return false };
+        (!common || named.common.is_some()) && *named.adapted(name, common) == *name
     }
 
     /// The first place that cannot be said.
@@ -164,6 +250,20 @@ fn stops(body: &[Stmt]) -> bool {
 /// The name of an operator or a function, as in the text form.
 fn called(of: &impl std::fmt::Debug) -> String {
     format!("{of:?}").to_lowercase()
+}
+
+/// What a number of turns is rounded from, and held above none, as the control does by itself.
+pub fn counted(times: &Expr) -> &Expr {
+    if let Expr::Node(node) = times
+        && let Node::Call(Function::Max, both) = &**node
+        && let [Expr::Node(rounded), Expr::Num(least)] = &both[..]
+        && least.is_zero()
+        && let Node::Call(Function::Round, inner) = &**rounded
+        && let [inner] = &inner[..]
+    {
+        return inner;
+    }
+    times
 }
 
 struct Look<'c> {
@@ -272,7 +372,7 @@ impl Look<'_> {
             Control::Repeat { times, body } if times.literal().is_some() => self.body(body, loops),
             Control::Repeat { times, body } => {
                 self.has(Said::Times, "a loop that is repeated a computed number of times", at)?;
-                self.expr(times, at)?;
+                self.expr(counted(times), at)?;
                 self.body(body, deeper()?)
             }
             Control::For { variable, from, to, step, body } => {
@@ -325,6 +425,19 @@ impl Look<'_> {
             Node::Unary(Unary::Negate, a) => self.expr(a, at),
             Node::Unary(Unary::Not, a) if self.computes.opposite => self.expr(a, at),
             Node::Unary(Unary::Not, _) => Err(refuse("the opposite of a condition", at)),
+            Node::Binary(Binary::NotEqual, Expr::Node(a), Expr::Node(b))
+                if self.computes.exists && matches!(**b, Node::Vacant) =>
+            {
+                match &**a {
+                    Node::Var(var @ Var::Local(name)) if self.computes.is_name(name, false) => {
+                        self.variable(var, at)
+                    }
+                    Node::Var(var @ Var::Common(name)) if self.computes.is_name(name, true) => {
+                        self.variable(var, at)
+                    }
+                    _ => Err(refuse("whether a variable without a name has a value", at)),
+                }
+            }
             Node::Binary(operator, a, b) => {
                 if !self.computes.operators.contains(operator) {
                     return Err(refuse(format!("the operator {}", called(operator)), at));

@@ -14,6 +14,7 @@ pub mod caps;
 pub mod computes;
 pub mod corner;
 pub mod cycle;
+pub mod decimals;
 pub mod diag;
 pub mod exec;
 pub mod expr;

@@ -68,6 +68,14 @@ impl Writer {
         self.computing.own = self.dialect.named_values().collect();
         let known = procedures.iter().skip(1).map(|p| (p.name.clone(), p.parameters.clone()));
         self.computing.parameters = known.collect();
+        if self.has_o_words() {
+            self.know_o_words(procedures);
+        }
+    }
+
+    /// Parameters of a procedure.
+    pub(super) fn parameters_of(&self, name: &str) -> Vec<Var> {
+        self.computing.parameters.get(name).cloned().unwrap_or_default()
     }
 
     /// Gives every block of a procedure that is jumped to its number.
@@ -152,6 +160,12 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
+        if self.has_o_words()
+            && let Target::Var(var) = to
+            && self.o_result(var, value)?
+        {
+            return Ok(());
+        }
         let text = self.assignment(to, value, span, sink)?;
         self.statement_alone(&text, sink)
     }
@@ -165,7 +179,11 @@ impl Writer {
     ) -> Result<String, Fault> {
         self.spelling(None)?;
         self.variable_changes()?;
-        let value = self.expression(value, span, sink)?;
+        let value = match value {
+            // Where a value is no sum without brackets.
+            Expr::Node(_) if self.has_o_words() => self.behind(value, None, span, sink)?,
+            _ => self.expression(value, span, sink)?,
+        };
         Ok(self.sets(&self.spelling(None)?.target(to)?, &value))
     }
 
@@ -211,6 +229,9 @@ impl Writer {
     /// A decision or a loop.
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.spelling(None)?;
+        if self.has_o_words() {
+            return self.o_structure(control, stmt, sink);
+        }
         match control {
             Control::If { condition, then, otherwise } => match (&then[..], &otherwise[..]) {
                 ([Stmt { op: Op::Message(text), .. }, stop], []) => {
@@ -298,6 +319,9 @@ impl Writer {
     /// A call with variables of its own.
     pub(crate) fn macro_call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.spelling(None)?;
+        if self.has_o_words() {
+            return self.o_call(call, stmt, sink);
+        }
         let words = self.codes.macro_call.ok_or_else(|| cannot_compute("a call with arguments"))?;
         self.flow(stmt, sink)?;
         let number = self.program_number(&call.name)?;

@@ -7,14 +7,16 @@
 
 use std::collections::BTreeMap;
 
-use ncc_dialects::{ANGLE_RANGE, FormulaRules};
+use ncc_dialects::{ANGLE_RANGE, FormulaRules, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::Text;
 use ncc_ir::source::Span;
+use ncc_ir::system::System;
 
 use super::codes::Letter;
+use super::comparisons::{exactly, holds_or_not, nearly, within};
 use super::number::Worth;
 use super::{Sink, Writer};
 
@@ -36,6 +38,8 @@ pub(crate) struct Spelling<'d> {
     rules: &'d FormulaRules,
     /// Values of the control's own.
     own: &'d [(u32, Expr)],
+    /// What the control calls its own values.
+    system: &'d [SystemRow],
     blanks: bool,
     /// Whether angles of arcs go from 0 to a turn.
     turn: bool,
@@ -59,6 +63,17 @@ impl Spelling<'_> {
             return Ok(());
         }
         out.push_str(&self.rules.variable);
+        if let Var::System(system) = var {
+            out.push_str(&self.own_value(system)?);
+            return Ok(());
+        }
+        if let Some(name) = self.named(var) {
+            let mut signs = self.rules.name_signs.chars();
+            out.extend(signs.next());
+            out.push_str(name);
+            out.extend(signs.next());
+            return Ok(());
+        }
         out.push_str(&self.rules.prefix);
         out.push_str(&number_of(var, &self.rules.prefix)?);
         Ok(())
@@ -95,7 +110,7 @@ impl Spelling<'_> {
         let within = Spelling { digits: None, ..*self };
         let Some([open, close]) = &self.rules.index else {
             return match &element.at[..] {
-                [number] => within.bracketed(number, depth, out),
+                [number] => within.bracketed(self.whole(number), depth, out),
                 _ => Err(cannot_compute("a variable of several numbers")),
             };
         };
@@ -106,6 +121,39 @@ impl Spelling<'_> {
         }
         out.push_str(close);
         Ok(())
+    }
+
+    /// The name of a variable that has one, and no number.
+    fn named<'v>(&self, var: &'v Var) -> Option<&'v str> {
+        let (name, common) = match var {
+            Var::Local(name) => (name, false),
+            Var::Common(name) => (name, true),
+            Var::Retentive(_) | Var::System(_) => return None,
+        };
+        let global = self.rules.named.as_ref()?.common.as_deref().filter(|sign| !sign.is_empty());
+        let number = name.bytes().all(|b| b.is_ascii_digit());
+        let fits = global.is_none_or(|global| name.starts_with(global) == common);
+        (!number && fits).then_some(&**name)
+    }
+
+    /// Whether it is a value of the control's own that has a name.
+    fn has_name(&self, node: &Node) -> bool {
+        let Node::Var(Var::System(system)) = node else { return false };
+        self.own_value(system).is_ok_and(|spelt| spelt.starts_with('<'))
+    }
+
+    /// What the control calls one of its own values.
+    fn own_value(&self, system: &System) -> Result<String, Fault> {
+        let all = self.system.iter().flat_map(SystemRow::says).filter(|(own, _)| own == system);
+        // A name says more than a number.
+        let found = all.map(|(_, spelt)| spelt).min_by_key(|spelt| !spelt.starts_with('<'));
+        found.ok_or_else(|| cannot_compute(format!("the system variable {system}")))
+    }
+
+    /// What is looked at as a whole number, without the rounding that the control does by itself.
+    pub(crate) fn whole<'e>(&self, e: &'e Expr) -> &'e Expr {
+        let (digits, inner) = rounding(e);
+        if digits.is_some() && digits == self.rules.whole { inner } else { e }
     }
 
     /// An expression in brackets.
@@ -132,10 +180,22 @@ impl Spelling<'_> {
             }
             Expr::Node(node) => &**node,
         };
-        if let Some((number, _)) = self.own.iter().find(|(_, value)| value == e) {
+        if !self.has_name(node)
+            && let Some((number, _)) = self.own.iter().find(|(_, value)| value == e)
+        {
             out.push_str(&self.rules.variable);
             out.push_str(&number.to_string());
             return Ok(());
+        }
+        if let Some(tolerance) = self.rules.tolerance() {
+            if let Some((operator, a, b)) = within(node, tolerance) {
+                return self.operation(operator, [a, b], least, first, depth, out);
+            }
+            match exactly(node) {
+                Some((opposite, true)) => return self.opposite(&opposite, least, depth, out),
+                Some((same, false)) => return self.expr(&same, least, first, depth, out),
+                None => {}
+            }
         }
         if let Some((operator, a, b)) = nearly(node).filter(|_| self.rules.near) {
             return self.operation(operator, [a, b], least, first, depth, out);
@@ -148,6 +208,14 @@ impl Spelling<'_> {
             }
             Node::Var(var) => self.variable(var, out),
             Node::Element(element) => self.element(element, depth, out),
+            Node::Binary(Binary::NotEqual, Expr::Node(a), Expr::Node(b))
+                if self.rules.exists.is_some() && **b == Node::Vacant =>
+            {
+                self.exists(a, out)
+            }
+            Node::Unary(Unary::Not, a) if self.rules.not_behind.is_some() => {
+                self.opposite(a, least, depth, out)
+            }
             Node::Unary(Unary::Negate, a) => self.negative(e, a, first, depth, out),
             Node::Unary(Unary::Not, a) => {
                 let word = self.rules.not.as_ref();
@@ -170,11 +238,67 @@ impl Spelling<'_> {
                 }
                 self.operation(*operator, [a, b], least, first, depth, out)
             }
+            Node::Call(Function::Given, arguments) if self.rules.exists.is_some() => match &arguments[..] {
+                [a] => self.expr(a, least, first, depth, out),
+                _ => Err(cannot_compute("this function")),
+            },
+            Node::Call(Function::Remainder, arguments) => match (&self.rules.remainder, &arguments[..]) {
+                (Some(word), [a, b]) => {
+                    let own = self.tie(Binary::Modulo).ok_or_else(|| cannot_compute("this operator"))?;
+                    self.joined(word, own, [a, b], least, first, depth, out)
+                }
+                _ => Err(cannot_compute("this function")),
+            },
             Node::Call(function, arguments) => match (self.rules.by_bits(*function), &arguments[..]) {
                 (Some(operator), [a, b]) => self.operation(operator, [a, b], least, first, depth, out),
                 _ => self.call(*function, arguments, depth, out),
             },
         }
+    }
+
+    /// Whether a variable with a name has a value.
+    fn exists(&self, of: &Node, out: &mut String) -> Result<(), Fault> {
+        let (Some(word), Node::Var(var)) = (&self.rules.exists, of) else {
+            return Err(cannot_compute("whether a variable has a value"));
+        };
+        if self.named(var).is_none() {
+            return Err(cannot_compute("whether a variable without a name has a value"));
+        }
+        out.push_str(word);
+        out.push_str(&self.rules.open);
+        self.variable(var, out)?;
+        out.push_str(&self.rules.close);
+        Ok(())
+    }
+
+    /// The opposite of a condition, which is a number here: zero, where it holds.
+    fn opposite(&self, e: &Expr, least: Tie, depth: u8, out: &mut String) -> Result<(), Fault> {
+        let word = self.rules.not_behind.as_ref();
+        let word = word.ok_or_else(|| cannot_compute("the opposite of a condition"))?;
+        let own = self.tie(Binary::Equal).ok_or_else(|| cannot_compute("this operator"))?;
+        if own > least {
+            out.push_str(&self.rules.open);
+            self.opposite(e, LOOSEST, depth + 1, out)?;
+            out.push_str(&self.rules.close);
+            return Ok(());
+        }
+        let zero = || Expr::int(0);
+        let of = |operator, a: Expr, b: Expr| Expr::Node(Box::new(Node::Binary(operator, a, b)));
+        match holds_or_not(e) {
+            true => self.bracketed(e, depth, out)?,
+            // As near to zero as can be is something else.
+            false => {
+                let other = of(
+                    Binary::Or,
+                    of(Binary::Less, e.clone(), zero()),
+                    of(Binary::Greater, e.clone(), zero()),
+                );
+                self.bracketed(&other, depth, out)?;
+            }
+        }
+        out.push(' ');
+        out.push_str(word);
+        Ok(())
     }
 
     fn operation(
@@ -187,18 +311,35 @@ impl Spelling<'_> {
         out: &mut String,
     ) -> Result<(), Fault> {
         let own = self.tie(operator).ok_or_else(|| cannot_compute("this operator"))?;
+        let word = self.rules.operator(operator);
+        let word = word.ok_or_else(|| cannot_compute("this operator"))?;
+        self.joined(word, own, [a, b], least, first, depth, out)
+    }
+
+    /// Two values with a word between them that binds so.
+    #[allow(clippy::too_many_arguments)]
+    fn joined(
+        &self,
+        word: &str,
+        own: Tie,
+        [a, b]: [&Expr; 2],
+        least: Tie,
+        first: bool,
+        depth: u8,
+        out: &mut String,
+    ) -> Result<(), Fault> {
         if own > least {
             if depth >= self.rules.brackets {
                 return Err(cannot_compute("brackets within so many others"));
             }
             out.push_str(&self.rules.open);
-            self.operation(operator, [a, b], LOOSEST, true, depth + 1, out)?;
+            self.joined(word, own, [a, b], LOOSEST, true, depth + 1, out)?;
             out.push_str(&self.rules.close);
             return Ok(());
         }
-        let word = self.rules.operator(operator);
-        let word = word.ok_or_else(|| cannot_compute("this operator"))?;
-        self.expr(a, own, first, depth, out)?;
+        // A comparison of what a comparison is worth is one that nobody reads without brackets.
+        let compares = Some(own) == self.tie(Binary::Equal);
+        self.expr(a, if compares { own - 1 } else { own }, first, depth, out)?;
         let apart = self.blanks || word.bytes().all(|b| b.is_ascii_alphabetic());
         let blank = if apart { " " } else { "" };
         out.push_str(blank);
@@ -280,52 +421,6 @@ impl Spelling<'_> {
     }
 }
 
-/// A comparison that finds equal what is nearly so, as a control does it by itself.
-fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
-    fn equal(e: &Expr) -> Option<(&Expr, &Expr)> {
-        let Expr::Node(node) = e else { return None };
-        match &**node {
-            Node::Call(Function::NearRatio, arguments) => match &arguments[..] {
-                [a, b, _] => Some((a, b)),
-                _ => None,
-            },
-            _ => None,
-        }
-    }
-    fn other(e: &Expr) -> Option<(&Expr, &Expr)> {
-        let Expr::Node(node) = e else { return None };
-        match &**node {
-            Node::Unary(Unary::Not, a) => equal(a),
-            _ => None,
-        }
-    }
-    fn compares(e: &Expr) -> Option<(Binary, &Expr, &Expr)> {
-        let Expr::Node(node) = e else { return None };
-        match &**node {
-            Node::Binary(operator, a, b) => Some((*operator, a, b)),
-            _ => None,
-        }
-    }
-    match node {
-        Node::Call(Function::NearRatio, arguments) => match &arguments[..] {
-            [a, b, _] => Some((Binary::Equal, a, b)),
-            _ => None,
-        },
-        Node::Unary(Unary::Not, a) => equal(a).map(|(a, b)| (Binary::NotEqual, a, b)),
-        Node::Binary(Binary::And, exact, near) => {
-            let found = compares(exact)?;
-            let same = other(near) == Some((found.1, found.2));
-            (same && matches!(found.0, Binary::Less | Binary::Greater)).then_some(found)
-        }
-        Node::Binary(Binary::Or, exact, near) => {
-            let found = compares(exact)?;
-            let same = equal(near) == Some((found.1, found.2));
-            (same && matches!(found.0, Binary::LessOrEqual | Binary::GreaterOrEqual)).then_some(found)
-        }
-        _ => None,
-    }
-}
-
 /// The function of an arc whose angle is brought between 0 and a turn, as a control that has it there does.
 fn from_zero<'e>(operator: Binary, a: &'e Expr, b: &Expr) -> Option<(Function, &'e [Expr])> {
     let turn = |e: &Expr| *e == Expr::int(360);
@@ -390,6 +485,7 @@ impl Writer {
         Ok(Spelling {
             rules: &self.dialect.formula,
             own: &self.computing.own,
+            system: &self.dialect.system,
             blanks: self.dialect.block.blanks,
             turn: self.settings.get(ANGLE_RANGE) == "turn",
             digits,
@@ -439,6 +535,7 @@ impl Writer {
             },
             Expr::Num(_) => e,
         };
+        let e = given(e);
         match e {
             Expr::Node(node) if matches!(**node, Node::Var(_) | Node::Element(_) | Node::Vacant) => {
                 spelling.expr(e, 0, true, 0, &mut out)?;
@@ -459,6 +556,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<Worth, Fault> {
+        let value = if letter.format.counts { self.spelling(None)?.whole(value) } else { value };
         let (said, inner) = rounding(value);
         let rounds = letter.format.rounds.filter(|_| self.dialect.formula.rounds);
         let digits = match (said, rounds) {
@@ -489,6 +587,17 @@ impl Writer {
         if arcs(e) {
             self.rely(ANGLE_RANGE, span, sink);
         }
+    }
+}
+
+/// What must have a value, as that value.
+fn given(e: &Expr) -> &Expr {
+    match e {
+        Expr::Node(node) => match &**node {
+            Node::Call(Function::Given, arguments) => arguments.first().unwrap_or(e),
+            _ => e,
+        },
+        Expr::Num(_) => e,
     }
 }
 

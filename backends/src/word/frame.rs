@@ -74,6 +74,9 @@ impl Writer {
 
     /// Writes a subprogram, after all of the main procedure.
     pub fn procedure(&mut self, p: &Procedure, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
+        if self.is_o_sub(&p.name) {
+            return;
+        }
         let mut sink = Sink { out, diags };
         self.no_event(&mut sink);
         let span = p.body.first().map_or(Span::default(), |s| s.span);

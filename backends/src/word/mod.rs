@@ -10,6 +10,7 @@ mod alarm;
 pub(crate) mod block;
 pub(crate) mod codes;
 pub(crate) mod comment;
+mod comparisons;
 mod computing;
 mod corner;
 mod cycles;
@@ -22,6 +23,7 @@ mod jump_of;
 pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod number;
+mod o_words;
 mod plain;
 mod polar;
 mod repeat;
@@ -139,6 +141,8 @@ pub struct Writer {
     computing: computing::Computing,
     /// Names of the variables of the procedure at hand, as they are spelt.
     pub(crate) variables: BTreeMap<Text, String>,
+    /// What is known of its O words.
+    o_words: o_words::OWords,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
     /// Whether lengths are taken up with control of the tool's tip.
@@ -221,6 +225,7 @@ impl Writer {
             labels: repeat::Labels::default(),
             computing: computing::Computing::default(),
             variables: BTreeMap::new(),
+            o_words: o_words::OWords::default(),
             polar: false,
             tip: false,
             units_stated: [false; 2],
@@ -242,7 +247,8 @@ impl Writer {
         self.number_labels(stmts);
         self.number_jumps(stmts);
         self.look_ahead(stmts);
-        self.body(stmts, &mut sink);
+        let lead = self.o_subs(stmts, &mut sink);
+        self.body(&stmts[lead..], &mut sink);
     }
 
     /// Takes a shop's choices for the form of the text.

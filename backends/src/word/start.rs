@@ -4,7 +4,7 @@
 //! granted; a fact that neither knows is left out. Comments that come before wait behind it.
 
 use ncc_dialects::SafeStart;
-use ncc_ir::canon::{Axis, Distance, Fact, Modes};
+use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
@@ -32,6 +32,13 @@ pub(crate) struct Preamble {
     number: Option<u32>,
     /// Comments and blank lines.
     pub held: Vec<u8>,
+}
+
+impl Preamble {
+    /// Units that the source has stated.
+    pub(crate) fn units(&self) -> Option<Units> {
+        self.said.units
+    }
 }
 
 impl Writer {

@@ -12,6 +12,7 @@ use super::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
 use super::formula::cannot_compute;
 use super::modes::{Setting, cannot};
 use super::number::{self, Shaped, Unwritable, Worth};
+use super::o_words::is_no_result_yet;
 use super::{Sink, Writer};
 
 impl Writer {
@@ -20,6 +21,9 @@ impl Writer {
     /// # Errors
     /// The dialect cannot say it.
     pub(crate) fn statement(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
+        if self.has_o_words() && is_no_result_yet(stmt) {
+            return Ok(());
+        }
         if self.preamble.is_some() && self.absorb(stmt, sink)? {
             return Ok(());
         }
@@ -170,7 +174,14 @@ impl Writer {
             }
             Op::Message(text) => self.message(text, sink),
             Op::Call(call) => self.call(call, stmt, sink),
-            Op::Return => self.m_code(Rank::Call, codes.back, "a return from a subprogram", sink),
+            Op::Return => match self.o_return(stmt, sink) {
+                Some(written) => written,
+                None => self.m_code(Rank::Call, self.codes.back, "a return from a subprogram", sink),
+            },
+            Op::MessageOf(pieces) if self.has_o_words() => self.o_message(pieces, span, sink),
+            Op::Alarm(alarm) if self.has_o_words() => self.o_alarm(alarm, sink),
+            Op::Leave if self.has_o_words() => self.o_leave(false, stmt, sink),
+            Op::NextTurn if self.has_o_words() => self.o_leave(true, stmt, sink),
             Op::MessageOf(_) => Err(cannot("a message with values in it")),
             Op::Alarm(alarm) => self.alarm(alarm, stmt, sink),
             Op::Declare(_) => Err(cannot_compute("a variable that is made known")),

@@ -7,9 +7,10 @@ use ncc_ir::caps::{
 use ncc_ir::computes::Computes;
 use ncc_ir::expr::Function;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
+use ncc_ir::system::System;
 
 use crate::cycles::{CycleRow, PatternRow};
-use crate::formula::Statement;
+use crate::formula::{Handing, Statement};
 use crate::meaning::{Meaning, Thread};
 use crate::names::{CallKind, CallRow, FrameWord, NameMeaning, NameRole, ParameterRole};
 use crate::power_on::SafeStart;
@@ -349,9 +350,11 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 functions: {
                     let by_bits = [Function::BitAnd, Function::BitOr, Function::BitXor];
                     let own = rules.functions.keys().map(|function| (*function).into());
-                    own.chain(rules.between.keys().map(|function| (*function).into()))
-                        .chain(by_bits.into_iter().filter(|f| rules.by_bits(*f).is_some()))
-                        .collect()
+                    let remainder = rules.remainder.iter().map(|_| Function::Remainder);
+                    let given = rules.exists.iter().map(|_| Function::Given);
+                    let by_bits = by_bits.into_iter().filter(|f| rules.by_bits(*f).is_some());
+                    let between = rules.between.keys().map(|function| (*function).into());
+                    own.chain(between).chain(remainder).chain(given).chain(by_bits).collect()
                 },
                 names: rules.names,
                 whole_remainder: rules.whole_remainder,
@@ -360,19 +363,33 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),
                 loops: rules.loops,
-                arguments: rules.calls || says(Meaning::CallMacro),
+                arguments: rules.calls || says(Meaning::CallMacro) || rules.parameters != Handing::Letters,
+                handed: rules.parameters.into(),
+                shares: rules.parameters == Handing::Letters,
+                named: rules.with_names(dialect.name.iter().map(|row| row.name.as_str())),
                 arguments_again: rules.arguments_again,
+                exists: rules.exists.is_some(),
+                equal_within: rules.tolerance(),
+                whole: rules.whole,
+                system: systems(dialect),
+                worth: rules.not_behind.is_some(),
+                named_programs: dialect.program.o_words,
                 prefix: rules.prefix.as_str().into(),
                 vacant: rules.vacant.is_some(),
                 rounds: rules.rounds,
                 blocks: rules.blocks,
-                opposite: rules.not.is_some(),
+                opposite: rules.not.is_some() || rules.not_behind.is_some(),
                 near: rules.near,
                 restates: rules.restates,
             })
         }),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
     }
+}
+
+/// Values of the control's own that a program of the dialect can ask for.
+fn systems(dialect: &Dialect) -> Vec<System> {
+    dialect.system.iter().flat_map(|row| row.says().map(|(system, _)| system)).collect()
 }
 
 /// Whether a code, a word or a call gives this advice.

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use ncc_ir::computes::Said;
+use ncc_ir::computes::{Handed, Named, Said};
 use ncc_ir::expr::{Binary, Function, Var};
+use ncc_ir::num::{Num, Unit};
 use serde::Deserialize;
 
 /// Words of the language in which a program computes (`[program] macro_b`), each by what it means; what has no
@@ -50,6 +51,19 @@ pub struct FormulaRules {
     pub behind: String,
     /// The word for the opposite of a condition.
     pub not: Option<String>,
+    /// What stands behind a condition in brackets to make its opposite, of a control whose conditions are numbers.
+    pub not_behind: Option<String>,
+    /// The operator of a remainder that is never negative.
+    pub remainder: Option<String>,
+    /// The word for whether a variable with a name has a value.
+    pub exists: Option<String>,
+    /// How far apart two numbers are, as a decimal, that comparisons do not find equal; without, the least bit.
+    pub equal_within: Option<String>,
+    /// To how many digits behind the point a number is looked at that must be whole: in words that count, and of a
+    /// variable whose number is computed.
+    pub whole: Option<u8>,
+    /// Between which signs a name stands.
+    pub name_signs: String,
     /// Whether comparisons find real numbers equal that are nearly so.
     pub near: bool,
     /// Whether a word rounds what is computed for it to its increment.
@@ -79,6 +93,41 @@ pub struct FormulaRules {
     /// Whether a call that is made several times begins each of them with the same arguments and no other
     /// variables; else a program with variables of its own is called once.
     pub arguments_again: bool,
+    /// How arguments come to the variables of what is called.
+    pub parameters: Handing,
+    /// Variables with names.
+    pub named: Option<VariableNames>,
+    /// Who says so.
+    pub source: String,
+}
+
+/// How arguments come to the variables of what is called.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Handing {
+    /// Each letter is a variable of its own, by its number (custom macros).
+    #[default]
+    Letters,
+    /// One after the other: the first one is variable 1.
+    Places,
+    /// By the names in the head of what is called.
+    Names,
+}
+
+/// Variables with names. Those of a call have them; those that all programs see, where `common` says so.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct VariableNames {
+    /// With what the names of those begin that all programs see.
+    pub common: Option<String>,
+    /// Whether they are written in capitals.
+    pub capitals: bool,
+    /// How many letters or underlines they begin with.
+    pub letters: usize,
+    /// Most characters.
+    pub longest: usize,
+    /// Words beyond those of the dictionary that no variable can be called.
+    pub reserved: Vec<String>,
     /// Who says so.
     pub source: String,
 }
@@ -133,6 +182,7 @@ pub enum Operator {
     Multiply,
     Divide,
     Modulo,
+    Power,
     Equal,
     NotEqual,
     Less,
@@ -179,6 +229,7 @@ impl From<Operator> for Binary {
             Operator::Multiply => Binary::Multiply,
             Operator::Divide => Binary::Divide,
             Operator::Modulo => Binary::Modulo,
+            Operator::Power => Binary::Power,
             Operator::Equal => Binary::Equal,
             Operator::NotEqual => Binary::NotEqual,
             Operator::Less => Binary::Less,
@@ -219,7 +270,39 @@ impl From<FunctionName> for Function {
     }
 }
 
+impl From<Handing> for Handed {
+    fn from(handing: Handing) -> Handed {
+        match handing {
+            Handing::Letters => Handed::Letters,
+            Handing::Places => Handed::Places,
+            Handing::Names => Handed::Names,
+        }
+    }
+}
+
 impl FormulaRules {
+    /// Variables with names, which the words of the dictionary cannot be.
+    pub(crate) fn with_names<'d>(&'d self, words: impl Iterator<Item = &'d str>) -> Option<Named> {
+        let rules = self.named.as_ref()?;
+        let own =
+            self.functions.values().chain(self.operators.values()).chain(&rules.reserved).chain(&self.not);
+        let all = own.map(String::as_str).chain(words).map(|word| word.to_ascii_uppercase().into());
+        Some(Named {
+            common: rules.common.as_deref().map(Into::into),
+            capitals: rules.capitals,
+            letters: rules.letters,
+            longest: rules.longest,
+            reserved: all.collect(),
+        })
+    }
+
+    /// How far apart two numbers are that comparisons do not find equal.
+    pub fn tolerance(&self) -> Option<Num> {
+        let (whole, rest) = self.equal_within.as_deref()?.split_once('.')?;
+        let mantissa = format!("{whole}{rest}").parse().ok()?;
+        Some(Num { mantissa, scale: u8::try_from(rest.len()).ok()?, point: true, unit: Unit::One })
+    }
+
     /// The word of an operator.
     pub fn operator(&self, operator: Binary) -> Option<&str> {
         self.operators.iter().find(|(own, _)| Binary::from(**own) == operator).map(|(_, word)| word.as_str())

@@ -2,7 +2,7 @@
 //!
 //! Not here: what the values are for (`ncc_ir::program::Data`).
 
-use ncc_ir::canon::Axis;
+use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::expr::{Binary, Expr, Node, Var};
 use ncc_ir::program::ToolValue;
 use ncc_ir::system::System;
@@ -204,6 +204,33 @@ impl SystemRow {
                 Some(before) => node(Node::Binary(Binary::Add, before, worth)),
             }))
         })?
+    }
+
+    /// Values that it is by itself, each with how a program names it behind the sign of variables: by the row's name,
+    /// else by its number. Those that count in the machine's own unit, or are several together, are none.
+    pub fn says(&self) -> impl Iterator<Item = (System, String)> + '_ {
+        let plain = self.refuse.is_none() && !self.machine_units && !self.means.is_empty();
+        let places = match (self.axes, self.count as usize) {
+            (true, 0) => AXES,
+            (true, count) => count.min(AXES),
+            (false, _) => 1,
+        };
+        (0..places).filter(move |_| plain).filter_map(move |place| {
+            let means = match self.axes {
+                true => {
+                    format!("{}.{}", self.means, char::from(Axis::ALL[place].letter().to_ascii_lowercase()))
+                }
+                false => self.means.clone(),
+            };
+            let spelt = match self.name.is_empty() {
+                true => (self.number + place as u32).to_string(),
+                false => format!("<{}>", self.name),
+            };
+            match System::named(&means) {
+                System::Other(_) => None,
+                system => Some((system, spelt)),
+            }
+        })
     }
 
     /// The numbers of its parameters.

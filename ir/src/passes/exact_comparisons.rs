@@ -12,7 +12,8 @@ use crate::program::Program;
 
 /// Says comparisons without a tolerance.
 pub fn run(program: &mut Program, computes: &Computes, diags: &mut Vec<Diagnostic>) {
-    if computes.near {
+    // One with a tolerance of its own takes it for this one (`arithmetic`).
+    if computes.near || computes.equal_within.is_some() {
         return;
     }
     let mut told = None;

@@ -8,6 +8,7 @@
 pub mod absolute_holes;
 pub mod approach;
 pub mod arc_form;
+pub mod arithmetic;
 mod at_once;
 pub mod control_forms;
 pub mod convert_arcs;

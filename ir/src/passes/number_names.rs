@@ -27,6 +27,10 @@ pub(super) fn over(program: &mut Program, target: &Target, diags: &mut Vec<Diagn
         name.bytes().all(|b| b.is_ascii_digit())
             && name.parse::<u32>().is_ok_and(|n| n > 0 && n < limit(digits))
     };
+    // With variables of their own they may have names there; what a code calls has a number.
+    let named = target.caps.computes.as_ref().is_some_and(|computes| computes.named_programs);
+    let called = called_as_own(program, named);
+    let fits = |name: &str| fits(name) || called.contains(name);
     let subs = || program.procedures.iter().skip(1);
     if digits == 0 || subs().all(|p| fits(&p.name)) {
         return;
@@ -52,6 +56,28 @@ pub(super) fn over(program: &mut Program, target: &Target, diags: &mut Vec<Diagn
     for procedure in &mut program.procedures {
         rename(&mut procedure.body, &new);
     }
+}
+
+/// Programs that no call shares its variables with, where those have names.
+fn called_as_own(program: &Program, named: bool) -> BTreeSet<Text> {
+    fn look(body: &[Stmt], shared: &mut BTreeSet<Text>) {
+        for stmt in body {
+            if let Op::Call(call) = &stmt.op {
+                if call.shared {
+                    shared.insert(call.name.clone());
+                }
+            } else if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| look(body, shared));
+            }
+        }
+    }
+    let mut shared = BTreeSet::new();
+    if !named {
+        return shared;
+    }
+    program.procedures.iter().for_each(|p| look(&p.body, &mut shared));
+    let subs = program.procedures.iter().skip(1).map(|p| p.name.clone());
+    subs.filter(|name| !shared.contains(name)).collect()
 }
 
 fn limit(digits: u32) -> u32 {

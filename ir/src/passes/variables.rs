@@ -428,6 +428,9 @@ impl<'p> Assigned<'p> {
             Node::Var(_) | Node::Vacant => Ok(()),
             Node::Element(element) => element.at.iter().try_for_each(|index| self.reads(index, at)),
             Node::Unary(_, a) => self.reads(a, at),
+            // Whether it has a value is what is asked, or an error in both programs.
+            Node::Binary(Binary::NotEqual, _, Expr::Node(b)) if **b == Node::Vacant => Ok(()),
+            Node::Call(Function::Given, _) => Ok(()),
             Node::Binary(_, a, b) => {
                 self.reads(a, at)?;
                 self.reads(b, at)
