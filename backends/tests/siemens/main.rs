@@ -56,6 +56,16 @@ pub(crate) fn refused(stmts: &[Stmt]) -> String {
     what.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))
 }
 
+/// What of a program that computes is refused.
+pub(crate) fn not_computed(stmts: &[Stmt]) -> String {
+    let (text, diags) = text(stmts);
+    let what = diags.iter().find_map(|d| match &d.fault {
+        Fault::Computes { what } => Some(what.to_string()),
+        _ => None,
+    });
+    what.unwrap_or_else(|| panic!("said:\n{text}{diags:?}"))
+}
+
 /// A whole program: head, main, subprograms, end.
 pub(crate) fn program(main: &[Stmt], procedures: &[Procedure], layout: Layout) -> String {
     let mut w = writer(layout);

@@ -60,14 +60,14 @@ fn labels_and_repetitions() {
     assert_eq!(text(&lines(vec![rapid("X0."), Op::Goto("PASS".into())])).0, "G0 X0\nGOTOF PASS\n");
     let endless = Op::Control(Box::new(Control::Loop { body: Vec::new() }));
     assert_eq!(text(&lines(vec![rapid("X0."), endless])).0, "G0 X0\nLOOP\nENDLOOP\n");
-    let counted = Control::For {
-        variable: ncc_ir::expr::Var::Common("R1".into()),
-        from: Expr::int(1),
-        to: Expr::int(2),
-        step: Expr::int(1),
-        body: Vec::new(),
+    let counted = |step| {
+        let variable = ncc_ir::expr::Var::Common("R1".into());
+        let (from, to, step, body) = (Expr::int(1), Expr::int(2), Expr::int(step), Vec::new());
+        Op::Control(Box::new(Control::For { variable, from, to, step, body }))
     };
-    assert_eq!(refused(&lines(vec![rapid("X0."), Op::Control(Box::new(counted))])), "a counted loop");
+    assert_eq!(text(&lines(vec![rapid("X0."), counted(1)])).0, "G0 X0\nFOR R1=1 TO 2\nENDFOR\n");
+    let by_twos = not_computed(&lines(vec![rapid("X0."), counted(2)]));
+    assert_eq!(by_twos, "a loop that counts otherwise than by ones");
 }
 
 #[test]

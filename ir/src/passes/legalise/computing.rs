@@ -9,6 +9,7 @@ use super::super::number_names;
 use super::{Legaliser, Target};
 use crate::arguments;
 use crate::canon::Modes;
+use crate::cycle::Cycle;
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::{drilling, flow};
 use crate::program::{Op, Program, Stmt};
@@ -30,13 +31,14 @@ impl Legaliser {
         let mut fresh = self.clone();
         fresh.lacks &= !(super::CONTROL | super::CALL);
         let first = fresh.clone();
+        let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             let start = match at {
                 0 => Some((first.clone(), assumed)),
                 _ => None,
             };
             let inherits = has_positions(&procedure.body);
-            let mut region = Region { fresh: &fresh, known, inherits, diags };
+            let mut region = Region { fresh: &fresh, known, inherits, levels, diags };
             region.body(&mut procedure.body, start);
         }
     }
@@ -62,10 +64,35 @@ fn has_positions(body: &[Stmt]) -> bool {
     })
 }
 
+/// Whether where cycles leave the tool is said nowhere but in the blocks that call them up.
+fn levels_with_cycles(body: &[Stmt]) -> bool {
+    let mut blocks = body.iter().enumerate().filter(|(_, stmt)| matches!(stmt.op, Op::SetReturnLevel(_)));
+    let with = blocks.all(|(at, _)| {
+        let same = body[at + 1..].iter().take_while(|stmt| stmt.joined);
+        same.into_iter().any(|stmt| matches!(stmt.op, Op::StartCycle(_)))
+    });
+    with && body.iter().all(|stmt| match &stmt.op {
+        Op::Control(control) => control.bodies().all(|body| levels_with_cycles(body)),
+        _ => true,
+    })
+}
+
+/// The same statement; with `levels`, a cycle may say its plane of return too, which no position changes.
+fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
+    match (was, is) {
+        (Op::StartCycle(was), Op::StartCycle(is)) if levels && was.return_plane.is_none() => {
+            **was == Cycle { return_plane: None, ..(**is).clone() }
+        }
+        _ => was == is,
+    }
+}
+
 struct Region<'l> {
     fresh: &'l Legaliser,
     known: &'l Known,
     inherits: bool,
+    /// Whether a cycle's plane of return is one for all its positions.
+    levels: bool,
     diags: &'l mut Vec<Diagnostic>,
 }
 
@@ -121,7 +148,7 @@ impl Region<'_> {
         let (mut was, mut is) = (before.iter().filter(relies), after.iter().filter(relies));
         loop {
             match (was.next(), is.next()) {
-                (Some(a), Some(b)) if a.op == b.op && a.skip == b.skip => {}
+                (Some(a), Some(b)) if as_before(&a.op, &b.op, self.levels) && a.skip == b.skip => {}
                 (None, None) => return None,
                 (a, b) => return a.or(b).map(|stmt| stmt.span),
             }
