@@ -199,6 +199,22 @@ impl Expr {
         Expr::Num(Num::int(value, Unit::One))
     }
 
+    /// Whether it follows from what is given a value; of variables whose number is computed, any may be one.
+    pub fn reads(&self, to: &Target) -> bool {
+        let Expr::Node(node) = self else { return false };
+        match &**node {
+            Node::Var(var) => match to {
+                Target::Var(to) => var == to,
+                Target::Element(_) => true,
+            },
+            Node::Element(_) => true,
+            Node::Vacant => false,
+            Node::Unary(_, a) => a.reads(to),
+            Node::Binary(_, a, b) => a.reads(to) || b.reads(to),
+            Node::Call(_, arguments) => arguments.iter().any(|a| a.reads(to)),
+        }
+    }
+
     /// The literal, if it is one.
     pub fn literal(&self) -> Option<Num> {
         match self {

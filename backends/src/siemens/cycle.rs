@@ -116,6 +116,7 @@ impl Writer {
         }
         self.settle_edge(span, sink)?;
         let text = self.cycle_text(cycle, stmt, sink)?;
+        self.variables.cycle_begins(cycle);
         let bores = matches!(cycle.kind, CycleKind::Bore { .. })
             && self.cycle_row(&cycle.kind, cycle.feed.is_some())?.place(Role::FeedIn).is_some();
         match (&cycle.feed, bores) {

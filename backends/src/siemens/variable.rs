@@ -9,6 +9,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::NameMeaning;
+use ncc_ir::arguments;
+use ncc_ir::cycle::Cycle;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
 use ncc_ir::program::{Alarm, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
@@ -17,7 +19,7 @@ use ncc_ir::types::Types;
 
 use super::statement::LONGEST_MESSAGE;
 use super::unit::tell;
-use super::{Sink, Writer};
+use super::{Modal, Sink, Writer};
 use crate::word::formula::cannot_compute;
 use crate::word::modes::cannot;
 
@@ -38,6 +40,20 @@ pub(super) struct Variables {
     /// Whether a block of the unit has been written that is no definition.
     executed: bool,
     told_alarm: bool,
+    /// What the cycle that was called last is computed from.
+    cycle: Vec<Expr>,
+}
+
+impl Variables {
+    /// Another cycle is called.
+    pub(super) fn cycle_begins(&mut self, cycle: &Cycle) {
+        self.cycle.clear();
+        arguments::each(&mut Op::StartCycle(Box::new(cycle.clone())), &mut |argument, _| {
+            self.cycle.extend(argument.expr().filter(|expr| expr.literal().is_none()).cloned());
+            Ok::<(), std::convert::Infallible>(())
+        })
+        .unwrap_or_else(|never| match never {});
+    }
 }
 
 /// A number that the program writes.
@@ -212,6 +228,9 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
+        if self.standing.modal != Modal::Off && self.variables.cycle.iter().any(|expr| expr.reads(to)) {
+            return Err(cannot_compute("an assignment to what the cycle in force was computed from"));
+        }
         let kind = match to {
             Target::Var(var) => self.variables.types.of_var(var),
             Target::Element(element) => self.variables.types.of_many(&element.of),

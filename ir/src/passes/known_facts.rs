@@ -3,13 +3,18 @@
 //! What is in force at the head of a loop is what is so before it and behind each turn; at a label, where every jump
 //! to it comes from; in a subprogram, at every call. Found by going through the program until nothing changes. What
 //! positions do that only a caller knows stays as it is. What holds where a stretch of blocks begins is kept for those
-//! who go on from there.
+//! who go on from there. A position in a loop or behind a label at which one cycle is in force, as it was called up,
+//! calls it up by itself: where control goes, a target may leave none in force.
 //!
 //! Not here: values of variables.
 
 use std::collections::{BTreeMap, HashMap};
 
 use super::expand_calls::{settle, settle_point};
+use crate::arguments;
+use crate::canon::Motion;
+use crate::cycle::Cycle;
+use crate::expr::Target;
 use crate::kinds::flow;
 use crate::program::{Control, Op, Program, Stmt, Text};
 use crate::track::Tracker;
@@ -36,7 +41,7 @@ pub fn run(program: &mut Program, entry: &Tracker) -> Known {
     let mut flow = Flow { names, ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {
-        main.entry = Some(entry.clone());
+        main.entry = Some(Held { at: entry.clone(), as_called: false });
     }
     for _ in 0..MOST_ROUNDS {
         flow.changed = false;
@@ -44,18 +49,100 @@ pub fn run(program: &mut Program, entry: &Tracker) -> Known {
         if !flow.changed {
             flow.settles = true;
             flow.over(program);
+            let cycles = flow.cycles;
+            program.procedures.iter_mut().for_each(|procedure| call_up(&mut procedure.body, &cycles));
             return Known { starts: flow.starts };
         }
     }
     Known::default()
 }
 
+/// What holds at a place.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Held {
+    at: Tracker,
+    /// Whether the cycle in force is as its block has called it up: the same words would call up the same.
+    as_called: bool,
+}
+
+impl Held {
+    fn join(&mut self, other: &Held) {
+        self.at.join(&other.at);
+        self.as_called &= other.as_called;
+    }
+
+    /// The cycle in force, if it is known and as it was called up.
+    fn cycle(&self) -> Option<&Cycle> {
+        let sure = self.as_called && !self.at.cycle_in_doubt && self.at.modes.motion == Some(Motion::Cycle);
+        self.at.cycle.as_ref().filter(|_| sure).map(|in_force| &in_force.cycle)
+    }
+
+    /// A variable gets another value.
+    fn sets(&mut self, to: &Target) {
+        let Some(in_force) = &self.at.cycle else { return };
+        let mut found = false;
+        arguments::each(&mut Op::StartCycle(Box::new(in_force.cycle.clone())), &mut |argument, _| {
+            found |= argument.expr().is_some_and(|expr| expr.reads(to));
+            Ok::<(), std::convert::Infallible>(())
+        })
+        .unwrap_or_else(|never| match never {});
+        self.as_called &= !found;
+    }
+
+    fn apply(&mut self, op: &Op) {
+        if let Op::Assign(to, _) = op {
+            self.sets(to);
+        } else if matches!(op, Op::StartCycle(_)) {
+            self.as_called = true;
+        } else if !matches!(
+            op,
+            Op::Hole(_)
+                | Op::Position(_)
+                | Op::Pattern(_)
+                | Op::SetDistanceMode(_)
+                | Op::Comment(_)
+                | Op::NoEffect(_)
+                | Op::Blank
+                | Op::Message(_)
+                | Op::MessageOf(_)
+                | Op::FloodOn
+                | Op::MistOn
+                | Op::CoolantOff
+                | Op::Declare(_)
+        ) {
+            self.as_called = false;
+        }
+        self.at.apply(op);
+    }
+}
+
+/// Positions at which a cycle is in force call it up by themselves.
+fn call_up(body: &mut Vec<Stmt>, cycles: &HashMap<u32, Option<Cycle>>) {
+    let mut out = Vec::with_capacity(body.len());
+    for mut stmt in std::mem::take(body) {
+        if let Op::Control(control) = &mut stmt.op {
+            control.bodies_mut().for_each(|body| call_up(body, cycles));
+        }
+        match (&stmt.op, cycles.get(&stmt.span.start)) {
+            (Op::Position(to), Some(Some(cycle))) => {
+                let hole = Op::Hole(to.clone());
+                let cycle = Op::StartCycle(Box::new(cycle.clone()));
+                let hole = Stmt { op: hole, joined: true, number: None, ..stmt.clone() };
+                out.push(Stmt { op: cycle, comment: None, ..stmt });
+                out.push(hole);
+            }
+            _ => out.push(stmt),
+        }
+    }
+    *body = out;
+}
+
 /// Ways into and out of a procedure.
 #[derive(Clone, Default)]
 struct Ways {
-    entry: Option<Tracker>,
-    exit: Option<Tracker>,
-    labels: BTreeMap<Text, Tracker>,
+    entry: Option<Held>,
+    exit: Option<Held>,
+    labels: BTreeMap<Text, Held>,
 }
 
 #[derive(Default)]
@@ -65,17 +152,19 @@ struct Flow {
     /// The procedure at hand.
     at: usize,
     /// Loops that are open: what holds where they are left, and where their next turn begins.
-    left: Vec<Option<Tracker>>,
-    next: Vec<Option<Tracker>>,
+    left: Vec<Option<Held>>,
+    next: Vec<Option<Held>>,
     changed: bool,
     settles: bool,
     starts: HashMap<u32, Tracker>,
+    /// Cycles in force at positions, by their places, that are as they were called up on every way there.
+    cycles: HashMap<u32, Option<Cycle>>,
     /// What the text has said so far, for blocks to which no way leads: they are written as they stand there.
-    text: Tracker,
+    text: Held,
 }
 
 /// What holds where another way comes in; whether that is less than before.
-fn meet(state: &mut Option<Tracker>, other: Option<&Tracker>) -> bool {
+fn meet(state: &mut Option<Held>, other: Option<&Held>) -> bool {
     let Some(other) = other else { return false };
     match state {
         None => {
@@ -100,7 +189,7 @@ impl Flow {
         }
     }
 
-    fn body(&mut self, body: &mut [Stmt], mut state: Option<Tracker>) -> Option<Tracker> {
+    fn body(&mut self, body: &mut [Stmt], mut state: Option<Held>) -> Option<Held> {
         let mut begins = true;
         for stmt in body {
             let before = state.clone();
@@ -110,8 +199,8 @@ impl Flow {
                 // Statements that were made of one have its place.
                 self.starts
                     .entry(stmt.span.start)
-                    .and_modify(|at| at.join(known))
-                    .or_insert_with(|| known.clone());
+                    .and_modify(|at| at.join(&known.at))
+                    .or_insert_with(|| known.at.clone());
             }
             begins = flow;
             state = self.stmt(stmt, state);
@@ -122,7 +211,7 @@ impl Flow {
         state
     }
 
-    fn stmt(&mut self, stmt: &mut Stmt, state: Option<Tracker>) -> Option<Tracker> {
+    fn stmt(&mut self, stmt: &mut Stmt, state: Option<Held>) -> Option<Held> {
         match &mut stmt.op {
             Op::Label(name) => {
                 let mut state = state;
@@ -154,12 +243,14 @@ impl Flow {
             Op::Call(call) => {
                 let found = self.names.iter().skip(1).position(|name| *name == call.name)?;
                 let called = &mut self.ways[found + 1];
-                self.changed |= meet(&mut called.entry, state.as_ref());
+                // A cycle in force is its caller's, which says it once.
+                let entered = state.clone().map(|held| Held { as_called: false, ..held });
+                self.changed |= meet(&mut called.entry, entered.as_ref());
                 // Where it leads is known after it has been gone through.
                 state.and(called.exit.clone())
             }
             Op::RepeatBlocks(_) => state.map(|mut state| {
-                state.forget();
+                state.at.forget();
                 state
             }),
             Op::Control(control) => self.control(control, state),
@@ -168,19 +259,33 @@ impl Flow {
                 let mut state = state.unwrap_or_else(|| self.text.clone());
                 if self.settles {
                     if let Op::Position(m) = op {
-                        settle_point(&mut m.to, &state);
+                        settle_point(&mut m.to, &state.at);
+                        if let Some(cycle) = state.cycle().filter(|_| reached) {
+                            let own = self.cycles.entry(stmt.span.start);
+                            own.and_modify(|own| *own = None).or_insert_with(|| Some(cycle.clone()));
+                        }
                     } else {
-                        settle(op, &state);
+                        settle(op, &state.at);
                     }
                 }
-                state.apply(op);
+                if let (false, Op::StartCycle(_)) = (self.settles, &*op) {
+                    // It must be the same cycle as when facts are put in.
+                    let mut cycle = op.clone();
+                    settle(&mut cycle, &state.at);
+                    state.apply(&cycle);
+                } else {
+                    state.apply(op);
+                }
                 self.text.clone_from(&state);
                 reached.then_some(state)
             }
         }
     }
 
-    fn control(&mut self, control: &mut Control, state: Option<Tracker>) -> Option<Tracker> {
+    fn control(&mut self, control: &mut Control, mut state: Option<Held>) -> Option<Held> {
+        if let (Control::For { variable, .. }, Some(state)) = (&*control, &mut state) {
+            state.sets(&Target::Var(variable.clone()));
+        }
         match control {
             Control::If { then, otherwise, .. } => {
                 let mut after = self.body(then, state.clone());
@@ -203,7 +308,7 @@ impl Flow {
     }
 
     /// A body that is executed again and again.
-    fn turns(&mut self, body: &mut [Stmt], state: Option<Tracker>) -> Turned {
+    fn turns(&mut self, body: &mut [Stmt], state: Option<Held>) -> Turned {
         let mut head = state;
         let settles = std::mem::replace(&mut self.settles, false);
         for _ in 0..MOST_ROUNDS {
@@ -217,7 +322,7 @@ impl Flow {
         Turned { head, ..turned }
     }
 
-    fn turn(&mut self, body: &mut [Stmt], head: Option<Tracker>) -> Turned {
+    fn turn(&mut self, body: &mut [Stmt], head: Option<Held>) -> Turned {
         self.left.push(None);
         self.next.push(None);
         let mut end = self.body(body, head);
@@ -229,7 +334,7 @@ impl Flow {
 
 /// What holds at the head of a body, at the end of a turn, and where it is left from within.
 struct Turned {
-    head: Option<Tracker>,
-    end: Option<Tracker>,
-    left: Option<Tracker>,
+    head: Option<Held>,
+    end: Option<Held>,
+    left: Option<Held>,
 }
