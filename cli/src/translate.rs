@@ -294,8 +294,7 @@ impl<'j> Line<'j> {
             self.take(unknown, Told::Reader);
             return Ok(());
         }
-        let mut program = source.clone();
-        let mut known = Known::default();
+        let (mut program, mut known) = (source.clone(), Known::default());
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             let caps = self.job.to.caps();
@@ -306,17 +305,15 @@ impl<'j> Line<'j> {
             if let Some(there) = there {
                 exact_comparisons::run(&mut program, there, &mut found);
                 control_forms::run(&mut program, there);
-                let own = self.job.from.dialect.formula.tolerance();
-                arithmetic::run(&mut program, there, own, &mut found);
-                // Its own words are left as they are, where they say by themselves where they lead.
-                let own =
-                    self.job.to.dialect.program.o_words && self.job.from.dialect.id == self.job.to.dialect.id;
-                if there.restates && !own {
+                let (from, to) = (self.job.from.dialect, self.job.to.dialect);
+                arithmetic::run(&mut program, there, from.formula.tolerance(), &mut found);
+                // Its own words say by themselves where they lead.
+                if there.restates && (from.id != to.id || !to.program.o_words) {
                     let mut entry = self.legaliser.stands().clone();
                     entry.modes = entry.modes.or(assumed);
                     known = known_facts::run(&mut program, &entry);
                 }
-                let decimals = self.job.to.dialect.numbers(ncc_dialects::Quantity::Length).decimals;
+                let decimals = to.numbers(ncc_dialects::Quantity::Length).decimals;
                 variables::run(&mut program, there, decimals, &mut found);
             }
             let refused = |found: &[Diagnostic]| found.iter().any(|d| d.fault.gravity() == Gravity::Error);

@@ -66,6 +66,12 @@ impl Writer {
         if changes { self.end_modal(sink) } else { Ok(()) }
     }
 
+    /// A subprogram of a program that computes ends with no cycle in force: its callers call theirs up again.
+    pub(super) fn before_return(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        let left = self.computing.program && self.standing.modal == super::Modal::On;
+        self.without_cycle(left, sink)
+    }
+
     /// Variables beyond those that every control has are the machine's.
     pub(super) fn tell_number(&mut self, variable: &str, span: Span, sink: &mut Sink) {
         let number = variable.strip_prefix(&self.dialect.formula.prefix).and_then(|n| n.parse::<u32>().ok());

@@ -55,8 +55,11 @@ impl Writer {
             | Op::MistOn
             | Op::ProgramStop
             | Op::OptionalProgramStop
-            | Op::ProgramEnd
-            | Op::Return => self.words.statement(stmt, sink),
+            | Op::ProgramEnd => self.words.statement(stmt, sink),
+            Op::Return => {
+                self.before_return(sink)?;
+                self.words.statement(stmt, sink)
+            }
             Op::TurnRotaryAxes(ways) => {
                 self.words.ways = *ways;
                 Ok(())

@@ -468,7 +468,7 @@ impl Writer {
             return Err(cannot("an alarm"));
         }
         if alarm.number.is_some() {
-            return Err(cannot("an alarm with a number"));
+            return Err(cannot_compute("an alarm with a number"));
         }
         let text = &alarm.text;
         let signs = [&rules.open[..], &rules.close];

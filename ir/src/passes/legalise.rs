@@ -533,7 +533,7 @@ impl Legaliser {
                 expand_calls::over(rest, &mut self.walk.clone(), diags);
             }
         }
-        number_names::over(rest, &self.target, diags);
+        number_names::over(rest, &self.target, false, diags);
         let mut procedures = rest.procedures.iter_mut();
         if let Some(main) = procedures.next() {
             self.run(&mut main.body, &assumed, diags);

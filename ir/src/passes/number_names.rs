@@ -17,18 +17,19 @@ const FIRST: u32 = 1001;
 
 /// Numbers them.
 pub fn run(program: &mut Program, target: &Target, _: &Tracker, diags: &mut Vec<Diagnostic>) {
-    over(program, target, diags);
+    over(program, target, false, diags);
 }
 
-/// The same for a number of digits; 0 leaves every name.
-pub(super) fn over(program: &mut Program, target: &Target, diags: &mut Vec<Diagnostic>) {
+/// The same; `computes` is whether calls have variables of their own.
+pub(super) fn over(program: &mut Program, target: &Target, computes: bool, diags: &mut Vec<Diagnostic>) {
+    // No digits leave every name.
     let digits = target.caps.call_digits;
     let fits = |name: &str| {
         name.bytes().all(|b| b.is_ascii_digit())
             && name.parse::<u32>().is_ok_and(|n| n > 0 && n < limit(digits))
     };
     // With variables of their own they may have names there; what a code calls has a number.
-    let named = target.caps.computes.as_ref().is_some_and(|computes| computes.named_programs);
+    let named = computes && target.caps.computes.as_ref().is_some_and(|computes| computes.named_programs);
     let called = called_as_own(program, named);
     let fits = |name: &str| fits(name) || called.contains(name);
     let subs = || program.procedures.iter().skip(1);

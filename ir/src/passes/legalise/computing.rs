@@ -25,7 +25,7 @@ impl Legaliser {
     /// Brings a program that computes within the target's capabilities, its structure kept.
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
-        number_names::over(program, &self.target, diags);
+        number_names::over(program, &self.target, true, diags);
         let assumed = program.assumed;
         // What the target says of a program's flow has been looked at before.
         let mut fresh = self.clone();
