@@ -7,6 +7,7 @@ mod anywhere;
 mod beside;
 mod check;
 mod computing;
+mod computing_pages;
 mod cycles;
 mod dialects;
 mod dictionary_form;

@@ -18,6 +18,11 @@ fn split(line: &str) -> Option<(String, String)> {
             _ => bare.push(c.to_ascii_uppercase()),
         }
     }
+    // A block number may stand in front (`read_items` of its interpreter).
+    let bare = match bare.strip_prefix('N') {
+        Some(numbered) => numbered.trim_start_matches(|c: char| c.is_ascii_digit()),
+        None => &bare,
+    };
     let rest = bare.strip_prefix('O')?;
     let end = match rest.chars().next()? {
         '<' => rest.find('>')? + 1,
