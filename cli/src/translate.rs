@@ -424,7 +424,7 @@ impl<'j> Line<'j> {
 
     /// Writes statements of the main procedure; the shop's last lines go before the end of the program.
     fn write_main(&mut self, stmts: &[Stmt], assumed: &Modes, found: &mut Vec<Diagnostic>) {
-        let taken = without(assumed, &self.given);
+        let taken = assumed.without(&self.given);
         let lines = self.job.machines.layout().footer;
         let end = stmts.iter().position(|s| s.op == Op::ProgramEnd);
         let Some(end) = end.filter(|_| !self.footed && !lines.is_empty()) else {
@@ -446,7 +446,7 @@ impl<'j> Line<'j> {
             lines.iter().map(|line| Stmt::new(Span::default(), Op::Comment(line.as_str().into()))).collect();
         // What becomes of the shop's own words is no account of the source.
         let mut silent = Vec::new();
-        let taken = without(assumed, &self.given);
+        let taken = assumed.without(&self.given);
         self.writer.write(&comments, &taken, &mut self.text, &mut silent);
         silent.retain(|d| d.fault.gravity() == Gravity::Error);
         found.append(&mut silent);
@@ -465,7 +465,7 @@ impl<'j> Line<'j> {
         if !self.job.to.dialect.safe_start.is_empty() || self.job.to.dialect.can.everything {
             return;
         }
-        let always = without(&fixed(self.job.from.dialect), &fixed(self.job.to.dialect));
+        let always = fixed(self.job.from.dialect).without(&fixed(self.job.to.dialect));
         let relied = self.batch.assumed;
         let at =
             stmts.iter().position(|s| !matches!(s.op, Op::Comment(_) | Op::Blank)).unwrap_or(stmts.len());
@@ -490,7 +490,7 @@ impl<'j> Line<'j> {
     /// was taken for granted of the target.
     fn inherited(&self, assumed: &Modes) -> Modes {
         let there = self.renumbering.modes(assumed);
-        let facts = without(&without(&there, &self.writer.stated()), &self.given);
+        let facts = there.without(&self.writer.stated()).without(&self.given);
         let taken = self.legaliser.taken();
         Modes {
             work_offset: taken.work_offset.or(facts.work_offset),
@@ -646,24 +646,6 @@ impl<'j> Line<'j> {
         };
         lines.extend(self.job.machines.layout().header);
         lines
-    }
-}
-
-/// The facts of `assumed` that `stated` does not have.
-pub(crate) fn without(assumed: &Modes, stated: &Modes) -> Modes {
-    fn keep<T: Copy>(a: Option<T>, s: Option<T>) -> Option<T> {
-        if s.is_some() { None } else { a }
-    }
-    Modes {
-        motion: keep(assumed.motion, stated.motion),
-        distance: keep(assumed.distance, stated.distance),
-        units: keep(assumed.units, stated.units),
-        plane: keep(assumed.plane, stated.plane),
-        feed_mode: keep(assumed.feed_mode, stated.feed_mode),
-        return_level: keep(assumed.return_level, stated.return_level),
-        work_offset: keep(assumed.work_offset, stated.work_offset),
-        length_offset: keep(assumed.length_offset, stated.length_offset),
-        no_origin_shift: keep(assumed.no_origin_shift, stated.no_origin_shift),
     }
 }
 

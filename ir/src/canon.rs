@@ -481,6 +481,24 @@ pub struct Modes {
 }
 
 impl Modes {
+    /// Those of these facts that are not known by the others.
+    pub fn without(self, other: &Modes) -> Modes {
+        fn keep<T>(own: Option<T>, other: Option<T>) -> Option<T> {
+            if other.is_some() { None } else { own }
+        }
+        Modes {
+            motion: keep(self.motion, other.motion),
+            distance: keep(self.distance, other.distance),
+            units: keep(self.units, other.units),
+            plane: keep(self.plane, other.plane),
+            feed_mode: keep(self.feed_mode, other.feed_mode),
+            return_level: keep(self.return_level, other.return_level),
+            work_offset: keep(self.work_offset, other.work_offset),
+            length_offset: keep(self.length_offset, other.length_offset),
+            no_origin_shift: keep(self.no_origin_shift, other.no_origin_shift),
+        }
+    }
+
     /// These facts; where one is not known, the other's.
     pub fn or(self, other: Modes) -> Modes {
         Modes {

@@ -277,6 +277,9 @@ impl Lower {
     /// The unit of a feed. Under G70 and G71 it is that of the machine's basic system.
     pub(super) fn feed_unit(&mut self, at: Span, out: &mut Batch) -> Option<Unit> {
         self.again.use_fact(super::again::SCALED);
+        if !matches!(self.state.scaled, Know::Lost | Know::Open) {
+            self.rely_on_scaled(at);
+        }
         let scaled = match self.state.scaled {
             Know::Said(scaled) | Know::Taken(scaled) => scaled,
             Know::Unsaid => false,

@@ -12,7 +12,7 @@
 
 use std::collections::HashSet;
 
-use ncc_ir::diag::Fault;
+use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target as Into, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Control, Op, Stmt, Text};
@@ -25,6 +25,7 @@ use super::lower::{Head, Lower};
 use super::tree::{self, Expr as Tree, Jump, Place, Target};
 use crate::Batch;
 use crate::word::Source;
+use crate::word::facts::Know;
 
 /// Deepest nesting of structures of a program (reference, 8).
 const DEEPEST: usize = 16;
@@ -37,6 +38,8 @@ pub(super) struct Flow {
     labels: Vec<Label>,
     jumps: Vec<Pending>,
     open: Vec<Open>,
+    /// The first feed within them that relied on what feeds count in where a loop begins.
+    pub(super) relied: Option<Span>,
     /// Whether what was read last cannot be left towards what follows.
     pub(super) over: bool,
     /// Whether an end of the program has been read.
@@ -53,6 +56,8 @@ struct Open {
     number: Option<u32>,
     comment: Option<Box<Text>>,
     found: InPlace,
+    /// Whether feeds count in the units in force, where it begins: so they do in every turn, if they do at its end.
+    scaled: Know<bool>,
 }
 
 #[derive(Debug)]
@@ -347,8 +352,10 @@ impl Lower {
         if self.flow.open.len() >= DEEPEST {
             self.not_supported(what.word(), "structure within sixteen others", head.span, out);
         }
+        let scaled = self.state.scaled;
         if !matches!(what, What::If { .. }) {
             self.lose(head.span, src, out);
+            self.state.scaled = scaled;
         } else {
             self.no_idle_tap(head.span, src, out);
             self.no_stale_offset(head.span, out);
@@ -359,7 +366,7 @@ impl Lower {
         let comment = self.take_comment(head, src);
         let at = self.target(out).len();
         let found = self.in_place();
-        self.flow.open.push(Open { what, at, head: head.span, number, comment, found });
+        self.flow.open.push(Open { what, at, head: head.span, number, comment, found, scaled });
     }
 
     /// `IF condition`
@@ -487,7 +494,8 @@ impl Lower {
         self.no_stale_offset(head.span, out);
         self.leave_motion_before(head.span, out);
         let condition = condition.map(|c| self.condition(c, src, out).unwrap_or(Expr::int(1)));
-        let Some(Open { what, at, head: begin, number, comment, found }) = self.flow.open.pop() else {
+        let Some(Open { what, at, head: begin, number, comment, found, scaled }) = self.flow.open.pop()
+        else {
             return;
         };
         if found != self.in_place() {
@@ -537,7 +545,25 @@ impl Lower {
         self.target(out).push(stmt);
         self.apart();
         if !is_if {
+            let same = self.state.scaled == scaled;
             self.lose(head.span, src, out);
+            if same {
+                self.state.scaled = scaled;
+            } else if let Some(at) = self.flow.relied.filter(|at| at.start > begin.start)
+                && self.only_scaled.rely(Some(false), at) != Some(scaled.value().unwrap_or(false))
+            {
+                self.fault(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out);
+            }
+        }
+        if self.flow.open.is_empty() {
+            self.flow.relied = None;
+        }
+    }
+
+    /// A feed relies on what feeds count in here.
+    pub(super) fn rely_on_scaled(&mut self, at: Span) {
+        if !self.flow.open.is_empty() {
+            self.flow.relied.get_or_insert(at);
         }
     }
 

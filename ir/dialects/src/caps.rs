@@ -146,9 +146,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         mirror: everything || says(Meaning::SetMirror) && says(Meaning::ClearMirror),
         machine_coordinates: everything || in_machine(true) || in_machine(false),
         machine_rapid: !everything
-            && ![true, false]
-                .into_iter()
-                .any(|length| says(Meaning::UseMachineCoordinates { length, rapid: false })),
+            && ![true, false].into_iter().any(|length| {
+                let meaning = Meaning::UseMachineCoordinates { length, rapid: false };
+                says(meaning) || names(NameMeaning::Code(meaning))
+            }),
         machine_length: match (everything, in_machine(true), in_machine(false)) {
             (true, _, _) | (false, true, true) => None,
             (false, length, _) => Some(length),

@@ -24,7 +24,6 @@ use crate::job::Job;
 use crate::machines::pair::Machines;
 use crate::review::side::Side;
 use crate::review::stream::{Course, Made, Stage, Unsaid, clearances, stream, stream_as};
-use crate::translate::without;
 use crate::verify_run::{WORLDS, fixed, resolution, worlds_of};
 
 /// Events of a piece that a side hands over.
@@ -202,7 +201,7 @@ fn shared(job: &Job, source: &Course, one_control: bool) -> Modes {
     let caps = job.to.caps();
     let only = source.assumed.work_offset.or(source.has.work_offset).filter(|_| caps.work_offsets == 0);
     let no_shift = (!caps.clears_shift && source.has.clears_shift).then_some(true);
-    let facts = without(&facts, &said_by_custom(job));
+    let facts = facts.without(&said_by_custom(job));
     Modes {
         work_offset: only.or(facts.work_offset),
         no_origin_shift: no_shift.or(facts.no_origin_shift),
