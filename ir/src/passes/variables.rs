@@ -9,7 +9,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::arguments::{self, Argument};
-use crate::canon::Distance;
+use crate::canon::{Distance, Units};
 use crate::computes::Computes;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Many, Node, Target, Var};
@@ -48,6 +48,9 @@ pub fn run(program: &mut Program, computes: &Computes, decimals: u8, diags: &mut
         program.procedures.iter_mut().for_each(|procedure| names.body(&mut procedure.body));
     }
     if !computes.rounds {
+        let inches = program.assumed.units == Some(Units::Inch)
+            || program.procedures.iter_mut().any(|procedure| in_inches(&mut procedure.body));
+        let decimals = decimals + u8::from(inches);
         program.procedures.iter_mut().for_each(|procedure| unrounded(&mut procedure.body, decimals));
     }
 }
@@ -238,6 +241,23 @@ fn each_value(op: &mut Op, seen: &mut dyn FnMut(&mut Expr, bool)) {
         Ok::<(), std::convert::Infallible>(())
     });
     all.unwrap_or_else(|never| match never {});
+}
+
+/// Whether a body says inches anywhere, or has a length in them.
+fn in_inches(body: &mut [Stmt]) -> bool {
+    body.iter_mut().any(|stmt| {
+        if let Op::Control(control) = &mut stmt.op {
+            return control.bodies_mut().any(|body| in_inches(body));
+        }
+        let mut found = stmt.op == Op::UseLengthUnits(Units::Inch);
+        let all = arguments::each(&mut stmt.op, &mut |argument, _| {
+            let literal = argument.expr().and_then(Expr::literal);
+            found |= literal.is_some_and(|n| n.unit == Unit::Inch);
+            Ok::<(), std::convert::Infallible>(())
+        });
+        all.unwrap_or_else(|never| match never {});
+        found
+    })
 }
 
 /// Takes away what only says that a word rounds. A length from zero is no further off than half of the target's last
