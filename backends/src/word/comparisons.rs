@@ -121,3 +121,24 @@ pub(super) fn exactly(node: &Node) -> Option<(Expr, bool)> {
         _ => None,
     }
 }
+
+/// The opposite of a comparison, where one comparison says it too; `tolerance` is that of the control's own, if any.
+pub(super) fn flipped(e: &Expr, tolerance: Option<Num>) -> Option<Expr> {
+    let Expr::Node(node) = e else { return None };
+    let Node::Binary(operator, a, b) = &**node else { return None };
+    // Of those within a tolerance, only the same and not the same are each other's opposite.
+    let own = tolerance.and_then(|tolerance| within(node, tolerance));
+    if own.is_some_and(|(found, ..)| !matches!(found, Binary::Equal | Binary::NotEqual)) {
+        return None;
+    }
+    let other = match operator {
+        Binary::Equal => Binary::NotEqual,
+        Binary::NotEqual => Binary::Equal,
+        Binary::Less => Binary::GreaterOrEqual,
+        Binary::LessOrEqual => Binary::Greater,
+        Binary::Greater => Binary::LessOrEqual,
+        Binary::GreaterOrEqual => Binary::Less,
+        _ => return None,
+    };
+    Some(Expr::Node(Box::new(Node::Binary(other, a.clone(), b.clone()))))
+}

@@ -73,6 +73,11 @@ impl Writer {
         }
     }
 
+    /// Whether the program computes when it runs.
+    pub(super) fn computes(&self) -> bool {
+        self.computing.variables
+    }
+
     /// Parameters of a procedure.
     pub(super) fn parameters_of(&self, name: &str) -> Vec<Var> {
         self.computing.parameters.get(name).cloned().unwrap_or_default()

@@ -16,7 +16,7 @@ use ncc_ir::source::Span;
 use ncc_ir::system::System;
 
 use super::codes::Letter;
-use super::comparisons::{exactly, holds_or_not, nearly, within};
+use super::comparisons::{exactly, flipped, holds_or_not, nearly, within};
 use super::number::Worth;
 use super::{Sink, Writer};
 
@@ -214,7 +214,10 @@ impl Spelling<'_> {
                 self.exists(a, out)
             }
             Node::Unary(Unary::Not, a) if self.rules.not_behind.is_some() => {
-                self.opposite(a, least, depth, out)
+                match flipped(a, self.rules.tolerance()) {
+                    Some(other) => self.expr(&other, least, first, depth, out),
+                    None => self.opposite(a, least, depth, out),
+                }
             }
             Node::Unary(Unary::Negate, a) => self.negative(e, a, first, depth, out),
             Node::Unary(Unary::Not, a) => {

@@ -206,14 +206,18 @@ impl Writer {
         label
     }
 
+    /// A block of an O word: without a number, since nothing jumps there.
     fn o_line(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
-        self.statement_alone(text, sink)
+        self.statement_alone(text, sink)?;
+        self.labels.bare = true;
+        self.flush(false, sink);
+        self.labels.bare = false;
+        Ok(())
     }
 
     /// A block from which control goes on into others.
     fn o_head(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         self.o_line(text, sink)?;
-        self.flush(false, sink);
         self.block_written(sink.out);
         self.forget();
         Ok(())
@@ -468,7 +472,9 @@ impl Writer {
             return Err(cannot("an alarm"));
         }
         if alarm.number.is_some() {
-            return Err(cannot_compute("an alarm with a number"));
+            // As straight blocks it can be no better.
+            let what = "an alarm with a number";
+            return Err(if self.computes() { cannot_compute(what) } else { cannot(what) });
         }
         let text = &alarm.text;
         let signs = [&rules.open[..], &rules.close];
