@@ -11,6 +11,7 @@
 mod classes;
 mod names;
 mod sources;
+mod structured;
 mod words;
 
 use std::collections::BTreeMap;
