@@ -4,6 +4,8 @@
 //! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
 //! difference; the caller decides where a released output goes.
 
+mod as_there;
+
 use std::collections::BTreeSet;
 use std::io::{self, Read};
 
@@ -14,9 +16,8 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{
-    Legaliser, Target, arithmetic, control_forms, exact_comparisons, known_facts, variables,
-};
+use ncc_ir::passes::variables::Renamed;
+use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -294,7 +295,9 @@ impl<'j> Line<'j> {
             self.take(unknown, Told::Reader);
             return Ok(());
         }
-        let (mut program, mut known) = (source.clone(), Known::default());
+        let mut program = source.clone();
+        let mut known = Known::default();
+        let mut renamed = Renamed::default();
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             let caps = self.job.to.caps();
@@ -303,18 +306,8 @@ impl<'j> Line<'j> {
             let there = caps.computes.as_deref().filter(|_| plainly);
             let mut found = Vec::new();
             if let Some(there) = there {
-                exact_comparisons::run(&mut program, there, &mut found);
-                control_forms::run(&mut program, there);
-                let (from, to) = (self.job.from.dialect, self.job.to.dialect);
-                arithmetic::run(&mut program, there, from.formula.tolerance(), &mut found);
-                // Its own words say by themselves where they lead.
-                if there.restates && (from.id != to.id || !to.program.o_words) {
-                    let mut entry = self.legaliser.stands().clone();
-                    entry.modes = entry.modes.or(assumed);
-                    known = known_facts::run(&mut program, &entry);
-                }
-                let decimals = to.numbers(ncc_dialects::Quantity::Length).decimals;
-                variables::run(&mut program, there, decimals, &mut found);
+                let stands = self.legaliser.stands();
+                (known, renamed) = as_there::say(self.job, &mut program, there, stands, &mut found);
             }
             let refused = |found: &[Diagnostic]| found.iter().any(|d| d.fault.gravity() == Gravity::Error);
             let fault = computing(&program, there).filter(|_| !refused(&found));
@@ -344,8 +337,8 @@ impl<'j> Line<'j> {
         let there = self.taken_there(main, &assumed, &mut found);
         self.renumbering.run(&mut program, &mut found);
         if computes {
-            self.writer.know(&program.procedures);
             self.legaliser.run_computing(&mut program, &known, &mut found);
+            self.writer.know(&program.procedures);
             if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
                 self.take(found, Told::Writer);
                 return Ok(());
@@ -371,7 +364,7 @@ impl<'j> Line<'j> {
         let base = u32::try_from(self.written).unwrap_or(u32::MAX);
         let mut trace = self.trace.take();
         self.check(|v| {
-            v.whole_telling(&source, &text, base, &inherited, &mut |pairs| {
+            v.whole_telling((&source, &renamed), &text, base, &inherited, &mut |pairs| {
                 if let Some(trace) = &mut trace {
                     trace.pairs(pairs);
                 }

@@ -53,6 +53,32 @@ pub enum Handed {
     Names,
 }
 
+/// Letters of the arguments that are variables of a call, in the order in which they are written; those of `I`, `J`
+/// and `K` in their own (B-63684EN, custom macro, argument specification I).
+pub const LETTERS: [(u8, u32); 21] = [
+    (b'A', 1),
+    (b'B', 2),
+    (b'C', 3),
+    (b'I', 4),
+    (b'J', 5),
+    (b'K', 6),
+    (b'D', 7),
+    (b'E', 8),
+    (b'F', 9),
+    (b'H', 11),
+    (b'M', 13),
+    (b'Q', 17),
+    (b'R', 18),
+    (b'S', 19),
+    (b'T', 20),
+    (b'U', 21),
+    (b'V', 22),
+    (b'W', 23),
+    (b'X', 24),
+    (b'Y', 25),
+    (b'Z', 26),
+];
+
 /// Variables that have names.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Named {
@@ -119,6 +145,8 @@ pub struct Computes {
     pub worth: bool,
     /// Whether programs with variables of their own have names.
     pub named_programs: bool,
+    /// What stands before a variable's name in a program.
+    pub mark: Text,
     /// Statements that not every language has.
     pub statements: Vec<Said>,
     /// Operators.
@@ -129,8 +157,6 @@ pub struct Computes {
     pub values: Vec<Expr>,
     /// With what the names of its variables begin; behind it they are numbers.
     pub prefix: Text,
-    /// Whether variables that live as long as a call, and are declared or given with it, have names.
-    pub names: bool,
     /// Whether the remainder is one of numbers alone that are whole by their types ([`crate::types`]).
     pub whole_remainder: bool,
     /// Whether a variable can have no value at all, which is another thing than zero.
@@ -184,9 +210,7 @@ impl Computes {
             })
         };
         match var {
-            Var::Local(name) => {
-                among(&self.local, name) || self.names && is_name(name) || self.is_name(name, false)
-            }
+            Var::Local(name) => among(&self.local, name) || self.is_name(name, false),
             Var::Common(name) => among(&self.common, name) || self.is_name(name, true),
             Var::Retentive(name) => among(&self.retentive, name),
             Var::System(system) => self.system.contains(system),
@@ -208,7 +232,8 @@ impl Computes {
     /// or small.
     pub fn is_name(&self, name: &str, common: bool) -> bool {
         let Some(named) = &self.named else { return false };
-        (!common || named.common.is_some()) && *named.adapted(name, common) == *name
+        let plain = Named { reserved: Vec::new(), ..named.clone() };
+        (!common || named.common.is_some()) && *plain.adapted(name, common) == *name
     }
 
     /// The first place that cannot be said.
@@ -216,11 +241,6 @@ impl Computes {
         let look = Look { computes: self };
         program.procedures.iter().find_map(|procedure| look.procedure(procedure).err())
     }
-}
-
-/// Whether it is a name, and no number.
-fn is_name(name: &str) -> bool {
-    name.bytes().any(|b| !b.is_ascii_digit())
 }
 
 fn refuse(what: impl Into<Text>, at: Span) -> Diagnostic {

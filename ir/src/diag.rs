@@ -331,6 +331,8 @@ faults! {
     WorkOffsetLeftOut { offset: u16 } = 419, verdict(Verdict::Reformatted);
     /// What computes and decides was executed, and the blocks that come of it were written.
     Flattened { blocks: u64 } = 420, verdict(Verdict::Expanded);
+    /// Variables have other names in the target; which is which.
+    VariablesRenamed { map: Box<str> } = 421, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

@@ -7,8 +7,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Expr, Node, Target, Var};
+use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -19,32 +20,6 @@ use super::{HIGHEST_NUMBER, Sink, Writer};
 
 /// Most calls by one word.
 const MOST_TIMES: u32 = 9999;
-
-/// Letters of the arguments that are local variables, in the order in which they are written; those of `I`, `J` and
-/// `K` in their own (B-63684EN, custom macro, argument specification I).
-const LETTERS: [(u8, u32); 21] = [
-    (b'A', 1),
-    (b'B', 2),
-    (b'C', 3),
-    (b'I', 4),
-    (b'J', 5),
-    (b'K', 6),
-    (b'D', 7),
-    (b'E', 8),
-    (b'F', 9),
-    (b'H', 11),
-    (b'M', 13),
-    (b'Q', 17),
-    (b'R', 18),
-    (b'S', 19),
-    (b'T', 20),
-    (b'U', 21),
-    (b'V', 22),
-    (b'W', 23),
-    (b'X', 24),
-    (b'Y', 25),
-    (b'Z', 26),
-];
 
 /// What of a program that computes the writer must know before its statements.
 #[derive(Clone, Debug, Default)]
@@ -388,10 +363,28 @@ impl Writer {
 
     /// An argument; with a point, it counts what it says, whatever its letter.
     fn argument(&mut self, letter: u8, value: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
-        let Some(n) = value.literal() else { return self.behind(value, None, span, sink) };
+        let Some(n) = value.literal() else {
+            if rounds(value) {
+                // To which digits it would round there, no manual says.
+                return Err(cannot_compute("a rounding in an argument"));
+            }
+            return self.behind(value, None, span, sink);
+        };
         let mut text = String::new();
         literal(n, n.point || !b"DHMST".contains(&letter), &mut text);
         Ok(text)
+    }
+}
+
+/// Whether anything in an expression is rounded to a whole number.
+fn rounds(e: &Expr) -> bool {
+    let Expr::Node(node) = e else { return false };
+    match &**node {
+        Node::Var(_) | Node::Vacant => false,
+        Node::Element(element) => element.at.iter().any(rounds),
+        Node::Unary(_, a) => rounds(a),
+        Node::Binary(_, a, b) => rounds(a) || rounds(b),
+        Node::Call(function, arguments) => *function == Function::Round || arguments.iter().any(rounds),
     }
 }
 

@@ -496,8 +496,40 @@ impl Writer {
         })
     }
 
+    /// A condition is a decision's alone, where loops and decisions have no words of their own for blocks.
+    fn no_condition(&self, e: &Expr) -> Result<(), Fault> {
+        fn compares(e: &Expr) -> bool {
+            let Expr::Node(node) = e else { return false };
+            match &**node {
+                Node::Var(_) | Node::Vacant => false,
+                Node::Element(element) => element.at.iter().any(compares),
+                Node::Unary(Unary::Not, _) => true,
+                Node::Unary(Unary::Negate, a) => compares(a),
+                Node::Binary(operator, a, b) => {
+                    let sum = matches!(
+                        operator,
+                        Binary::Add
+                            | Binary::Subtract
+                            | Binary::Multiply
+                            | Binary::Divide
+                            | Binary::Modulo
+                            | Binary::Power
+                    );
+                    !sum || compares(a) || compares(b)
+                }
+                Node::Call(Function::Near | Function::NearRatio, _) => true,
+                Node::Call(_, arguments) => arguments.iter().any(compares),
+            }
+        }
+        match self.dialect.program.macro_b && compares(e) {
+            true => Err(cannot_compute("a condition as a value")),
+            false => Ok(()),
+        }
+    }
+
     /// An expression as what is assigned.
     pub(crate) fn expression(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        self.no_condition(e)?;
         self.rely_on_range(e, span, sink);
         let mut out = String::new();
         self.spelling(None)?.expr(e, LOOSEST, true, 0, &mut out)?;
@@ -520,6 +552,7 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<String, Fault> {
+        self.no_condition(e)?;
         self.rely_on_range(e, span, sink);
         let spelling = self.spelling(digits)?;
         let mut out = String::new();

@@ -9,6 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Exec, Progress, Runner};
 use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
+use ncc_ir::passes::variables::Renamed;
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
 use ncc_ir::valid::anything;
@@ -37,6 +38,9 @@ const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 /// Decisions that are told; of more, the first ones.
 const MOST_TOLD: usize = 20;
 
+/// What another program has left in a variable.
+const LEFT_THERE: f64 = -791.3;
+
 /// Values that any variable may have.
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
@@ -47,6 +51,8 @@ struct Given<'g> {
     stated: &'g Stated,
     /// What is tried first: the numbers of the program, and those beside them.
     pool: Vec<f64>,
+    /// What the output calls the source's variables.
+    renamed: Renamed,
 }
 
 impl<'g> Given<'g> {
@@ -57,7 +63,7 @@ impl<'g> Given<'g> {
             let own = literals(source);
             pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
         }
-        Given { open, stated, pool }
+        Given { open, stated, pool, renamed: Renamed::default() }
     }
 
     /// The value of a variable in a set: in the first one, a local variable has none.
@@ -80,6 +86,19 @@ impl<'g> Given<'g> {
         }
         let among = if set % 3 == 1 { FIRST.len() } else { self.pool.len() };
         Some(Value::Number(self.pool[(mixed(hash) >> 20) as usize % among]))
+    }
+}
+
+impl Given<'_> {
+    /// The value of one of the output's variables: that of the source's. What the source does not have, or leaves to
+    /// be set first, holds something there, where a control has no variables without a value.
+    fn value_there(&self, var: &Var, seed: u32, set: u32) -> Option<Value> {
+        let source = self.renamed.source(var).unwrap_or(var);
+        let own = self.value(source, seed, set);
+        match var {
+            Var::Common(_) if own.is_none() && self.renamed.filled() => Some(Value::Number(LEFT_THERE)),
+            _ => own,
+        }
     }
 }
 
@@ -117,13 +136,14 @@ impl Verifier {
         base: u32,
         inherited: &Modes,
     ) -> Result<(), Stop> {
-        self.whole_telling(source, text, base, inherited, &mut |_| {})
+        self.whole_telling((source, &Renamed::default()), text, base, inherited, &mut |_| {})
     }
 
     /// As [`Verifier::whole`]; pairs of events go to `pairs` as they are found, if they are kept.
+    /// Variables of the source may have other names in the text.
     pub(crate) fn whole_telling(
         &mut self,
-        source: &Program,
+        (source, renamed): (&Program, &Renamed),
         text: &[u8],
         base: u32,
         inherited: &Modes,
@@ -140,6 +160,7 @@ impl Verifier {
                 self.notes.push(Diagnostic::new(Fault::ValueNotRead { name: name.into() }, Span::default()));
             }
         }
+        given.renamed = renamed.clone();
         let verdict = self.whole_compared(source, &mut given, text, base, inherited, pairs);
         match verdict {
             // A program that cannot be executed is told as that, whatever was made of it.
@@ -230,8 +251,9 @@ impl Verifier {
         pairs: &mut dyn FnMut(&[Pair]),
     ) -> Result<(), Ended> {
         let (mut a, mut b) = (Runner::new(source), Runner::new(target));
+        a.give(&mut |var| given.value(var, run.seed, set));
+        b.give(&mut |var| given.value_there(var, run.seed, set));
         for runner in [&mut a, &mut b] {
-            runner.give(&mut |var| given.value(var, run.seed, set));
             if set > 0 {
                 runner.limit_idle(MOST_OF_SET.1);
             }
@@ -273,6 +295,14 @@ impl Verifier {
                 Ok(()) if over => break Ok(()),
                 Ok(()) => {}
             }
+        };
+        let ended = match ended {
+            // What was taken for granted of the numbers that are compared is not so.
+            Err(Ended::Target(_)) if given.renamed.exact() && a.compared_nearly() => {
+                let what = "two numbers that are nearly the same where they are compared".into();
+                Err(Ended::Source(Diagnostic::new(Fault::Computes { what }, self.last)))
+            }
+            ended => ended,
         };
         a.add_taken(&mut gone.source);
         b.add_taken(&mut gone.target);

@@ -168,6 +168,10 @@ impl Reader {
             values.iter_mut().for_each(|value| lower.parameters(value, span, out));
             lower.results(values.first(), span, out);
         }
+        if lower.sub.is_some() && !lower.ended {
+            // Its caller goes on with it.
+            lower.leave_motion(None, out);
+        }
         let failed = lower.now.failed;
         let Some(outer) = lower.close_sub(name) else {
             let fault = refused(name, FlowWord::EndSub, "end of no subprogram that is open");

@@ -357,16 +357,16 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     let between = rules.between.keys().map(|function| (*function).into());
                     own.chain(between).chain(remainder).chain(given).chain(by_bits).collect()
                 },
-                names: rules.names,
                 whole_remainder: rules.whole_remainder,
                 values: dialect.named_values().map(|(_, value)| value).collect(),
                 local: rules.local.clone(),
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),
                 loops: rules.loops,
-                arguments: rules.calls || says(Meaning::CallMacro) || rules.parameters != Handing::Letters,
+                arguments: says(Meaning::CallMacro) || rules.parameters != Handing::Letters,
                 handed: rules.parameters.into(),
                 shares: rules.parameters == Handing::Letters,
+                mark: rules.variable.as_str().into(),
                 named: rules.with_names(dialect.name.iter().map(|row| row.name.as_str())),
                 arguments_again: rules.arguments_again,
                 exists: rules.exists.is_some(),

@@ -38,11 +38,6 @@ pub struct FormulaRules {
     /// What stands around the number of a variable that is computed, and around the indices of an array: `[` and `]` of
     /// `R[R1+1]`. The control rounds what is not whole there.
     pub index: Option<[String; 2]>,
-    /// Whether the variables that a program declares, and those that it is called with, have names.
-    pub names: bool,
-    /// Whether a program can be called with values, and with variables of its own, by its name; else by the code of a
-    /// macro call, if there is one.
-    pub calls: bool,
     /// What stands for no value at all, of a control that has such a thing.
     pub vacant: Option<String>,
     /// With what the names of variables begin that others know by their numbers alone: `R` of `R101`.

@@ -1,0 +1,42 @@
+//! A program that computes, said with what the target computes with: forms of control, functions, known facts, and
+//! variables.
+
+use ncc_dialects::Quantity;
+use ncc_ir::computes::Computes;
+use ncc_ir::diag::Diagnostic;
+use ncc_ir::passes::known_facts::{self, Known};
+use ncc_ir::passes::variables::{self, Digits, Renamed};
+use ncc_ir::passes::{arithmetic, control_forms, exact_comparisons};
+use ncc_ir::program::Program;
+use ncc_ir::track::Tracker;
+
+use crate::job::Job;
+
+/// Says a program so. `stands` is what holds where it begins. What holds in it, and which variables became which,
+/// comes back.
+pub(super) fn say(
+    job: &Job,
+    program: &mut Program,
+    there: &Computes,
+    stands: &Tracker,
+    found: &mut Vec<Diagnostic>,
+) -> (Known, Renamed) {
+    let mut known = Known::default();
+    let (from, to) = (job.from.dialect, job.to.dialect);
+    exact_comparisons::run(program, there, found);
+    control_forms::run(program, there);
+    arithmetic::run(program, there, from.formula.tolerance(), found);
+    // Its own words are left as they are, where they say by themselves where they lead.
+    let own = to.program.o_words && from.id == to.id;
+    if there.restates && !own {
+        let mut entry = stands.clone();
+        entry.modes = entry.modes.or(program.assumed);
+        known = known_facts::run(program, &entry);
+    }
+    let lengths = to.numbers(Quantity::Length);
+    let inch = lengths.increment_inch.unwrap_or(lengths.increment);
+    let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch] };
+    let computes = job.from.caps().computes.unwrap_or_default();
+    let renamed = variables::run(program, &computes, there, digits, found);
+    (known, renamed)
+}
