@@ -166,8 +166,19 @@ impl Writer {
     ) -> Result<(), Fault> {
         let Some(letter) = self.codes.axes[axis as usize] else { return Ok(()) };
         let Some(n) = coord.value.literal() else {
-            if self.way_round(axis).is_some() || self.qualifier(coord.distance).is_some() {
-                return Err(cannot("a computed value"));
+            let qualifier = self.way_round(axis).or(self.qualifier(coord.distance));
+            let qualified = match qualifier {
+                Some(qualifier) => Some((qualifier, self.behind(&coord.value, None, span, sink)?)),
+                None => None,
+            };
+            if let Some((qualifier, text)) = qualified {
+                let text = text.strip_prefix('=').ok_or_else(|| cannot("a computed value"))?;
+                if coord.distance.known() != Some(Distance::Incremental) {
+                    self.residue[axis as usize] = 0;
+                }
+                let word = format!("{}={qualifier}({text})", letter.letter as char);
+                self.block.text(Part::Axes, &word);
+                return Ok(());
             }
             let value = self.computed(&letter, &coord.value, span, sink)?;
             // What rounding has left before is left behind by a point of its own.
