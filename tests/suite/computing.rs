@@ -145,6 +145,27 @@ fn comes_to_the_same(from: &str, text: &[u8], to: &str, written: &[u8]) -> Resul
     Ok(())
 }
 
+/// What a program reads and has not set is given the same values under its other name: verified, and told.
+#[test]
+fn what_is_not_set_is_the_same_under_another_name() {
+    let mut failures = Failures::default();
+    let folder = corpus::root().join("tests/computing/open");
+    for (name, text) in programs("open") {
+        let from = if name.ends_with(".nc") { "fanuc" } else { "siemens" };
+        for to in ["fanuc", "siemens", "linuxcnc"] {
+            let job = Job { head: false, ..job(from, to, &name) };
+            let (outcome, written) = translate(&job, &text);
+            let given = outcome.diagnostics.iter().filter(|d| d.fault.code() == 604).count();
+            if outcome.release.is_err() || given != 2 {
+                failures.add(format!("{name} to {to}"), rendered(&job, &name, &text, &outcome.diagnostics));
+            }
+            let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
+            failures.check(&name, expect::file(&folder.join(format!("{stem}.{to}")), &written));
+        }
+    }
+    failures.finish();
+}
+
 #[test]
 fn what_cannot_be_executed_is_refused_at_its_place() {
     let mut failures = Failures::default();
