@@ -112,6 +112,10 @@ impl Writer {
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let mut sink = Sink { out, diags };
         self.no_event(&mut sink);
+        if self.stop_text.take().is_some() {
+            // No stop has come behind it that could say it.
+            sink.report(cannot("a message to the operator"), Span::default());
+        }
         let frame = &self.dialect.program.frame;
         if !frame.is_empty() {
             sink.out.extend_from_slice(frame.as_bytes());

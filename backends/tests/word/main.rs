@@ -65,9 +65,13 @@ pub(crate) fn faults(diags: &[Diagnostic]) -> Vec<&Fault> {
     diags.iter().map(|d| &d.fault).collect()
 }
 
-/// Asserts that statements are refused because there is no word for them.
+/// Asserts that statements are refused because there is no word for them, at the end of the text at the latest.
 pub(crate) fn refused(dialect: &str, stmts: &[Stmt]) {
-    let (text, diags) = text(dialect, stmts);
+    let mut w = writer(dialect, layout());
+    let (mut out, mut diags) = (Vec::new(), Vec::new());
+    w.write(stmts, &metric(), &mut out, &mut diags);
+    w.finish(&mut out, &mut diags);
+    let text = String::from_utf8_lossy(&out);
     assert!(
         diags.iter().any(|d| matches!(d.fault, Fault::CannotSay { .. } | Fault::Computes { .. })),
         "{dialect} said:\n{text}{diags:?}"
