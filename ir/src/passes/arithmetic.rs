@@ -9,7 +9,7 @@
 //! Not here: what a target has no way to say at all (`computes`), and variables (`variables`).
 
 use super::variables::expressions;
-use crate::computes::Computes;
+use crate::computes::{Computes, counted};
 use crate::decimals::Decimals;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Node, Unary};
@@ -241,6 +241,16 @@ impl Over<'_> {
                 let operator = if toward_zero { Binary::Add } else { Binary::Subtract };
                 Some(of(operator, usual.clone(), below))
             }
+            // One of them times 1 and the other times 0, to the least bit; how often a loop turns stays as it is.
+            (Function::Min | Function::Max, [a, b])
+                if self.computes.worth && !is_count(function, arguments) =>
+            {
+                let (less, more) = if function == Function::Max { (a, b) } else { (b, a) };
+                let below = of(Binary::Less, less.clone(), more.clone());
+                let other = node(Node::Unary(Unary::Not, below.clone()));
+                let one = of(Binary::Multiply, below, more.clone());
+                Some(of(Binary::Add, one, of(Binary::Multiply, other, less.clone())))
+            }
             (Function::Floor, [a]) if self.has(Function::Truncate) => {
                 self.never_negative(a, "what is rounded down");
                 Some(call(Function::Truncate, a.clone()))
@@ -295,6 +305,16 @@ impl Over<'_> {
             _ => None,
         }
     }
+}
+
+/// Whether it is how many times a body is executed: rounded, and not less than none.
+fn is_count(function: Function, arguments: &[Expr]) -> bool {
+    let whole = call_of(function, arguments);
+    counted(&whole) != &whole
+}
+
+fn call_of(function: Function, arguments: &[Expr]) -> Expr {
+    node(Node::Call(function, arguments.to_vec()))
 }
 
 /// 1 where something is less than zero, else 0.
