@@ -12,7 +12,7 @@ const LONGEST: usize = 24;
 /// Longest name of a variable (PGA: 31 characters).
 const LONGEST_VARIABLE: usize = 31;
 
-/// Words of the language that no dictionary has, and no variable can be.
+/// Words of the language that no dictionary has, and no variable or program can be.
 const WORDS: [&str; 67] = [
     "IF", "ELSE", "ENDIF", "LOOP", "ENDLOOP", "FOR", "TO", "ENDFOR", "WHILE", "ENDWHILE", "REPEAT",
     "REPEATB", "UNTIL", "CASE", "OF", "DEFAULT", "GOTO", "GOTOC", "GOTOF", "GOTOB", "GOTOS", "CALL", "BLOCK",
@@ -109,7 +109,11 @@ fn program(name: &str) -> String {
             format!("L{}", cut(if number.is_empty() { "0" } else { number }, 7))
         }
         Some(number) if digits(number) => format!("L{number}"),
-        Some(_) | None => identifier(name, "P_"),
+        Some(_) | None => {
+            let own = identifier(name, "P_");
+            // A word of the language calls nothing.
+            if WORDS.contains(&own.as_str()) { identifier(&format!("P_{own}"), "P_") } else { own }
+        }
     }
 }
 

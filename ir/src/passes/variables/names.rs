@@ -378,7 +378,8 @@ impl<'c> Plan<'c> {
         let parameters = &self.parameters[at];
         let first = self.looks[at].seen.first().map_or(Span::default(), |seen| seen.at);
         all.extend(parameters.iter().map(|var| Seen { var: var.clone(), elements: None, at: first }));
-        for (other, look) in self.looks.iter().enumerate().filter(|(other, _)| self.roots[*other] == at) {
+        let same = |other: &usize| self.roots[*other] == at && self.homes[*other] == Home::Own;
+        for (other, look) in self.looks.iter().enumerate().filter(|(other, _)| same(other)) {
             let local = look.seen.iter().filter(|seen| matches!(seen.var, Var::Local(_)));
             for seen in local.filter(|seen| other > 0 || !self.common.contains_key(&seen.var)) {
                 match all.iter_mut().find(|s| s.var == seen.var) {
