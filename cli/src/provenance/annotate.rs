@@ -81,12 +81,22 @@ impl Annotator {
             out.extend_from_slice(said);
             let spans = lines.next().unwrap_or_default();
             let open = std::mem::take(&mut self.open);
-            if open || !self.is_comment(said) {
+            if open || !self.is_comment(said) && !self.has_text(said) {
                 self.beside(spans, said.len(), writer, &mut out)?;
             }
             out.extend_from_slice(&line[said.len()..]);
         }
         Ok(out)
+    }
+
+    /// Whether a comment of a line may be the text of what is set there, an alarm's: no other stands beside it.
+    fn has_text(&self, line: &[u8]) -> bool {
+        let rules = &self.dialect.formula;
+        let comment = self.dialect.comment.open.as_bytes();
+        rules.alarm_text > 0
+            && line.contains(&b'=')
+            && memchr::memmem::find(line, comment).is_some()
+            && memchr::memmem::find(line, rules.variable.as_bytes()).is_some()
     }
 
     /// Whether a line is nothing, or nothing but a comment.

@@ -87,6 +87,18 @@ fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
     }
 }
 
+/// What is not known of a program that computes, and would be if it were executed, is told as that.
+fn only_the_run_knows(found: &mut Diagnostic) {
+    let what = match &found.fault {
+        Fault::PositionUnknown { axis } => format!("a cycle or a move that depends on where {axis} stands"),
+        Fault::EntryFactNeeded { .. } => {
+            "a block that depends on a mode that is not the same each time".into()
+        }
+        _ => return,
+    };
+    found.fault = Fault::Computes { what: what.into() };
+}
+
 struct Region<'l> {
     fresh: &'l Legaliser,
     known: &'l Known,
@@ -131,6 +143,7 @@ impl Region<'_> {
             first.joined = was.joined;
         }
         let refused = found.iter().any(|d| d.fault.gravity() == Gravity::Error);
+        found.iter_mut().for_each(only_the_run_knows);
         self.diags.append(&mut found);
         if !refused && let Some(at) = self.relied_on(&before, stmts) {
             let what = "blocks that have to be rewritten for it, where a program computes".into();
