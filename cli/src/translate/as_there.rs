@@ -28,15 +28,18 @@ pub(super) fn say(
     arithmetic::run(program, there, from.formula.tolerance(), found);
     // Its own words are left as they are, where they say by themselves where they lead.
     let own = to.program.o_words && from.id == to.id;
+    let computes = job.from.caps().computes.unwrap_or_default();
+    let mut entry = stands.clone();
+    entry.modes = entry.modes.or(program.assumed);
     if there.restates && !own {
-        let mut entry = stands.clone();
-        entry.modes = entry.modes.or(program.assumed);
         known = known_facts::run(program, &entry);
+    } else if computes.blocks != there.blocks {
+        // Words of another language lead to stretches of its blocks; what they say stays as it is.
+        known = known_facts::run(&mut program.clone(), &entry);
     }
     let lengths = to.numbers(Quantity::Length);
     let inch = lengths.increment_inch.unwrap_or(lengths.increment);
     let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch] };
-    let computes = job.from.caps().computes.unwrap_or_default();
     let renamed = variables::run(program, &computes, there, digits, found);
     (known, renamed)
 }

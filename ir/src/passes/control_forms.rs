@@ -16,7 +16,7 @@ mod structures;
 
 use std::collections::HashSet;
 
-use conditions::{binary, compared, opposite};
+use conditions::{binary, compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::computes::{Computes, Said};
@@ -44,7 +44,9 @@ pub fn run(program: &mut Program, computes: &Computes) {
 }
 
 fn has_control(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| matches!(stmt.op, Op::Control(_) | Op::Goto(_)))
+    body.iter().any(|stmt| {
+        matches!(stmt.op, Op::Control(_) | Op::Goto(_) | Op::Assign(..) | Op::Declare(_) | Op::Call(_))
+    })
 }
 
 /// How a body is left, or how its next turn is begun.
@@ -97,6 +99,29 @@ impl Forms<'_> {
                 Op::Leave => self.leaves(stmt, &mut out, true),
                 Op::NextTurn => self.leaves(stmt, &mut out, false),
                 Op::Control(_) => self.control(stmt, &mut out),
+                Op::Assign(_, value) if !self.computes.blocks && is_condition(value) => {
+                    self.truth(stmt, &mut out);
+                }
+                Op::Declare(declare)
+                    if !self.computes.blocks
+                        && declare.sizes.is_empty()
+                        && declare.initial.iter().flatten().any(is_condition) =>
+                {
+                    let to = Target::Var(declare.var.clone());
+                    let value = std::mem::take(&mut declare.initial).into_iter().flatten().next();
+                    let span = stmt.span;
+                    out.push(stmt);
+                    if let Some(value) = value {
+                        self.truth(Stmt::new(span, Op::Assign(to, value)), &mut out);
+                    }
+                }
+                Op::Call(call)
+                    if call.times > 1
+                        && (!call.shared || !call.arguments.is_empty())
+                        && !self.computes.arguments_again =>
+                {
+                    self.called_again(stmt, &mut out);
+                }
                 _ => out.push(stmt),
             }
         }
@@ -119,9 +144,56 @@ impl Forms<'_> {
         }
     }
 
+    /// A variable that is given what a condition is worth, where a condition is no number.
+    fn truth(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
+        let Op::Assign(to, value) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
+        let one = |n: i64| Stmt::new(stmt.span, Op::Assign(to.clone(), Expr::int(n)));
+        let mut changed = Changed::default();
+        changed.look(&[one(0)]);
+        if changed.keeps(&value) && stmt.skip.is_none() {
+            let (number, joined, comment) = (stmt.number, stmt.joined, stmt.comment.take());
+            out.push(Stmt { number, joined, comment, ..one(0) });
+            out.extend(decided(stmt.span, compared(&value, false), one(1)));
+            return;
+        }
+        let (then, otherwise) = (vec![one(1)], vec![one(0)]);
+        stmt.op = Op::Control(Box::new(Control::If { condition: value, then, otherwise }));
+        if stmt.skip.is_some() {
+            // Its blocks would have to be skipped together.
+            return out.push(stmt);
+        }
+        self.control(stmt, out);
+    }
+
+    /// A call with variables of its own that is made several times, where each is made by itself: its arguments are
+    /// worth what they are before the first.
+    fn called_again(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
+        let Op::Call(call) = &mut stmt.op else { return };
+        if stmt.skip.is_some() {
+            return out.push(stmt);
+        }
+        let changed = Changed { calls: true, shared: call.shared, ..Changed::default() };
+        let times = Expr::int(std::mem::replace(&mut call.times, 1).into());
+        for argument in &mut call.arguments {
+            if !changed.keeps(argument) {
+                let own = self.taken.counter("GIVEN");
+                let value = Expr::Node(Box::new(Node::Var(own.clone())));
+                let value = std::mem::replace(argument, value);
+                out.push(Stmt::new(stmt.span, Op::Assign(Target::Var(own), value)));
+            }
+        }
+        let (span, number, joined) = (stmt.span, stmt.number.take(), std::mem::take(&mut stmt.joined));
+        let repeat = Control::Repeat { times, body: vec![stmt] };
+        let repeat = Stmt { number, joined, ..Stmt::new(span, Op::Control(Box::new(repeat))) };
+        self.control(repeat, out);
+    }
+
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
-        let Op::Control(control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
+        let Op::Control(mut control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
         if self.says_about_one(&control) {
+            if let Control::If { condition, .. } = &mut *control {
+                *condition = compared(condition, false);
+            }
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
         // Its blocks are skipped together, which jumps would have to be as well.

@@ -1,6 +1,7 @@
 //! Conditions, and their opposites without a word for it.
 
 use crate::expr::{Binary, Expr, Node, Unary};
+use crate::num::{Num, Unit};
 
 /// An expression of two operands.
 pub(super) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
@@ -28,6 +29,32 @@ const fn other(operator: Binary) -> Option<Binary> {
     })
 }
 
+/// Whether an expression is worth 1 where something holds, and else 0.
+pub(super) fn is_condition(e: &Expr) -> bool {
+    let Expr::Node(node) = e else { return false };
+    match &**node {
+        Node::Binary(operator, ..) => {
+            other(*operator).is_some() || matches!(operator, Binary::And | Binary::Or | Binary::Xor)
+        }
+        Node::Unary(Unary::Not, _) => true,
+        Node::Var(_) | Node::Element(_) | Node::Vacant | Node::Unary(Unary::Negate, _) | Node::Call(..) => {
+            false
+        }
+    }
+}
+
+/// The condition that a comparison of another one with 0 or 1 is.
+fn of_truth(node: &Node) -> Option<Expr> {
+    let Node::Binary(operator @ (Binary::Equal | Binary::NotEqual), a, Expr::Num(n)) = node else {
+        return None;
+    };
+    let one = *n == Num { point: n.point, ..Num::int(1, Unit::One) };
+    if !is_condition(a) || !(one || n.is_zero()) {
+        return None;
+    }
+    Some(if one == (*operator == Binary::Equal) { compared(a, false) } else { opposite(a, false) })
+}
+
 /// What holds where a condition does not. With `word`, a number has its opposite by a word for it; else it is
 /// compared with zero, as every condition of such a control is a comparison.
 pub(super) fn opposite(condition: &Expr, word: bool) -> Expr {
@@ -35,6 +62,9 @@ pub(super) fn opposite(condition: &Expr, word: bool) -> Expr {
         Expr::Num(n) => return Expr::int(i64::from(n.is_zero())),
         Expr::Node(node) => &**node,
     };
+    if let Some(of) = of_truth(node).filter(|_| !word) {
+        return opposite(&of, false);
+    }
     match node {
         Node::Unary(Unary::Not, a) => compared(a, word),
         Node::Binary(operator, a, b) => match (other(*operator), operator) {
@@ -68,6 +98,14 @@ pub(super) fn compared(condition: &Expr, numbers: bool) -> Expr {
         Expr::Num(n) => return Expr::int(i64::from(!n.is_zero())),
         Expr::Node(node) => &**node,
     };
+    if let Some(of) = of_truth(node) {
+        return of;
+    }
+    if let Node::Binary(Binary::NotEqual, Expr::Num(n), Expr::Num(zero)) = node
+        && zero.is_zero()
+    {
+        return Expr::int(i64::from(!n.is_zero()));
+    }
     match node {
         Node::Unary(Unary::Not, a) => opposite(a, false),
         Node::Binary(operator, ..) if other(*operator).is_some() => condition.clone(),
