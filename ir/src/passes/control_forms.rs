@@ -28,7 +28,7 @@ use crate::source::Span;
 /// Says a program's control in the target's forms.
 pub fn run(program: &mut Program, computes: &Computes) {
     let taken = Names::of(program);
-    let mut forms = Forms { computes, taken, turning: Vec::new(), open: 0 };
+    let mut forms = Forms { computes, taken, turning: Vec::new(), open: 0, split: false };
     for procedure in &mut program.procedures {
         if !has_control(&procedure.body) {
             continue;
@@ -85,6 +85,8 @@ struct Forms<'c> {
     turning: Vec<Turning>,
     /// Loops that are open, of those that stay loops.
     open: u8,
+    /// Whether the last statement has become several blocks.
+    split: bool,
 }
 
 impl Forms<'_> {
@@ -93,8 +95,10 @@ impl Forms<'_> {
     }
 
     fn body(&mut self, body: Vec<Stmt>) -> Vec<Stmt> {
-        let mut out = Vec::with_capacity(body.len());
+        let mut out: Vec<Stmt> = Vec::with_capacity(body.len());
         for mut stmt in body {
+            // What comes behind a decision that was made of its neighbour has a block of its own.
+            stmt.joined &= !std::mem::take(&mut self.split);
             match &mut stmt.op {
                 Op::Leave => self.leaves(stmt, &mut out, true),
                 Op::NextTurn => self.leaves(stmt, &mut out, false),
@@ -154,6 +158,7 @@ impl Forms<'_> {
             let (number, joined, comment) = (stmt.number, stmt.joined, stmt.comment.take());
             out.push(Stmt { number, joined, comment, ..one(0) });
             out.extend(decided(stmt.span, compared(&value, false), one(1)));
+            self.split = true;
             return;
         }
         let (then, otherwise) = (vec![one(1)], vec![one(0)]);
@@ -163,6 +168,7 @@ impl Forms<'_> {
             return out.push(stmt);
         }
         self.control(stmt, out);
+        self.split = true;
     }
 
     /// A call with variables of its own that is made several times, where each is made by itself: its arguments are
