@@ -15,6 +15,8 @@ pub enum System {
     /// Where the tool stands along an axis, in the program's coordinates: the end point of the last move
     /// (Sinumerik `$P_EP`, Fanuc `#5001`, LinuxCNC `#5420`).
     EndPoint(Axis),
+    /// Where the last probing move ended along an axis, in the coordinates that the program had then (Fanuc `#5061`).
+    TouchPoint(Axis),
     /// The same in machine coordinates, tool length included (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
     MachinePoint(Axis),
     /// A work offset along an axis; 1 is the first (`#5221`, `$P_UIFR[1,X,TR]`).
@@ -89,6 +91,7 @@ impl System {
         };
         let found = match (kind, &rest[..]) {
             ("end", [along]) => System::EndPoint(axis(along)?),
+            ("touch", [along]) => System::TouchPoint(axis(along)?),
             ("machine", [along]) => System::MachinePoint(axis(along)?),
             ("offset", [of, along]) => {
                 System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: None }
@@ -108,7 +111,7 @@ impl System {
 
     /// Whether it depends on where the tool stands.
     pub fn is_place(&self) -> bool {
-        matches!(self, System::EndPoint(_) | System::MachinePoint(_))
+        matches!(self, System::EndPoint(_) | System::TouchPoint(_) | System::MachinePoint(_))
     }
 }
 
@@ -166,6 +169,7 @@ impl Display for System {
         };
         match self {
             System::EndPoint(axis) => write!(f, "end.{}", letter(axis)),
+            System::TouchPoint(axis) => write!(f, "touch.{}", letter(axis)),
             System::MachinePoint(axis) => write!(f, "machine.{}", letter(axis)),
             System::WorkOffset { number, axis, unit: of } => {
                 write!(f, "offset.{number}.{}{}", letter(axis), unit(of))
@@ -186,6 +190,7 @@ mod tests {
     fn a_name_has_one_meaning() {
         let more = [
             System::EndPoint(Axis::X),
+            System::TouchPoint(Axis::Z),
             System::MachinePoint(Axis::C),
             System::WorkOffset { number: 12, axis: Axis::Z, unit: None },
             System::WorkOffset { number: 1, axis: Axis::A, unit: Some(Units::Inch) },

@@ -177,6 +177,8 @@ pub struct Machine {
     stored: Stored,
     /// Where it stands, machine coordinates.
     pub at: Place,
+    /// Where the probe touched last, as the program counted then.
+    pub touched: Option<Place>,
     /// Shifts, rotation, scale and mirror of a control that has them in slots.
     slots: Slots,
     /// What rotation, scale and mirror amount to.
@@ -244,6 +246,7 @@ impl Machine {
         let modes = setup.power_on;
         Machine {
             at: setup.start,
+            touched: None,
             setup,
             stored: Stored::default(),
             slots: Slots::default(),
@@ -439,6 +442,7 @@ impl Machine {
         }
         let (from, part) = (self.at, self.setup.touched);
         self.at = std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * part);
+        self.touched = Some(std::array::from_fn(|axis| self.at[axis] - self.shift(axis)));
         self.record(What::Probe(to, away, error));
         Ok(())
     }

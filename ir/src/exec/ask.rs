@@ -119,6 +119,10 @@ impl Exec {
                 let settled = self.stands() && !(at == Z && self.waiting.is_some());
                 settled.then(|| self.counted(self.position[at], *axis, None))
             }
+            System::TouchPoint(axis) => {
+                let touched = self.touched.as_ref()?;
+                (!self.is_tilted()).then(|| self.counted(touched[*axis as usize], *axis, None))
+            }
             System::MachinePoint(axis) => {
                 self.stands().then(|| self.counted(self.machine()[*axis as usize], *axis, None))
             }

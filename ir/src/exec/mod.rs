@@ -104,6 +104,8 @@ pub struct Exec {
     /// Whether it was said in inches, if it was said in either.
     feed_inch: Option<bool>,
     selected: i64,
+    /// Where the last probing move ended, in the coordinates that the program had then.
+    touched: Option<Box<[Nanos; AXES]>>,
     state: State,
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
@@ -193,6 +195,7 @@ impl Exec {
             feed: 0,
             feed_inch: None,
             selected: -1,
+            touched: None,
             state: State {
                 feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
                 path: world.path,

@@ -1,4 +1,5 @@
-//! System variables, from section 7.3 of `reference/fanuc.md`: where the last block ended (#5001), work offsets (#5221 and
+//! System variables, from section 7.3 of `reference/fanuc.md`: where the last block ended (#5001), where the skip signal
+//! came (#5061, #5062: what of a tool's length is in #5063 is left open), work offsets (#5221 and
 //! on, 20 apart; #7001 and on for G54.1), codes and words in force (#4002, #4003, #4005, #4006, #4010, #4109, #4119,
 //! #4120). Any other stops.
 
@@ -19,6 +20,7 @@ impl Control {
                 let plain = self.m.beside.is_none() && !self.m.tip && !self.m.plane_set;
                 (plain && self.m.settled[axis]).then(|| (self.m.at[axis] - self.m.shift(axis)) / self.unit())
             }
+            5061 | 5062 => self.m.touched.map(|at| at[(number - 5061) as usize] / self.unit()),
             4002 => n(self.m.plane),
             4003 => n(if self.m.absolute { 90 } else { 91 }),
             4005 => n(match self.m.per {
