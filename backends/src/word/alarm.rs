@@ -4,6 +4,7 @@
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Alarm, Op, Stmt};
 
+use super::formula::cannot_compute;
 use super::modes::cannot;
 use super::{Sink, Writer};
 
