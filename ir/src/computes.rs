@@ -10,6 +10,9 @@ use crate::program::{Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
 use crate::system::System;
 
+/// Most calls without variables of their own, one within another, that are looked into.
+const MOST_SHARED: u32 = 16;
+
 /// A statement of programs that compute which not every language has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Said {
@@ -179,6 +182,8 @@ pub struct Computes {
     pub retentive: Vec<[u32; 2]>,
     /// How deep loops can stand in one another.
     pub loops: u8,
+    /// How deep calls with variables of their own can; 0 is not known.
+    pub calls: u8,
     /// Whether a program can be called several times, each time with variables of its own and the same arguments.
     pub arguments_again: bool,
     /// Whether a program can be called with arguments, and with variables of its own.
@@ -234,6 +239,39 @@ impl Computes {
         let Some(named) = &self.named else { return false };
         let plain = Named { reserved: Vec::new(), ..named.clone() };
         (!common || named.common.is_some()) && *plain.adapted(name, common) == *name
+    }
+
+    /// The first call with variables of its own that stands within more others than the target takes; what calls
+    /// itself may do so any number of times.
+    pub fn too_deep(&self, program: &Program) -> Option<Diagnostic> {
+        fn down(program: &Program, body: &[Stmt], left: u32, shared: u32) -> Option<Span> {
+            body.iter().find_map(|stmt| match &stmt.op {
+                Op::Control(control) => control.bodies().find_map(|body| down(program, body, left, shared)),
+                Op::Call(call) => {
+                    let own = !call.shared || !call.arguments.is_empty();
+                    let left = left.checked_sub(u32::from(own));
+                    let called = program.procedures.iter().skip(1).find(|p| p.name == call.name);
+                    match (left, called) {
+                        (None, _) => Some(stmt.span),
+                        (Some(left), Some(called)) => {
+                            let shared = shared.checked_sub(u32::from(!own))?;
+                            down(program, &called.body, left, shared)
+                        }
+                        (Some(_), None) => None,
+                    }
+                }
+                _ => None,
+            })
+        }
+        if self.calls == 0 {
+            return None;
+        }
+        let most = u32::from(self.calls);
+        let at = program
+            .procedures
+            .iter()
+            .find_map(|procedure| down(program, &procedure.body, most, MOST_SHARED))?;
+        Some(refuse("a call with variables of its own within so many others", at))
     }
 
     /// The first place that cannot be said.

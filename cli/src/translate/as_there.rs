@@ -37,6 +37,9 @@ pub(super) fn say(
         // Words of another language lead to stretches of its blocks; what they say stays as it is.
         known = known_facts::run(&mut program.clone(), &entry);
     }
+    if computes.calls != there.calls {
+        found.extend(there.too_deep(program));
+    }
     let lengths = to.numbers(Quantity::Length);
     let inch = lengths.increment_inch.unwrap_or(lengths.increment);
     let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch] };

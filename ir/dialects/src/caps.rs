@@ -363,6 +363,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),
                 loops: rules.loops,
+                calls: rules.calls,
                 arguments: says(Meaning::CallMacro) || rules.parameters != Handing::Letters,
                 handed: rules.parameters.into(),
                 shares: rules.parameters == Handing::Letters,

@@ -77,6 +77,8 @@ pub struct FormulaRules {
     pub retentive: Vec<[u32; 2]>,
     /// How deep loops can stand in one another.
     pub loops: u8,
+    /// How deep calls with variables of their own can; 0 is not known.
+    pub calls: u8,
     /// How deep brackets can.
     pub brackets: u8,
     /// Numbers of alarms that a program can give, from and to.

@@ -74,8 +74,9 @@ pub(super) enum Argument {
 }
 
 /// Words of the drives, of look-ahead and of tolerances: the programmed path stays.
-pub(super) const ADVICE: [&str; 39] = [
+pub(super) const ADVICE: [&str; 40] = [
     "FFWON",
+    "FNORM",
     "FFWOF",
     "SOFT",
     "BRISK",
