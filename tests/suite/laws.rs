@@ -181,12 +181,17 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
 }
 
 /// What a dialect was given and cannot give back, and why.
-const NO_WAY_BACK: [(&str, &str); 3] = [
+const NO_WAY_BACK: [(&str, &str); 5] = [
     (
         "fanuc/g74-dwell.nc through siemens",
         "a tap with a chuck that dwells at R as well is written out as blocks with the chuck (G63), of which the \
          way back makes no cycle",
     ),
+    (
+        "fanuc/plates.nc through siemens",
+        "a stop with a message is a message and a stop in blocks of their own, of which the way back makes none",
+    ),
+    ("fanuc/plates.nc through linuxcnc", "the same"),
     (
         "haas/g84.nc through siemens",
         "a hole left to the initial level follows holes left to R: as a call of its own it has a return plane \
