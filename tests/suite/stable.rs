@@ -235,7 +235,7 @@ fn structure(program: &Program) -> [i64; 2] {
 
 /// Whether an output's structure changed as the source's did not; or a cycle came or went whose holes are
 /// written out, or every position under one a call of its own, or a mode whose words say themselves what they
-/// are; or frames took another form.
+/// are; or frames took another form, or have corners written out.
 fn another_form(sources: [&Program; 2], outputs: [&Program; 2], qualified: bool) -> bool {
     let ([old, new], [was, is]) = (sources.map(structure), outputs.map(structure));
     let count = |program: &Program, of: fn(&Op) -> bool| {
@@ -248,7 +248,17 @@ fn another_form(sources: [&Program; 2], outputs: [&Program; 2], qualified: bool)
     let changed = (0..2).any(|at| (was[at], is[at]) != (0, 0) && is[at] - was[at] != new[at] - old[at]);
     // Under a modal cycle, positions reached at feed are moves, each with a call of its own.
     let calls_apart = starts_old.abs_diff(starts_new) > 1;
-    changed || written_out || calls_apart || by_words || frames_in_another_form(sources, outputs)
+    // In a program of frames corners are written out.
+    let frames = sources
+        .map(|p| count(p, |op| matches!(op, Op::ClearFrame(_) | Op::SetFrame(_) | Op::SetSlot(_))) > 0);
+    let corners = outputs.map(|p| count(p, |op| matches!(op, Op::Corner { .. })));
+    let corners_out = frames[0] != frames[1] && corners[0] != corners[1];
+    changed
+        || written_out
+        || calls_apart
+        || by_words
+        || corners_out
+        || frames_in_another_form(sources, outputs)
 }
 
 /// How a line names places.
