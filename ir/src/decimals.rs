@@ -104,6 +104,7 @@ impl Decimals {
             Node::Element(_) => None,
             Node::Unary(Unary::Negate, a) => self.digits(a),
             Node::Unary(Unary::Not, _) => Some(0),
+            Node::Binary(operator, ..) if operator.decides() => Some(0),
             Node::Binary(operator, a, b) => match operator {
                 Binary::Add | Binary::Subtract | Binary::Modulo => more(self.digits(a), self.digits(b)),
                 Binary::Multiply => {
@@ -122,16 +123,7 @@ impl Decimals {
                     let all = self.digits(a)? + further;
                     (all <= MOST).then_some(all)
                 }
-                Binary::Power => None,
-                Binary::Equal
-                | Binary::NotEqual
-                | Binary::Less
-                | Binary::LessOrEqual
-                | Binary::Greater
-                | Binary::GreaterOrEqual
-                | Binary::And
-                | Binary::Or
-                | Binary::Xor => Some(0),
+                _ => None,
             },
             Node::Call(function, arguments) => match (function, &arguments[..]) {
                 (Function::Abs | Function::Given, [a]) => self.digits(a),
@@ -170,22 +162,10 @@ impl Decimals {
             Node::Var(Var::System(_)) | Node::Element(_) | Node::Unary(Unary::Negate, _) => true,
             Node::Var(var) => self.negative.get(&self.key(var)).copied().unwrap_or(false),
             Node::Vacant | Node::Unary(Unary::Not, _) => false,
-            Node::Binary(operator, a, b) => match operator {
-                Binary::Add | Binary::Multiply | Binary::Divide | Binary::Power => {
-                    self.may_be_negative(a) || self.may_be_negative(b)
-                }
-                Binary::Modulo => self.may_be_negative(a),
-                Binary::Subtract => true,
-                Binary::Equal
-                | Binary::NotEqual
-                | Binary::Less
-                | Binary::LessOrEqual
-                | Binary::Greater
-                | Binary::GreaterOrEqual
-                | Binary::And
-                | Binary::Or
-                | Binary::Xor => false,
-            },
+            Node::Binary(operator, ..) if operator.decides() => false,
+            Node::Binary(Binary::Subtract, ..) => true,
+            Node::Binary(Binary::Modulo, a, _) => self.may_be_negative(a),
+            Node::Binary(_, a, b) => self.may_be_negative(a) || self.may_be_negative(b),
             Node::Call(function, arguments) => match function {
                 Function::Abs
                 | Function::Sqrt

@@ -4,6 +4,7 @@
 //! everything else behind a box. What an expression is worth is in `value`.
 
 use std::borrow::Cow;
+use std::slice::{from_mut, from_ref};
 
 use crate::num::{Num, Unit};
 use crate::system::System;
@@ -162,6 +163,29 @@ pub enum Binary {
     Xor,
 }
 
+impl Binary {
+    /// Whether the result is a truth value: a comparison, or truth values joined.
+    pub const fn decides(self) -> bool {
+        match self {
+            Binary::Equal
+            | Binary::NotEqual
+            | Binary::Less
+            | Binary::LessOrEqual
+            | Binary::Greater
+            | Binary::GreaterOrEqual
+            | Binary::And
+            | Binary::Or
+            | Binary::Xor => true,
+            Binary::Add
+            | Binary::Subtract
+            | Binary::Multiply
+            | Binary::Divide
+            | Binary::Modulo
+            | Binary::Power => false,
+        }
+    }
+}
+
 /// Functions. Angles are degrees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[allow(missing_docs)] // The names are the meaning.
@@ -202,17 +226,46 @@ impl Expr {
     /// Whether it follows from what is given a value; of variables whose number is computed, any may be one.
     pub fn reads(&self, to: &Target) -> bool {
         let Expr::Node(node) = self else { return false };
-        match &**node {
-            Node::Var(var) => match to {
-                Target::Var(to) => var == to,
-                Target::Element(_) => true,
-            },
-            Node::Element(_) => true,
-            Node::Vacant => false,
-            Node::Unary(_, a) => a.reads(to),
-            Node::Binary(_, a, b) => a.reads(to) || b.reads(to),
-            Node::Call(_, arguments) => arguments.iter().any(|a| a.reads(to)),
+        match (&**node, to) {
+            (Node::Var(var), Target::Var(to)) => var == to,
+            (Node::Var(_), Target::Element(_)) | (Node::Element(_), _) => true,
+            _ => self.parts().any(|part| part.reads(to)),
         }
+    }
+
+    /// Whether anything in it is such.
+    pub fn has(&self, such: &dyn Fn(&Node) -> bool) -> bool {
+        matches!(self, Expr::Node(node) if such(node)) || self.parts().any(|part| part.has(such))
+    }
+
+    /// The expressions that it is made of, as they are written: operands, arguments, indices.
+    pub fn parts(&self) -> impl Iterator<Item = &Expr> {
+        let (first, second): (&[Expr], &[Expr]) = match self {
+            Expr::Num(_) => (&[], &[]),
+            Expr::Node(node) => match &**node {
+                Node::Var(_) | Node::Vacant => (&[], &[]),
+                Node::Element(element) => (&element.at, &[]),
+                Node::Unary(_, a) => (from_ref(a), &[]),
+                Node::Binary(_, a, b) => (from_ref(a), from_ref(b)),
+                Node::Call(_, arguments) => (arguments, &[]),
+            },
+        };
+        first.iter().chain(second)
+    }
+
+    /// As [`Expr::parts`], to be changed.
+    pub fn parts_mut(&mut self) -> impl Iterator<Item = &mut Expr> {
+        let (first, second): (&mut [Expr], &mut [Expr]) = match self {
+            Expr::Num(_) => (&mut [], &mut []),
+            Expr::Node(node) => match &mut **node {
+                Node::Var(_) | Node::Vacant => (&mut [], &mut []),
+                Node::Element(element) => (&mut element.at, &mut []),
+                Node::Unary(_, a) => (from_mut(a), &mut []),
+                Node::Binary(_, a, b) => (from_mut(a), from_mut(b)),
+                Node::Call(_, arguments) => (arguments, &mut []),
+            },
+        };
+        first.iter_mut().chain(second)
     }
 
     /// The literal, if it is one.

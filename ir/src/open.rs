@@ -37,22 +37,7 @@ fn numbers(e: &Expr, found: &mut Vec<f64>) {
     if let Some(n) = e.literal() {
         found.push(n.mantissa as f64 / 10_f64.powi(i32::from(n.scale)));
     }
-    parts(e, &mut |part| numbers(part, found));
-}
-
-/// Shows the expressions that an expression is made of.
-fn parts(e: &Expr, seen: &mut dyn FnMut(&Expr)) {
-    let Expr::Node(node) = e else { return };
-    match &**node {
-        Node::Var(_) | Node::Vacant => {}
-        Node::Element(element) => element.at.iter().for_each(seen),
-        Node::Unary(_, a) => seen(a),
-        Node::Binary(_, a, b) => {
-            seen(a);
-            seen(b);
-        }
-        Node::Call(_, arguments) => arguments.iter().for_each(seen),
-    }
+    e.parts().for_each(|part| numbers(part, found));
 }
 
 fn expressions(body: &[Stmt], seen: &mut dyn FnMut(&Expr)) {
@@ -142,6 +127,6 @@ impl Look {
         {
             self.open.push((var.clone(), at));
         }
-        parts(e, &mut |part| self.reads(part, at));
+        e.parts().for_each(|part| self.reads(part, at));
     }
 }

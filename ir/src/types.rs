@@ -70,19 +70,9 @@ impl Types {
             Node::Vacant => Type::Real,
             Node::Unary(Unary::Negate, a) => number(a),
             Node::Unary(Unary::Not, _) => Type::Bool,
-            Node::Binary(operator, a, b) => match operator {
-                Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Modulo => both(a, b),
-                Binary::Divide | Binary::Power => Type::Real,
-                Binary::Equal
-                | Binary::NotEqual
-                | Binary::Less
-                | Binary::LessOrEqual
-                | Binary::Greater
-                | Binary::GreaterOrEqual
-                | Binary::And
-                | Binary::Or
-                | Binary::Xor => Type::Bool,
-            },
+            Node::Binary(operator, ..) if operator.decides() => Type::Bool,
+            Node::Binary(Binary::Divide | Binary::Power, ..) => Type::Real,
+            Node::Binary(_, a, b) => both(a, b),
             Node::Call(function, arguments) => match (function, &arguments[..]) {
                 (Function::Abs, [a]) => number(a),
                 (Function::Min | Function::Max, [a, b]) => both(a, b),

@@ -8,6 +8,7 @@
 // What was tried is told with `--nocapture`.
 #![allow(clippy::print_stdout)]
 
+mod asked;
 mod classes;
 mod names;
 mod sources;
@@ -16,7 +17,6 @@ mod words;
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ncc::judge::Judge;
 use ncc_dialects::{Family, builtin};
@@ -40,23 +40,12 @@ struct Tally {
 
 #[test]
 fn every_mutant_is_caught_or_equivalent() {
-    let all = std::env::var_os("NCC_ALL_MUTANTS").is_some_and(|v| v == "1");
-    let of = std::env::var("NCC_MUTANTS_OF").unwrap_or_default();
-    let asked = |p: &Program| of.split(',').any(|name| format!("{}/{}", p.dialect, p.file).contains(name));
-    let programs = corpus::all().into_iter().filter(asked);
+    let programs = corpus::all().into_iter().filter(asked::asked);
     let work: Vec<(Program, &'static str)> =
         programs.flat_map(|p| DIALECTS.map(|to| (p.clone(), to))).collect();
-    let next = AtomicUsize::new(0);
     let tally = Mutex::new(Tally::default());
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                while let Some((program, to)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    try_all(program, to, all, &tally);
-                }
-            });
-        }
-    });
+    let all = asked::all();
+    asked::side_by_side(&work, |(program, to)| try_all(program, to, all, &tally));
     let tally = tally.into_inner().expect("no thread panicked");
     println!("{} texts, {} mutants, {} caught", tally.texts, tally.mutants, tally.caught);
     for (class, count) in &tally.classes {

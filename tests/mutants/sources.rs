@@ -14,19 +14,19 @@ use ncc_tests::expect::Failures;
 use ncc_tests::plain::{self, Tolerance};
 use ncc_tests::translate::{computes, straight_job};
 
+use crate::asked;
+
 /// Mutants of each program in the sample.
 const SAMPLE: usize = 8;
 
 #[test]
 fn every_changed_source_is_told_apart() {
-    let all = std::env::var_os("NCC_ALL_MUTANTS").is_some_and(|v| v == "1");
-    let of = std::env::var("NCC_MUTANTS_OF").unwrap_or_default();
+    let all = asked::all();
     let mut failures = Failures::default();
     let (mut caught, mut refused, mut endless, mut classes) = (0, 0, 0, BTreeMap::<&str, usize>::new());
-    for program in corpus::of("fanuc").into_iter().filter(computes) {
-        if !of.split(',').any(|name| format!("fanuc/{}", program.file).contains(name)) {
-            continue;
-        }
+    for program in
+        corpus::of("fanuc").into_iter().filter(|program| computes(program) && asked::asked(program))
+    {
         let mut job = straight_job(&program, "canon");
         job.head = false;
         let mut judge = Judge::new(&job, &program.text).expect("a source in memory");
@@ -62,7 +62,7 @@ fn every_changed_source_is_told_apart() {
     }
     println!("{caught} changed sources told apart, {refused} refused, {endless} without an end");
     classes.iter().for_each(|(class, count)| println!("{count:7} of the same moves: {class}"));
-    assert!(!of.is_empty() || caught > 100, "hardly any: {caught}");
+    assert!(!asked::of().is_empty() || caught > 100, "hardly any: {caught}");
     failures.finish();
 }
 

@@ -6,13 +6,14 @@
 //! A seeded sample by default; `NCC_ALL_MUTANTS=1` and `NCC_MUTANTS_OF` as for those of straight blocks.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ncc::judge::Judge;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::plain::{self, Corners, Tolerance};
 use ncc_tests::translate::job;
+
+use crate::asked;
 
 /// Mutants of each text in the sample.
 const SAMPLE: usize = 8;
@@ -164,29 +165,18 @@ struct Tally {
 
 #[test]
 fn every_mutant_of_a_kept_structure_is_caught_or_makes_the_same_moves() {
-    let all = std::env::var_os("NCC_ALL_MUTANTS").is_some_and(|v| v == "1");
-    let of = std::env::var("NCC_MUTANTS_OF").unwrap_or_default();
-    let asked = |p: &Program| of.split(',').any(|name| format!("{}/{}", p.dialect, p.file).contains(name));
-    let programs: Vec<_> = DIALECTS.into_iter().flat_map(corpus::computing).filter(asked).collect();
+    let programs: Vec<_> = DIALECTS.into_iter().flat_map(corpus::computing).filter(asked::asked).collect();
     let to = ["fanuc", "haas", "siemens", "linuxcnc"];
     let work: Vec<_> = programs.iter().flat_map(|p| to.map(|to| (p, to))).collect();
-    let next = AtomicUsize::new(0);
     let tally = Mutex::new(Tally::default());
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, usize::from) {
-            scope.spawn(|| {
-                while let Some((program, to)) = work.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    try_all(program, to, all, &tally);
-                }
-            });
-        }
-    });
+    let all = asked::all();
+    asked::side_by_side(&work, |(program, to)| try_all(program, to, all, &tally));
     let tally = tally.into_inner().expect("no thread panicked");
     println!(
         "{} texts, {} mutants, {} caught, {} make the same moves",
         tally.texts, tally.mutants, tally.caught, tally.same
     );
-    assert!(!of.is_empty() || tally.caught > 100, "hardly any mutants: {}", tally.mutants);
+    assert!(!asked::of().is_empty() || tally.caught > 100, "hardly any mutants: {}", tally.mutants);
     tally.failures.finish();
 }
 

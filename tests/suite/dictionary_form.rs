@@ -55,6 +55,7 @@ const VALUES: &[(&str, &str)] = &[
     ("DataKind", "[[data]]\nname = \"G10 L2\"\nkind = \"@\""),
     ("ValueName", "[[data]]\nname = \"G10 L2\"\nvalues = [{ of = \"@\" }]"),
     ("SafeStart", "safe_start = [\"@\"]"),
+    ("Statement", "[formula]\nstatements = [\"@\"]"),
     ("Operator", "[formula.operators]\n@ = \"zz\""),
     ("FunctionName", "[formula.functions]\n@ = \"zz\""),
 ];

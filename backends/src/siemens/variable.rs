@@ -397,16 +397,11 @@ fn not_zero(expr: &Expr) -> Option<&Expr> {
 
 /// Whether a value follows from variables that other programs see.
 fn common(expr: &Expr) -> bool {
-    let Expr::Node(node) = expr else { return false };
-    match &**node {
+    expr.has(&|node| match node {
         Node::Var(var) => !matches!(var, Var::Local(_)),
         Node::Element(element) => {
             !matches!(&element.of, ncc_ir::expr::Many::Array { var: Var::Local(_), .. })
-                || element.at.iter().any(common)
         }
-        Node::Vacant => false,
-        Node::Unary(_, a) => common(a),
-        Node::Binary(_, a, b) => common(a) || common(b),
-        Node::Call(_, arguments) => arguments.iter().any(common),
-    }
+        Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => false,
+    })
 }

@@ -52,23 +52,16 @@ pub(super) fn nearly(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
 
 /// Whether an expression is worth 1 or 0.
 pub(super) fn holds_or_not(e: &Expr) -> bool {
-    let Expr::Node(node) = e else { return false };
-    match &**node {
-        Node::Unary(Unary::Not, _) => true,
-        Node::Binary(operator, ..) => matches!(
-            operator,
-            Binary::Equal
-                | Binary::NotEqual
-                | Binary::Less
-                | Binary::LessOrEqual
-                | Binary::Greater
-                | Binary::GreaterOrEqual
-                | Binary::And
-                | Binary::Or
-                | Binary::Xor
-        ),
+    matches!(e, Expr::Node(node) if decides(node))
+}
+
+/// Whether the value of this is a truth value.
+pub(super) fn decides(node: &Node) -> bool {
+    match node {
+        Node::Unary(operator, _) => *operator == Unary::Not,
+        Node::Binary(operator, ..) => operator.decides(),
         Node::Call(function, _) => matches!(function, Function::Near | Function::NearRatio),
-        Node::Var(_) | Node::Element(_) | Node::Vacant | Node::Unary(Unary::Negate, _) => false,
+        Node::Var(_) | Node::Element(_) | Node::Vacant => false,
     }
 }
 

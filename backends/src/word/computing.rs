@@ -378,14 +378,7 @@ impl Writer {
 
 /// Whether anything in an expression is rounded to a whole number.
 fn rounds(e: &Expr) -> bool {
-    let Expr::Node(node) = e else { return false };
-    match &**node {
-        Node::Var(_) | Node::Vacant => false,
-        Node::Element(element) => element.at.iter().any(rounds),
-        Node::Unary(_, a) => rounds(a),
-        Node::Binary(_, a, b) => rounds(a) || rounds(b),
-        Node::Call(function, arguments) => *function == Function::Round || arguments.iter().any(rounds),
-    }
+    e.has(&|node| matches!(node, Node::Call(Function::Round, _)))
 }
 
 /// The letters by which these variables are given values, in their order: a letter each, or with `I`, `J` and `K` in

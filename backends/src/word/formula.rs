@@ -16,7 +16,7 @@ use ncc_ir::source::Span;
 use ncc_ir::system::System;
 
 use super::codes::Letter;
-use super::comparisons::{exactly, flipped, holds_or_not, nearly, within};
+use super::comparisons::{decides, exactly, flipped, holds_or_not, nearly, within};
 use super::number::Worth;
 use super::{Sink, Writer};
 
@@ -498,30 +498,7 @@ impl Writer {
 
     /// A condition is a decision's alone, where loops and decisions have no words of their own for blocks.
     fn no_condition(&self, e: &Expr) -> Result<(), Fault> {
-        fn compares(e: &Expr) -> bool {
-            let Expr::Node(node) = e else { return false };
-            match &**node {
-                Node::Var(_) | Node::Vacant => false,
-                Node::Element(element) => element.at.iter().any(compares),
-                Node::Unary(Unary::Not, _) => true,
-                Node::Unary(Unary::Negate, a) => compares(a),
-                Node::Binary(operator, a, b) => {
-                    let sum = matches!(
-                        operator,
-                        Binary::Add
-                            | Binary::Subtract
-                            | Binary::Multiply
-                            | Binary::Divide
-                            | Binary::Modulo
-                            | Binary::Power
-                    );
-                    !sum || compares(a) || compares(b)
-                }
-                Node::Call(Function::Near | Function::NearRatio, _) => true,
-                Node::Call(_, arguments) => arguments.iter().any(compares),
-            }
-        }
-        match self.dialect.program.macro_b && compares(e) {
+        match self.dialect.program.macro_b && e.has(&decides) {
             true => Err(cannot_compute("a condition as a value")),
             false => Ok(()),
         }
@@ -652,14 +629,5 @@ fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
 
 /// Whether there is an angle of an arc in an expression.
 fn arcs(e: &Expr) -> bool {
-    let Expr::Node(node) = e else { return false };
-    match &**node {
-        Node::Var(_) | Node::Vacant => false,
-        Node::Element(element) => element.at.iter().any(arcs),
-        Node::Unary(_, a) => arcs(a),
-        Node::Binary(_, a, b) => arcs(a) || arcs(b),
-        Node::Call(function, arguments) => {
-            matches!(function, Function::Asin | Function::Atan2) || arguments.iter().any(arcs)
-        }
-    }
+    e.has(&|node| matches!(node, Node::Call(Function::Asin | Function::Atan2, _)))
 }

@@ -344,21 +344,14 @@ fn extreme(function: Function, a: Typed, b: Typed) -> Typed {
 
 /// Shows the variables that an expression reads, and whether one of several that only the run tells.
 pub(super) fn reads(expr: &Expr, seen: &mut dyn FnMut(&str)) {
-    let Expr::Node(node) = expr else { return };
-    match &**node {
-        Node::Var(var) => seen(&var.name()),
-        Node::Vacant => {}
-        Node::Unary(_, a) => reads(a, seen),
-        Node::Binary(_, a, b) => {
-            reads(a, seen);
-            reads(b, seen);
-        }
-        Node::Call(_, arguments) => arguments.iter().for_each(|a| reads(a, seen)),
-        Node::Element(element) => {
-            seen(&several(&element.of));
-            element.at.iter().for_each(|a| reads(a, seen));
+    if let Expr::Node(node) = expr {
+        match &**node {
+            Node::Var(var) => seen(&var.name()),
+            Node::Element(element) => seen(&several(&element.of)),
+            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {}
         }
     }
+    expr.parts().for_each(|part| reads(part, seen));
 }
 
 /// The name that stands for all of several variables.

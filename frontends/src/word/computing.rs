@@ -419,11 +419,8 @@ impl Lower {
                     *expr = value;
                 }
             }
-            Node::Var(_) | Node::Vacant => {}
-            Node::Unary(_, a) => self.mean(a, round, at, out),
-            Node::Binary(_, a, b) => {
-                self.mean(a, round, at, out);
-                self.mean(b, round, at, out);
+            Node::Var(_) | Node::Vacant | Node::Unary(..) | Node::Binary(..) => {
+                expr.parts_mut().for_each(|part| self.mean(part, round, at, out));
             }
             Node::Element(element) => {
                 element.of = self.numbered();

@@ -414,7 +414,6 @@ fn highest_of(expr: &Expr) -> usize {
     let Expr::Node(node) = expr else { return 0 };
     match &**node {
         Node::Var(Var::Local(name)) => name.parse().unwrap_or(0),
-        Node::Var(_) | Node::Vacant => 0,
         Node::Element(element) => match &element.of {
             Many::Numbered(numbers) => {
                 let local = numbers.iter().filter(|numbers| numbers.scope == Scope::Local);
@@ -422,9 +421,7 @@ fn highest_of(expr: &Expr) -> usize {
             }
             Many::Array { .. } => 0,
         },
-        Node::Unary(_, a) => highest_of(a),
-        Node::Binary(_, a, b) => highest_of(a).max(highest_of(b)),
-        Node::Call(_, arguments) => arguments.iter().map(highest_of).max().unwrap_or(0),
+        _ => expr.parts().map(highest_of).max().unwrap_or(0),
     }
 }
 

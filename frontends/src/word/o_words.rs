@@ -554,13 +554,8 @@ fn meets(expr: &Expr, to: &Expr) -> bool {
         return true;
     }
     match &**node {
-        Node::Var(_) => node == set || matches!(**set, Node::Element(_)),
-        Node::Element(element) => {
-            matches!(**set, Node::Element(_) | Node::Var(_)) || element.at.iter().any(|a| meets(a, to))
-        }
-        Node::Vacant => false,
-        Node::Unary(_, a) => meets(a, to),
-        Node::Binary(_, a, b) => meets(a, to) || meets(b, to),
-        Node::Call(_, arguments) => arguments.iter().any(|a| meets(a, to)),
+        Node::Var(_) if node == set || matches!(**set, Node::Element(_)) => true,
+        Node::Element(_) if matches!(**set, Node::Element(_) | Node::Var(_)) => true,
+        _ => expr.parts().any(|part| meets(part, to)),
     }
 }

@@ -186,15 +186,7 @@ impl Lower {
                     false => node(Node::Call(Function::Given, vec![element])),
                 };
             }
-            Node::Var(_) | Node::Vacant => {}
-            Node::Unary(_, a) => self.parameters(a, at, out),
-            Node::Binary(_, a, b) => {
-                self.parameters(a, at, out);
-                self.parameters(b, at, out);
-            }
-            Node::Call(_, arguments) => {
-                arguments.iter_mut().for_each(|a| self.parameters(a, at, out));
-            }
+            _ => expr.parts_mut().for_each(|part| self.parameters(part, at, out)),
         }
     }
 
@@ -313,13 +305,10 @@ pub(super) fn constant(expr: &Expr) -> Option<f64> {
 
 /// Whether an expression asks for a value of the control's own.
 pub(super) fn asks(expr: &Expr) -> Option<&System> {
-    let Expr::Node(node) = expr else { return None };
-    match &**node {
-        Node::Var(Var::System(system)) => Some(system),
-        Node::Var(_) | Node::Vacant => None,
-        Node::Element(element) => element.at.iter().find_map(asks),
-        Node::Unary(_, a) => asks(a),
-        Node::Binary(_, a, b) => asks(a).or_else(|| asks(b)),
-        Node::Call(_, arguments) => arguments.iter().find_map(asks),
+    if let Expr::Node(node) = expr
+        && let Node::Var(Var::System(system)) = &**node
+    {
+        return Some(system);
     }
+    expr.parts().find_map(asks)
 }

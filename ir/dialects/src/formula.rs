@@ -132,20 +132,32 @@ pub struct VariableNames {
 /// A statement that not every language has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-#[allow(missing_docs)] // As [`Said`].
 pub enum Statement {
+    /// A jump to a block.
     Jump,
+    /// A variable is made known with its type.
     Declare,
+    /// Several variables under one name.
     Array,
+    /// A variable whose number is computed.
     Numbered,
+    /// A loop without an end.
     Endless,
+    /// A loop that ends where a condition holds behind it.
     Until,
+    /// A loop over a variable that counts.
     Count,
+    /// A loop as often as a computed number says.
     Times,
+    /// The way out of the loops around it.
     Leave,
+    /// The way to the next turn of a loop.
     NextTurn,
+    /// A message with what is computed in it.
     Values,
+    /// An alarm of the program's own.
     Alarm,
+    /// A stop with a message.
     Stop,
 }
 

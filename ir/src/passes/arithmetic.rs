@@ -115,17 +115,8 @@ impl Over<'_> {
     }
 
     fn expr(&mut self, e: &mut Expr) {
+        e.parts_mut().for_each(|part| self.expr(part));
         let Expr::Node(inner) = e else { return };
-        match &mut **inner {
-            Node::Var(_) | Node::Vacant => {}
-            Node::Element(element) => element.at.iter_mut().for_each(|index| self.expr(index)),
-            Node::Unary(_, a) => self.expr(a),
-            Node::Binary(_, a, b) => {
-                self.expr(a);
-                self.expr(b);
-            }
-            Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| self.expr(a)),
-        }
         let made = match &**inner {
             Node::Binary(operator, a, b) => self.operator(*operator, a, b),
             Node::Call(function, arguments) => self.function(*function, arguments),

@@ -20,7 +20,7 @@ use conditions::{binary, compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::computes::{Computes, Said};
-use crate::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
+use crate::expr::{Binary, Expr, Node, Target, Unary, Var};
 use crate::num::Num;
 use crate::program::{Control, Op, Program, Stmt, Text};
 use crate::source::Span;
@@ -584,11 +584,10 @@ impl Changed {
             Node::Var(Var::System(_)) => false,
             Node::Var(var @ Var::Local(_)) => !self.any && !self.shared && !self.variables.contains(var),
             Node::Var(var) => !self.any && !self.calls && !self.variables.contains(var),
-            Node::Element(Element { .. }) => false,
-            Node::Vacant => true,
-            Node::Unary(_, a) => self.keeps(a),
-            Node::Binary(_, a, b) => self.keeps(a) && self.keeps(b),
-            Node::Call(_, arguments) => arguments.iter().all(|a| self.keeps(a)),
+            Node::Element(_) => false,
+            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {
+                value.parts().all(|part| self.keeps(part))
+            }
         }
     }
 }

@@ -81,15 +81,5 @@ fn over(e: &mut Expr, found: &mut bool) {
         *e = plain;
         *found = true;
     }
-    let Expr::Node(node) = e else { return };
-    match &mut **node {
-        Node::Var(_) | Node::Vacant => {}
-        Node::Element(element) => element.at.iter_mut().for_each(|index| over(index, found)),
-        Node::Unary(_, a) => over(a, found),
-        Node::Binary(_, a, b) => {
-            over(a, found);
-            over(b, found);
-        }
-        Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| over(a, found)),
-    }
+    e.parts_mut().for_each(|part| over(part, found));
 }

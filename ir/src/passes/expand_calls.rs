@@ -11,7 +11,7 @@ use super::{MOST_STATEMENTS, Target};
 use crate::canon::{Fact, Motion};
 use crate::cycle::{Clearance, CycleKind, First, Pattern};
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Element, Expr, Node};
+use crate::expr::Expr;
 use crate::kinds::{conduct, flow, miscellaneous, modes, tooling, variables};
 use crate::num::Unit;
 use crate::program::{
@@ -355,16 +355,6 @@ fn settle_expr(value: &mut Expr, here: &Tracker) {
             None => {}
         },
         Expr::Num(_) => {}
-        Expr::Node(node) => match &mut **node {
-            Node::Var(_) | Node::Vacant => {}
-            Node::Unary(_, a) => settle_expr(a, here),
-            Node::Binary(_, a, b) => {
-                settle_expr(a, here);
-                settle_expr(b, here);
-            }
-            Node::Element(Element { at: arguments, .. }) | Node::Call(_, arguments) => {
-                arguments.iter_mut().for_each(|a| settle_expr(a, here));
-            }
-        },
+        Expr::Node(_) => value.parts_mut().for_each(|part| settle_expr(part, here)),
     }
 }

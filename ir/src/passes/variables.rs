@@ -110,20 +110,10 @@ pub fn run(
 
 /// Whether anything must have a value where it is read.
 fn gives(program: &mut Program) -> bool {
-    fn within(e: &Expr) -> bool {
-        let Expr::Node(node) = e else { return false };
-        match &**node {
-            Node::Call(Function::Given, _) => true,
-            Node::Var(_) | Node::Vacant => false,
-            Node::Element(element) => element.at.iter().any(within),
-            Node::Unary(_, a) => within(a),
-            Node::Binary(_, a, b) => within(a) || within(b),
-            Node::Call(_, arguments) => arguments.iter().any(within),
-        }
-    }
+    let given = |node: &Node| matches!(node, Node::Call(Function::Given, _));
     let mut found = false;
     for procedure in &mut program.procedures {
-        expressions(&mut procedure.body, &mut |_, e| found |= within(e));
+        expressions(&mut procedure.body, &mut |_, e| found |= e.has(&given));
     }
     found
 }

@@ -33,9 +33,7 @@ const fn other(operator: Binary) -> Option<Binary> {
 pub(super) fn is_condition(e: &Expr) -> bool {
     let Expr::Node(node) = e else { return false };
     match &**node {
-        Node::Binary(operator, ..) => {
-            other(*operator).is_some() || matches!(operator, Binary::And | Binary::Or | Binary::Xor)
-        }
+        Node::Binary(operator, ..) => operator.decides(),
         Node::Unary(Unary::Not, _) => true,
         Node::Var(_) | Node::Element(_) | Node::Vacant | Node::Unary(Unary::Negate, _) | Node::Call(..) => {
             false

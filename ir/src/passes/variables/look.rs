@@ -94,14 +94,10 @@ impl Look {
                 }
                 self.var(var, None, at);
             }
-            Node::Vacant => {}
             Node::Element(element) => self.element(element, at),
-            Node::Unary(_, a) => self.expr(a, at),
-            Node::Binary(_, a, b) => {
-                self.expr(a, at);
-                self.expr(b, at);
+            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {
+                e.parts().for_each(|part| self.expr(part, at));
             }
-            Node::Call(_, arguments) => arguments.iter().for_each(|a| self.expr(a, at)),
         }
     }
 }

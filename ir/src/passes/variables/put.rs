@@ -223,22 +223,16 @@ impl Put<'_, '_> {
     }
 
     fn expr(&mut self, e: &mut Expr, at: Span) {
+        e.parts_mut().for_each(|part| self.expr(part, at));
         let Expr::Node(node) = e else { return };
         match &mut **node {
             Node::Var(var) => self.var(var),
             Node::Element(element) => {
-                element.at.iter_mut().for_each(|index| self.expr(index, at));
                 if let Some(var) = self.element(element, at) {
                     **node = Node::Var(var);
                 }
             }
-            Node::Vacant => {}
-            Node::Unary(_, a) => self.expr(a, at),
-            Node::Binary(_, a, b) => {
-                self.expr(a, at);
-                self.expr(b, at);
-            }
-            Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| self.expr(a, at)),
+            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {}
         }
     }
 }

@@ -14,7 +14,6 @@ use super::defaults;
 use crate::arguments::{self, Argument};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
-use crate::num::{Num, Unit};
 use crate::program::{Call, Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
 use crate::value;
@@ -609,32 +608,19 @@ impl Values<'_> {
     /// The first variable of an expression that is one thing or the other.
     fn unsure(&self, e: &Expr) -> Diagnostic {
         fn first<'e>(e: &'e Expr, known: &Known) -> Option<&'e str> {
-            let Expr::Node(node) = e else { return None };
-            match &**node {
-                Node::Var(Var::Local(name)) => (known.of(name) != May::Number).then_some(&**name),
-                Node::Var(_) | Node::Vacant => None,
-                Node::Element(element) => element.at.iter().find_map(|index| first(index, known)),
-                Node::Unary(_, a) => first(a, known),
-                Node::Binary(_, a, b) => first(a, known).or_else(|| first(b, known)),
-                Node::Call(_, arguments) => arguments.iter().find_map(|a| first(a, known)),
+            if let Expr::Node(node) = e
+                && let Node::Var(Var::Local(name)) = &**node
+            {
+                return (known.of(name) != May::Number).then_some(&**name);
             }
+            e.parts().find_map(|part| first(part, known))
         }
         self.refused(first(e, self.known).unwrap_or_default())
     }
 
     /// What may be nothing: a word, what a variable is given.
     fn whole(&self, e: &mut Expr) -> Result<(), Diagnostic> {
-        if self.vacant {
-            return self.inner(e);
-        }
-        match may(e, self.known) {
-            May::Nothing => {
-                *e = nothing();
-                Ok(())
-            }
-            May::Either => Err(self.unsure(e)),
-            May::Number => self.inner(e),
-        }
+        self.settled(e, nothing())
     }
 
     /// What is handed over: whether it is read there is looked at there.
@@ -648,12 +634,17 @@ impl Values<'_> {
 
     /// What counts as zero where it is nothing.
     fn number(&self, e: &mut Expr) -> Result<(), Diagnostic> {
+        self.settled(e, Expr::int(0))
+    }
+
+    /// What is nothing becomes this; what may be nothing or a number is refused.
+    fn settled(&self, e: &mut Expr, nothing: Expr) -> Result<(), Diagnostic> {
         if self.vacant {
             return self.inner(e);
         }
         match may(e, self.known) {
             May::Nothing => {
-                *e = Expr::Num(Num::int(0, Unit::One));
+                *e = nothing;
                 Ok(())
             }
             May::Either => Err(self.unsure(e)),
@@ -669,25 +660,17 @@ impl Values<'_> {
             *e = Expr::int(i64::from(holds));
             return Ok(());
         }
-        let Expr::Node(node) = e else { return Ok(()) };
-        match &mut **node {
-            Node::Var(_) | Node::Vacant => Ok(()),
-            Node::Element(element) => element.at.iter_mut().try_for_each(|index| self.number(index)),
-            Node::Unary(_, a) => self.number(a),
-            Node::Binary(_, a, b) => {
-                self.number(a)?;
-                self.number(b)
+        if let Expr::Node(node) = e
+            && let Node::Call(Function::Given, arguments) = &mut **node
+        {
+            let [a] = &mut arguments[..] else { return Ok(()) };
+            if may(a, self.known) != May::Number {
+                return Err(self.unsure(a));
             }
-            Node::Call(Function::Given, arguments) => {
-                let [a] = &mut arguments[..] else { return Ok(()) };
-                if may(a, self.known) != May::Number {
-                    return Err(self.unsure(a));
-                }
-                self.number(a)?;
-                *e = a.clone();
-                Ok(())
-            }
-            Node::Call(_, arguments) => arguments.iter_mut().try_for_each(|a| self.number(a)),
+            self.number(a)?;
+            *e = a.clone();
+            return Ok(());
         }
+        e.parts_mut().try_for_each(|part| self.number(part))
     }
 }

@@ -11,50 +11,37 @@ use crate::types::Types;
 
 /// A literal that is rounded, as the whole number that it comes to.
 pub(super) fn whole(expr: &mut Expr) {
-    let Expr::Node(node) = expr else { return };
-    match &mut **node {
-        Node::Var(_) | Node::Vacant => {}
-        Node::Element(element) => element.at.iter_mut().for_each(whole),
-        Node::Unary(_, a) => whole(a),
-        Node::Binary(_, a, b) => {
-            whole(a);
-            whole(b);
-        }
-        Node::Call(function, arguments) => {
-            arguments.iter_mut().for_each(whole);
-            if let (Function::Round, [Expr::Num(n)]) = (function, &arguments[..])
-                && let Some(by) = 10_i64.checked_pow(u32::from(n.scale))
-            {
-                let nearest = (n.mantissa.abs() / by + i64::from(n.mantissa.abs() % by * 2 >= by))
-                    * n.mantissa.signum();
-                *expr = Expr::int(nearest);
-            }
-        }
+    expr.parts_mut().for_each(whole);
+    if let Expr::Node(node) = expr
+        && let Node::Call(Function::Round, arguments) = &**node
+        && let [Expr::Num(n)] = &arguments[..]
+        && let Some(by) = 10_i64.checked_pow(u32::from(n.scale))
+    {
+        let up = i64::from(n.mantissa.abs() % by * 2 >= by);
+        *expr = Expr::int((n.mantissa.abs() / by + up) * n.mantissa.signum());
     }
 }
 
 /// A remainder as what it is: what is divided, less the divisor as often as it goes into it; where there are types,
 /// one of whole numbers stays.
 pub(super) fn remainder(expr: &mut Expr, types: Option<&Types>) {
-    let Expr::Node(node) = expr else { return };
-    match &mut **node {
-        Node::Var(_) | Node::Vacant => {}
-        Node::Element(element) => element.at.iter_mut().for_each(|index| remainder(index, types)),
-        Node::Unary(_, a) => remainder(a, types),
-        Node::Call(_, arguments) => arguments.iter_mut().for_each(|a| remainder(a, types)),
-        Node::Binary(operator, a, b) => {
-            let whole = types.is_some_and(|types| types.are_whole(a) && types.are_whole(b));
-            remainder(a, types);
-            remainder(b, types);
-            if *operator == Binary::Modulo && !whole {
-                let of = |operator, a: &Expr, b: &Expr| {
-                    Expr::Node(Box::new(Node::Binary(operator, a.clone(), b.clone())))
-                };
-                let quotient = of(Binary::Divide, a, b);
-                let often = Expr::Node(Box::new(Node::Call(Function::Truncate, vec![quotient])));
-                *expr = of(Binary::Subtract, a, &of(Binary::Multiply, &often, b));
-            }
-        }
+    let both_whole = match expr {
+        Expr::Node(node) => match (&**node, types) {
+            (Node::Binary(_, a, b), Some(types)) => types.are_whole(a) && types.are_whole(b),
+            _ => false,
+        },
+        Expr::Num(_) => false,
+    };
+    expr.parts_mut().for_each(|part| remainder(part, types));
+    if let Expr::Node(node) = expr
+        && let Node::Binary(Binary::Modulo, a, b) = &**node
+        && !both_whole
+    {
+        let of =
+            |operator, a: &Expr, b: &Expr| Expr::Node(Box::new(Node::Binary(operator, a.clone(), b.clone())));
+        let quotient = of(Binary::Divide, a, b);
+        let often = Expr::Node(Box::new(Node::Call(Function::Truncate, vec![quotient])));
+        *expr = of(Binary::Subtract, a, &of(Binary::Multiply, &often, b));
     }
 }
 
@@ -62,23 +49,13 @@ pub(super) fn remainder(expr: &mut Expr, types: Option<&Types>) {
 /// it is.
 pub(super) fn up(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     fn over(expr: &mut Expr, found: &mut bool) {
-        let Expr::Node(node) = expr else { return };
-        match &mut **node {
-            Node::Var(_) | Node::Vacant => {}
-            Node::Element(element) => element.at.iter_mut().for_each(|index| over(index, found)),
-            Node::Unary(_, a) => over(a, found),
-            Node::Binary(_, a, b) => {
-                over(a, found);
-                over(b, found);
-            }
-            Node::Call(function, arguments) => {
-                if *function == Function::RoundUp {
-                    *function = Function::Ceiling;
-                    *found = true;
-                }
-                arguments.iter_mut().for_each(|a| over(a, found));
-            }
+        if let Expr::Node(node) = expr
+            && let Node::Call(function @ Function::RoundUp, _) = &mut **node
+        {
+            *function = Function::Ceiling;
+            *found = true;
         }
+        expr.parts_mut().for_each(|part| over(part, found));
     }
     let mut at = None;
     let every = &mut |stmt: &Stmt, expr: &mut Expr| {
