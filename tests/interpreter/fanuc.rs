@@ -10,7 +10,7 @@ mod programs;
 mod tilt;
 mod words;
 
-use macro_b::{Go, Variables, jump, loops};
+use macro_b::{Go, Modal, Variables, jump, loops};
 use programs::{Program, programs, without_name};
 
 use super::{Corner, Cut, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
@@ -51,6 +51,8 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         variables: Variables::of(haas),
         steps: 0,
         haas,
+        modal: None,
+        moved: false,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
     if !control.program(main, &programs)? {
@@ -94,6 +96,10 @@ struct Control {
     /// How many blocks were run.
     steps: u32,
     haas: bool,
+    /// What G66 has called behind each block that moves.
+    modal: Option<Modal>,
+    /// Whether the block at hand has moved an axis.
+    moved: bool,
 }
 
 /// A word: its letter, its number and whether that has a decimal point.
@@ -113,7 +119,7 @@ impl Control {
             self.m.line = *line;
             self.look(block);
             at = match self.statement(block)? {
-                Go::Not => match self.block(block, all)? {
+                Go::Not => match self.block_and_macro(block, all)? {
                     Next::Block => at + 1,
                     Next::Back => return Ok(false),
                     Next::End => return Ok(true),
@@ -165,6 +171,9 @@ impl Control {
         let Some(raw) = self.words(&block)? else { return Ok(Next::Block) };
         if raw.contains(&('G', "65")) {
             return self.macro_call(&raw, called.as_deref(), all);
+        }
+        if raw.contains(&('G', "66")) && !self.haas {
+            return self.begin_modal(&raw);
         }
         let words = self.values(&raw).or_else(|why| self.m.halt(why))?;
         if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGMrc".contains(w.0)) {
@@ -222,6 +231,8 @@ impl Control {
                 g @ 17..=19 => self.m.plane = g,
                 20 => self.m.inch = true,
                 21 => self.m.inch = false,
+                // Every call of its kind is over.
+                67 if !self.haas => self.modal = None,
                 40 => self.m.go_on(),
                 41 => side = Some(true),
                 42 => side = Some(false),
@@ -374,6 +385,7 @@ impl Control {
             };
             self.m.record(What::Dwell(seconds));
         } else if let Some(code) = machine {
+            self.moved = true;
             self.machine_point(code, &words)?;
         } else if let Some(cycle) = self.cycle {
             self.hole(cycle, &words)?;
@@ -517,6 +529,7 @@ impl Control {
         if any_centre && self.motion < 2 {
             return self.m.halt("a centre or radius without an arc");
         }
+        self.moved = true;
         let to = self.place(axes, words)?;
         let round = self.length(words, 'r').map(Cut::Round);
         self.m.asked = round.or(self.length(words, 'c').map(Cut::Leg));
@@ -631,6 +644,7 @@ impl Control {
             (89, _, p) => Hole::Bore(p.unwrap_or(0.0)),
             _ => return self.m.halt("a cycle without its Q or P"),
         };
+        self.moved = true;
         let back = if self.return_initial { self.initial } else { r };
         for _ in 0..times {
             let to = self.place(axes, words)?;

@@ -27,7 +27,15 @@ fn built_in_dictionaries_read_back() {
                 .iter()
                 .filter(|c| {
                     c.means.is_none_or(|m| {
-                        !matches!(m.to_string().as_str(), "START_CYCLE" | "PATTERN" | "CALL_MACRO")
+                        let name = m.to_string();
+                        !matches!(
+                            name.as_str(),
+                            "START_CYCLE"
+                                | "PATTERN"
+                                | "CALL_MACRO"
+                                | "CALL_MACRO_AT_MOVES"
+                                | "END_CALLS_AT_MOVES"
+                        )
                     })
                 })
                 .map(|c| ("code", c.code.clone()))

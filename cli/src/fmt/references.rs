@@ -288,7 +288,7 @@ impl Look<'_> {
                     None => {}
                 }
             }
-            if row.means == Some(Meaning::CallMacro)
+            if matches!(row.means, Some(Meaning::CallMacro | Meaning::CallMacroAtMoves))
                 && let Some(p) = row.words.bytes().next().and_then(word)
             {
                 self.found.calls.insert((self.scope, p.value));
@@ -316,7 +316,14 @@ impl Look<'_> {
         let strange = means.iter().any(Option::is_none)
             || pieces.windows(2).any(|p| p[0].text(line) == b"G" && p[1].text(line).contains(&b'.'));
         let uses_letters = means.iter().flatten().any(|m| {
-            matches!(m, Meaning::StartCycle | Meaning::Pattern | Meaning::Call | Meaning::CallMacro)
+            matches!(
+                m,
+                Meaning::StartCycle
+                    | Meaning::Pattern
+                    | Meaning::Call
+                    | Meaning::CallMacro
+                    | Meaning::CallMacroAtMoves
+            )
         });
         for w in words {
             let row = self.dialect.address_row(w.letter);

@@ -62,6 +62,9 @@ impl Lower {
     }
 
     fn call_program(&mut self, name: Text, times: u32, block: Span, word: Span, out: &mut Batch) {
+        if self.within_modal(block, out) {
+            return;
+        }
         if times == 0 || times > MOST_TIMES {
             return self.fault(Fault::OutOfRange { word: name }, word, out);
         }
@@ -85,6 +88,9 @@ impl Lower {
             let name = "return of a numbered program in a subprogram of O words".into();
             let fault = Fault::NotSupported { code: code.row.code.as_str().into(), name };
             return self.fault(fault, code.span, out);
+        }
+        if self.within_modal(code.span, out) {
+            return;
         }
         self.ended |= self.now.skip.is_none();
         self.leave_motion(None, out);

@@ -21,6 +21,7 @@ use super::formula::{Statement, To};
 use super::jump_of::JumpOf;
 use super::lower::Lower;
 use super::macro_call::parameters;
+use super::modal_call::{AtMoves, Reach};
 use super::number::{spell, unit_of};
 use super::sort::Words;
 use crate::Batch;
@@ -42,6 +43,9 @@ pub(super) struct Computes {
     called: Vec<(Text, usize)>,
     /// Jumps to blocks whose number is computed.
     pub(super) jumps_of: Vec<JumpOf>,
+    /// The macro that is called behind each block that moves.
+    pub(super) at_moves: Option<AtMoves>,
+    pub(super) reach: Reach,
 }
 
 /// A loop that has not ended.
@@ -54,6 +58,8 @@ struct Open {
     block: Span,
     skip: Option<u8>,
     label: Option<u32>,
+    /// The calls at moves that it began in.
+    calls: u32,
 }
 
 /// The name by which jumps know the block of a number.
@@ -139,6 +145,8 @@ impl Lower {
     pub(super) fn jumped_to(&mut self, block: &Block, out: &mut Batch) {
         let Some(number) = self.now.number.filter(|_| self.computes.jumps) else { return };
         self.lose(block.span, out);
+        let calls = self.calls_in_force();
+        self.computes.reach.labels.push((number, calls));
         let skip = self.now.skip.take();
         self.push(block.span, Op::Label(label(number)), out);
         self.now.skip = skip;
@@ -170,6 +178,9 @@ impl Lower {
                     let name = "jump in a text whose first part has numbered blocks, and is long".into();
                     return self.fault(Fault::NotSupported { code, name }, span, out);
                 }
+                let calls = self.calls_in_force();
+                let named = if let To::Number(to) = to { Some(*to) } else { None };
+                self.computes.reach.jumps.push((named, calls, span));
                 self.leave_motion(None, out);
                 match (to, condition) {
                     (To::Number(to), None) => self.push(span, Op::Goto(label(*to)), out),
@@ -206,12 +217,13 @@ impl Lower {
 
     fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {
         let (skip, label) = (self.now.skip, self.now.number.filter(|_| !self.computes.jumps));
-        self.computes.loops.push(Open { number, condition, at: None, block, skip, label });
+        let calls = self.calls_in_force();
+        self.computes.loops.push(Open { number, condition, at: None, block, skip, label, calls });
     }
 
     fn end_loop(&mut self, number: u32, span: Span, out: &mut Batch) {
         let found = self.computes.loops.pop();
-        let Some(Open { at: Some(at), number: own, condition, block, skip, label }) = found else {
+        let Some(Open { at: Some(at), number: own, condition, block, skip, label, calls }) = found else {
             let code = format!("END{number}").into();
             return self.fault(Fault::NotSupported { code, name: "end of no loop".into() }, span, out);
         };
@@ -219,6 +231,9 @@ impl Lower {
         if own != number {
             let name = format!("end of a loop within the loop {own}").into();
             return self.fault(Fault::NotSupported { code, name }, span, out);
+        }
+        if calls != self.calls_in_force() {
+            return self.refuse_modal("G66", "modal call that begins or ends within a loop", span, out);
         }
         if skip.is_some() || self.now.skip.is_some() {
             let name = "loop whose head or end can be skipped".into();
@@ -245,6 +260,7 @@ impl Lower {
 
     /// The end of a program: a loop that is still open has none.
     pub(super) fn open_loops(&mut self, out: &mut Batch) {
+        self.calls_over(out);
         for open in std::mem::take(&mut self.computes.loops) {
             let code = format!("DO{}", open.number).into();
             out.report(Fault::NotSupported { code, name: "loop without its end".into() }, open.block);
@@ -304,6 +320,7 @@ impl Lower {
     /// A variable gets another value: what has been computed from variables and is not said yet must not be
     /// said with it.
     pub(super) fn assigned(&mut self, span: Span, out: &mut Batch) {
+        self.argument_changes(span, out);
         if let InForce::Active(active) = &self.state.cycle
             && ([&active.depth, &active.retract].iter().any(|word| word.value.literal().is_none())
                 || active.peck.as_ref().is_some_and(|peck| peck.literal().is_none()))

@@ -59,7 +59,7 @@ impl Lower {
         let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         let state = &self.state;
         // Its code is not said yet.
-        if self.unmoved() {
+        if self.unmoved() || self.computes.at_moves.is_some() {
             return None;
         }
         let feed = match state.motion {

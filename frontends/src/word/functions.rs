@@ -421,6 +421,7 @@ impl Lower {
                 return self.refuse_level(code.span, out);
             }
             Meaning::Call => return self.call(code, words, src, out),
+            Meaning::EndCallsAtMoves => return self.end_calls_at_moves(code, words, out),
             Meaning::Return => return self.return_from(code, out),
             _ => return,
         };

@@ -244,6 +244,7 @@ impl Lower {
                 self.functions(block, &codes, &mut words, level, src, out);
             }
             self.settings(block, true, out);
+            self.call_at_moves(block, src, out);
             self.asked_in_time(block, out);
             if !self.now.failed {
                 self.check_unused(&words, src, out);

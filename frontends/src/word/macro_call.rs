@@ -3,7 +3,7 @@
 //! `A` to `Z` name a variable each; `I`, `J` and `K` that come again, or in another order, name those of further
 //! sets (16-C, custom macro: argument specification I and II). What has no argument has no value.
 //!
-//! Not here: calls that come again at every move.
+//! Not here: how calls come again at every move (`modal_call`).
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
@@ -63,7 +63,8 @@ impl Lower {
             let Value::Number(digits) = word.value else { return None };
             let whole = digits.whole().filter(|_| word.letter == b'G')?;
             let row = dialect.code_row(word.letter, whole.checked_mul(10)?)?;
-            let meaning = row.means.filter(|meaning| *meaning == Meaning::CallMacro)?;
+            let calls = |meaning: &Meaning| matches!(meaning, Meaning::CallMacro | Meaning::CallMacroAtMoves);
+            let meaning = row.means.filter(calls)?;
             Some(Code { row, meaning, span: word.span, at })
         })
     }
@@ -153,8 +154,15 @@ impl Lower {
         let name: Box<str> = name.to_string().into();
         out.whole = true;
         self.computes.calls(&name, arguments.len());
+        let call = Call { name, times, arguments, shared: false };
+        if code.meaning == Meaning::CallMacroAtMoves {
+            return self.begin_calls_at_moves(code, call, block, out);
+        }
+        if self.within_modal(code.span, out) {
+            return;
+        }
         self.leave_motion(None, out);
-        self.push(block.span, Op::Call(Box::new(Call { name, times, arguments, shared: false })), out);
+        self.push(block.span, Op::Call(Box::new(call)), out);
         self.lose(block.span, out);
     }
 

@@ -32,6 +32,7 @@ pub(crate) mod jumps;
 pub(crate) mod lower;
 mod machine;
 mod macro_call;
+mod modal_call;
 mod motion;
 pub(crate) mod number;
 mod o_subs;

@@ -174,8 +174,8 @@ fn the_macro_language_is_refused_by_name() {
         assert_eq!(faults("linuxcnc", piece).len(), 1, "{piece}");
     }
     assert_eq!(
-        faults("fanuc", "G66 P9000 A1.\n")[0],
-        "NotSupported { code: 'G66', name: 'modal macro call' } at 'G66'"
+        faults("fanuc", "G66 P9000 A1.\nG66 P9001\n")[0],
+        "NotSupported { code: 'G66', name: 'modal macro call within another' } at 'G66'"
     );
 }
 

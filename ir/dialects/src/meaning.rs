@@ -129,6 +129,9 @@ pub enum Meaning {
     ProgramEnd,
     Call,
     CallMacro,
+    /// Such a call behind every block that moves an axis, until they end.
+    CallMacroAtMoves,
+    EndCallsAtMoves,
     Return,
 }
 
@@ -276,6 +279,8 @@ impl fmt::Display for Meaning {
             Meaning::ProgramEnd => "PROGRAM_END",
             Meaning::Call => "CALL",
             Meaning::CallMacro => "CALL_MACRO",
+            Meaning::CallMacroAtMoves => "CALL_MACRO_AT_MOVES",
+            Meaning::EndCallsAtMoves => "END_CALLS_AT_MOVES",
             Meaning::Return => "RETURN",
         })
     }
@@ -431,6 +436,8 @@ impl FromStr for Meaning {
             ("PROGRAM_END", "") => Meaning::ProgramEnd,
             ("CALL", "") => Meaning::Call,
             ("CALL_MACRO", "") => Meaning::CallMacro,
+            ("CALL_MACRO_AT_MOVES", "") => Meaning::CallMacroAtMoves,
+            ("END_CALLS_AT_MOVES", "") => Meaning::EndCallsAtMoves,
             ("RETURN", "") => Meaning::Return,
             _ => return Err(format!("no meaning: {text}")),
         })

@@ -26,6 +26,15 @@ pub(super) enum Rounding {
 /// Local variables of a level by their numbers; place 0 is not used.
 type Locals = [Option<f64>; 34];
 
+/// A macro that is called behind each block that moves an axis (B-63684EN, 16.7.2): its program, how often, and what the
+/// arguments of its block were worth.
+#[derive(Clone, Debug)]
+pub(super) struct Modal {
+    program: String,
+    times: u32,
+    local: Locals,
+}
+
 /// The variables of a control.
 #[derive(Clone, Debug)]
 pub(super) struct Variables {
@@ -431,6 +440,43 @@ impl Control {
                 return Ok(Next::End);
             }
         }
+        Ok(Next::Block)
+    }
+
+    /// G66: no call by itself; what its arguments are worth stays.
+    pub(super) fn begin_modal(&mut self, raw: &[(char, &str)]) -> Result<Next, Halt> {
+        if self.modal.is_some() {
+            return self.m.halt("G66 within another");
+        }
+        // Its arguments are those of the other call.
+        let (program, times, local) = match self.arguments(raw) {
+            Ok((Some(program), times, local)) => (program.to_string(), times, local),
+            Ok(_) => return self.m.halt("G66 without a program"),
+            Err(why) => return self.m.halt(why),
+        };
+        self.modal = Some(Modal { program, times, local });
+        Ok(Next::Block)
+    }
+
+    /// A block, and behind it the macro of G66 if it has moved.
+    pub(super) fn block_and_macro(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
+        self.moved = false;
+        let next = self.block(block, all)?;
+        let Some(modal) = self.modal.clone().filter(|_| self.moved) else { return Ok(next) };
+        if !matches!(next, Next::Block) {
+            return self.m.halt("a move under G66 in a block that ends a program");
+        }
+        // Its own moves call nothing.
+        self.modal = None;
+        for _ in 0..modal.times {
+            self.variables.local.push(modal.local);
+            let next = self.run(&modal.program, all)?;
+            self.variables.local.pop();
+            if let Next::End = next {
+                return Ok(Next::End);
+            }
+        }
+        self.modal = Some(modal);
         Ok(Next::Block)
     }
 

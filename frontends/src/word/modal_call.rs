@@ -1,0 +1,198 @@
+//! Lowering of a macro call that comes again behind every block that moves an axis, until it is called off (B-63684EN,
+//! custom macro, modal call): each of them is a call of its own behind the move.
+//!
+//! The arguments are worth what they are in the block that says them; so they are numbers, or the program's local
+//! variables, which nothing sets until the calls are over.
+//!
+//! Refused by name: one within another, other calls and cycles while it is in force, and ways from where it is in force
+//! to where it is not.
+
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Expr, Node, Var};
+use ncc_ir::program::{Call, Op};
+use ncc_ir::source::Span;
+
+use super::Source;
+use super::block::Block;
+use super::lower::Lower;
+use super::sort::{Code, Words};
+use crate::Batch;
+
+/// Calls that are in force.
+#[derive(Clone, Debug)]
+pub(super) struct AtMoves {
+    call: Call,
+    /// Which of the text's they are, from 1.
+    which: u32,
+    /// Whether arguments are computed.
+    computed: bool,
+}
+
+/// Which calls are in force where a program can be come to, and where it goes away from; 0 is none.
+#[derive(Debug, Default)]
+pub(super) struct Reach {
+    /// How many of them the text has had.
+    seen: u32,
+    /// Blocks with numbers.
+    pub(super) labels: Vec<(u32, u32)>,
+    /// Jumps; of one without a number it is computed.
+    pub(super) jumps: Vec<(Option<u32>, u32, Span)>,
+}
+
+impl Lower {
+    /// Which calls at moves are in force; 0 is none.
+    pub(super) fn calls_in_force(&self) -> u32 {
+        self.computes.at_moves.as_ref().map_or(0, |calls| calls.which)
+    }
+
+    pub(super) fn refuse_modal(&mut self, code: &str, name: &str, at: Span, out: &mut Batch) {
+        self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, at, out);
+    }
+
+    /// The block that says the call; it makes none itself.
+    pub(super) fn begin_calls_at_moves(&mut self, code: &Code, call: Call, block: &Block, out: &mut Batch) {
+        let name = if self.computes.at_moves.is_some() {
+            "modal macro call within another"
+        } else if block.skip != 0 {
+            "modal macro call that can be skipped"
+        } else if !call.arguments.iter().all(stays) {
+            "modal call with an argument of shared variables"
+        } else if self.now.failed {
+            return;
+        } else {
+            self.assume_row(code.row, "MODAL_MACRO_CALL, its arguments anew each time", code.span, out);
+            self.now.silent = true;
+            self.computes.reach.seen += 1;
+            let computed = call.arguments.iter().any(|value| value.literal().is_none() && !is_vacant(value));
+            self.computes.at_moves = Some(AtMoves { call, which: self.computes.reach.seen, computed });
+            return;
+        };
+        self.refuse_modal(&code.row.code, name, code.span, out);
+    }
+
+    /// The calls are over; where none are in force, nothing is.
+    pub(super) fn end_calls_at_moves(&mut self, code: &Code, words: &Words, out: &mut Batch) {
+        self.now.silent = true;
+        if self.computes.at_moves.is_none() {
+            return;
+        }
+        if self.now.skip.is_some() {
+            return self.refuse_modal(
+                &code.row.code,
+                "end of a modal macro call that can be skipped",
+                code.span,
+                out,
+            );
+        }
+        if self.has_axis_word(words) {
+            // Whether the block's own move is one of those behind which it is called, no manual says.
+            return self.refuse_modal(
+                &code.row.code,
+                "end of a modal call in a block that moves",
+                code.span,
+                out,
+            );
+        }
+        self.computes.at_moves = None;
+    }
+
+    /// Behind a block that moves an axis.
+    pub(super) fn call_at_moves(&mut self, block: &Block, src: Source, out: &mut Batch) {
+        if self.computes.at_moves.is_none() || self.now.failed || block.statement.is_some() {
+            return;
+        }
+        let mark = self.now.mark;
+        let own = self.target(out).get(mark..).unwrap_or_default();
+        let other = own.iter().any(|stmt| {
+            matches!(
+                stmt.op,
+                Op::GoToReference(_)
+                    | Op::OrientToolAxis(_)
+                    | Op::UseMachineCoordinates { .. }
+                    | Op::StartCycle(_)
+                    | Op::Hole(_)
+                    | Op::Pattern(_)
+                    | Op::Polar(_)
+                    | Op::Corner { .. }
+                    | Op::Detour(_)
+            )
+        });
+        let moves = own.iter().any(|stmt| {
+            matches!(
+                stmt.op,
+                Op::StraightTraverse(_)
+                    | Op::StraightFeed(_)
+                    | Op::SynchronisedFeed(_)
+                    | Op::ArcFeed(_)
+                    | Op::ArcForm(_)
+                    | Op::Position(_)
+            )
+        });
+        if other {
+            let name = "cycle, corner or machine point under a modal macro call";
+            return self.refuse_modal("G66", name, block.span, out);
+        }
+        if !moves {
+            return;
+        }
+        if self.level_open() {
+            return self.refuse_level(block.span, out);
+        }
+        let Some(call) = self.computes.at_moves.as_ref().map(|calls| calls.call.clone()) else { return };
+        // The block's comment is the move's.
+        if let Some(comment) = self.plain_comment(block, src).filter(|_| !self.now.commented) {
+            self.now.commented = true;
+            if let Some(stmt) = self.target(out).last_mut() {
+                stmt.comment = Some(Box::new(comment));
+            }
+        }
+        self.leave_motion(None, out);
+        self.push(block.span, Op::Call(Box::new(call)), out);
+        self.lose(block.span, out);
+    }
+
+    /// Whether a modal call is in force, where none of its own may be made (reported).
+    pub(super) fn within_modal(&mut self, at: Span, out: &mut Batch) -> bool {
+        let within = self.computes.at_moves.is_some();
+        if within {
+            self.refuse_modal("G66", "call or return under a modal macro call", at, out);
+        }
+        within
+    }
+
+    /// A variable is set.
+    pub(super) fn argument_changes(&mut self, at: Span, out: &mut Batch) {
+        if self.computes.at_moves.as_ref().is_some_and(|calls| calls.computed) {
+            let name = "assignment under a modal call with variables";
+            self.refuse_modal("G66", name, at, out);
+        }
+    }
+
+    /// The end of a program: jumps lead from where the same calls are in force.
+    pub(super) fn calls_over(&mut self, out: &mut Batch) {
+        self.computes.at_moves = None;
+        let labels = std::mem::take(&mut self.computes.reach.labels);
+        for (to, from, at) in std::mem::take(&mut self.computes.reach.jumps) {
+            let named = |label: &&(u32, u32)| to.is_none_or(|to| to == label.0);
+            if labels.iter().filter(named).any(|label| label.1 != from) {
+                self.refuse_modal("G66", "jump over the beginning or end of a modal call", at, out);
+            }
+        }
+    }
+}
+
+fn is_vacant(value: &Expr) -> bool {
+    matches!(value, Expr::Node(node) if **node == Node::Vacant)
+}
+
+/// Whether it is worth the same until a local variable is set.
+fn stays(value: &Expr) -> bool {
+    let Expr::Node(node) = value else { return true };
+    match &**node {
+        Node::Vacant | Node::Var(Var::Local(_)) => true,
+        Node::Var(_) | Node::Element(_) => false,
+        Node::Unary(_, a) => stays(a),
+        Node::Binary(_, a, b) => stays(a) && stays(b),
+        Node::Call(_, arguments) => arguments.iter().all(stays),
+    }
+}
