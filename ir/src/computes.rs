@@ -275,8 +275,12 @@ impl Computes {
     }
 
     /// The first place that cannot be said.
-    pub(crate) fn refusal(&self, program: &Program) -> Option<Diagnostic> {
-        let look = Look { computes: self };
+    pub(crate) fn refusal<'c>(&'c self, program: &'c Program) -> Option<Diagnostic> {
+        let references = match self.handed {
+            Handed::Names => program.procedures.iter().flat_map(|procedure| &procedure.parameters).collect(),
+            Handed::Letters | Handed::Places => Vec::new(),
+        };
+        let look = Look { computes: self, references };
         program.procedures.iter().find_map(|procedure| look.procedure(procedure).err())
     }
 }
@@ -326,6 +330,8 @@ pub fn counted(times: &Expr) -> &Expr {
 
 struct Look<'c> {
     computes: &'c Computes,
+    /// Parameters, where the head of a program can say that one is the caller's variable itself.
+    references: Vec<&'c Var>,
 }
 
 impl Look<'_> {
@@ -464,7 +470,7 @@ impl Look<'_> {
 
     fn variable(&self, var: &Var, at: Span) -> Result<(), Diagnostic> {
         match var {
-            _ if self.computes.says(var) => Ok(()),
+            _ if self.computes.says(var) || self.references.contains(&var) => Ok(()),
             Var::System(_) => Err(refuse(format!("the system variable {}", var.name()), at)),
             Var::Local(name) | Var::Common(name) | Var::Retentive(name) => {
                 Err(refuse(format!("the variable {name}"), at))

@@ -245,8 +245,11 @@ impl Decimals {
         }
         for (parameter, value) in called.parameters.iter().zip(&call.arguments) {
             let (digits, negative) = (self.digits(value), self.may_be_negative(value));
-            if let Var::Local(name) = parameter {
-                self.has((there, name.clone()), digits, negative);
+            match parameter {
+                Var::Local(name) => self.has((there, name.clone()), digits, negative),
+                Var::Common(_) | Var::Retentive(_) | Var::System(_) => {
+                    self.has(self.key(parameter), digits, negative);
+                }
             }
         }
     }

@@ -14,6 +14,9 @@ use crate::source::Span;
 /// Local variables of the main procedure, and those that all procedures see, each with the first place that reads it.
 pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
     let mut look = Look::default();
+    // What a call gives is set before it is read.
+    let parameters = program.procedures.iter().flat_map(|procedure| &procedure.parameters);
+    parameters.for_each(|parameter| look.sets(parameter));
     for (at, procedure) in program.procedures.iter().enumerate() {
         look.main = at == 0;
         look.body(&procedure.body);

@@ -60,7 +60,8 @@ pub struct Procedure {
     pub name: Text,
     /// A title, if it has one.
     pub title: Option<Text>,
-    /// Parameters, in the order of a call's arguments.
+    /// Parameters, in the order of a call's arguments. One that all procedures see is the caller's variable itself: the
+    /// call gives it that variable's value, and an assignment behind the call, in its block, gives it back.
     pub parameters: Vec<Var>,
     /// What the parameters hold, in their order, where that is said; else any number. A call has converted what it
     /// hands over.

@@ -8,12 +8,12 @@
 use std::collections::HashMap;
 
 use crate::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
-use crate::program::{Op, Procedure, Stmt, Text, Type};
+use crate::program::{Op, Procedure, Stmt, Type};
 
 /// What the variables of a procedure hold; what is not declared is any number.
 #[derive(Clone, Debug, Default)]
 pub struct Types {
-    held: HashMap<Text, Type>,
+    held: HashMap<Var, Type>,
 }
 
 impl Types {
@@ -21,7 +21,7 @@ impl Types {
     pub fn of_procedure(procedure: &Procedure) -> Types {
         let mut types = Types::default();
         for (var, kind) in procedure.parameters.iter().zip(&procedure.kinds) {
-            types.held.insert(var.name().into(), *kind);
+            types.held.insert(var.clone(), *kind);
         }
         types.look(&procedure.body);
         types
@@ -31,7 +31,7 @@ impl Types {
         for stmt in body {
             match &stmt.op {
                 Op::Declare(declare) => {
-                    self.held.insert(declare.var.name().into(), declare.kind);
+                    self.held.insert(declare.var.clone(), declare.kind);
                 }
                 Op::Control(control) => control.bodies().for_each(|body| self.look(body)),
                 _ => {}
@@ -41,10 +41,7 @@ impl Types {
 
     /// What a variable holds.
     pub fn of_var(&self, var: &Var) -> Type {
-        match var {
-            Var::Local(name) => self.held.get(name).copied().unwrap_or(Type::Real),
-            Var::Common(_) | Var::Retentive(_) | Var::System(_) => Type::Real,
-        }
+        self.held.get(var).copied().unwrap_or(Type::Real)
     }
 
     /// What one of many variables holds.

@@ -213,7 +213,7 @@ impl Control<'_> {
         if let Some((name, arguments)) = w.call {
             match (name, bare, &w.names[..]) {
                 ("MSG", true, []) => {
-                    if arguments.len() != 1 || matches!(arguments[0], Argument::Number(_)) {
+                    if arguments.len() != 1 || matches!(arguments[0], Argument::Number(..)) {
                         return self.m.halt("MSG of something else than a text");
                     }
                     self.m.record(What::Message);
@@ -230,7 +230,7 @@ impl Control<'_> {
                     self.run_cycle(cycle)?;
                 }
                 // The master spindle is the first one, and a tolerance of the path is advice.
-                ("SETMS", true, []) if matches!(arguments, [Argument::Number(n)] if *n == 1.0) => {}
+                ("SETMS", true, []) if matches!(arguments, [Argument::Number(n, _)] if *n == 1.0) => {}
                 ("CYCLE832", true, []) => {}
                 (name, true, []) if NOTHING.contains(&name) => {}
                 ("HOLES1" | "HOLES2" | "CYCLE801" | "CYCLE802", true, []) => self.pattern(name, arguments)?,

@@ -32,7 +32,9 @@ pub(super) struct Variables {
     /// Types of the unit at hand.
     types: Types,
     /// What subprograms take, by name: types of parameters.
-    takes: BTreeMap<Text, Vec<Type>>,
+    takes: BTreeMap<Text, Vec<Parameter>>,
+    /// What the call that was written last gives back, each with where it is kept meanwhile.
+    back: Vec<(Target, Expr)>,
     /// Subprograms with parameters that the unit at hand calls, as far as they are not made known.
     externs: BTreeSet<Text>,
     /// Whether definitions have been written, and the safe start has not.
@@ -42,6 +44,22 @@ pub(super) struct Variables {
     told_alarm: bool,
     /// What the cycle that was called last is computed from.
     cycle: Vec<Expr>,
+}
+
+/// What a subprogram takes.
+#[derive(Clone, Debug)]
+struct Parameter {
+    kind: Type,
+    /// Where one is kept that is the caller's variable itself.
+    reference: Option<Var>,
+}
+
+impl Parameter {
+    /// As it is made known: `INT`, `VAR REAL`.
+    fn head(&self) -> String {
+        let var = if self.reference.is_some() { "VAR " } else { "" };
+        format!("{var}{}", word(self.kind))
+    }
 }
 
 impl Variables {
@@ -74,9 +92,11 @@ impl Writer {
     /// Takes what subprograms have for parameters.
     pub(super) fn know_parameters(&mut self, procedures: &[Procedure]) {
         for procedure in procedures.iter().skip(1).filter(|p| !p.parameters.is_empty()) {
-            let kind = |place: usize| procedure.kinds.get(place).copied().unwrap_or(Type::Real);
-            let kinds = (0..procedure.parameters.len()).map(kind).collect();
-            self.variables.takes.insert(procedure.name.clone(), kinds);
+            let all = procedure.parameters.iter().enumerate().map(|(place, var)| Parameter {
+                kind: procedure.kinds.get(place).copied().unwrap_or(Type::Real),
+                reference: (!matches!(var, Var::Local(_))).then(|| var.clone()),
+            });
+            self.variables.takes.insert(procedure.name.clone(), all.collect());
         }
         for procedure in procedures.iter().skip(1) {
             self.names.reserve(&procedure.name);
@@ -100,10 +120,12 @@ impl Writer {
     }
 
     fn name_variable(&mut self, var: &Var, at: Span, sink: &mut Sink) {
-        let Var::Local(name) = var else { return };
+        let (Var::Local(name) | Var::Common(name)) = var else { return };
         let dialect = self.dialect;
         let taken = |name: &str| dialect.name_row(name).is_some() || dialect.call_row(name).is_some();
-        let text = tell(self.names.variable(name, &taken), at, sink);
+        // Behind the program's name, of a parameter that is the caller's variable.
+        let own = name.rsplit('.').next().unwrap_or(name);
+        let text = tell(self.names.variable(own, &taken), at, sink);
         self.words.variables.insert(name.clone(), text);
     }
 
@@ -132,7 +154,7 @@ impl Writer {
             let number = self.words.block.number.take();
             for name in externs {
                 let takes = self.variables.takes.get(&name).cloned().unwrap_or_default();
-                let takes: Vec<&str> = takes.into_iter().map(word).collect();
+                let takes: Vec<String> = takes.iter().map(Parameter::head).collect();
                 let name = self.program_name(&name, stmt.span, sink);
                 self.alone(&format!("EXTERN {name}({})", takes.join(",")), sink)?;
                 self.words.flush(false, sink);
@@ -159,18 +181,20 @@ impl Writer {
         }
         let mut all = Vec::with_capacity(procedure.parameters.len());
         for parameter in &procedure.parameters {
-            let written = match parameter {
-                Var::Local(name) => self.words.variables.get(name),
-                Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
+            let (var, written) = match parameter {
+                Var::Local(name) => ("", self.words.variables.get(name)),
+                Var::Common(name) => ("VAR ", self.words.variables.get(name)),
+                Var::Retentive(_) | Var::System(_) => ("", None),
             };
             let written = written.ok_or_else(|| cannot_compute("a parameter that all programs see"))?;
-            all.push(format!("{} {written}", word(self.variables.types.of_var(parameter))));
+            all.push(format!("{var}{} {written}", word(self.variables.types.of_var(parameter))));
         }
         Ok(Some(format!("PROC {name}({})", all.join(", "))))
     }
 
     /// A call's arguments, each as its parameter takes it.
     pub(super) fn arguments(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<String, Fault> {
+        self.variables.back.clear();
         if call.arguments.is_empty() {
             return Ok(String::new());
         }
@@ -182,9 +206,22 @@ impl Writer {
             let what = "a call that is made several times, with values that the called program may change";
             return Err(cannot_compute(what));
         }
-        let arguments = call.arguments.iter().zip(takes);
-        let arguments: Vec<String> =
-            arguments.map(|(value, kind)| self.of_type(kind, value, span, sink)).collect::<Result<_, _>>()?;
+        let mut arguments = Vec::with_capacity(takes.len());
+        for (value, parameter) in call.arguments.iter().zip(takes) {
+            arguments.push(match parameter.reference {
+                None => self.of_type(parameter.kind, value, span, sink)?,
+                Some(kept) => {
+                    let to = given_back(value).filter(|_| self.variables.types.of(value) == parameter.kind);
+                    let to = to.ok_or_else(|| {
+                        cannot_compute(
+                            "a parameter that is the caller's own variable, and is given none of its type",
+                        )
+                    })?;
+                    self.variables.back.push((to, Expr::Node(Box::new(Node::Var(kept)))));
+                    self.words.expression(value, span, sink)?
+                }
+            });
+        }
         Ok(format!("({})", arguments.join(",")))
     }
 
@@ -228,6 +265,11 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
+        // The call says that by itself.
+        if let Some(at) = self.variables.back.iter().position(|(var, kept)| var == to && kept == value) {
+            self.variables.back.remove(at);
+            return Ok(());
+        }
         if self.standing.modal != Modal::Off && self.variables.cycle.iter().any(|expr| expr.reads(to)) {
             return Err(cannot_compute("an assignment to what the cycle in force was computed from"));
         }
@@ -364,6 +406,15 @@ impl Writer {
         let counter = self.words.spelling(None)?.target(&Target::Var(variable.clone()))?;
         self.tell_number(&counter, span, sink);
         Ok(format!("FOR {counter}={from} TO {to}"))
+    }
+}
+
+/// The variable that a call gives, and gets back.
+fn given_back(value: &Expr) -> Option<Target> {
+    let Expr::Node(node) = value else { return None };
+    match &**node {
+        Node::Var(var @ (Var::Local(_) | Var::Common(_))) => Some(Target::Var(var.clone())),
+        _ => None,
     }
 }
 

@@ -56,7 +56,10 @@ impl Spelling<'_> {
     }
 
     fn variable(&self, var: &Var, out: &mut String) -> Result<(), Fault> {
-        if let Var::Local(name) = var
+        // One that all programs see has a name of its own where it is a parameter of one of them.
+        let named = |name: &str| matches!(var, Var::Local(_)) || name.contains('.');
+        if let Var::Local(name) | Var::Common(name) = var
+            && named(name)
             && let Some(name) = self.names.get(name)
         {
             out.push_str(name);

@@ -47,6 +47,8 @@ pub(super) struct Variable {
     sizes: Box<[u32]>,
     /// The text of a text variable, where it is known.
     text: Option<Text>,
+    /// Of a parameter that is the caller's variable itself, where it is kept.
+    reference: Option<Var>,
 }
 
 /// Variables of the program that is being read, by their names in capitals.
@@ -122,7 +124,10 @@ impl Lower {
             self.not_supported(&src.text(span), what, span, out);
             return None;
         }
-        let target = if variable.sizes.is_empty() {
+        let target = if let Some(var) = variable.reference {
+            let name = var.name().into();
+            return Some(Kept { target: Target::Var(var), kind: variable.kind, name });
+        } else if variable.sizes.is_empty() {
             Target::Var(Var::Local(name.as_str().into()))
         } else {
             let at = self.indices(place, src, out)?;
@@ -417,19 +422,24 @@ impl Lower {
         &mut self,
         place: &Place,
         kind: Kind,
+        by_reference: bool,
         src: Source,
         out: &mut Batch,
     ) -> Option<Var> {
         let (name, sizes) = self.new_variable(place, src, out)?;
-        self.variables.insert(name.as_str().into(), Variable { kind, sizes, text: None });
-        Some(Var::Local(name.into()))
+        let program = self.sub.as_ref().map_or("", |procedure| &procedure.name);
+        let reference = by_reference.then(|| Var::Common(format!("{program}.{name}").into()));
+        let var = reference.clone().unwrap_or_else(|| Var::Local(name.as_str().into()));
+        self.variables.insert(name.into(), Variable { kind, sizes, text: None, reference });
+        Some(var)
     }
 
     fn define_one(&mut self, declared: &Declared, kind: Kind, src: Source, out: &mut Batch) {
         let place = &declared.place;
         let span = place.span;
         let Some((name, sizes)) = self.new_variable(place, src, out) else { return };
-        let variable = Variable { kind, sizes: sizes.clone(), text: (kind == Kind::Text).then(|| "".into()) };
+        let text = (kind == Kind::Text).then(|| "".into());
+        let variable = Variable { kind, sizes: sizes.clone(), text, reference: None };
         if kind == Kind::Text {
             if !sizes.is_empty() {
                 return self.not_supported(&src.text(span), "array of texts", span, out);

@@ -3,15 +3,23 @@
 //! A subprogram stands behind its calls, as a rule: what its parameters are is put into the calls when the text has
 //! been read. A value is converted as for an assignment; one that is left out is the parameter's own, or 0.
 //!
-//! Refused by name: the caller's variables themselves (`VAR`), arrays and texts.
+//! A parameter that is the caller's variable itself (`VAR`; Job planning 03/2006, 1.18 and 1.19) is a variable that all
+//! programs see, of that subprogram alone: the call gives it the value of the caller's, which gets its value back behind
+//! the call. That is the same as long as the subprogram can reach the caller's variable in no other way.
+//!
+//! Refused by name: arrays and texts; for `VAR` a value that is no variable or is of another type, one that is left out,
+//! one variable twice, an R parameter that the subprogram uses by its own name, a call that is made several times, and
+//! subprograms that call themselves.
 
-use ncc_ir::diag::Fault;
-use ncc_ir::expr::{Expr, Node};
-use ncc_ir::program::{Op, Procedure, Stmt, Text};
+use std::collections::BTreeSet;
+
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::{Expr, Node, Target, Var};
+use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::computing::stored;
-use super::formula::{Kind, Typed};
+use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::lower::Lower;
 use super::tree::{Expr as Tree, Parameter, Value};
 use crate::Batch;
@@ -38,6 +46,16 @@ struct Call {
 struct Taken {
     kind: Kind,
     otherwise: Expr,
+    /// Where one is kept that is the caller's variable itself.
+    reference: Option<Var>,
+}
+
+/// What a call hands over.
+struct Ready {
+    at: Span,
+    arguments: Vec<Expr>,
+    /// The caller's variables that it gives, and where they are kept meanwhile.
+    back: Vec<(Var, Var)>,
 }
 
 impl Lower {
@@ -52,15 +70,16 @@ impl Lower {
         for parameter in all {
             let Some(declared) = &parameter.name else { continue };
             let at = declared.place.span;
-            if parameter.by_reference {
-                self.not_supported("VAR", "parameter that is the caller's variable itself", at, out);
-            }
             let Some(kind) = self.kind_of(parameter.kind.name, at, src, out) else { continue };
             if kind == Kind::Text || !declared.place.index.is_empty() {
                 self.not_supported(&src.text(at), "array or text as a parameter", at, out);
                 continue;
             }
             let otherwise = match &declared.initial {
+                Some(_) if parameter.by_reference => {
+                    self.not_supported("VAR", "first value of the caller's own variable", at, out);
+                    None
+                }
                 None => Some(Expr::int(0)),
                 Some(Value::Expr(value @ Tree::Number(..))) => {
                     let typed = self.formula(value, src, out);
@@ -71,12 +90,11 @@ impl Lower {
                     None
                 }
             };
-            let (Some(var), Some(otherwise)) = (self.new_scalar(&declared.place, kind, src, out), otherwise)
-            else {
-                continue;
-            };
+            let var = self.new_scalar(&declared.place, kind, parameter.by_reference, src, out);
+            let (Some(var), Some(otherwise)) = (var, otherwise) else { continue };
+            let reference = parameter.by_reference.then(|| var.clone());
             vars.push(var);
-            taken.push(Taken { kind, otherwise });
+            taken.push(Taken { kind, otherwise, reference });
         }
         match &mut self.sub {
             Some(procedure) => {
@@ -120,7 +138,7 @@ impl Lower {
         if handed.parameters.is_empty() && handed.calls.iter().all(|call| call.given.is_empty()) {
             return;
         }
-        let mut ready: Vec<(Span, Vec<Expr>)> = Vec::new();
+        let mut ready: Vec<Ready> = Vec::new();
         for call in handed.calls {
             let takes = handed.parameters.iter().find(|(name, _)| *name == call.name);
             let takes = takes.map_or(&[][..], |(_, takes)| takes);
@@ -135,32 +153,137 @@ impl Lower {
             }
             let mut given = call.given.into_iter();
             let mut arguments = Vec::with_capacity(takes.len());
+            let mut back: Vec<(Var, Var)> = Vec::new();
             for parameter in takes {
                 let value = given.next().flatten();
-                arguments.push(match value {
-                    None => parameter.otherwise.clone(),
-                    Some(value) => {
+                arguments.push(match (value, &parameter.reference) {
+                    (value, Some(reference)) => {
+                        let var =
+                            value.as_ref().filter(|value| value.kind == parameter.kind).and_then(variable);
+                        match var {
+                            Some(var) if back.iter().any(|(other, _)| *other == var) => {
+                                let name = "one variable, given to two parameters";
+                                out.report(
+                                    Fault::NotSupported { code: "VAR".into(), name: name.into() },
+                                    call.at,
+                                );
+                            }
+                            Some(var) => back.push((var, reference.clone())),
+                            None => {
+                                let name = "parameter that is given no variable of its type";
+                                out.report(
+                                    Fault::NotSupported { code: "VAR".into(), name: name.into() },
+                                    call.at,
+                                );
+                            }
+                        }
+                        value.map_or(Expr::int(0), |value| value.expr)
+                    }
+                    (None, None) => parameter.otherwise.clone(),
+                    (Some(value), None) => {
                         self.converted(value, parameter.kind, call.at, out).unwrap_or(Expr::int(0))
                     }
                 });
             }
-            ready.push((call.at, arguments));
+            if let Some(name) = refused(&call.name, &back, out) {
+                out.report(Fault::NotSupported { code: "VAR".into(), name: name.into() }, call.at);
+            }
+            ready.push(Ready { at: call.at, arguments, back });
         }
-        let Batch { stmts, procedures, .. } = out;
-        give(stmts, &ready);
-        procedures.iter_mut().for_each(|Procedure { body, .. }| give(body, &ready));
+        let Batch { stmts, procedures, diagnostics: diags, .. } = out;
+        give(stmts, &ready, diags);
+        procedures.iter_mut().for_each(|Procedure { body, .. }| give(body, &ready, diags));
     }
 }
 
-fn give(body: &mut [Stmt], ready: &[(Span, Vec<Expr>)]) {
-    for stmt in body {
-        match &mut stmt.op {
-            Op::Call(call) => {
-                if let Some((_, arguments)) = ready.iter().find(|(at, _)| *at == stmt.span) {
-                    call.arguments.clone_from(arguments);
+/// The variable that an argument is.
+fn variable(value: &Typed) -> Option<Var> {
+    let Expr::Node(node) = &value.expr else { return None };
+    match &**node {
+        Node::Var(var @ (Var::Local(_) | Var::Common(_))) => Some(var.clone()),
+        _ => None,
+    }
+}
+
+/// Why a call cannot give its caller's own variables; `None` if it can.
+fn refused(name: &Text, back: &[(Var, Var)], out: &Batch) -> Option<&'static str> {
+    if back.is_empty() {
+        return None;
+    }
+    // All that runs in it.
+    let mut within = BTreeSet::new();
+    let mut open = vec![name];
+    while let Some(next) = open.pop() {
+        for procedure in out.procedures.iter().filter(|procedure| procedure.name == *next) {
+            each(&procedure.body, &mut |stmt| {
+                if let Op::Call(call) = &stmt.op
+                    && within.insert(&call.name)
+                {
+                    open.push(&call.name);
+                }
+            });
+        }
+    }
+    if within.contains(name) {
+        return Some("parameter of a subprogram that calls itself");
+    }
+    let mut found = false;
+    for procedure in out.procedures.iter().filter(|p| p.name == *name || within.contains(&p.name)) {
+        let mut one = |name: &str| {
+            found |= back.iter().any(|(var, _)| matches!(var, Var::Common(own) if may_be_one(own, name)));
+        };
+        each(&procedure.body, &mut |stmt| match &stmt.op {
+            Op::Assign(Target::Var(var), _) => one(&var.name()),
+            Op::Assign(Target::Element(element), _) => one(&several(&element.of)),
+            Op::Control(control) => {
+                if let Control::For { variable, .. } = &**control {
+                    one(&variable.name());
                 }
             }
-            Op::Control(control) => control.bodies_mut().for_each(|body| give(body, ready)),
+            _ => {}
+        });
+        let mut body = procedure.body.clone();
+        ncc_ir::passes::variables::expressions(&mut body, &mut |_, value| reads(value, &mut one));
+    }
+    found.then_some("R parameter that the subprogram uses by its own name too")
+}
+
+/// Shows every statement.
+fn each<'b>(body: &'b [Stmt], seen: &mut dyn FnMut(&'b Stmt)) {
+    for stmt in body {
+        seen(stmt);
+        if let Op::Control(control) = &stmt.op {
+            control.bodies().for_each(|body| each(body, seen));
+        }
+    }
+}
+
+fn give(body: &mut Vec<Stmt>, ready: &[Ready], diags: &mut Vec<Diagnostic>) {
+    let mut at = 0;
+    while at < body.len() {
+        let stmt = &mut body[at];
+        at += 1;
+        match &mut stmt.op {
+            Op::Call(call) => {
+                let Some(Ready { arguments, back, .. }) = ready.iter().find(|ready| ready.at == stmt.span)
+                else {
+                    continue;
+                };
+                call.arguments.clone_from(arguments);
+                if !back.is_empty() && call.times > 1 {
+                    let name = "call that is made several times with such a parameter".into();
+                    diags.push(Diagnostic::new(Fault::NotSupported { code: "VAR".into(), name }, stmt.span));
+                }
+                for (var, kept) in back {
+                    let value = Expr::Node(Box::new(Node::Var(kept.clone())));
+                    let was = &mut body[at - 1];
+                    let mut stmt = Stmt::new(was.span, Op::Assign(Target::Var(var.clone()), value));
+                    (stmt.joined, stmt.skip, stmt.comment) = (true, was.skip, was.comment.take());
+                    body.insert(at, stmt);
+                    at += 1;
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|body| give(body, ready, diags)),
             _ => {}
         }
     }

@@ -12,12 +12,13 @@ mod defaults;
 mod look;
 mod names;
 mod put;
+mod references;
 mod vacancy;
 mod words;
 
 use crate::arguments::{self, Argument};
 use crate::canon::{Distance, Units};
-use crate::computes::Computes;
+use crate::computes::{Computes, Handed};
 use crate::diag::Diagnostic;
 use crate::expr::{Binary, Expr, Function, Node, Target, Var};
 use crate::num::Unit;
@@ -73,6 +74,9 @@ pub fn run(
 ) -> Renamed {
     // A language takes what is said in it as it is.
     let own = from == computes;
+    if !own || computes.handed != Handed::Names {
+        references::copied(program);
+    }
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
         && let Err(refused) = vacancy::resolve(program, computes.vacant)
@@ -119,7 +123,7 @@ fn gives(program: &mut Program) -> bool {
 }
 
 /// Shows every expression of a body, each with its statement as it was.
-pub(super) fn expressions(body: &mut [Stmt], seen: &mut dyn FnMut(&Stmt, &mut Expr)) {
+pub fn expressions(body: &mut [Stmt], seen: &mut dyn FnMut(&Stmt, &mut Expr)) {
     for stmt in body {
         let at = Stmt::new(stmt.span, Op::Blank);
         match &mut stmt.op {

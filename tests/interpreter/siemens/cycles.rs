@@ -75,7 +75,7 @@ struct Arguments<'a> {
 impl Arguments<'_> {
     fn number(&self, place: usize) -> Option<f64> {
         match self.given.get(place) {
-            Some(Argument::Number(number)) => Some(*number),
+            Some(Argument::Number(number, _)) => Some(*number),
             _ => None,
         }
     }
@@ -92,7 +92,7 @@ impl Arguments<'_> {
     fn unused(&self, from: usize) -> bool {
         (from..self.given.len()).all(|place| match self.given[place] {
             Argument::Empty => true,
-            Argument::Number(number) => number == 0.0,
+            Argument::Number(number, _) => number == 0.0,
             Argument::Text => false,
         })
     }

@@ -233,7 +233,7 @@ impl<'a> Control<'a> {
         let mut reader = Reader::new(text, &self.variables);
         let arguments = reader.arguments()?;
         match (&arguments[..], reader.over()) {
-            ([Argument::Number(number)] | [Argument::Number(number), Argument::Text], true)
+            ([Argument::Number(number, _)] | [Argument::Number(number, _), Argument::Text], true)
                 if (61_000.0..62_000.0).contains(number) || (65_000.0..67_000.0).contains(number) =>
             {
                 self.m.record(What::Alarm);
@@ -319,7 +319,11 @@ impl<'a> Control<'a> {
         for argument in arguments {
             given.push(match argument {
                 Argument::Empty => None,
-                Argument::Number(number) => Some(Worth::Number(*number, Kind::Real)),
+                Argument::Number(number, None) => Some((Worth::Number(*number, Kind::Real), None)),
+                Argument::Number(_, Some(place)) => match self.variables.get(place) {
+                    Ok(value) => Some((value, Some(place.clone()))),
+                    Err(why) => return self.m.halt(why),
+                },
                 Argument::Text => return self.m.halt("a text for a subprogram"),
             });
         }
@@ -335,16 +339,24 @@ impl<'a> Control<'a> {
                 Some((word, rest)) if word == "PROC" => {
                     variables::parameters(rest, &given, &mut self.variables)
                 }
-                _ if given.is_empty() => Ok(()),
+                _ if given.is_empty() => Ok(Vec::new()),
                 _ => Err(format!("{name} takes nothing")),
             };
-            if let Err(why) = taken {
-                return self.m.halt(why);
+            let references = match taken {
+                Ok(references) => references,
+                Err(why) => return self.m.halt(why),
+            };
+            // Seen in two ways, a variable would have two values for a while.
+            let twice = |at: usize| references[at + 1..].iter().any(|(_, other)| *other == references[at].1);
+            if (0..references.len()).any(twice) {
+                return self.m.halt("a variable given twice by VAR");
             }
             // M30 in a subprogram leads back too; an alarm does not.
             let next = self.blocks(unit, 0, unit.blocks.len())?;
             self.depth -= 1;
-            self.variables.leave();
+            if let Err(why) = self.variables.leave(&references) {
+                return self.m.halt(why);
+            }
             self.m.line = line;
             if next == Next::End && self.m.events.last().is_some_and(|e| e.what == What::Alarm) {
                 return Ok(Next::End);

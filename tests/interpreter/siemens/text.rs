@@ -69,7 +69,8 @@ pub(super) enum Item {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Argument {
     Empty,
-    Number(f64),
+    /// With its place, if it is a variable alone.
+    Number(f64, Option<Place>),
     Text,
 }
 
@@ -365,7 +366,7 @@ impl<'t> Reader<'t> {
     }
 
     /// A variable's name is next.
-    fn names_variable(&mut self) -> bool {
+    pub(super) fn names_variable(&mut self) -> bool {
         let start = self.at;
         let name = self.name();
         self.at = start;
@@ -427,6 +428,7 @@ impl<'t> Reader<'t> {
         let mut arguments = Vec::new();
         loop {
             self.blanks();
+            let start = self.at;
             arguments.push(match self.peek(0) {
                 ',' | ')' => Argument::Empty,
                 // A constant by its name.
@@ -435,7 +437,7 @@ impl<'t> Reader<'t> {
                     if named { Argument::Text } else { return Err("a name of one sign".into()) }
                 }
                 _ => match self.expression()? {
-                    Worth::Number(number, _) => Argument::Number(number),
+                    Worth::Number(number, _) => Argument::Number(number, self.only_place(start)),
                     Worth::Text(_) => Argument::Text,
                 },
             });

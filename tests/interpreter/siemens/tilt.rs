@@ -16,7 +16,7 @@ impl Control<'_> {
         };
         match (name, w.call.map(|call| call.1)) {
             ("TRAORI" | "TRAFOOF", None) if bare => self.m.use_tip(name == "TRAORI")?,
-            ("TRAORI", Some([Argument::Number(n)])) if bare && *n == 1.0 => self.m.use_tip(true)?,
+            ("TRAORI", Some([Argument::Number(n, _)])) if bare && *n == 1.0 => self.m.use_tip(true)?,
             ("CYCLE800", Some(arguments)) if bare && self.modal.is_none() => self.swivel(arguments)?,
             ("TRAORI" | "TRAFOOF" | "CYCLE800", _) => {
                 return self.m.halt(format!("{name}, and what stands beside it"));
@@ -33,7 +33,7 @@ impl Control<'_> {
         let mut values = [0.0; 16];
         for (place, argument) in arguments.iter().enumerate() {
             match argument {
-                Argument::Number(n) if place < 16 => values[place] = *n,
+                Argument::Number(n, _) if place < 16 => values[place] = *n,
                 Argument::Empty => {}
                 Argument::Text if place == 1 => {}
                 _ => return self.m.halt("another argument of CYCLE800"),

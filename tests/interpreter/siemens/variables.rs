@@ -117,9 +117,16 @@ impl Variables {
         self.own.push(BTreeMap::new());
     }
 
-    /// And is over.
-    pub(super) fn leave(&mut self) {
+    /// And is over; what it had of its caller's is there again.
+    pub(super) fn leave(&mut self, references: &[(String, Place)]) -> Result<(), String> {
+        let values: Result<Vec<Worth>, String> =
+            references.iter().map(|(name, _)| self.get(&Place::Of(name.clone(), 0))).collect();
+        let values = values?;
         self.own.pop();
+        for ((_, place), value) in references.iter().zip(values) {
+            self.set(place, &[Some(value)])?;
+        }
+        Ok(())
     }
 
     pub(super) fn get(&self, place: &Place) -> Result<Worth, String> {
@@ -236,12 +243,13 @@ pub(super) fn definitions(text: &[char], variables: &mut Variables) -> Result<()
     }
 }
 
-/// What a subprogram takes: `NAME(REAL AA, INT BB=2) SBLOF`. Its variables are those of the program that begins.
+/// What a subprogram takes: `NAME(REAL AA, INT BB=2, VAR REAL CC) SBLOF`. Its variables are those of the program that
+/// begins; the values of those with VAR are the caller's own (Job planning, 1.19), by their places among the arguments.
 pub(super) fn parameters(
     text: &[char],
-    given: &[Option<Worth>],
+    given: &[Option<(Worth, Option<Place>)>],
     variables: &mut Variables,
-) -> Result<(), String> {
+) -> Result<Vec<(String, Place)>, String> {
     let none = Variables::default();
     let mut reader = Reader::new(text, &none);
     reader.blanks();
@@ -251,8 +259,15 @@ pub(super) fn parameters(
         reader.digits();
     }
     let mut taken = 0;
+    let mut references = Vec::new();
     if reader.take('(') && !reader.take(')') {
         loop {
+            reader.blanks();
+            let start = reader.at;
+            let by_reference = reader.name().as_deref() == Some("VAR");
+            if !by_reference {
+                reader.at = start;
+            }
             let kind = kind(&mut reader)?.ok_or("a text as a parameter")?;
             reader.blanks();
             let name = reader.name().ok_or("a parameter without a name")?;
@@ -262,7 +277,16 @@ pub(super) fn parameters(
             }
             let otherwise = if reader.take('=') { Some(reader.expression()?) } else { None };
             variables.define(name.clone(), Some(kind), Vec::new())?;
-            let value = given.get(taken).cloned().flatten().or(otherwise);
+            let argument = given.get(taken).cloned().flatten();
+            if by_reference {
+                match argument.clone() {
+                    Some((Worth::Number(_, same), Some(place))) if same == kind => {
+                        references.push((name.clone(), place));
+                    }
+                    _ => return Err("VAR, and no variable of that type is given".into()),
+                }
+            }
+            let value = argument.map(|(value, _)| value).or(otherwise);
             variables.set(&Place::Of(name, 0), &[value])?;
             taken += 1;
             if reader.take(')') {
@@ -279,7 +303,7 @@ pub(super) fn parameters(
             other => return Err(format!("{other:?} behind the parameters")),
         }
     }
-    if given.len() > taken { Err("more arguments than parameters".into()) } else { Ok(()) }
+    if given.len() > taken { Err("more arguments than parameters".into()) } else { Ok(references) }
 }
 
 impl Reader<'_> {
@@ -298,6 +322,18 @@ impl Reader<'_> {
             }
         }
         Ok(at)
+    }
+
+    /// The place of a variable that stands from there to here alone, between commas.
+    pub(super) fn only_place(&self, start: usize) -> Option<Place> {
+        let mut reader = Reader { text: self.text, at: start, variables: self.variables };
+        let r = reader.peek(0).eq_ignore_ascii_case(&'R') && !reader.peek(1).is_ascii_alphabetic();
+        if !r && !reader.names_variable() {
+            return None;
+        }
+        let place = reader.place().ok()?;
+        reader.blanks();
+        (reader.at >= self.at).then_some(place)
     }
 
     /// A variable: `R5`, `R[R1+2]`, `NAME`, `NAME[1,2]`.
