@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
+use ncc_ir::exec::Runner;
+use ncc_ir::value::Value;
 use serde::Deserialize;
 
 use crate::problem::{Exit, Problem};
@@ -28,6 +30,20 @@ struct Values {
 enum Kind {
     Among(Vec<f64>),
     Between { from: f64, to: f64, step: f64 },
+}
+
+impl Values {
+    /// The value, if there is one alone.
+    fn only(&self) -> Option<f64> {
+        match &self.kind {
+            _ if self.vacant => None,
+            Kind::Among(values) => match values[..] {
+                [value] => Some(value),
+                _ => None,
+            },
+            Kind::Between { from, to, .. } => (from == to).then_some(*from),
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -136,13 +152,28 @@ impl Given {
 
     /// The value of a variable that is said to have one alone.
     pub fn only(&self, name: &str) -> Option<f64> {
-        match self.0.get(&plain(name))? {
-            Values { kind: Kind::Among(values), vacant: false } => match values[..] {
-                [value] => Some(value),
-                _ => None,
-            },
-            Values { kind: Kind::Between { from, to, .. }, vacant: false } if from == to => Some(*from),
-            Values { .. } => None,
+        self.0.get(&plain(name))?.only()
+    }
+
+    /// Reads a file that says one value of each variable, for a program that is executed once.
+    ///
+    /// # Errors
+    /// As of [`Given::read`], and of a variable with several values.
+    pub fn read_one(path: &Path) -> Result<Given, Problem> {
+        let given = Given::read(path)?;
+        match given.0.iter().find(|(_, values)| values.only().is_none()) {
+            Some((name, _)) => Err(Problem::usage(
+                format!("{}: the variable {name} has more than one value", path.display()),
+                "a program is executed with one value of each variable: \"#1\" = 20",
+            )),
+            None => Ok(given),
+        }
+    }
+
+    /// Gives a run of a program what variables are said to have alone.
+    pub fn start(&self, runner: &mut Runner) {
+        if !self.0.is_empty() {
+            runner.give(&mut |var| self.only(&var.name()).map(Value::Number));
         }
     }
 

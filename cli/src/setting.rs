@@ -1,11 +1,15 @@
 //! What several verbs are asked alike: how a program is read, executed and timed, and how much is told of
 //! it. A heading of the help is the verb's. The colour of messages is asked of all verbs at once, in `args`.
 
+use std::path::PathBuf;
+
 use clap::Args;
 use ncc_ir::num::Nanos;
 use ncc_timeline::{Model, ToolChangeOn};
 
 use crate::args::{Eol, Start, decimal, pair, start};
+use crate::given::Given;
+use crate::problem::Problem;
 use crate::render::human::Loudness;
 
 /// In which dialect programs are read.
@@ -26,6 +30,24 @@ pub struct Standing {
     /// `X-9,Y15.588,Z3`
     #[arg(long, value_name = "AXES", value_parser = start, allow_hyphen_values = true)]
     pub start: Option<Start>,
+}
+
+/// What variables hold before a program that is executed once.
+#[derive(Clone, Debug, Args)]
+pub struct Holding {
+    /// What variables hold before the program begins, one value each: a TOML file
+    #[arg(long, value_name = "FILE")]
+    pub args: Option<PathBuf>,
+}
+
+impl Holding {
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// As of [`Given::read_one`].
+    pub(crate) fn read(&self) -> Result<Given, Problem> {
+        Ok(self.args.as_deref().map(Given::read_one).transpose()?.unwrap_or_default())
+    }
 }
 
 /// How the control's switches stand.
@@ -77,6 +99,10 @@ pub struct Setting {
     /// Which of its blocks are skipped.
     #[command(flatten, next_help_heading = "What is executed")]
     pub switches: Switches,
+
+    /// What its variables hold.
+    #[command(flatten, next_help_heading = "What is executed")]
+    pub holding: Holding,
 
     /// The machine: a profile's name or file
     #[arg(short, long, value_name = "MACHINE", help_heading = "How it is timed")]

@@ -10,6 +10,7 @@ use crate::arguments;
 use crate::expr::{Expr, Node, Target, Var};
 use crate::program::{Control, Op, Program, Stmt};
 use crate::source::Span;
+use crate::system::System;
 
 /// Local variables of the main procedure, and those that all procedures see, each with the first place that reads it.
 pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
@@ -24,10 +25,31 @@ pub fn open_variables(program: &Program) -> Vec<(Var, Span)> {
     look.open
 }
 
+/// What a program asks that a machine's set-up answers ([`System::is_of_the_machine`]), each with the first place that
+/// asks for it.
+pub fn asked_of_the_machine(program: &Program) -> Vec<(System, Span)> {
+    let mut found: Vec<(System, Span)> = Vec::new();
+    for procedure in &program.procedures {
+        expressions(&procedure.body, &mut |e, at| asks(e, at, &mut found));
+    }
+    found
+}
+
+fn asks(e: &Expr, at: Span, found: &mut Vec<(System, Span)>) {
+    if let Expr::Node(node) = e
+        && let Node::Var(Var::System(system)) = &**node
+        && system.is_of_the_machine()
+        && !found.iter().any(|(known, _)| known == system)
+    {
+        found.push((system.clone(), at));
+    }
+    e.parts().for_each(|part| asks(part, at, found));
+}
+
 /// The literals of a program's expressions and decisions, as a control counts them.
 pub fn literals(program: &Program) -> Vec<f64> {
     let mut found = Vec::new();
-    let mut each = |e: &Expr| numbers(e, &mut found);
+    let mut each = |e: &Expr, _: Span| numbers(e, &mut found);
     for procedure in &program.procedures {
         expressions(&procedure.body, &mut each);
     }
@@ -43,9 +65,9 @@ fn numbers(e: &Expr, found: &mut Vec<f64>) {
     e.parts().for_each(|part| numbers(part, found));
 }
 
-fn expressions(body: &[Stmt], seen: &mut dyn FnMut(&Expr)) {
+fn expressions(body: &[Stmt], seen: &mut dyn FnMut(&Expr, Span)) {
     for stmt in body {
-        of_stmt(stmt, seen);
+        of_stmt(stmt, &mut |e| seen(e, stmt.span));
         if let Op::Control(control) = &stmt.op {
             control.bodies().for_each(|body| expressions(body, seen));
         }

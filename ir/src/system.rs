@@ -74,6 +74,36 @@ pub enum System {
 }
 
 impl System {
+    /// Whether the machine's set-up has the answer, or what ran before: two machines may answer differently where they
+    /// have executed the same.
+    pub fn is_of_the_machine(&self) -> bool {
+        match self {
+            System::MachinePoint(_)
+            | System::TouchPoint(_)
+            | System::WorkOffset { .. }
+            | System::WorkTurn(_)
+            | System::OriginShift { .. }
+            | System::OriginShifted
+            | System::ToolLength => true,
+            System::EndPoint(_)
+            | System::WorkOffsetNumber
+            | System::Tool
+            | System::SelectedTool
+            | System::Feed
+            | System::Speed
+            | System::Units(_)
+            | System::Distance(_)
+            | System::Plane(_)
+            | System::FeedMode(_)
+            | System::ReturnLevel(_)
+            | System::Turning(_)
+            | System::SurfaceSpeed
+            | System::Flood
+            | System::Mist
+            | System::Other(_) => false,
+        }
+    }
+
     /// The value of a name that [`Display`] gives; any other is [`System::Other`].
     pub fn named(name: &str) -> System {
         System::meaning(name).unwrap_or_else(|| System::Other(name.into()))

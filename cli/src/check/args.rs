@@ -6,7 +6,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use ncc_ir::num::Nanos;
 
-use crate::setting::{Reading, Switches, Telling};
+use crate::setting::{Holding, Reading, Switches, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -40,6 +40,9 @@ pub struct Check {
     /// Which of their blocks are skipped.
     #[command(flatten, next_help_heading = "What is checked")]
     pub switches: Switches,
+    /// What their variables hold.
+    #[command(flatten, next_help_heading = "What is checked")]
+    pub holding: Holding,
 
     /// Do not tell of these rules or messages
     #[arg(

@@ -13,13 +13,14 @@ use ncc_dialects::{CodeRow, Dialect, Family, Meaning};
 use ncc_frontends::{Batch, Flow, REFUSED, Reader, flow};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Exec, Runner};
+use ncc_ir::open::asked_of_the_machine;
 use ncc_ir::program::{Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::chunks::{Chunk, Chunks};
 use crate::files::Source;
 use crate::job::Job;
-use crate::review::stream::{clearances, worlds};
+use crate::review::stream::{as_stated, clearances, worlds};
 
 /// Of what blocks were refused for, so much is kept.
 const MOST: usize = 1000;
@@ -189,7 +190,11 @@ impl<'d> Drive<'d> {
         if read && self.missing.is_empty() {
             never_called(&program).into_iter().for_each(|finding| self.checker.add(finding));
         }
+        for (asked, at) in asked_of_the_machine(&program) {
+            self.diagnostics.push(as_stated(&asked, at));
+        }
         let mut runner = Runner::new(&program);
+        self.job.given.start(&mut runner);
         for _ in 0..MOST_STEPS {
             match runner.next(&self.exec) {
                 Ok(Some(stmt)) => self.statement(stmt),

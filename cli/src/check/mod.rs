@@ -88,6 +88,7 @@ fn one(
         machine: args.machine.as_deref().filter(|_| args.reading.from.is_none()),
         options: &args.reading.from_option,
         start: None,
+        given: args.holding.read()?,
     };
     let say = !args.telling.quiet && args.format == Form::Text;
     let Side { mut source, job } = open_one(&asked, say, known, err)?;

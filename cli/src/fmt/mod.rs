@@ -91,6 +91,7 @@ fn one(args: &Fmt, file: &str, known: &Known, err: &mut dyn WriteColor) -> Resul
         machine: args.machine.as_deref(),
         options: &args.reading.from_option,
         start: args.standing.start,
+        ..Asked::default()
     };
     let loudness = args.telling.loudness();
     let say = loudness != Loudness::Quiet;

@@ -76,6 +76,7 @@ pub(crate) fn check_again(
         machine: machines[side].as_deref(),
         options: &options[side],
         start: start.filter(|_| side == 0),
+        ..Asked::default()
     };
     let mut sides = open([&asked(0), &asked(1)], false, &known, err)?;
     let call = Call {
@@ -188,6 +189,7 @@ fn said_otherwise(args: &Verify) -> Option<&'static str> {
         ("--from-option", !args.from_option.is_empty()),
         ("--to-option", !args.to_option.is_empty()),
         ("--start", args.standing.start.is_some()),
+        ("--args", args.holding.args.is_some()),
         ("--tolerance", args.nearness.tolerance.is_some()),
     ];
     said.into_iter().find(|(_, is)| *is).map(|(name, _)| name)

@@ -16,6 +16,7 @@ use ncc_machines::reading::Side as Whose;
 use crate::args::Start;
 use crate::called;
 use crate::files::{self, Source};
+use crate::given::Given;
 use crate::guess::{Guess, guess};
 use crate::job::Job;
 use crate::known::Known;
@@ -37,6 +38,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) options: &'a [(String, String)],
     /// Where the tool stands before the first block.
     pub(crate) start: Option<Start>,
+    /// What its variables hold before.
+    pub(crate) given: Given,
 }
 
 /// A program, ready to be executed.
@@ -204,7 +207,9 @@ impl Opened {
         let from = settings(machines.settings(Whose::From, dialect), asked.options)?;
         called::gather(&mut self.source, &from, known.folders())?;
         self.source.rewind()?;
-        Ok(Side::of(self.source, from, machines, asked.start))
+        let mut side = Side::of(self.source, from, machines, asked.start);
+        side.job.given = asked.given.clone();
+        Ok(side)
     }
 }
 

@@ -15,16 +15,18 @@
 
 use std::fs::File;
 use std::io::{self, Seek, SeekFrom};
+use std::mem::discriminant;
 use std::ops::ControlFlow;
 
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes, Units};
 use ncc_ir::cycle::{Clearance, CycleKind};
-use ncc_ir::diag::{Diagnostic, Gravity};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{FrameSlot, Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::system::System;
 use ncc_ir::world::World;
 use ncc_machines::reading::Told;
 
@@ -91,6 +93,13 @@ pub(crate) struct Course {
     pub(crate) has: Has,
     /// SHA-256 of the source's bytes; only of a source that was read to its end.
     pub(crate) sha256: [u8; 32],
+}
+
+/// What is taken for granted where a program asks for a value of the machine's own.
+pub(crate) fn as_stated(asked: &System, at: Span) -> Diagnostic {
+    let parameter = format!("the machine's {asked}, which the program asks for").into();
+    let value = "what its profile states, else nothing".into();
+    Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)
 }
 
 /// What a program has somewhere in its text.
@@ -257,19 +266,59 @@ impl Run<'_> {
         }
         self.assume();
         let mut runner = Runner::new(&program);
+        self.job.given.start(&mut runner);
+        let done = if runner.asks() {
+            self.each_its_way(vec![runner; self.controls.len()])
+        } else {
+            self.all_one_way(runner)
+        };
+        if let Err(refusal) = done {
+            self.take_diagnostic(refusal);
+        }
+    }
+
+    /// All controls execute the same: what the program decides and computes depends on nothing that differs between
+    /// them.
+    fn all_one_way(&mut self, mut runner: Runner) -> Result<(), Diagnostic> {
+        while !self.broken_off
+            && let Some(control) = self.controls.first()
+            && let Some(stmt) = runner.next(&control.exec)?
+        {
+            self.statement(stmt)?;
+        }
+        Ok(())
+    }
+
+    /// Each control executes what the program comes to with its own answers. Where they go different ways there is no
+    /// statement that all have made, and the program is refused.
+    fn each_its_way(&mut self, mut runners: Vec<Runner>) -> Result<(), Diagnostic> {
         while !self.broken_off {
-            // All controls go the same way: jumps depend on nothing that differs between them.
-            let Some(control) = self.controls.first() else { return };
-            let done = match runner.next(&control.exec) {
-                Ok(Some(stmt)) => self.statement(stmt),
-                Ok(None) => return,
-                Err(refusal) => Err(refusal),
-            };
-            if let Err(refusal) = done {
-                self.take_diagnostic(refusal);
-                return;
+            let mut silent = true;
+            let mut first: Option<Stmt> = None;
+            let mut over = 0;
+            for (control, runner) in self.controls.iter_mut().zip(&mut runners) {
+                control.events.clear();
+                let Some(stmt) = runner.next(&control.exec)? else {
+                    over += 1;
+                    continue;
+                };
+                control.exec.step(stmt, &mut control.events)?;
+                silent &= control.events.is_empty();
+                match &first {
+                    Some(first)
+                        if first.span == stmt.span && discriminant(&first.op) == discriminant(&stmt.op) => {}
+                    Some(first) => return Err(other_way(first.span)),
+                    None => first = Some(stmt.clone()),
+                }
+            }
+            match first {
+                None => return Ok(()),
+                Some(first) if over > 0 => return Err(other_way(first.span)),
+                Some(first) if !silent => self.hand_out(Stage::Stmt(&first)),
+                Some(_) => {}
             }
         }
+        Ok(())
     }
 
     /// Takes facts for granted that the program relies on, and puts the tool where it starts: at
@@ -352,6 +401,12 @@ impl Run<'_> {
         self.errors += usize::from(diagnostic.fault.gravity() == Gravity::Error);
         self.course.diagnostics.push(diagnostic);
     }
+}
+
+/// Machines that answer differently go different ways from here on.
+fn other_way(at: Span) -> Diagnostic {
+    let what = "a way that depends on the machine's own values".into();
+    Diagnostic::new(Fault::NotExecuted { what }, at)
 }
 
 /// Notes what a statement has, and those inside of it.

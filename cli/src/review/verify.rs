@@ -28,7 +28,7 @@ use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::render::{About, human};
-use crate::setting::{Nearness, Standing, Telling};
+use crate::setting::{Holding, Nearness, Standing, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -83,6 +83,9 @@ pub struct Verify {
     /// Where SRC begins.
     #[command(flatten, next_help_heading = "What is compared")]
     pub standing: Standing,
+    /// What the variables of both hold.
+    #[command(flatten, next_help_heading = "What is compared")]
+    pub holding: Holding,
     /// What counts as the same.
     #[command(flatten, next_help_heading = "What is compared")]
     pub nearness: Nearness,
@@ -155,6 +158,7 @@ fn verify(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Exit, Problem> {
+    let given = args.holding.read()?;
     let asked = [
         Asked {
             operand: &files[0],
@@ -162,6 +166,7 @@ fn verify(
             machine: args.machine_from.as_deref(),
             options: &args.from_option,
             start: args.standing.start,
+            given: given.clone(),
         },
         Asked {
             operand: &files[1],
@@ -169,11 +174,18 @@ fn verify(
             machine: args.machine_to.as_deref(),
             options: &args.to_option,
             start: None,
+            given,
         },
     ];
     let say = !args.telling.quiet && args.format == Format::Human;
     let mut sides = open([&asked[0], &asked[1]], say, known, err)?;
     let certificate = args.cert.as_deref();
+    if certificate.is_some() && args.holding.args.is_some() {
+        return Err(Problem::usage(
+            "a certificate is of programs that need no values from elsewhere",
+            "leave out --args, or set the variables in the programs",
+        ));
+    }
     if let Some(name) = certificate {
         sides[0].source.guard(Some(name))?;
         sides[1].source.guard(Some(name))?;

@@ -16,6 +16,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Kind, Runner};
 use ncc_ir::maps::Renaming;
 use ncc_ir::num::Nanos;
+use ncc_ir::open::asked_of_the_machine;
 use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::world::{Sideways, Tables, World};
@@ -31,6 +32,7 @@ use crate::chunks::{Chunk, Chunks};
 use crate::files::Source;
 use crate::job::Job;
 use crate::machines::pair::Answer;
+use crate::review::stream::as_stated;
 use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 use crate::verify_run::fixed;
 
@@ -309,7 +311,11 @@ impl<'d> Drive<'d> {
         }
         self.blocks = Blocks::whole(text);
         self.assume(self.batch.assumed);
+        for (asked, at) in asked_of_the_machine(&program) {
+            self.take(as_stated(&asked, at));
+        }
         let mut runner = Runner::new(&program);
+        self.plan.job.given.start(&mut runner);
         loop {
             let next = match runner.next(&self.exec) {
                 Ok(Some(stmt)) => stmt,

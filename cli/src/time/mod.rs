@@ -240,6 +240,7 @@ pub(crate) fn job(
         machines,
         called: source.called.clone(),
         start: args.setting.standing.start.unwrap_or_default(),
+        given: args.setting.holding.read()?,
         ..Job::new(from.clone(), from, &source.name)
     })
 }

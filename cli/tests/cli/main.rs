@@ -8,6 +8,7 @@ mod dialects;
 mod diff;
 mod files;
 mod fmt;
+mod given;
 mod machines;
 mod messages;
 mod plot;

@@ -357,7 +357,7 @@ impl<'p> Runner<'p> {
     }
 
     /// Whether the program asks for values of the control's own.
-    pub(crate) fn asks(&self) -> bool {
+    pub fn asks(&self) -> bool {
         !self.code.names.system.is_empty()
     }
 

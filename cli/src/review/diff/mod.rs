@@ -31,7 +31,7 @@ use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
 use crate::render::{About, human};
-use crate::setting::{Nearness, Standing, Telling};
+use crate::setting::{Holding, Nearness, Standing, Telling};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -79,6 +79,9 @@ pub struct Diff {
     /// Where both begin.
     #[command(flatten, next_help_heading = "What is compared")]
     pub standing: Standing,
+    /// What the variables of both hold.
+    #[command(flatten, next_help_heading = "What is compared")]
+    pub holding: Holding,
     /// What counts as the same.
     #[command(flatten, next_help_heading = "What is compared")]
     pub nearness: Nearness,
@@ -172,8 +175,15 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         return Err(Problem::usage("two programs are compared", "ncc diff A B"));
     };
     let from = args.from.as_deref();
-    let asked =
-        |operand, machine, options| Asked { operand, from, machine, options, start: args.standing.start };
+    let given = args.holding.read()?;
+    let asked = |operand, machine, options| Asked {
+        operand,
+        from,
+        machine,
+        options,
+        start: args.standing.start,
+        given: given.clone(),
+    };
     let a = asked(a, args.a_machine.as_deref(), args.a_option.as_slice());
     let b = asked(b, args.b_machine.as_deref(), args.b_option.as_slice());
     let mut sides = open([&a, &b], args.telling.verbose, known, err)?;

@@ -1,0 +1,78 @@
+//! `--args`: what variables hold before a program begins; and what a program asks of the machine.
+
+use super::*;
+
+/// A macro that its operator sets two variables for: how deep, and by how much at a time.
+const OPEN: &str = "%\nO0100\nG21 G17 G90 G94 G40 G49 G80\nG54\nT1 M6\nS1000 M3\nG0 X0. Y0.\nG43 H1 Z5.\n#1=0\n\
+    WHILE [#1 LT #500] DO1\nG1 Z-#1 F100.\nX[#1*10.]\n#1=#1+#501\nEND1\nG0 Z50.\nM5\nM30\n%\n";
+
+fn open() -> tempfile::TempDir {
+    let folder = folder();
+    write(&folder, "open.nc", OPEN);
+    write(&folder, "one.toml", "[variables]\n\"#500\" = 4\n\"#501\" = 1\nR500 = 4\nR501 = 1\n");
+    write(
+        &folder,
+        "some.toml",
+        "[variables]\n\"#500\" = { from = 1, to = 4, step = 1 }\n\"#501\" = [1, 2]\n",
+    );
+    folder
+}
+
+fn write(folder: &tempfile::TempDir, name: &str, text: &str) {
+    std::fs::write(folder.path().join(name), text).unwrap();
+}
+
+#[test]
+fn what_they_hold_is_told_to_every_verb_that_executes() {
+    let folder = open();
+    let run = |arguments: &str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        ncc(folder.path(), &arguments)
+    };
+    run("fanuc to siemens open.nc --args some.toml -o open.mpf").exits(0);
+    run("fanuc to mach9 open.nc --args one.toml --pass flatten -o open.cn").exits(0);
+    run("fanuc to mach9 open.nc --args some.toml --pass flatten").exits(1);
+    for verb in ["time open.nc --from fanuc", "check fanuc:open.nc", "verify fanuc:open.nc siemens:open.mpf"]
+    {
+        // Without, nobody knows what they hold.
+        let without = run(verb);
+        assert!(
+            without.code != 0 && without.err.contains("NC0232") | without.out.contains("NC0232"),
+            "{verb}"
+        );
+        run(&format!("{verb} --args some.toml")).exits(2).says("more than one value");
+    }
+    let timed = run("time open.nc --from fanuc --args one.toml").exits(0).out;
+    assert!(timed.contains("0:00:22.916"), "{timed}");
+    run("check fanuc:open.nc --args one.toml").exits(0);
+    run("verify fanuc:open.nc siemens:open.mpf --args one.toml").exits(0);
+    run("diff fanuc:open.nc siemens:open.mpf --args one.toml").exits(0);
+    write(&folder, "deep.toml", "[variables]\n\"#500\" = 4\n\"#501\" = 1\nR500 = 5\nR501 = 1\n");
+    run("verify fanuc:open.nc siemens:open.mpf --args deep.toml").exits(1);
+    run("verify fanuc:open.nc siemens:open.mpf --args one.toml --cert a.json")
+        .exits(2)
+        .says("leave out --args");
+    run("time open.nc --from fanuc --args nosuch.toml").exits(4);
+}
+
+/// What a machine's offsets hold is not the same on two machines: where a program moves by it, one that does not is
+/// another one, although both do the same where all offsets are nothing.
+#[test]
+fn what_a_program_asks_of_the_machine_differs_between_machines() {
+    let folder = open();
+    let of = |x: &str| OPEN.replace("X0. Y0.", x).replace("#500", "4.").replace("#501", "1.");
+    write(&folder, "asks.nc", &of("X#5221 Y0."));
+    write(&folder, "says.nc", &of("X0. Y0."));
+    write(
+        &folder,
+        "decides.nc",
+        &of("Y0.\nIF [#5221 GT 0] THEN #2=1.\nX0.\nIF [#5221 GT 0] GOTO 5\nX1.\nN5 X0."),
+    );
+    let run = |verb: &str, a: &str, b: &str| ncc(folder.path(), &[verb, "--from", "fanuc", a, b]);
+    run("diff", "asks.nc", "asks.nc").exits(0);
+    run("diff", "asks.nc", "says.nc").exits(1);
+    run("verify", "asks.nc", "says.nc").exits(1);
+    run("diff", "decides.nc", "says.nc").exits(5).says("a way that depends on the machine's own values");
+    let timed = ncc(folder.path(), &["time", "--from", "fanuc", "asks.nc"]).exits(0).out;
+    assert!(timed.contains("the machine's offset.1.x, which the program asks for"), "{timed}");
+}
