@@ -147,6 +147,11 @@ impl Writer {
             return Ok(());
         }
         let text = self.assignment(to, value, span, sink)?;
+        // What another language sets when its block is over stands behind the block here.
+        if !self.has_o_words() && !self.block.is_empty() {
+            self.flush(false, sink);
+            self.split = true;
+        }
         self.statement_alone(&text, sink)
     }
 
