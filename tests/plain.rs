@@ -320,6 +320,8 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                     Stored::Length(entry, length) => Happening::Data("length", entry, alone(length)),
                     Stored::Value(entry, which, added, value) => {
                         let table = match (which == ToolValue::RadiusWear, added) {
+                            _ if which == ToolValue::OffsetX => "offset along X",
+                            _ if which == ToolValue::OffsetY => "offset along Y",
                             (false, false) => "radius",
                             (false, true) => "radius, added",
                             (true, false) => "wear of the radius",

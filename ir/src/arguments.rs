@@ -107,6 +107,7 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
                 along_axes(&mut **words, seen)?;
                 seen(Argument::Optional(turn), Unit::Degree)
             }
+            Data::Measured { words, .. } => along_axes(&mut **words, seen),
             Data::Tool { value, .. } => seen(Argument::Value(value), Unit::Entry),
             Data::ToolInSpindle(tool) => seen(Argument::Value(tool), Unit::One),
             Data::Position(_) => Ok(()),
@@ -132,6 +133,7 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         Op::UseToolLength(length) => match &mut **length {
             ToolLength::Value(value) | ToolLength::Added(value) => seen(Argument::Value(value), Unit::Entry),
             ToolLength::AddedEntry(entry) => seen(Argument::Value(entry), Unit::One),
+            ToolLength::Offsets { words, .. } => along_axes(&mut **words, seen),
         },
         Op::OrientSpindle(angle) => seen(Argument::Optional(angle), Unit::Degree),
         Op::Dwell(seconds) => seen(Argument::Value(seconds), Unit::Second),

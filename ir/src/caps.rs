@@ -100,9 +100,13 @@ pub struct Caps {
     /// Whether the number of the tool in the spindle can be set.
     pub tool_number: bool,
     /// Values of the table of tools, in the order of [`crate::program::ToolValue::ALL`].
-    pub tool_data: [bool; 4],
+    pub tool_data: [bool; 6],
     /// Whether a value can be added to one of that table.
     pub tool_data_added: bool,
+    /// Whether such a value leaves what is in force of the tool as it is, until the entry is called up anew.
+    pub tool_data_kept: bool,
+    /// Whether tools are measured where the axes stand: in the coordinates in force; in those of a work offset.
+    pub measures_tools: [bool; 2],
     /// Tools by name.
     pub tool_names: bool,
     /// How it names the radius of cutter radius compensation; none of them is without compensation.
@@ -474,7 +478,16 @@ impl Caps {
 
     /// Whether a length that stands in no table can be written.
     pub fn says_length(&self, length: &ToolLength) -> bool {
-        self.stated_lengths[usize::from(!matches!(length, ToolLength::Value(_)))]
+        let [stated, added] = self.stated_lengths;
+        match length {
+            ToolLength::Value(_) => stated,
+            ToolLength::Added(_) | ToolLength::AddedEntry(_) => added,
+            // Who has them in the table can state them.
+            ToolLength::Offsets { added: adds, .. } => {
+                let [.., x, y] = self.tool_data;
+                x && y && if *adds { added } else { stated }
+            }
+        }
     }
 
     /// What of a machine's state its words tell apart.

@@ -465,6 +465,7 @@ impl Op {
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => "SET_OFFSET_DATA",
                 Data::Tool { .. } => "SET_TOOL_DATA",
+                Data::Measured { .. } => "MEASURE_TOOL",
                 Data::Position(_) => "STORE_POSITION",
                 Data::ToolInSpindle(_) => "SET_TOOL_NUMBER",
             },
@@ -493,6 +494,8 @@ impl Op {
                 ToolLength::Value(_) => "USE_TOOL_LENGTH",
                 ToolLength::Added(_) => "ADD_TOOL_LENGTH",
                 ToolLength::AddedEntry(_) => "ADD_TOOL_LENGTH_OFFSET",
+                ToolLength::Offsets { added: false, .. } => "USE_TOOL_OFFSETS",
+                ToolLength::Offsets { added: true, .. } => "ADD_TOOL_OFFSETS",
             },
             Op::StartSpindleClockwise => "START_SPINDLE_CLOCKWISE",
             Op::StartSpindleCounterclockwise => "START_SPINDLE_COUNTERCLOCKWISE",

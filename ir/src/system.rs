@@ -43,6 +43,14 @@ pub enum System {
     OriginShifted,
     /// The length of a tool in force.
     ToolLength,
+    /// An offset of the tool in the spindle, as the table of tools has it now, whether in force or not (LinuxCNC
+    /// `#5401`).
+    TableOffset {
+        /// Along this one.
+        axis: Axis,
+        /// The unit that it counts in, whatever is in force.
+        unit: Option<Units>,
+    },
     /// Number of the tool in the spindle.
     Tool,
     /// Number of the tool selected last.
@@ -84,7 +92,8 @@ impl System {
             | System::WorkTurn(_)
             | System::OriginShift { .. }
             | System::OriginShifted
-            | System::ToolLength => true,
+            | System::ToolLength
+            | System::TableOffset { .. } => true,
             System::EndPoint(_)
             | System::WorkOffsetNumber
             | System::Tool
@@ -128,6 +137,10 @@ impl System {
             }
             ("offset", [of, along, in_unit]) => {
                 System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: Some(unit(in_unit)?) }
+            }
+            ("table", [along]) => System::TableOffset { axis: axis(along)?, unit: None },
+            ("table", [along, in_unit]) => {
+                System::TableOffset { axis: axis(along)?, unit: Some(unit(in_unit)?) }
             }
             ("turn", [of]) => System::WorkTurn(number(of)?),
             ("shift", [along]) => System::OriginShift { axis: axis(along)?, unit: None },
@@ -205,6 +218,7 @@ impl Display for System {
                 write!(f, "offset.{number}.{}{}", letter(axis), unit(of))
             }
             System::WorkTurn(number) => write!(f, "turn.{number}"),
+            System::TableOffset { axis, unit: of } => write!(f, "table.{}{}", letter(axis), unit(of)),
             System::OriginShift { axis, unit: of } => write!(f, "shift.{}{}", letter(axis), unit(of)),
             System::Other(name) => f.write_str(name),
             plain => f.write_str(PLAIN.iter().find(|(_, other)| other == plain).map_or("", |(name, _)| name)),
@@ -225,6 +239,8 @@ mod tests {
             System::WorkOffset { number: 12, axis: Axis::Z, unit: None },
             System::WorkOffset { number: 1, axis: Axis::A, unit: Some(Units::Inch) },
             System::WorkTurn(9),
+            System::TableOffset { axis: Axis::X, unit: None },
+            System::TableOffset { axis: Axis::Z, unit: Some(Units::Inch) },
             System::OriginShift { axis: Axis::Y, unit: Some(Units::Mm) },
             System::OriginShift { axis: Axis::Y, unit: None },
             System::Other("$AA_IW".into()),

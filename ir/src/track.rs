@@ -19,6 +19,7 @@ use crate::places::Places;
 use crate::polar::{self, Pole};
 use crate::program::{
     Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Polar, SetPole, Shape, Stmt,
+    ToolLength, ToolValue,
 };
 use crate::round::round;
 
@@ -71,6 +72,9 @@ pub struct Tracker {
     pub compensated: bool,
     /// Whether points may be those of the tool's tip, or of a tilted plane.
     pub tilted: bool,
+    /// Whether offsets of tools along X and Y have been said: a length called up may then put the tool elsewhere in
+    /// the plane too.
+    pub aside: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -188,8 +192,8 @@ impl Tracker {
     /// Forgets everything: after a call, at a label.
     pub fn forget(&mut self) {
         // What is called leaves compensation as it was, or executes with another.
-        let Tracker { compensated, tilted, .. } = *self;
-        *self = Tracker { compensated, tilted, ..Tracker::unknown() };
+        let Tracker { compensated, tilted, aside, .. } = *self;
+        *self = Tracker { compensated, tilted, aside, ..Tracker::unknown() };
     }
 
     /// Executes a statement.
@@ -262,6 +266,7 @@ impl Tracker {
         self.pole_lost |= other.pole_lost || self.pole != other.pole;
         self.compensated |= other.compensated;
         self.tilted |= other.tilted;
+        self.aside |= other.aside;
     }
 
     /// Executes an operation, whatever the block-skip switches say.
@@ -408,9 +413,18 @@ impl Tracker {
                     self.lose(&std::array::from_fn(|axis| words[axis].is_some() || turns && axis < 2));
                 }
                 Data::ToolInSpindle(tool) => self.tool = tool.literal().and_then(|n| n.whole()),
+                Data::Tool { entry, which, .. } if which.is_offset() => {
+                    self.aside |= matches!(which, ToolValue::OffsetX | ToolValue::OffsetY);
+                    self.change_entry(*entry);
+                }
+                Data::Measured { entry, words, .. } => {
+                    self.aside |= words[..2].iter().any(Option::is_some);
+                    self.change_entry(*entry);
+                }
                 Data::Offset { .. } | Data::Tool { .. } | Data::Position(_) => {}
             },
             Op::UseToolEdge { edge, .. } => {
+                self.move_aside();
                 let edge = edge.literal().and_then(|n| n.whole());
                 self.modes.length_offset = match (edge, self.tool) {
                     (Some(0), _) => Some(0),
@@ -419,8 +433,13 @@ impl Tracker {
                     (Some(_) | None, _) => None,
                 };
             }
-            Op::UseToolLength(_) => self.modes.length_offset = None,
+            Op::UseToolLength(length) => {
+                self.aside |= matches!(**length, ToolLength::Offsets { .. });
+                self.move_aside();
+                self.modes.length_offset = None;
+            }
             Op::UseToolLengthOffset(entry) => {
+                self.move_aside();
                 let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;
             }
@@ -437,6 +456,20 @@ impl Tracker {
                 _ => {}
             },
             Op::SetFeedRate(_) | Op::ProgramEnd | variables!() | conduct!() => {}
+        }
+    }
+
+    /// An entry of the table of tools has other values; what is in force of it may be the ones before.
+    fn change_entry(&mut self, entry: u32) {
+        if self.modes.length_offset == Some(entry) {
+            self.modes.length_offset = None;
+        }
+    }
+
+    /// Another offset of the tool may put it elsewhere in the plane.
+    fn move_aside(&mut self) {
+        if self.aside {
+            self.position[..2].fill(None);
         }
     }
 

@@ -81,6 +81,8 @@ pub struct Tables {
     pub lengths: BTreeMap<u32, Nanos>,
     /// How much of the length of an entry is wear.
     pub wears: BTreeMap<u32, Nanos>,
+    /// Offsets of tools along X and Y by their entries; where nobody has said them there are none.
+    pub offsets: BTreeMap<u32, [Nanos; 2]>,
     /// Radii of tools by their entries, without wear, in nanos of a millimetre.
     pub radii: BTreeMap<u32, Nanos>,
     /// Wear of those radii; where nobody has stated it there is none.
@@ -105,7 +107,7 @@ impl Tables {
         let (table, unsaid) = match which {
             ToolValue::Radius => (&mut self.radii, None),
             ToolValue::RadiusWear => (&mut self.radius_wears, Some(0)),
-            ToolValue::Length | ToolValue::LengthWear => return,
+            ToolValue::Length | ToolValue::LengthWear | ToolValue::OffsetX | ToolValue::OffsetY => return,
         };
         let before = table.get(&entry).copied().or(unsaid);
         let now = if added { before.and_then(|before| before.checked_add(value)) } else { Some(value) };
@@ -259,6 +261,11 @@ impl World {
             Some(stated) => *stated,
             None => self.own_length(renamed(&self.renaming.entries, entry)),
         }
+    }
+
+    /// Offsets of an entry along X and Y.
+    pub fn tool_offsets(&self, entry: u32) -> [Nanos; 2] {
+        self.tables.offsets.get(&entry).copied().unwrap_or_default()
     }
 
     /// The entry of the length table that edge 1 of a tool has.

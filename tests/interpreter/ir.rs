@@ -303,9 +303,16 @@ impl Control {
         let none = self.machine_once && self.without_length;
         shift[2] += match self.edge {
             _ if none => 0.0,
+            Some((Some(tool), 1)) => {
+                self.m.stored_length(tool).unwrap_or_else(|| (setup.edge_length)(Some(tool), 1))
+            }
             Some((tool, edge)) => (setup.edge_length)(tool, edge),
             None => self.m.length_of(self.m.entry),
         };
+        if !none {
+            shift[0] += self.m.aside(0);
+            shift[1] += self.m.aside(1);
+        }
         shift
     }
 
@@ -347,6 +354,12 @@ impl Control {
     /// A length offset: it moves nothing.
     fn take_length(&mut self, edge: Option<(Option<u32>, u32)>, entry: u32) {
         let before = self.shift()[2];
+        let of = match edge {
+            Some((Some(tool), 1)) => tool,
+            Some(_) => 0,
+            None => entry,
+        };
+        self.m.use_aside(self.m.aside_of(of));
         self.edge = edge;
         self.m.entry = entry;
         if self.shift()[2] != before {
@@ -464,6 +477,15 @@ impl Control {
             }
             "SET_OFFSET_DATA" => self.offset_data(a)?,
             "SET_TOOL_DATA" => self.tool_data(a)?,
+            "MEASURE_TOOL" => self.measure_tool(a)?,
+            "USE_TOOL_OFFSETS" | "ADD_TOOL_OFFSETS" => {
+                if self.edge.is_some_and(|(_, edge)| edge != 0) {
+                    return self.m.halt("offsets behind an edge");
+                }
+                self.edge = None;
+                let by = ["X", "Y", "Z"].map(|axis| self.after(a, axis));
+                self.m.use_stated_offsets(by, name == "ADD_TOOL_OFFSETS");
+            }
             "USE_TOOL_LENGTH" | "ADD_TOOL_LENGTH" => {
                 let Some(Token::Number(value, unit)) = a.first() else { return self.m.halt("a length") };
                 let value = self.base(*value, unit);

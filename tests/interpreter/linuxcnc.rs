@@ -300,14 +300,18 @@ impl Control {
         }
         let z = words.get('Z').map(|z| z * self.unit());
         let lengthways = matches!(of(GROUPS[5]), Some(431 | 432));
-        if lengthways && "XYABC".chars().any(|letter| words.get(letter).is_some()) {
-            return self.m.halt("G43.1 or G43.2 along another axis than Z");
+        if lengthways && "ABC".chars().any(|letter| words.get(letter).is_some()) {
+            return self.m.halt("G43.1 or G43.2 along a rotary axis");
         }
         match (of(GROUPS[5]), words.get('H')) {
-            (Some(code @ (431 | 432)), None) => match z {
-                Some(z) => self.m.use_stated_length(z, code == 432),
-                None => return self.m.halt("G43.1 or G43.2 without a length"),
-            },
+            (Some(code @ (431 | 432)), None) => {
+                let by = ['X', 'Y', 'Z'].map(|letter| words.get(letter).map(|value| value * self.unit()));
+                match by {
+                    [None, None, None] => return self.m.halt("G43.1 or G43.2 without a length"),
+                    [None, None, Some(z)] => self.m.use_stated_length(z, code == 432),
+                    by => self.m.use_stated_offsets(by, code == 432),
+                }
+            }
             (Some(432), Some(entry)) if z.is_none() => {
                 let length = self.m.length_of(entry as u32);
                 self.m.use_stated_length(length, true);
@@ -475,7 +479,7 @@ impl Control {
             return self.m.halt("G10 without L or P");
         };
         // P0 of L2 and L20 is the offset in force.
-        let entry = if entry == 0 && table != 1 { self.m.offset } else { entry };
+        let entry = if entry == 0 && matches!(table, 2 | 20) { self.m.offset } else { entry };
         let radius = words.get('R').map(|r| r * self.unit());
         let turn = words.get('R').unwrap_or(self.m.turn_of(entry));
         match table {
@@ -501,7 +505,11 @@ impl Control {
                 let zeros = std::array::from_fn(|axis| axes[axis].map(|value| zero(axis, value)));
                 self.m.store_zero(entry, zeros, false);
             }
-            1 if axes.iter().enumerate().all(|(axis, word)| axis == 2 || word.is_none()) => {
+            1 if axes[3..].iter().all(Option::is_none) => {
+                if axes.iter().any(Option::is_some) {
+                    self.m.hold_entry(entry);
+                }
+                self.m.store_aside(entry, [axes[0], axes[1]]);
                 if let Some(length) = axes[2] {
                     self.m.store_length(entry, length, false, false)?;
                 }
@@ -509,9 +517,36 @@ impl Control {
                     self.m.store_radius(entry, radius, false, false);
                 }
             }
+            10 | 11 if axes[3..].iter().all(Option::is_none) && radius.is_none() => {
+                self.measure(entry, axes, table == 11)?;
+            }
             _ => return self.m.halt("G10 of another kind"),
         }
         Ok(())
+    }
+
+    /// G10 L10 and L11: the entry gets offsets by which the tool, called up where it stands, reads the words; L11 in
+    /// the coordinates of G59.3, with nothing shifted.
+    fn measure(&mut self, entry: u32, axes: [Option<f64>; 6], fixture: bool) -> Result<(), Halt> {
+        let offset = if fixture { 9 } else { self.m.offset };
+        if self.m.turn_of(offset) != 0.0 || self.m.beside.is_some() {
+            return self.m.halt("a tool measured in a turned offset or beside a contour");
+        }
+        let shift = if fixture { [0.0; 6] } else { self.m.slots.shift() };
+        let zero = self.m.zero_of(offset);
+        let by = |axis: usize| axes[axis].map(|word| self.m.at[axis] - zero[axis] - shift[axis] - word);
+        let (x, y, z) = (by(0), by(1), by(2));
+        self.m.hold_entry(entry);
+        // Both are put in, the one without a word as it was.
+        if x.is_some() || y.is_some() {
+            let [own_x, own_y] = self.m.aside_of(entry);
+            self.m.store_aside(entry, [x.or(Some(own_x)), y.or(Some(own_y))]);
+        }
+        match z {
+            // What the entry has of wear is in it.
+            Some(z) => self.m.store_length(entry, z - self.m.wear_of(entry), false, false),
+            None => Ok(()),
+        }
     }
 
     /// Words that nothing in the block uses are an error.

@@ -283,7 +283,7 @@ impl Machine {
 
     /// What separates program from machine coordinates on an axis.
     pub fn shift(&self, axis: usize) -> f64 {
-        let length = if axis == 2 { self.length_of(self.entry) } else { 0.0 };
+        let length = if axis == 2 { self.length_of(self.entry) } else { self.aside(axis) };
         self.zero_of(self.offset)[axis] + length + self.slots.shift()[axis] + self.apart(axis)
     }
 
@@ -325,6 +325,7 @@ impl Machine {
 
     /// Another length entry: nothing moves.
     pub fn use_length(&mut self, entry: u32) {
+        self.use_aside(self.stored.aside_of(entry));
         if entry != self.entry {
             self.settled[2] = false;
             // In a frame that turns Z, the length is one along others as well.

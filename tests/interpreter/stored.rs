@@ -14,6 +14,16 @@ pub(super) struct Stored {
     positions: BTreeMap<u32, Place>,
     /// Length without wear, and wear.
     lengths: BTreeMap<u32, (f64, f64)>,
+    /// What tools are put aside along X and Y (LinuxCNC, G10 L1), and how much of it is in force.
+    asides: BTreeMap<u32, [f64; 2]>,
+    aside: [f64; 2],
+}
+
+impl Stored {
+    /// What an entry puts a tool aside; none where no program has said so.
+    pub(super) fn aside_of(&self, entry: u32) -> [f64; 2] {
+        self.asides.get(&entry).copied().unwrap_or_default()
+    }
 }
 
 impl Machine {
@@ -48,9 +58,87 @@ impl Machine {
     /// stands under one of two numbers that no table has.
     pub(super) fn use_stated_length(&mut self, value: f64, added: bool) {
         let sum = value + if added { self.length_of(self.entry) } else { 0.0 };
-        let under = if self.entry == u32::MAX - 1 { u32::MAX - 2 } else { u32::MAX - 1 };
+        let (under, aside) = (self.nameless(), self.stored.aside);
         self.stored.lengths.insert(under, (sum, 0.0));
+        self.stored.asides.insert(under, aside);
         self.use_length(under);
+    }
+
+    fn nameless(&self) -> u32 {
+        if self.entry == u32::MAX - 1 { u32::MAX - 2 } else { u32::MAX - 1 }
+    }
+
+    /// What the tool in force is put aside along X or Y.
+    pub(super) fn aside(&self, axis: usize) -> f64 {
+        self.stored.aside.get(axis).copied().unwrap_or(0.0)
+    }
+
+    /// It is put aside so from here on, and nothing moves.
+    pub(super) fn use_aside(&mut self, aside: [f64; 2]) {
+        if aside != self.stored.aside {
+            self.settled[..2].fill(false);
+        }
+        self.stored.aside = aside;
+    }
+
+    /// Offsets along X, Y and Z in place of those in force, or added to them; the others stay (LinuxCNC, G43.1 and
+    /// G43.2).
+    pub(super) fn use_stated_offsets(&mut self, values: [Option<f64>; 3], added: bool) {
+        let now = [self.aside(0), self.aside(1), self.length_of(self.entry)];
+        let sum = |axis: usize| match values[axis] {
+            None => now[axis],
+            Some(value) if added => now[axis] + value,
+            Some(value) => value,
+        };
+        let under = self.nameless();
+        self.stored.lengths.insert(under, (sum(2), 0.0));
+        self.stored.asides.insert(under, [sum(0), sum(1)]);
+        self.use_length(under);
+    }
+
+    /// What is in force of an entry stays what it is, whatever its table says from here on (LinuxCNC, G10 L1).
+    pub(super) fn hold_entry(&mut self, entry: u32) {
+        if entry == self.entry {
+            let under = self.nameless();
+            self.stored.lengths.insert(under, (self.length_of(entry), 0.0));
+            self.stored.asides.insert(under, self.stored.aside);
+            self.entry = under;
+        }
+    }
+
+    /// Puts into its table what a tool is put aside, for the axes with a value.
+    pub(super) fn store_aside(&mut self, entry: u32, values: [Option<f64>; 2]) {
+        let mut aside = self.stored.aside_of(entry);
+        for (axis, value) in values.into_iter().enumerate() {
+            let Some(value) = value else { continue };
+            aside[axis] = value;
+            self.stored.asides.insert(entry, aside);
+            self.record(What::Data(["offset along X", "offset along Y"][axis], entry, alone(value)));
+        }
+    }
+
+    /// Length of an entry, wear included, where a program has put it there.
+    pub(super) fn stored_length(&self, entry: u32) -> Option<f64> {
+        self.stored.lengths.get(&entry).map(|(bare, wear)| bare + wear)
+    }
+
+    /// Wear of an entry.
+    pub(super) fn wear_of(&self, entry: u32) -> f64 {
+        self.stored.lengths.get(&entry).map_or_else(|| (self.setup.wear)(entry), |(_, wear)| *wear)
+    }
+
+    /// What an entry puts a tool aside.
+    pub(super) fn aside_of(&self, entry: u32) -> [f64; 2] {
+        self.stored.aside_of(entry)
+    }
+
+    /// The offset of the tool in the spindle along an axis, as far as a program has put it into the table.
+    pub(super) fn stored_offset(&self, axis: usize) -> Option<f64> {
+        let tool = self.tool?;
+        match axis {
+            2 => self.stored_length(tool),
+            _ => self.stored.asides.get(&tool).map(|aside| aside[axis]),
+        }
     }
 
     /// A position that the control keeps, in machine coordinates.

@@ -9,7 +9,8 @@
 //! tools states.
 //!
 //! Points are in the program's coordinates, as shifted and turned as they are; what sets or takes up an offset prints
-//! its values. Refused is what needs a table (tools' lengths), and what this control has no call for.
+//! its values. Refused is what needs a table (lengths of tools that the program has not put there itself), and what
+//! this control has no call for.
 
 mod holes;
 mod offsets;
@@ -27,7 +28,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten};
-use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt};
+use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::unknown_calls;
 use ncc_ir::world::World;
@@ -77,6 +78,7 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
         exec,
         program,
         source,
+        radii,
         out: String::new(),
         at: start,
         beside: false,
@@ -112,6 +114,7 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
 struct Printer<'p> {
     program: &'p Program,
     source: &'p [u8],
+    radii: &'p BTreeMap<u32, Nanos>,
     out: String,
     /// Modes, position and the cycle in force.
     at: Tracker,
@@ -294,7 +297,7 @@ impl Printer<'_> {
             self.at.apply(&stmt.op);
             self.stand();
         }
-        Ok(())
+        self.tool_entries(stmts)
     }
 
     fn statement(&mut self, stmt: &Stmt) -> Result<(), Fault> {
@@ -393,14 +396,25 @@ impl Printer<'_> {
                     self.work_turn(offset);
                 }
                 Data::Offset { .. } => self.note("setting coordinate system origin"),
+                // The block's entry is printed behind all that it sets.
+                Data::Tool { which, .. } if which.is_offset() => {}
+                Data::Measured { .. } => {}
                 Data::Tool { .. } | Data::Position(_) | Data::ToolInSpindle(_) => {
                     return Err(cannot(stmt.op.name()));
                 }
             },
             Op::UseMachineCoordinates { .. } => {}
-            Op::UseToolLengthOffset(entry) if entry.literal().is_some_and(|n| n.is_zero()) => {
-                self.call("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)");
+            Op::UseToolLengthOffset(entry) => self.tool_offsets(entry)?,
+            Op::UseToolEdge { .. } => {
+                let entry = self.exec.length_entry().ok_or_else(|| cannot(stmt.op.name()))?;
+                self.tool_offsets(&Expr::int(i64::from(entry)))?;
             }
+            Op::UseToolLength(length) => match &**length {
+                ToolLength::AddedEntry(entry) => self.tool_offsets(entry)?,
+                ToolLength::Value(_) | ToolLength::Added(_) | ToolLength::Offsets { .. } => {
+                    self.tool_offsets(&Expr::int(0))?;
+                }
+            },
             Op::StraightTraverse(_) => self.straight("STRAIGHT_TRAVERSE", self.exec.position()),
             Op::StraightFeed(_) => self.straight("STRAIGHT_FEED", self.exec.position()),
             Op::ArcFeed(arc) => self.arc(arc)?,
@@ -442,9 +456,6 @@ impl Printer<'_> {
             | Op::SetSpindleMode(SpindleMode::Surface)
             | Op::LimitSpindleSpeed(_)
             | Op::SelectToolByName(_)
-            | Op::UseToolLengthOffset(_)
-            | Op::UseToolLength(_)
-            | Op::UseToolEdge { .. }
             | Op::OrientSpindle(_)
             | Op::MachineFunction(_)
             | Op::SynchronisedFeed(_)

@@ -53,17 +53,28 @@ pub(super) fn data(d: &Data, out: &mut Vec<u8>) {
                 expr(turn, out);
             }
         }
-        Data::Tool { entry, which, added, value } => {
+        Data::Tool { entry, which, added, kept, value } => {
             whole(u64::from(*entry), out);
             let which = match which {
                 ToolValue::Length => ", length, ",
                 ToolValue::LengthWear => ", length-wear, ",
                 ToolValue::Radius => ", tool-radius, ",
                 ToolValue::RadiusWear => ", tool-radius-wear, ",
+                ToolValue::OffsetX => ", x-offset, ",
+                ToolValue::OffsetY => ", y-offset, ",
             };
             put(which, out);
             put(if *added { "added " } else { "" }, out);
+            put(if *kept { "kept " } else { "" }, out);
             expr(value, out);
+        }
+        Data::Measured { entry, offset, words: by } => {
+            whole(u64::from(*entry), out);
+            if let Some(offset) = offset {
+                put(", offset ", out);
+                whole(u64::from(*offset), out);
+            }
+            words(&by[..], out);
         }
     }
 }

@@ -188,6 +188,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
             ToolLength::Value(value) | ToolLength::Added(value) | ToolLength::AddedEntry(value) => {
                 expr(value, out);
             }
+            ToolLength::Offsets { words, .. } => axis_words(&words[..], "", out),
         },
         Op::SetPole(set) => pole(set, out),
         Op::TurnRotaryAxes(ways) => rotary_ways(ways, out),

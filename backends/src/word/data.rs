@@ -37,14 +37,14 @@ impl Writer {
             Data::Position(place) => {
                 let code = self.codes.store_position[usize::from(*place == 2)];
                 let code = code.ok_or_else(|| cannot("storing where the axes stand"))?;
-                self.alone(code, None, sink)
+                self.alone(code, Vec::new(), sink)
             }
             Data::ToolInSpindle(tool) => {
                 let code = self.codes.tool_number.filter(|_| tool.literal().is_some());
                 let (code, letter) =
                     code.ok_or_else(|| cannot("setting the number of the tool in the spindle"))?;
                 let value = self.value(&letter, tool, span, sink)?;
-                self.alone(code, Some((letter.letter, value)), sink)
+                self.alone(code, vec![(letter.letter, value)], sink)
             }
             Data::Offset { offset, mode, words, turn } => {
                 let kind = match mode {
@@ -57,13 +57,7 @@ impl Writer {
                 };
                 let what = || cannot(format!("the zero of work offset {offset}"));
                 let table = tables.iter().find(has).ok_or_else(what)?.clone();
-                let mut own = Vec::new();
-                for (axis, word) in Axis::ALL.into_iter().zip(words.iter()) {
-                    if let Some(word) = word {
-                        let letter = self.codes.axes[axis as usize];
-                        own.push((letter.ok_or_else(|| cannot("this axis"))?, word.clone()));
-                    }
-                }
+                let mut own = self.along(&words[..])?;
                 if let Some(turn) = turn {
                     let letter = table.turn.ok_or_else(|| cannot("rotation of a work offset"))?;
                     own.push((letter, turn.clone()));
@@ -71,7 +65,19 @@ impl Writer {
                 let entry = u32::from(offset - table.row.first) + 1;
                 self.stored(&table, entry, *mode == DataMode::Add, &own, span, sink)
             }
-            Data::Tool { entry, which, added, value } => {
+            Data::Measured { entry, offset, words } => {
+                let has = |table: &&DataCode| {
+                    let row = table.row;
+                    row.kind == DataKind::ToolHere
+                        && row.in_offset == offset.unwrap_or(0)
+                        && *entry <= u32::from(row.count)
+                };
+                let table =
+                    tables.iter().find(has).ok_or_else(|| cannot("a tool measured where the axes stand"))?;
+                let own = self.along(&words[..])?;
+                self.stored(&table.clone(), *entry, false, &own, span, sink)
+            }
+            Data::Tool { entry, which, added, value, .. } => {
                 let has = |table: &DataCode| {
                     let letter = table.values.iter().find(|(own, _)| own == which)?.1;
                     (*entry <= u32::from(table.row.count)).then(|| (table.clone(), letter))
@@ -104,22 +110,32 @@ impl Writer {
             ToolLength::Value(value) => (stated, z, value),
             ToolLength::Added(value) => (added, z, value),
             ToolLength::AddedEntry(entry) => (added, self.codes.entry, entry),
+            ToolLength::Offsets { added: adds, words } => {
+                let code = if *adds { added } else { stated };
+                let code = code.ok_or_else(|| cannot("a tool's offsets by their values"))?;
+                let own = self.along(&words[..])?;
+                let mut said = Vec::with_capacity(own.len());
+                for (letter, value) in &own {
+                    said.push((letter.letter, self.value(letter, value, span, sink)?));
+                }
+                return self.alone(code, said, sink);
+            }
         };
         let (code, letter) = code.zip(letter).ok_or_else(|| cannot("a tool's length by its value"))?;
         let value = self.value(&letter, value, span, sink)?;
-        self.alone(code, Some((letter.letter, value)), sink)
+        self.alone(code, vec![(letter.letter, value)], sink)
     }
 
-    /// A code in a block of its own, with a word of its.
-    fn alone(&mut self, code: Code, word: Option<(u8, Worth)>, sink: &mut Sink) -> Result<(), Fault> {
+    /// A code in a block of its own, with its words.
+    fn alone(&mut self, code: Code, words: Vec<(u8, Worth)>, sink: &mut Sink) -> Result<(), Fault> {
         if !self.block.is_empty() {
             self.flush(false, sink);
             self.split = true;
         }
         let need = Need::new(Rank::Alone).code(Some(code));
-        self.admit(&word.as_ref().map_or(need, |(letter, _)| need.letter(*letter)), sink)?;
+        self.admit(&words.iter().fold(need, |need, (letter, _)| need.letter(*letter)), sink)?;
         self.block.code(Part::Mode, &code);
-        if let Some((letter, value)) = word {
+        for (letter, value) in words {
             self.block.word(Part::Mode, letter, value);
         }
         Ok(())

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use ncc_dialects::{ANGLE_RANGE, FormulaRules, SystemRow};
+use ncc_dialects::{ANGLE_RANGE, FormulaRules, MACHINE_UNITS, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
@@ -40,6 +40,8 @@ pub(crate) struct Spelling<'d> {
     own: &'d [(u32, Expr)],
     /// What the control calls its own values.
     system: &'d [SystemRow],
+    /// The machine's own unit, if the dialect asks for it.
+    machine: &'d str,
     blanks: bool,
     /// Whether angles of arcs go from 0 to a turn.
     turn: bool,
@@ -147,7 +149,8 @@ impl Spelling<'_> {
 
     /// What the control calls one of its own values.
     fn own_value(&self, system: &System) -> Result<String, Fault> {
-        let all = self.system.iter().flat_map(SystemRow::says).filter(|(own, _)| own == system);
+        let says = |row: &'_ SystemRow| row.says_in(self.machine).collect::<Vec<_>>();
+        let all = self.system.iter().flat_map(says).filter(|(own, _)| own == system);
         // A name says more than a number.
         let found = all.map(|(_, spelt)| spelt).min_by_key(|spelt| !spelt.starts_with('<'));
         found.ok_or_else(|| cannot_compute(format!("the system variable {system}")))
@@ -492,6 +495,7 @@ impl Writer {
             rules: &self.dialect.formula,
             own: &self.computing.own,
             system: &self.dialect.system,
+            machine: self.settings.get(MACHINE_UNITS),
             blanks: self.dialect.block.blanks,
             turn: self.settings.get(ANGLE_RANGE) == "turn",
             digits,

@@ -119,7 +119,7 @@ impl Writer {
     }
 
     /// The words of axes, with their letters.
-    fn along(&self, words: &[Option<Expr>]) -> Result<Vec<(Letter, Expr)>, Fault> {
+    pub(super) fn along(&self, words: &[Option<Expr>]) -> Result<Vec<(Letter, Expr)>, Fault> {
         let mut out = Vec::new();
         for (axis, word) in Axis::ALL.into_iter().zip(words) {
             if let Some(word) = word {

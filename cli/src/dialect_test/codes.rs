@@ -89,16 +89,25 @@ fn stored_by(row: &DataRow) -> Vec<String> {
             let words = "X 12.345mm, Y -6.7mm";
             added.iter().map(|a| format!("SET_OFFSET_DATA({last}, {}{words})", mode(a))).collect()
         }
+        DataKind::ToolHere => {
+            let offset =
+                if row.in_offset == 0 { String::new() } else { format!("offset {}, ", row.in_offset) };
+            vec![format!("MEASURE_TOOL({}, {offset}X 12.345mm, Z -6.7mm)", row.count)]
+        }
         DataKind::Tool => {
             let name = |of| match of {
                 ValueName::Length => "length",
                 ValueName::LengthWear => "length-wear",
                 ValueName::Radius => "tool-radius",
                 ValueName::RadiusWear => "tool-radius-wear",
+                ValueName::OffsetX => "x-offset",
+                ValueName::OffsetY => "y-offset",
             };
             let each = |v: &ValueWord| {
                 let of = name(v.of);
-                added.iter().map(move |a| format!("SET_TOOL_DATA({}, {of}, {a}6.15mm)", row.count))
+                let radius = matches!(v.of, ValueName::Radius | ValueName::RadiusWear);
+                let kept = if row.kept && !radius { "kept " } else { "" };
+                added.iter().map(move |a| format!("SET_TOOL_DATA({}, {of}, {a}{kept}6.15mm)", row.count))
             };
             row.values.iter().flat_map(each).collect()
         }

@@ -66,8 +66,12 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     let (mut runner, mut events) = (Runner::new(program), Vec::new());
     while runner.run(&mut exec, usize::MAX, &mut events)? == Progress::More {}
     exec.end_of_text(&mut events);
-    events
-        .retain(|event| !matches!(&event.kind, Kind::Data(stored) if matches!(**stored, Stored::Offset(..))));
+    let is_offset = |stored: &Stored| match stored {
+        Stored::Offset(..) | Stored::Length(..) => true,
+        Stored::Value(_, which, ..) => which.is_offset(),
+        Stored::Position(..) | Stored::Tool(_) => false,
+    };
+    events.retain(|event| !matches!(&event.kind, Kind::Data(stored) if is_offset(stored)));
     Ok(events)
 }
 
@@ -88,6 +92,8 @@ struct Listed {
     offset: [Nanos; AXES],
     turn: Nanos,
     shift: [Nanos; AXES],
+    /// Offsets of the tool in force.
+    tool: [Nanos; 3],
     events: Vec<Event>,
 }
 
@@ -126,9 +132,13 @@ impl Listed {
             | "SET_FEED_REFERENCE"
             | "SET_NAIVECAM_TOLERANCE"
             | "SET_MOTION_CONTROL_MODE" => {}
-            // No tool has a length.
+            // What stands in the table shows where it is called up.
+            "SET_TOOL_TABLE_ENTRY" => {}
             "USE_TOOL_LENGTH_OFFSET" => {
                 let mut numbers = inside.split([',', ' ']).filter(|n| !n.is_empty());
+                for axis in 0..3 {
+                    self.tool[axis] = self.length(numbers.next()?)?;
+                }
                 numbers.all(|n| number(n) == Some(0)).then_some(())?;
             }
             "SET_G5X_OFFSET" => self.offset = self.values(inside.split_once(", ")?.1)?,
@@ -225,7 +235,7 @@ impl Listed {
             at[0] = (x * cos - y * sin).round() as Nanos;
             at[1] = (x * sin + y * cos).round() as Nanos;
         }
-        std::array::from_fn(|axis| at[axis] + self.offset[axis])
+        std::array::from_fn(|axis| at[axis] + self.offset[axis] + self.tool.get(axis).unwrap_or(&0))
     }
 
     fn words(&self, words: &[&str]) -> Option<[Nanos; AXES]> {

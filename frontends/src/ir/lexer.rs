@@ -3,14 +3,13 @@
 //! Works on one line. A word that is not known is a token as well, so that the parser can point at
 //! it. Not here: what the words mean together.
 
-use logos::{Lexer, Logos};
+use logos::Logos;
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Detour, Op, Text, ToolValue, Type};
-use ncc_ir::system::System;
 
-use crate::canon::text::unquote;
+use super::scan::{block_number, number, quoted, variable};
 
 /// Why a stretch of text is no word.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,10 +26,10 @@ pub(crate) enum LexFault {
 /// A number as written, still without a sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Literal {
-    magnitude: u64,
-    scale: u8,
-    point: bool,
-    unit: Unit,
+    pub(super) magnitude: u64,
+    pub(super) scale: u8,
+    pub(super) point: bool,
+    pub(super) unit: Unit,
 }
 
 impl Literal {
@@ -303,6 +302,13 @@ pub(crate) enum Token {
     SetOffsetData,
     #[token("SET_TOOL_DATA")]
     SetToolData,
+    #[token("MEASURE_TOOL")]
+    MeasureTool,
+    #[token("USE_TOOL_OFFSETS", |_| false)]
+    #[token("ADD_TOOL_OFFSETS", |_| true)]
+    ToolOffsets(bool),
+    #[token("kept")]
+    Kept,
     #[token("STORE_POSITION")]
     StorePosition,
     #[token("SET_TOOL_NUMBER")]
@@ -446,6 +452,8 @@ pub(crate) enum Token {
     #[token("length-wear", |_| ToolValue::LengthWear)]
     #[token("tool-radius", |_| ToolValue::Radius)]
     #[token("tool-radius-wear", |_| ToolValue::RadiusWear)]
+    #[token("x-offset", |_| ToolValue::OffsetX)]
+    #[token("y-offset", |_| ToolValue::OffsetY)]
     ToolValue(ToolValue),
     #[token("angle")]
     Angle,
@@ -644,56 +652,4 @@ pub(crate) enum Token {
     /// A word that is no key word.
     #[regex(r"[a-z]+(-[a-z]+)*", priority = 1)]
     UnknownWord,
-}
-
-fn number(lexer: &mut Lexer<'_, Token>) -> Result<Literal, LexFault> {
-    let text = lexer.slice();
-    let digits_end = text.find(|c: char| c.is_ascii_lowercase()).unwrap_or(text.len());
-    let unit = match &text[digits_end..] {
-        "mm" => Unit::Mm,
-        "in" => Unit::Inch,
-        "deg" => Unit::Degree,
-        "s" => Unit::Second,
-        "u" => Unit::Entry,
-        _ => Unit::One,
-    };
-    let (mut magnitude, mut scale, mut point) = (0u64, 0u8, false);
-    for byte in text[..digits_end].bytes() {
-        if byte == b'.' {
-            point = true;
-            continue;
-        }
-        let shifted = magnitude.checked_mul(10).and_then(|m| m.checked_add(u64::from(byte - b'0')));
-        magnitude = shifted.ok_or(LexFault::Number)?;
-        scale += u8::from(point);
-        if scale > 18 {
-            return Err(LexFault::Number);
-        }
-    }
-    if magnitude > i64::MIN.unsigned_abs() {
-        return Err(LexFault::Number);
-    }
-    Ok(Literal { magnitude, scale, point, unit })
-}
-
-fn quoted(lexer: &mut Lexer<'_, Token>) -> Result<Text, LexFault> {
-    unquote(lexer.slice()).ok_or(LexFault::Escape)
-}
-
-fn block_number(lexer: &mut Lexer<'_, Token>) -> Result<u32, LexFault> {
-    lexer.slice()[1..].parse().map_err(|_| LexFault::Number)
-}
-
-fn variable(lexer: &mut Lexer<'_, Token>) -> Result<Var, LexFault> {
-    let (kind, name) = lexer.slice().split_once(':').unwrap_or_default();
-    let name = match name.starts_with('"') {
-        true => unquote(name).ok_or(LexFault::Escape)?,
-        false => Box::from(name),
-    };
-    Ok(match kind {
-        "local" => Var::Local(name),
-        "common" => Var::Common(name),
-        "retentive" => Var::Retentive(name),
-        _ => Var::System(System::named(&name)),
-    })
 }

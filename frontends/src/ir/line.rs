@@ -7,7 +7,8 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node, Numbers, Scope, Var};
 use ncc_ir::num::Num;
 use ncc_ir::program::{
-    Advice, Coord, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text, Type,
+    Advice, Coord, Data, Op, PathControl, Point, Procedure, ProgramName, Shape, Stmt, Text, ToolLength,
+    ToolValue, Type,
 };
 use ncc_ir::source::Span;
 
@@ -186,6 +187,31 @@ pub(crate) fn places(words: Vec<(usize, Coord)>, l: usize, r: usize) -> Parsed<[
         }
     }
     Ok(all)
+}
+
+/// A value of the table of tools.
+pub(crate) fn tool_data(entry: u32, which: ToolValue, [added, kept]: [bool; 2], value: Expr) -> Op {
+    Op::SetData(Box::new(Data::Tool { entry, which, added, kept, value }))
+}
+
+/// Offsets of a tool by where the axes stand.
+pub(crate) fn measured(
+    entry: u32,
+    offset: Option<u16>,
+    words: Vec<(Axis, Expr)>,
+    l: usize,
+    r: usize,
+) -> Parsed<Op> {
+    let [x, y, z] = along(words, l, r)?;
+    let words = Box::new([x, y, z, None, None, None]);
+    Ok(Op::SetData(Box::new(Data::Measured { entry, offset, words })))
+}
+
+/// Offsets of a tool that are in no table.
+pub(crate) fn offsets(added: bool, words: Vec<(Axis, Expr)>, l: usize, r: usize) -> Parsed<Op> {
+    let [x, y, z] = along(words, l, r)?;
+    let words = Box::new([x, y, z, None, None, None]);
+    Ok(Op::UseToolLength(Box::new(ToolLength::Offsets { added, words })))
 }
 
 /// Values along axes, of which there are the first `N`.

@@ -31,6 +31,7 @@
 
 mod lexer;
 mod line;
+mod scan;
 
 use lalrpop_util::ParseError;
 use logos::Logos;

@@ -112,6 +112,9 @@ impl Lower {
         if row.kind == DataKind::Tool {
             return self.tool_data(code, row, number, added, words, src, out);
         }
+        if row.kind == DataKind::ToolHere {
+            return self.measured(code, row, number, words, src, out);
+        }
         self.check_shut(code, out);
         // A zero that is stated is what it is, whatever length counts; one from where the tool stands is not.
         if row.kind == DataKind::OffsetHere && words.get(b'Z').is_some() && self.level_open() {
@@ -181,25 +184,30 @@ impl Lower {
     ) {
         let code_text: Box<str> = code.row.code.as_str().into();
         let entry = words.take(if added { self.roles.length_entry } else { 0 });
-        let value = words.take(b'Z');
-        if self.has_axis_word(words) || entry.is_some() && value.is_some() {
+        let by = self.offset_words(words, src, out);
+        let along: Vec<usize> = (0..AXES).filter(|axis| by[*axis].is_some()).collect();
+        if self.has_axis_word(words) || entry.is_some() && !along.is_empty() {
             let name = match entry {
                 Some(_) => "entry of the length table beside axis words",
-                None => "length of a tool along another axis than Z",
+                None => "offset of a tool along another axis than X, Y and Z",
             };
             words.left = 0;
             return self.fault(Fault::NotSupported { code: code_text, name: name.into() }, code.span, out);
         }
-        let length = match (entry, value) {
-            (Some(word), _) => {
+        let [x, y, z, ..] = by;
+        let length = match (entry, &along[..], z) {
+            (Some(word), ..) => {
                 self.whole(&word, src, out).map(|entry| ToolLength::AddedEntry(Expr::int(i64::from(entry))))
             }
-            (None, Some(word)) => self.number(&word, Quantity::Length, src, out).map(|value| {
-                let value = Expr::Num(value);
-                if added { ToolLength::Added(value) } else { ToolLength::Value(value) }
-            }),
-            (None, None) => {
+            (None, [], _) if self.now.failed => None,
+            (None, [], _) => {
                 return self.fault(Fault::WordMissing { code: code_text, word: "Z".into() }, code.span, out);
+            }
+            (None, [2], Some(value)) if added => Some(ToolLength::Added(value)),
+            (None, [2], Some(value)) => Some(ToolLength::Value(value)),
+            (None, _, z) => {
+                let words = Box::new([x, y, z, None, None, None]);
+                Some(ToolLength::Offsets { added, words })
             }
         };
         let Some(length) = length else { return };
@@ -211,6 +219,43 @@ impl Lower {
         self.state.length_offset = Know::Said(());
         self.state.level_open = true;
         self.push(code.span, Op::UseToolLength(Box::new(length)), out);
+    }
+
+    /// Words for X, Y and Z that are offsets of a tool.
+    fn offset_words(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> [Option<Expr>; AXES] {
+        let mut by = [const { None }; AXES];
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            if let Some(word) = words.take(axis.letter()) {
+                by[axis as usize] = self.amount(&word, Quantity::Length, words, src, out);
+            }
+        }
+        by
+    }
+
+    /// Offsets of a tool by where the axes stand.
+    fn measured(
+        &mut self,
+        code: &Code,
+        row: &'static DataRow,
+        entry: u32,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let row_name = || Box::<str>::from(row.name.as_str());
+        let by = self.offset_words(words, src, out);
+        if self.has_axis_word(words) || words.get(b'R').is_some() {
+            words.left = 0;
+            let name = "another value of a tool than its offsets along X, Y and Z".into();
+            return self.fault(Fault::NotSupported { code: row_name(), name }, code.span, out);
+        }
+        if by.iter().all(Option::is_none) && !self.now.failed {
+            return self.fault(Fault::WordMissing { code: row_name(), word: "Z".into() }, code.span, out);
+        }
+        self.rely_on_frames(by[Axis::Z as usize].is_some(), code.span, out);
+        let offset = (row.in_offset != 0).then_some(row.in_offset);
+        let data = Data::Measured { entry, offset, words: Box::new(by) };
+        self.push(code.span, Op::SetData(Box::new(data)), out);
     }
 
     #[allow(clippy::too_many_arguments)] // All that the block says.
@@ -240,7 +285,7 @@ impl Lower {
             } else {
                 value
             };
-            let data = Data::Tool { entry, which, added, value };
+            let data = Data::Tool { entry, which, added, kept: row.kept && which.is_offset(), value };
             self.push(code.span, Op::SetData(Box::new(data)), out);
         }
         if !any {

@@ -236,6 +236,12 @@ impl Lower {
             match to.get(Axis::Z) {
                 Some(word) if absolute(word) && without.is_none() => self.state.level_open = false,
                 None if without.is_none() => {}
+                // Whether it is a way, the run of the program knows, and execution refuses that.
+                Some(word)
+                    if word.distance == Fact::Entry && without.is_none() && self.computes_anything() =>
+                {
+                    self.state.level_open = false;
+                }
                 Some(_) | None => self.refuse_level(block, out),
             }
         }

@@ -8,7 +8,7 @@
 
 use std::collections::HashSet;
 
-use ncc_dialects::{Quantity, SystemRow};
+use ncc_dialects::{MACHINE_UNITS, Quantity, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Unary, Var};
 use ncc_ir::num::{Num, Unit};
@@ -241,7 +241,7 @@ impl Lower {
         out: &mut Batch,
     ) -> Option<Expr> {
         let unit =
-            if row.machine_units { self.option("machine_units", at, out).to_owned() } else { String::new() };
+            if row.machine_units { self.option(MACHINE_UNITS, at, out).to_owned() } else { String::new() };
         if row.zero {
             if self.assume && !std::mem::replace(&mut self.o.no_such_axes, true) {
                 let parameter = "axes U, V and W, which the machine does not have".into();

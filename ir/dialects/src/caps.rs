@@ -181,7 +181,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         stored_positions: [1, 2].map(|place| everything || says(Meaning::StorePosition(place))),
         stated_lengths: [false, true].map(|added| everything || says(Meaning::UseToolLength { added })),
         tool_number: everything || says(Meaning::SetToolNumber),
-        tool_data: if everything { [true; 4] } else { dialect.sets_tools() },
+        tool_data: if everything { [true; 6] } else { dialect.sets_tools() },
+        tool_data_kept: everything || dialect.data.iter().any(|r| r.kind == DataKind::Tool && r.kept),
+        measures_tools: if everything { [true; 2] } else { dialect.measures_tools() },
         tool_data_added: everything || dialect.data.iter().any(|r| r.kind == DataKind::Tool && r.adds),
         tool_names: everything
             || dialect.family == Family::Canon

@@ -36,6 +36,6 @@ pub use power_on::*;
 pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
 pub use settings::{
-    ANGLE_RANGE, CYCLE_APPROACH, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
+    ANGLE_RANGE, CYCLE_APPROACH, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};

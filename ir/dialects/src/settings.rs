@@ -20,6 +20,9 @@ pub const TAPPING: &str = "tapping";
 /// degrees) or `half` a turn to each side (the sine's -90 to 90).
 pub const ANGLE_RANGE: &str = "angle_range";
 
+/// Name of the option that says in which unit a machine keeps its own lengths.
+pub const MACHINE_UNITS: &str = "machine_units";
+
 /// Option of a dictionary: the letter of the number of repetitions in a cycle's block.
 pub const REPEAT_WORD: &str = "repeat_word";
 

@@ -31,6 +31,12 @@ pub struct DataRow {
     /// Whether values are added to those that are there while incremental coordinates are in force.
     #[serde(default)]
     pub adds: bool,
+    /// Whether what is in force of a tool stays as it is until it is called up anew; else nobody knows.
+    #[serde(default)]
+    pub kept: bool,
+    /// Where tools are measured, the work offset in whose coordinates; 0 is those in force.
+    #[serde(default)]
+    pub in_offset: u16,
     /// Of tools, the words of a block: what each is, and its letter.
     #[serde(default)]
     pub values: Vec<ValueWord>,
@@ -51,6 +57,9 @@ pub enum DataKind {
     OffsetHere,
     /// Tools.
     Tool,
+    /// Offsets of tools, so that the axis words become the coordinates of where the axes stand, as soon as the tool
+    /// is called up.
+    ToolHere,
 }
 
 /// A word for a value of a tool.
@@ -75,6 +84,10 @@ pub enum ValueName {
     Radius,
     /// Wear of the radius; the option `radius_data` may say that the word is of the diameter.
     RadiusWear,
+    /// Offset along X.
+    OffsetX,
+    /// Offset along Y.
+    OffsetY,
 }
 
 impl From<ValueName> for ToolValue {
@@ -84,6 +97,8 @@ impl From<ValueName> for ToolValue {
             ValueName::LengthWear => ToolValue::LengthWear,
             ValueName::Radius => ToolValue::Radius,
             ValueName::RadiusWear => ToolValue::RadiusWear,
+            ValueName::OffsetX => ToolValue::OffsetX,
+            ValueName::OffsetY => ToolValue::OffsetY,
         }
     }
 }
@@ -131,9 +146,15 @@ impl Dialect {
     }
 
     /// Which values of tools can be set, in the order of [`ToolValue::ALL`].
-    pub(crate) fn sets_tools(&self) -> [bool; 4] {
+    pub(crate) fn sets_tools(&self) -> [bool; 6] {
         let words = || self.data.iter().flat_map(|row| &row.values);
         ToolValue::ALL.map(|value| words().any(|word| ToolValue::from(word.of) == value))
+    }
+
+    /// Whether tools can be measured in the coordinates in force, and in those of a work offset.
+    pub(crate) fn measures_tools(&self) -> [bool; 2] {
+        let rows = || self.data.iter().filter(|row| row.kind == DataKind::ToolHere);
+        [rows().any(|row| row.in_offset == 0), rows().any(|row| row.in_offset != 0)]
     }
 }
 
@@ -206,10 +227,17 @@ impl SystemRow {
         })?
     }
 
-    /// Values that it is by itself, each with how a program names it behind the sign of variables: by the row's name,
-    /// else by its number. Those that count in the machine's own unit, or are several together, are none.
+    /// Values that it is by itself on one machine or another.
     pub fn says(&self) -> impl Iterator<Item = (System, String)> + '_ {
-        let plain = self.refuse.is_none() && !self.machine_units && !self.means.is_empty();
+        let units: &[&str] = if self.machine_units { &["mm", "inch"] } else { &[""] };
+        units.iter().flat_map(|machine| self.says_in(machine))
+    }
+
+    /// Values that it is by itself on a machine of this unit, each with how a program names it behind the sign of
+    /// variables: by the row's name, else by its number. Those that are several together are none.
+    pub fn says_in<'r>(&'r self, machine: &'r str) -> impl Iterator<Item = (System, String)> + 'r {
+        let plain = self.refuse.is_none() && !self.means.is_empty();
+        let unit = if self.machine_units { format!(".{machine}") } else { String::new() };
         let places = match (self.axes, self.count as usize) {
             (true, 0) => AXES,
             (true, count) => count.min(AXES),
@@ -218,9 +246,10 @@ impl SystemRow {
         (0..places).filter(move |_| plain).filter_map(move |place| {
             let means = match self.axes {
                 true => {
-                    format!("{}.{}", self.means, char::from(Axis::ALL[place].letter().to_ascii_lowercase()))
+                    let axis = char::from(Axis::ALL[place].letter().to_ascii_lowercase());
+                    format!("{}.{axis}{unit}", self.means)
                 }
-                false => self.means.clone(),
+                false => format!("{}{unit}", self.means),
             };
             let spelt = match self.name.is_empty() {
                 true => (self.number + place as u32).to_string(),

@@ -140,6 +140,10 @@ impl Exec {
             }
             System::ToolLength if self.waiting.is_some() => None,
             System::ToolLength => Some(self.counted(self.length_of(self.modes.length), Axis::Z, None)),
+            System::TableOffset { axis, unit } => {
+                let stated = self.stated_offset(*axis as usize)?;
+                Some(self.counted(stated, *axis, *unit))
+            }
             System::Tool => (self.state.tool >= 0).then_some(self.state.tool as f64),
             System::SelectedTool => (self.selected >= 0).then_some(self.selected as f64),
             System::Feed if self.state.feed_mode == FeedMode::InverseTime => None,

@@ -332,6 +332,7 @@ impl Exec {
                 Data::Position(_) => Some("storing where the axes stand under cutter radius compensation"),
                 Data::ToolInSpindle(_) => Some("another tool under cutter radius compensation"),
                 Data::Offset { .. } | Data::Tool { .. } => None,
+                Data::Measured { .. } => Some("a tool measured under cutter radius compensation"),
             },
             miscellaneous!()
             | conduct!()

@@ -10,7 +10,7 @@ use crate::canon::{AXES, Distance, Motion, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
 use crate::num::{Nanos, ONE};
-use crate::program::{Coord, Data, DataMode, Detour, Point, Reference, ReferencePoint, ToolValue};
+use crate::program::{Coord, Data, DataMode, Detour, Point, Reference, ReferencePoint};
 use crate::source::Span;
 
 impl Exec {
@@ -136,7 +136,7 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if self.cycle.is_some() && matches!(data, Data::Offset { .. } | Data::Tool { .. }) {
+        if self.cycle.is_some() && !matches!(data, Data::Position(_) | Data::ToolInSpindle(_)) {
             return self.not_executed("data input while a cycle is in force", span);
         }
         let stored = match data {
@@ -163,7 +163,7 @@ impl Exec {
                 for (axis, word) in words.iter().enumerate() {
                     let Some(word) = word else { continue };
                     let value = self.value(word, span)?;
-                    let length = if axis == Z { self.length_of(self.modes.length) } else { 0 };
+                    let length = self.tool_offset()[axis];
                     let sum = match mode {
                         DataMode::Set => Some(value),
                         DataMode::Add => zero[axis].checked_add(value),
@@ -182,50 +182,14 @@ impl Exec {
                 }
                 Stored::Offset(self.world.offset_number(*offset), zero, turned)
             }
-            Data::Tool { entry, which, added, value } => {
+            Data::Tool { entry, which, added, kept, value } => {
                 let value = self.value(value, span)?;
-                let number = self.world.entry_number(*entry);
-                let in_force = |length: Length| length == Length::Entry(*entry);
-                let counts = in_force(self.modes.length) || self.waiting.is_some_and(in_force);
-                if *entry == 0 {
-                    return self.fault(Fault::OutOfRange { word: "entry".into() }, span);
-                }
-                match which {
-                    ToolValue::Length | ToolValue::LengthWear if counts => {
-                        return self.not_executed("another length for the tool that is in use", span);
-                    }
-                    ToolValue::Length | ToolValue::LengthWear => {
-                        Stored::Length(number, self.set_length(*entry, *which, *added, value))
-                    }
-                    ToolValue::Radius | ToolValue::RadiusWear => {
-                        self.world.tables.set_radius(*entry, *which, *added, value);
-                        Stored::Value(number, *which, *added, value)
-                    }
-                }
+                self.set_tool(*entry, *which, [*added, *kept], value, span)?
+            }
+            Data::Measured { entry, offset, words } => {
+                return self.measure_tool(*entry, *offset, words, span, out);
             }
         };
         self.emit(Kind::Data(Box::new(stored)), span, out)
-    }
-
-    /// Puts a length into the table; the length that counts, wear included.
-    fn set_length(&mut self, entry: u32, which: ToolValue, added: bool, value: Nanos) -> Nanos {
-        let before = self.world.tool_length(entry);
-        let wear = self.world.length_wear(entry);
-        let new_wear = match (which, added) {
-            (ToolValue::LengthWear, true) => wear.wrapping_add(value),
-            (ToolValue::LengthWear, false) => value,
-            (ToolValue::Length | ToolValue::Radius | ToolValue::RadiusWear, _) => wear,
-        };
-        let bare = match (which, added) {
-            (ToolValue::Length, true) => before.wrapping_sub(wear).wrapping_add(value),
-            (ToolValue::Length, false) => value,
-            (ToolValue::LengthWear | ToolValue::Radius | ToolValue::RadiusWear, _) => {
-                before.wrapping_sub(wear)
-            }
-        };
-        let length = bare.wrapping_add(new_wear);
-        self.world.tables.lengths.insert(entry, length);
-        self.world.tables.wears.insert(entry, new_wear);
-        length
     }
 }

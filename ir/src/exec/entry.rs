@@ -2,10 +2,21 @@
 //! has never said.
 
 use super::{DISTANCE, Exec, FEED_MODE, LENGTH, Length, MOTION, PLANE, RETURN, SHIFT, UNITS, WORK};
-use crate::canon::{Modes, Units};
+use crate::canon::{AXES, Modes, Units};
 use crate::diag::ModeName;
+use crate::num::Nanos;
 
 impl Exec {
+    /// Puts the axes somewhere in program coordinates (a stated start).
+    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
+        for (axis, at) in start.iter().enumerate() {
+            if let Some(at) = at {
+                self.position[axis] = *at;
+            }
+        }
+        self.last = self.machine();
+    }
+
     /// Takes facts for granted that nothing has set yet.
     pub fn assume(&mut self, facts: &Modes) {
         let here = self.machine();

@@ -126,6 +126,8 @@ impl std::fmt::Display for Stored {
                     ToolValue::LengthWear => "wear of the length",
                     ToolValue::Radius => "radius",
                     ToolValue::RadiusWear => "wear of the radius",
+                    ToolValue::OffsetX => "offset along X",
+                    ToolValue::OffsetY => "offset along Y",
                 };
                 let added = if *added { "added to" } else { "in" };
                 write!(f, "{what} {} {added} entry {entry}", number(value))

@@ -200,6 +200,18 @@ fn known(
     })
 }
 
+/// A vector turned about Z by degrees in nanos.
+pub(super) fn turned(p: &[Nanos; AXES], angle: Nanos) -> [Nanos; AXES] {
+    if angle == 0 {
+        return *p;
+    }
+    let (sin, cos) = geometry::sin_cos(angle);
+    let (x, y) = (p[0] as f64, p[1] as f64);
+    let mut out = *p;
+    (out[0], out[1]) = ((cos * x - sin * y).round() as Nanos, (sin * x + cos * y).round() as Nanos);
+    out
+}
+
 /// The inverse of a matrix that has one.
 fn inverse(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
     let minor = |i: usize, j: usize| {
@@ -306,6 +318,11 @@ impl Exec {
         Ok(())
     }
 
+    /// Whether frames of the program turn, scale or mirror.
+    pub(super) fn turns_frames(&self) -> bool {
+        self.slots().is_turned()
+    }
+
     /// Empties a slot.
     pub(super) fn clear_slot(&mut self, slot: FrameSlot) {
         if slot == FrameSlot::Shift {
@@ -395,7 +412,7 @@ impl Exec {
                 let what = "an incremental word in machine coordinates".into();
                 return self.fault(Fault::NotExecuted { what }, span);
             }
-            let length = if length && axis == super::Z { self.length_of(self.modes.length) } else { 0 };
+            let length = if length { self.tool_offset()[axis] } else { 0 };
             machine[axis] = self.value(&word.value, span)?.wrapping_add(length);
         }
         self.position = self.unplace(&machine);
@@ -412,7 +429,19 @@ impl Exec {
                 Ok(entry) => before.checked_add(self.world.tool_length(entry)),
                 Err(_) => None,
             },
+            ToolLength::Offsets { added, words } => match self.offsets_of(words, *added, span)? {
+                [x, y, z] => {
+                    self.use_aside([x, y], span)?;
+                    Some(z)
+                }
+            },
         };
+        if let ToolLength::AddedEntry(entry) = length
+            && let Ok(entry) = u32::try_from(self.whole(entry, span)?)
+        {
+            let [x, y] = self.world.tool_offsets(entry);
+            self.use_aside([self.aside[0].wrapping_add(x), self.aside[1].wrapping_add(y)], span)?;
+        }
         let Some(sum) = sum.filter(|sum| sum.unsigned_abs() < 1 << 60) else {
             return self.fault(Fault::OutOfRange { word: "length".into() }, span);
         };

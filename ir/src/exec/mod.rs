@@ -25,6 +25,7 @@ mod speed;
 mod term;
 mod thread;
 mod tilt;
+mod tools;
 
 pub use compensation::Compensation;
 pub use conduct::named_tool;
@@ -94,6 +95,8 @@ pub struct Exec {
     pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
+    /// Offsets of the tool in force along X and Y.
+    aside: [Nanos; 2],
     /// The contour that the tool goes beside.
     contour: Contour,
     /// The path of the tool's centre beside it, where that is computed.
@@ -189,6 +192,7 @@ impl Exec {
             intermediate: Box::default(),
             pole: Pole::ZERO,
             waiting: None,
+            aside: [0; 2],
             contour: Contour::default(),
             centre_path: None,
             corner: None,
@@ -238,16 +242,6 @@ impl Exec {
                 span: Span::default(),
             });
         }
-    }
-
-    /// Puts the axes somewhere in program coordinates (a stated start).
-    pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
-        for (axis, at) in start.iter().enumerate() {
-            if let Some(at) = at {
-                self.position[axis] = *at;
-            }
-        }
-        self.last = self.machine();
     }
 
     /// Work offset in force, and whether the program or an assumption named it.
@@ -334,7 +328,8 @@ impl Exec {
         if self.state.tip || self.state.tilted {
             self.shift_by_kinematics();
         }
-        self.frame[Z] += self.length_of(self.modes.length);
+        let tool = self.tool_offset();
+        self.frame = std::array::from_fn(|axis| self.frame[axis].wrapping_add(tool[axis]));
         self.position = self.unplace(&here);
         self.heading = Heading::None;
     }
@@ -639,15 +634,13 @@ impl Exec {
                 let Ok(entry) = entry else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
-                self.said |= LENGTH;
-                self.waiting = Some(Length::Entry(entry));
+                self.call_up(Length::Entry(entry), span)?;
             }
             Op::UseToolEdge { edge, .. } => {
                 let Ok(edge @ 0..=9) = u32::try_from(self.whole(edge, span)?) else {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 };
-                self.said |= LENGTH;
-                self.waiting = Some(self.edge(edge));
+                self.call_up(self.edge(edge), span)?;
             }
             Op::StartSpindleClockwise => self.turn_spindle(Spindle::Clockwise, span, out)?,
             Op::StartSpindleCounterclockwise => self.turn_spindle(Spindle::Counterclockwise, span, out)?,

@@ -217,7 +217,7 @@ impl Exec {
                 Data::Offset { offset, .. } => offset == self.modes.work_offset,
                 Data::Tool { .. } => self.state.tip,
                 // Where the axes stand behind a switch, the machine alone knows.
-                Data::Position(_) => true,
+                Data::Position(_) | Data::Measured { .. } => true,
                 Data::ToolInSpindle(_) => self.state.tip,
             },
             Op::ClearFrame(_)

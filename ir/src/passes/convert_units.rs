@@ -132,7 +132,7 @@ impl Converter<'_> {
                 words.try_for_each(|word| self.loose(&mut word.value))?;
             }
             Op::SetData(data) => match &mut **data {
-                Data::Offset { words, .. } => {
+                Data::Offset { words, .. } | Data::Measured { words, .. } => {
                     words.iter_mut().take(3).flatten().try_for_each(|word| self.whole(word))?;
                 }
                 Data::Tool { value, .. } => self.whole(value)?,
@@ -180,10 +180,14 @@ impl Converter<'_> {
             | miscellaneous!()
             | flow!() => {}
             op @ tooling!() => {
-                if let Op::UseToolLength(length) = op
-                    && let ToolLength::Value(value) | ToolLength::Added(value) = &mut **length
-                {
-                    self.whole(value)?;
+                if let Op::UseToolLength(length) = op {
+                    match &mut **length {
+                        ToolLength::Value(value) | ToolLength::Added(value) => self.whole(value)?,
+                        ToolLength::Offsets { words, .. } => {
+                            words.iter_mut().flatten().try_for_each(|word| self.whole(word))?;
+                        }
+                        ToolLength::AddedEntry(_) => {}
+                    }
                 }
             }
         }

@@ -299,7 +299,9 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         Op::SetFeedRate(feed) => settle_expr(feed, here),
         Op::GoToReference(reference) => settle_point(&mut reference.via, here),
         Op::SetData(data) => match &mut **data {
-            Data::Offset { words, .. } => words.iter_mut().flatten().for_each(|w| settle_expr(w, here)),
+            Data::Offset { words, .. } | Data::Measured { words, .. } => {
+                words.iter_mut().flatten().for_each(|w| settle_expr(w, here))
+            }
             Data::Tool { value, .. } => settle_expr(value, here),
             Data::Position(_) | Data::ToolInSpindle(_) => {}
         },
@@ -318,10 +320,14 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
         | modes!()
         | flow!() => {}
         tooling!() => {
-            if let Op::UseToolLength(length) = op
-                && let ToolLength::Value(value) | ToolLength::Added(value) = &mut **length
-            {
-                settle_expr(value, here);
+            if let Op::UseToolLength(length) = op {
+                match &mut **length {
+                    ToolLength::Value(value) | ToolLength::Added(value) => settle_expr(value, here),
+                    ToolLength::Offsets { words, .. } => {
+                        words.iter_mut().flatten().for_each(|word| settle_expr(word, here));
+                    }
+                    ToolLength::AddedEntry(_) => {}
+                }
             }
         }
         conduct!() => {

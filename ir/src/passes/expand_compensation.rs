@@ -153,7 +153,7 @@ impl Expansion<'_> {
                 made.push(stmt);
             }
             Op::SetData(data) => {
-                if let Data::Tool { entry, which, added, value } = &**data {
+                if let Data::Tool { entry, which, added, value, .. } = &**data {
                     if let Some(value) = walk.at.nanos(value) {
                         self.tables.set_radius(*entry, *which, *added, value);
                     } else {

@@ -6,6 +6,7 @@
 
 mod computing;
 mod messages;
+mod tool_data;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -655,15 +656,16 @@ impl Legaliser {
                         cannot("rotation of a work offset");
                     }
                     Data::Offset { mode, .. } if caps.offset_data[*mode as usize] => {}
-                    Data::Tool { which, added, .. }
-                        if caps.tool_data[*which as usize] && (caps.tool_data_added || !added) => {}
+                    Data::Tool { .. } | Data::Measured { .. } => {
+                        if let Some(what) = tool_data::refusal(data, &walk.at, caps) {
+                            cannot(what);
+                        }
+                    }
                     Data::Position(place) if caps.stored_positions[usize::from(*place == 2)] => {}
                     Data::ToolInSpindle(_) if caps.tool_number => {}
                     Data::Position(_) => cannot("storing where the axes stand"),
                     Data::ToolInSpindle(_) => cannot("setting the number of the tool in the spindle"),
-                    Data::Offset { .. } | Data::Tool { .. } => {
-                        cannot("this value in the control's tables");
-                    }
+                    Data::Offset { .. } => cannot("this value in the control's tables"),
                 },
                 _ => {}
             }

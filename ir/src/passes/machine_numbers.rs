@@ -93,6 +93,9 @@ impl Renumbering {
             Op::SetData(data) => match **data {
                 Data::Offset { .. } => self.maps.offsets.is_some(),
                 Data::Tool { .. } => self.maps.entries.is_some(),
+                Data::Measured { offset, .. } => {
+                    self.maps.entries.is_some() || offset.is_some() && self.maps.offsets.is_some()
+                }
                 Data::ToolInSpindle(_) => self.maps.tools.is_some(),
                 Data::Position(_) => false,
             },
@@ -162,6 +165,19 @@ impl Renumbering {
                     Data::Offset { offset, .. } => {
                         let put = self.put(Numbered::WorkOffset, u32::from(*offset), at, diags);
                         if let Some(number) = put.and_then(|n| u16::try_from(n).ok()) {
+                            *offset = number;
+                        }
+                    }
+                    Data::Measured { entry, offset, .. } => {
+                        if self.maps.entries.is_some()
+                            && let Some(number) = self.put(Numbered::LengthEntry, *entry, at, diags)
+                        {
+                            *entry = number;
+                        }
+                        if let Some(offset) = offset
+                            && let Some(put) = self.put(Numbered::WorkOffset, u32::from(*offset), at, diags)
+                            && let Ok(number) = u16::try_from(put)
+                        {
                             *offset = number;
                         }
                     }

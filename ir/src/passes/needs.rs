@@ -90,11 +90,13 @@ pub(super) fn lacks(caps: &Caps) -> u32 {
     needs(RADIUS, caps.radii == Radii::ALL);
     needs(TOOL_AXIS, caps.tip == TipForm::Any && caps.tilt == TiltForm::Any);
     needs(FRAME, caps.says_all_frames());
-    let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 4] && caps.tool_data_added;
+    let data = caps.offset_data == [true; 3] && caps.tool_data == [true; 6] && caps.tool_data_added;
     let data = data
         && caps.offset_turns
         && caps.stored_positions == [true; 2]
         && caps.tool_number
+        && caps.tool_data_kept
+        && caps.measures_tools == [true; 2]
         && caps.stated_lengths == [true; 2];
     let points =
         caps.references == References::ALL && caps.reference_via && caps.reference_keeps_length.is_none();

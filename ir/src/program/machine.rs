@@ -91,12 +91,30 @@ pub enum ToolValue {
     Radius,
     /// Wear of the radius.
     RadiusWear,
+    /// Offset along X, in the machine's directions whatever frames are turned; a mill's tool has none.
+    OffsetX,
+    /// Offset along Y.
+    OffsetY,
 }
 
 impl ToolValue {
     /// All values.
-    pub const ALL: [ToolValue; 4] =
-        [ToolValue::Length, ToolValue::LengthWear, ToolValue::Radius, ToolValue::RadiusWear];
+    pub const ALL: [ToolValue; 6] = [
+        ToolValue::Length,
+        ToolValue::LengthWear,
+        ToolValue::Radius,
+        ToolValue::RadiusWear,
+        ToolValue::OffsetX,
+        ToolValue::OffsetY,
+    ];
+
+    /// Whether it puts the tool elsewhere when the entry is called up: a length, or an offset along an axis.
+    pub fn is_offset(self) -> bool {
+        match self {
+            ToolValue::Length | ToolValue::LengthWear | ToolValue::OffsetX | ToolValue::OffsetY => true,
+            ToolValue::Radius | ToolValue::RadiusWear => false,
+        }
+    }
 }
 
 /// Values that a program puts into the control's tables.
@@ -128,8 +146,22 @@ pub enum Data {
         which: ToolValue,
         /// Whether it is added to the one before.
         added: bool,
+        /// Whether what is in force of the entry stays as it is until the entry is called up anew; else nobody
+        /// knows, and such a value for the tool in use is not executed.
+        kept: bool,
         /// The value.
         value: Expr,
+    },
+    /// `MEASURE_TOOL`: offsets of an entry of the table of tools are set so that, as soon as the entry is called
+    /// up, the words are the coordinates of where the axes stand. What is in force stays until then. An axis without
+    /// a word keeps its value along that axis of the work offset.
+    Measured {
+        /// The entry.
+        entry: u32,
+        /// In the coordinates of this work offset, without the shift of the origin; else in those in force.
+        offset: Option<u16>,
+        /// The words, of X, Y and Z alone.
+        words: Box<[Option<Expr>; AXES]>,
     },
 }
 
@@ -142,6 +174,14 @@ pub enum ToolLength {
     Added(Expr),
     /// `ADD_TOOL_LENGTH_OFFSET`: the length of an entry of the table is added to the one in force.
     AddedEntry(Expr),
+    /// `USE_TOOL_OFFSETS`, `ADD_TOOL_OFFSETS`: offsets along X, Y and Z take the place of those in force, or are added
+    /// to them; an axis without a word keeps its own.
+    Offsets {
+        /// Whether they are added.
+        added: bool,
+        /// The words, of X, Y and Z alone.
+        words: Box<[Option<Expr>; AXES]>,
+    },
 }
 
 /// By which radius a contour is compensated. In general it is no length: what stands in the control's

@@ -210,6 +210,8 @@ impl Control {
             },
             Place::Number(n @ 31..=5000) => self.parameters.shared.get(n).copied(),
             Place::Number(n @ 5420..=5425) => self.stands((n - 5420) as usize),
+            // In millimetres, the machine's unit.
+            Place::Number(n @ 5401..=5403) => self.m.stored_offset((n - 5401) as usize),
             Place::Number(5220) => Some(f64::from(self.m.offset)),
             Place::Number(_) => None,
             Place::Name(name) if !name.starts_with('_') => self.calls().names.get(name).copied(),

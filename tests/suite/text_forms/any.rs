@@ -366,8 +366,14 @@ fn data() -> impl Strategy<Value = Data> {
         ),
         (1u8..=2).prop_map(Data::Position),
         expr().prop_map(Data::ToolInSpindle),
-        (any::<u32>(), select(ToolValue::ALL.to_vec()), any::<bool>(), expr())
-            .prop_map(|(entry, which, added, value)| Data::Tool { entry, which, added, value }),
+        (any::<u32>(), select(ToolValue::ALL.to_vec()), any::<[bool; 2]>(), expr())
+            .prop_map(|(entry, which, [added, kept], value)| Data::Tool { entry, which, added, kept, value }),
+        (any::<u32>(), prop::option::of(any::<u16>()), words(), words(), expr()).prop_map(
+            |(entry, offset, x, y, z)| {
+                let words = Box::new([x, y, Some(z), None, None, None]);
+                Data::Measured { entry, offset, words }
+            }
+        ),
     ]
 }
 
@@ -480,11 +486,15 @@ fn simple() -> BoxedStrategy<Op> {
         }),
         expr().prop_map(Op::SelectTool),
         expr().prop_map(Op::UseToolLengthOffset),
-        (expr(), 0..3).prop_map(|(value, which)| {
+        (expr(), 0..5).prop_map(|(value, which)| {
             Op::UseToolLength(Box::new(match which {
                 0 => ToolLength::Value(value),
                 1 => ToolLength::Added(value),
-                _ => ToolLength::AddedEntry(value),
+                2 => ToolLength::AddedEntry(value),
+                _ => {
+                    let words = Box::new([None, Some(value), None, None, None, None]);
+                    ToolLength::Offsets { added: which == 3, words }
+                }
             }))
         }),
         expr().prop_map(Op::Dwell),

@@ -5,11 +5,13 @@
 use std::fmt::Write;
 
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::diag::Diagnostic;
-use ncc_ir::program::{Op, Stmt};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Expr;
+use ncc_ir::num::ONE;
+use ncc_ir::program::{Data, Op, Stmt};
 use ncc_ir::system::System;
 
-use super::Printer;
+use super::{Printer, cannot};
 
 impl Printer<'_> {
     /// Lets execution go on by a statement. Contours are worked out before they come here; an arc is judged by this
@@ -22,10 +24,57 @@ impl Printer<'_> {
             return Ok(());
         }
         if of_a_contour || matches!(stmt.op, Op::Return) {
-            Ok(())
-        } else {
-            self.exec.step(stmt, &mut Vec::new())
+            return Ok(());
         }
+        self.exec.step(stmt, &mut Vec::new())?;
+        // The interpreter counts from the new length at once.
+        self.exec.take_up_at_once();
+        Ok(())
+    }
+
+    /// The offsets of the tool that are called up by now, in the unit in force; of an entry, where the program has put
+    /// them all there.
+    pub(super) fn tool_offsets(&mut self, entry: &Expr) -> Result<(), Fault> {
+        let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let stated = |entry| entry == 0 || self.exec.stated_entry(entry).is_some();
+        if !entry.is_some_and(stated) {
+            return Err(cannot("the length of a tool that the program has not put into the table"));
+        }
+        let unit = if self.inch() { 25.4 } else { 1.0 };
+        let [x, y, z] = self.exec.called_up().map(|nanos| nanos as f64 / ONE as f64 / unit);
+        let rest = "0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000";
+        let _ = writeln!(self.out, "USE_TOOL_LENGTH_OFFSET({x:.4} {y:.4} {z:.4}, {rest})");
+        Ok(())
+    }
+
+    /// The entry of the table of tools that a block has put values into, and the spindle's, if that tool is in it: at
+    /// first the interpreter has the first tool of its table there. The table's unit is the machine's, the inch.
+    pub(super) fn tool_entries(&mut self, stmts: &[Stmt]) -> Result<(), Diagnostic> {
+        let last = stmts.iter().rev().find_map(|stmt| {
+            let Op::SetData(data) = &stmt.op else { return None };
+            match **data {
+                Data::Tool { entry, .. } | Data::Measured { entry, .. } => Some((entry, stmt.span)),
+                Data::Offset { .. } | Data::Position(_) | Data::ToolInSpindle(_) => None,
+            }
+        });
+        let Some((entry, span)) = last else { return Ok(()) };
+        let unknown =
+            || Diagnostic::new(cannot("values of a tool of which the program has not said all"), span);
+        let offsets = self.exec.stated_entry(entry).ok_or_else(unknown)?;
+        let [x, y, z] = offsets.map(|nanos| nanos as f64 / ONE as f64 / 25.4);
+        let rest = "0.0000 0.0000 0.0000 0.0000 0.0000 0.0000";
+        let first = self.radii.keys().next() == Some(&entry);
+        let loaded = match self.at.tool {
+            Some(tool) => tool == i64::from(entry),
+            None => first,
+        };
+        for pocket in [Some(entry), loaded.then_some(0)].into_iter().flatten() {
+            let _ = writeln!(
+                self.out,
+                "SET_TOOL_TABLE_ENTRY({pocket}, {entry}, {x:.4} {y:.4} {z:.4} {rest}, 0.0000, 0.0000, 0)"
+            );
+        }
+        Ok(())
     }
 
     /// Takes over from execution where the program stands.

@@ -1,0 +1,66 @@
+//! Words of the text form that are more than themselves: numbers, texts, variables.
+
+use logos::Lexer;
+use ncc_ir::expr::Var;
+use ncc_ir::num::Unit;
+use ncc_ir::program::Text;
+use ncc_ir::system::System;
+
+use super::lexer::{LexFault, Literal, Token};
+use crate::canon::text::unquote;
+
+/// A number with its unit.
+pub(super) fn number(lexer: &mut Lexer<'_, Token>) -> Result<Literal, LexFault> {
+    let text = lexer.slice();
+    let digits_end = text.find(|c: char| c.is_ascii_lowercase()).unwrap_or(text.len());
+    let unit = match &text[digits_end..] {
+        "mm" => Unit::Mm,
+        "in" => Unit::Inch,
+        "deg" => Unit::Degree,
+        "s" => Unit::Second,
+        "u" => Unit::Entry,
+        _ => Unit::One,
+    };
+    let (mut magnitude, mut scale, mut point) = (0u64, 0u8, false);
+    for byte in text[..digits_end].bytes() {
+        if byte == b'.' {
+            point = true;
+            continue;
+        }
+        let shifted = magnitude.checked_mul(10).and_then(|m| m.checked_add(u64::from(byte - b'0')));
+        magnitude = shifted.ok_or(LexFault::Number)?;
+        scale += u8::from(point);
+        if scale > 18 {
+            return Err(LexFault::Number);
+        }
+    }
+    if magnitude > i64::MIN.unsigned_abs() {
+        return Err(LexFault::Number);
+    }
+    Ok(Literal { magnitude, scale, point, unit })
+}
+
+/// A text.
+pub(super) fn quoted(lexer: &mut Lexer<'_, Token>) -> Result<Text, LexFault> {
+    unquote(lexer.slice()).ok_or(LexFault::Escape)
+}
+
+/// The number of a block.
+pub(super) fn block_number(lexer: &mut Lexer<'_, Token>) -> Result<u32, LexFault> {
+    lexer.slice()[1..].parse().map_err(|_| LexFault::Number)
+}
+
+/// A variable by its kind and name.
+pub(super) fn variable(lexer: &mut Lexer<'_, Token>) -> Result<Var, LexFault> {
+    let (kind, name) = lexer.slice().split_once(':').unwrap_or_default();
+    let name = match name.starts_with('"') {
+        true => unquote(name).ok_or(LexFault::Escape)?,
+        false => Box::from(name),
+    };
+    Ok(match kind {
+        "local" => Var::Local(name),
+        "common" => Var::Common(name),
+        "retentive" => Var::Retentive(name),
+        _ => Var::System(System::named(&name)),
+    })
+}
