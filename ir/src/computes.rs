@@ -3,6 +3,7 @@
 //! Not here: how it spells it, and what only the digits of its words can tell (the back-end's).
 
 use crate::arguments;
+use crate::call_of::call_of;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use crate::num::Num;
@@ -42,6 +43,8 @@ pub enum Said {
     Alarm,
     /// [`Op::ProgramStop`] with [`Op::Message`] before it in its block.
     Stop,
+    /// What [`crate::call_of`] finds.
+    CallOf,
 }
 
 /// How arguments come to the variables of what is called.
@@ -405,6 +408,11 @@ impl Look<'_> {
             true => Ok(loops + 1),
             false => Err(refuse("a loop within so many others", at)),
         };
+        if self.computes.has(Said::CallOf)
+            && let Some(call) = call_of(control)
+        {
+            return call.number.into_iter().chain(call.times).try_for_each(|value| self.expr(value, at));
+        }
         match control {
             Control::While { condition, body } => {
                 self.expr(condition, at)?;

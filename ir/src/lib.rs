@@ -9,6 +9,7 @@
 
 pub mod arguments;
 pub mod beside;
+pub mod call_of;
 pub mod canon;
 pub mod caps;
 pub mod computes;

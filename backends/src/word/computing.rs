@@ -7,6 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ncc_ir::call_of::call_of;
 use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
@@ -216,6 +217,9 @@ impl Writer {
         self.spelling(None)?;
         if self.has_o_words() {
             return self.o_structure(control, stmt, sink);
+        }
+        if let Some(call) = call_of(control).filter(|_| self.dialect.program.macro_b) {
+            return self.computed_call(&call, stmt, sink);
         }
         match control {
             Control::If { condition, then, otherwise } => match (&then[..], &otherwise[..]) {

@@ -622,7 +622,7 @@ fn given(e: &Expr) -> &Expr {
 }
 
 /// What is rounded to some digits, and to how many.
-fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
+pub(super) fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
     if let Expr::Node(node) = e
         && let Node::Call(Function::RoundTo, arguments) = &**node
         && let [a, Expr::Num(to)] = &arguments[..]

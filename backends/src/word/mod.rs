@@ -8,6 +8,7 @@
 
 mod alarm;
 pub(crate) mod block;
+mod call_of;
 pub(crate) mod codes;
 pub(crate) mod comment;
 mod comparisons;

@@ -2,11 +2,13 @@
 //!
 //! After a call every fact is lost: the subprogram may have changed it.
 
+use ncc_dialects::Statement;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Call, Op, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
+use super::block::{Value, Word};
 use super::frame::Called;
 use super::lower::Lower;
 use super::sort::{Code, Words};
@@ -36,11 +38,17 @@ impl Lower {
             let (code_text, word) = (code.row.code.as_str().into(), char::from(program).to_string().into());
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
+        let count = letters.next().and_then(|letter| words.take(letter));
+        let computed = |word: &Word| matches!(word.value, Value::Computed(_));
+        let says = self.settings.dialect.formula.statements.contains(&Statement::CallOf);
+        if says && (computed(&word) || count.as_ref().is_some_and(computed)) {
+            return self.computed_call(code, &word, count.as_ref(), words, src, out);
+        }
         let Some(mut number) = self.whole(&word, src, out) else {
             return;
         };
         let mut times = 1;
-        if let Some(word) = letters.next().and_then(|l| words.take(l)) {
+        if let Some(word) = count {
             match self.whole(&word, src, out) {
                 Some(n) => times = n,
                 None => return,

@@ -43,6 +43,8 @@ pub(super) struct Computes {
     called: Vec<(Text, usize)>,
     /// Jumps to blocks whose number is computed.
     pub(super) jumps_of: Vec<JumpOf>,
+    /// Whether programs are called whose number is computed.
+    pub(super) calls_of: bool,
     /// The macro that is called behind each block that moves.
     pub(super) at_moves: Option<AtMoves>,
     pub(super) reach: Reach,

@@ -14,6 +14,7 @@
 mod again;
 pub(crate) mod block;
 mod call;
+mod call_of;
 mod compensation;
 mod computing;
 mod control_set;
@@ -187,6 +188,7 @@ impl Reader {
             self.end_of_text(out);
             self.lower.computes.give_parameters(&mut out.procedures);
             self.lower.computes.join_jumps(out);
+            self.lower.computes.join_calls(out);
             self.lower.settle_calls(out);
         }
     }

@@ -159,6 +159,8 @@ pub enum Statement {
     Alarm,
     /// A stop with a message.
     Stop,
+    /// A call of which the number, or how often, is computed.
+    CallOf,
 }
 
 impl From<Statement> for Said {
@@ -177,6 +179,7 @@ impl From<Statement> for Said {
             Statement::Values => Said::Values,
             Statement::Alarm => Said::Alarm,
             Statement::Stop => Said::Stop,
+            Statement::CallOf => Said::CallOf,
         }
     }
 }

@@ -28,7 +28,7 @@ pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, Text};
-pub use formula::{FormulaRules, FunctionName, Operator};
+pub use formula::{FormulaRules, FunctionName, Operator, Statement};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};
 pub use names::*;

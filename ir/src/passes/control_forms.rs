@@ -19,6 +19,7 @@ use std::collections::HashSet;
 use conditions::{binary, compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
+use crate::call_of::call_of;
 use crate::computes::{Computes, Said};
 use crate::expr::{Binary, Expr, Node, Target, Unary, Var};
 use crate::num::Num;
@@ -196,6 +197,9 @@ impl Forms<'_> {
 
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Control(mut control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
+        if self.has(Said::CallOf) && call_of(&control).is_some() {
+            return out.push(Stmt { op: Op::Control(control), ..stmt });
+        }
         if self.says_about_one(&control) {
             if let Control::If { condition, .. } = &mut *control {
                 *condition = compared(condition, false);
