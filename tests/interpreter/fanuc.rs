@@ -52,6 +52,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         steps: 0,
         haas,
         modal: None,
+        in_modal: false,
         moved: false,
     };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
@@ -98,6 +99,8 @@ struct Control {
     haas: bool,
     /// What G66 has called behind each block that moves.
     modal: Option<Modal>,
+    /// Whether that is running: how another within it works is open.
+    in_modal: bool,
     /// Whether the block at hand has moved an axis.
     moved: bool,
 }

@@ -236,6 +236,8 @@ pub(crate) struct Codes {
     pub call: Option<CallCode>,
     /// A call with arguments.
     pub macro_call: Option<CallCode>,
+    /// The same behind every move, and the end of that.
+    pub calls_at_moves: Option<(CallCode, Code)>,
     /// All words of a dwell in a block of its own.
     pub dwells: Vec<Dwell>,
     pub back: Option<Code>,
@@ -646,6 +648,7 @@ impl Codes {
             end: code(Meaning::ProgramEnd),
             call: find.call(Meaning::Call),
             macro_call: find.call(Meaning::CallMacro),
+            calls_at_moves: find.call(Meaning::CallMacroAtMoves).zip(code(Meaning::EndCallsAtMoves)),
             dwells: find.dwells(),
             back: code(Meaning::Return),
             no_effect: dialect

@@ -16,6 +16,7 @@ use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
 use super::formula::{cannot_compute, literal, number_of};
+use super::modal_call::AtMoves;
 use super::modes::cannot;
 use super::{HIGHEST_NUMBER, Sink, Writer};
 
@@ -311,7 +312,11 @@ impl Writer {
         if self.has_o_words() {
             return self.o_call(call, stmt, sink);
         }
-        let words = self.codes.macro_call.ok_or_else(|| cannot_compute("a call with arguments"))?;
+        let words = match self.at_moves {
+            AtMoves::Begins => self.codes.calls_at_moves.map(|(call, _)| call),
+            AtMoves::None | AtMoves::Within => self.codes.macro_call,
+        };
+        let words = words.ok_or_else(|| cannot_compute("a call with arguments"))?;
         self.flow(stmt, sink)?;
         let number = self.program_number(&call.name)?;
         let least = if self.dialect.program.padded_calls { self.dialect.program.number_digits } else { 0 };

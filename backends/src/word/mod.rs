@@ -21,6 +21,7 @@ pub(crate) mod formula;
 mod frame;
 mod frames;
 mod jump_of;
+mod modal_call;
 pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod number;
@@ -140,6 +141,8 @@ pub struct Writer {
     pub(crate) labels: repeat::Labels,
     /// What is known of a program that computes.
     computing: computing::Computing,
+    /// Whether calls behind moves are being written, and how far.
+    at_moves: modal_call::AtMoves,
     /// Names of the variables of the procedure at hand, as they are spelt.
     pub(crate) variables: BTreeMap<Text, String>,
     /// What is known of its O words.
@@ -225,6 +228,7 @@ impl Writer {
             told_corner: false,
             labels: repeat::Labels::default(),
             computing: computing::Computing::default(),
+            at_moves: modal_call::AtMoves::None,
             variables: BTreeMap::new(),
             o_words: o_words::OWords::default(),
             polar: false,
@@ -269,10 +273,14 @@ impl Writer {
     }
 
     fn body(&mut self, stmts: &[Stmt], sink: &mut Sink) {
+        let runs = self.runs_at_moves(stmts);
         let mut at = 0;
         while at < stmts.len() {
             let end = self.block_end(stmts, at);
             let block = &stmts[at..end];
+            if let Some(run) = runs.iter().find(|run| run.from == at) {
+                self.begin_calls_at_moves(&stmts[run.call], sink);
+            }
             if let Some(trace) = &mut self.trace {
                 trace.enter(block);
             }
@@ -284,6 +292,9 @@ impl Writer {
                 self.block_written(sink.out);
             }
             at = end;
+            if let Some(run) = runs.iter().find(|run| run.to == at) {
+                self.end_calls_at_moves(&stmts[run.call], sink);
+            }
         }
         self.pass_on(sink.out);
     }

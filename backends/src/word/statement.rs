@@ -10,6 +10,7 @@ use ncc_ir::source::Span;
 use super::block::{Need, Part, Rank};
 use super::codes::{AdviceCode, CallCode, Code, Dwell, Letter};
 use super::formula::cannot_compute;
+use super::modal_call::AtMoves;
 use super::modes::{Setting, cannot};
 use super::number::{self, Shaped, Unwritable, Worth};
 use super::o_words::is_no_result_yet;
@@ -499,6 +500,12 @@ impl Writer {
 
     fn call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         if self.calls_with_variables(call) {
+            if self.at_moves == AtMoves::Within {
+                // The control makes it by itself.
+                self.flush(false, sink);
+                self.forget();
+                return Ok(());
+            }
             return self.macro_call(call, stmt, sink);
         }
         let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;

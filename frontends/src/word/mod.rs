@@ -189,6 +189,7 @@ impl Reader {
             self.lower.computes.give_parameters(&mut out.procedures);
             self.lower.computes.join_jumps(out);
             self.lower.computes.join_calls(out);
+            self.lower.computes.no_calls_within(out);
             self.lower.settle_calls(out);
         }
     }

@@ -9,11 +9,12 @@
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
-use ncc_ir::program::{Call, Op};
+use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
 use super::block::Block;
+use super::computing::Computes;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
@@ -37,6 +38,8 @@ pub(super) struct Reach {
     pub(super) labels: Vec<(u32, u32)>,
     /// Jumps; of one without a number it is computed.
     pub(super) jumps: Vec<(Option<u32>, u32, Span)>,
+    /// Programs that are called behind moves, and those that have such calls; the main one has no name.
+    called: Vec<(Text, Text, Span)>,
 }
 
 impl Lower {
@@ -63,6 +66,8 @@ impl Lower {
             self.assume_row(code.row, "MODAL_MACRO_CALL, its arguments anew each time", code.span, out);
             self.now.silent = true;
             self.computes.reach.seen += 1;
+            let own = self.sub.as_ref().map(|program| program.name.clone()).unwrap_or_default();
+            self.computes.reach.called.push((own, call.name.clone(), code.span));
             let computed = call.arguments.iter().any(|value| value.literal().is_none() && !is_vacant(value));
             self.computes.at_moves = Some(AtMoves { call, which: self.computes.reach.seen, computed });
             return;
@@ -177,6 +182,40 @@ impl Lower {
             if labels.iter().filter(named).any(|label| label.1 != from) {
                 self.refuse_modal("G66", "jump over the beginning or end of a modal call", at, out);
             }
+        }
+    }
+}
+
+impl Computes {
+    /// The text is over: what is called behind moves must have no such calls itself, nor what it calls. How one works
+    /// within another is not translated.
+    pub(super) fn no_calls_within(&self, out: &mut Batch) {
+        for (_, name, at) in &self.reach.called {
+            let mut known: Vec<&Text> = vec![name];
+            let mut next = 0;
+            while let Some(name) = known.get(next).copied() {
+                next += 1;
+                if self.reach.called.iter().any(|(own, ..)| own == name) {
+                    let name = "modal macro call within another".into();
+                    out.report(Fault::NotSupported { code: "G66".into(), name }, *at);
+                    break;
+                }
+                let bodies = out.procedures.iter().filter(|procedure| procedure.name == *name);
+                bodies.for_each(|procedure| calls_of(&procedure.body, &mut known));
+            }
+        }
+    }
+}
+
+/// The programs that a body calls.
+fn calls_of<'s>(body: &'s [Stmt], known: &mut Vec<&'s Text>) {
+    for stmt in body {
+        if let Op::Call(call) = &stmt.op {
+            if !known.contains(&&call.name) {
+                known.push(&call.name);
+            }
+        } else if let Op::Control(control) = &stmt.op {
+            control.bodies().for_each(|body| calls_of(body, known));
         }
     }
 }

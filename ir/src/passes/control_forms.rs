@@ -189,9 +189,11 @@ impl Forms<'_> {
                 out.push(Stmt::new(stmt.span, Op::Assign(Target::Var(own), value)));
             }
         }
-        let (span, number, joined) = (stmt.span, stmt.number.take(), std::mem::take(&mut stmt.joined));
+        // A counter cannot be set in the block of a move that the call stood behind.
+        stmt.joined = false;
+        let (span, number) = (stmt.span, stmt.number.take());
         let repeat = Control::Repeat { times, body: vec![stmt] };
-        let repeat = Stmt { number, joined, ..Stmt::new(span, Op::Control(Box::new(repeat))) };
+        let repeat = Stmt { number, ..Stmt::new(span, Op::Control(Box::new(repeat))) };
         self.control(repeat, out);
     }
 

@@ -445,7 +445,7 @@ impl Control {
 
     /// G66: no call by itself; what its arguments are worth stays.
     pub(super) fn begin_modal(&mut self, raw: &[(char, &str)]) -> Result<Next, Halt> {
-        if self.modal.is_some() {
+        if self.modal.is_some() || self.in_modal {
             return self.m.halt("G66 within another");
         }
         // Its arguments are those of the other call.
@@ -468,6 +468,7 @@ impl Control {
         }
         // Its own moves call nothing.
         self.modal = None;
+        self.in_modal = true;
         for _ in 0..modal.times {
             self.variables.local.push(modal.local);
             let next = self.run(&modal.program, all)?;
@@ -477,6 +478,7 @@ impl Control {
             }
         }
         self.modal = Some(modal);
+        self.in_modal = false;
         Ok(Next::Block)
     }
 
