@@ -4,6 +4,8 @@
 //! back-ends, which have no world. Nothing is taken for granted beyond the entry facts given.
 
 mod frames;
+
+pub use self::frames::Shifted;
 mod intermediate;
 mod known;
 
@@ -18,7 +20,7 @@ use crate::num::Nanos;
 use crate::places::Places;
 use crate::polar::{self, Pole};
 use crate::program::{
-    Arc, ArcForm, Coord, Data, FrameSlot, FrameStep, Move, Op, Point, Polar, SetPole, Shape, Stmt,
+    Arc, ArcForm, Coord, Data, FrameSlot, Move, Op, Point, Polar, SetPole, Shape, Stmt,
     ToolLength, ToolValue,
 };
 use crate::round::round;
@@ -49,9 +51,11 @@ pub struct Tracker {
     /// Whether a slot may turn, scale or mirror.
     pub turned: bool,
     /// The local shift.
-    pub local: [Nanos; AXES],
-    /// Whether it is not known.
-    pub local_lost: bool,
+    pub local: Shifted,
+    /// By how much the chain moves the origin.
+    pub chain: Shifted,
+    /// Whether it may turn, scale or mirror too.
+    pub chain_turned: bool,
     /// Whether the next straight move is in machine coordinates.
     pub raw: bool,
     /// Whether that move is measured with the tool's length.
@@ -106,7 +110,9 @@ impl Tracker {
             framed: true,
             chained: true,
             turned: true,
-            local_lost: true,
+            local: Shifted::LOST,
+            chain: Shifted::LOST,
+            chain_turned: true,
             pole_lost: true,
             ..Tracker::default()
         }
@@ -257,7 +263,9 @@ impl Tracker {
         self.framed |= other.framed;
         self.chained |= other.chained;
         self.turned |= other.turned;
-        self.local_lost |= other.local_lost || self.local != other.local;
+        self.local.join(&other.local);
+        self.chain.join(&other.chain);
+        self.chain_turned |= other.chain_turned;
         self.raw |= other.raw;
         self.probing |= other.probing;
         self.detour |= other.detour;
@@ -356,27 +364,12 @@ impl Tracker {
                 for (axis, word) in axes.iter().enumerate() {
                     if let Some(word) = word {
                         self.position[axis] = self.nanos(word);
-                        self.local[axis] = 0;
+                        self.local.to(axis, Some(0));
                     }
                 }
             }
             Op::SetFrame(frame) => {
-                match &frame.step {
-                    // A translation moves the origin; where the axes stand is then counted from there.
-                    FrameStep::Translate(words) if !self.turned && (frame.added || !self.chained) => {
-                        for (axis, word) in words.iter().enumerate() {
-                            if let Some(word) = word {
-                                let by = self.nanos(word);
-                                let at = self.position[axis].zip(by);
-                                self.position[axis] = at.and_then(|(at, by)| at.checked_sub(by));
-                            }
-                        }
-                    }
-                    FrameStep::Translate(_)
-                    | FrameStep::Rotate { .. }
-                    | FrameStep::Scale(_)
-                    | FrameStep::Mirror(_) => self.position = [None; AXES],
-                }
+                self.set_frame(frame);
                 self.framed = true;
                 self.chained = true;
             }

@@ -158,7 +158,8 @@ impl Writer {
         for (letter, _) in &shaped {
             need = need.letter(*letter);
         }
-        self.admit_with(need, inserted, sink)?;
+        self.modes_before(inserted, sink)?;
+        self.admit(&need, sink)?;
         self.block.code(Part::Mode, &code);
         for (letter, value) in shaped {
             self.block.word(Part::Axes, letter, value);

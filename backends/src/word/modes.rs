@@ -316,6 +316,16 @@ impl Writer {
         }
     }
 
+    /// Writes the codes put in for a statement in blocks of their own, before it.
+    pub(crate) fn modes_before(&mut self, inserted: Inserted, sink: &mut Sink) -> Result<(), Fault> {
+        for mode in [inserted.plane, inserted.distance].into_iter().flatten() {
+            self.admit(&Need::new(Rank::Setting).code(Some(mode)), sink)?;
+            self.block.code(Part::Mode, &mode);
+            self.flush(false, sink);
+        }
+        Ok(())
+    }
+
     /// Makes room for a statement together with the codes put in for it.
     pub(crate) fn admit_with(
         &mut self,

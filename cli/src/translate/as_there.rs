@@ -6,7 +6,7 @@ use ncc_ir::computes::Computes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
-use ncc_ir::passes::{arithmetic, control_forms, exact_comparisons};
+use ncc_ir::passes::{arithmetic, computed_frames, control_forms, exact_comparisons};
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
 
@@ -31,7 +31,7 @@ pub(super) fn say(
     let computes = job.from.caps().computes.unwrap_or_default();
     let mut entry = stands.clone();
     entry.modes = entry.modes.or(program.assumed);
-    if there.restates && !own {
+    if there.restates && !own || computed_frames::behind_control(program) {
         known = known_facts::run(program, &entry);
     } else if computes.blocks != there.blocks {
         // Words of another language lead to stretches of its blocks; what they say stays as it is.

@@ -51,15 +51,21 @@ impl Lower {
             let code = src.text(word.span);
             return self.fault(Fault::NotSupported { code, name }, word.span, out);
         }
-        let Some(num) = self.number(&word, Quantity::Length, src, out) else { return };
+        let Some(size) = self.amount(&word, Quantity::Length, words, src, out) else { return };
+        // What is computed is positive where the control's word of a corner is: execution holds it to that.
+        let (negative, nothing) = size.literal().map_or((false, false), |n| (n.mantissa < 0, n.is_zero()));
         let comma = word.letter.is_ascii_lowercase();
         let letter = char::from(word.letter.to_ascii_uppercase());
-        let found = dialect.corner.words().find(|(_, own)| {
-            own.letter == letter && own.comma == comma && own.negative == (num.mantissa < 0)
-        });
+        let found = dialect
+            .corner
+            .words()
+            .find(|(_, own)| own.letter == letter && own.comma == comma && own.negative == negative);
         match found {
-            Some((shape, _)) if num.mantissa != 0 => {
-                let size = Expr::Num(Num { mantissa: num.mantissa.abs(), ..num });
+            Some((shape, _)) if !nothing => {
+                let size = match size {
+                    Expr::Num(num) => Expr::Num(Num { mantissa: num.mantissa.abs(), ..num }),
+                    computed @ Expr::Node(_) => computed,
+                };
                 self.push(word.span, Op::Corner { shape, size }, out);
             }
             Some(_) | None => self.fault(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),

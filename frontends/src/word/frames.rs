@@ -189,7 +189,7 @@ impl Lower {
         for axis in Axis::ALL {
             let Some(row) = self.axis_row(axis) else { continue };
             if let Some(word) = words.take(axis.letter()) {
-                axes[axis as usize] = self.number(&word, row.quantity, src, out).map(Expr::Num);
+                axes[axis as usize] = self.amount(&word, row.quantity, words, src, out);
             }
         }
         if axes.iter().all(Option::is_none) && !self.now.failed {
@@ -206,7 +206,7 @@ impl Lower {
     pub(super) fn linear(&mut self, words: &mut Words, src: Source, out: &mut Batch) -> [Option<Expr>; 3] {
         [b'X', b'Y', b'Z'].map(|letter| {
             let word = words.take(letter)?;
-            self.number(&word, Quantity::Length, src, out).map(Expr::Num)
+            self.amount(&word, Quantity::Length, words, src, out)
         })
     }
 
@@ -218,7 +218,7 @@ impl Lower {
             if plane.known().is_none_or(|plane| plane.axes().2 != axis)
                 && let Some(word) = words.take(axis.letter())
             {
-                centre[axis as usize] = self.number(&word, Quantity::Length, src, out).map(Expr::Num);
+                centre[axis as usize] = self.amount(&word, Quantity::Length, words, src, out);
             }
         }
         let letter = code.row.words.bytes().next().unwrap_or(b'R');
@@ -227,10 +227,10 @@ impl Lower {
             let fault = Fault::WordMissing { code: code.row.code.as_str().into(), word };
             return self.refuse(fault, code.span, out);
         };
-        let angle = self.number(&word, Quantity::Angle, src, out)?;
+        let value = self.amount(&word, Quantity::Angle, words, src, out)?;
         self.state.turned |= ROTATION;
         self.state.unplaced = self.plane_axes(plane);
-        let angle = Coord { value: Expr::Num(angle), distance: Fact::Known(Distance::Absolute) };
+        let angle = Coord { value, distance: Fact::Known(Distance::Absolute) };
         Some(Op::SetSlot(Box::new(Slot::Rotation { plane, centre: Box::new(centre), angle })))
     }
 

@@ -6,7 +6,6 @@
 use ncc_dialects::Meaning;
 use ncc_ir::canon::{AXES, Axis, Distance, Fact, Motion};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
 use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
@@ -60,8 +59,8 @@ impl Lower {
             let Some(row) = self.axis_row(axis) else { continue };
             if let Some(word) = words.take(axis.letter()) {
                 let distance = self.distance(word.span, out);
-                if let Some(num) = self.number(&word, row.quantity, src, out) {
-                    to.set(axis, Coord { value: Expr::Num(num), distance });
+                if let Some(value) = self.amount(&word, row.quantity, words, src, out) {
+                    to.set(axis, Coord { value, distance });
                 }
             }
         }

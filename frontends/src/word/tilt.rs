@@ -7,7 +7,6 @@
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
 use ncc_ir::program::{FrameSlot, Op, Slot, Tilt};
 use ncc_ir::source::Span;
 
@@ -112,7 +111,7 @@ impl Lower {
             let Some(word) = words.take(letter) else {
                 return self.refuse(missing(letter), code.span, out);
             };
-            *angle = self.number(&word, Quantity::Angle, src, out).map(Expr::Num);
+            *angle = self.amount(&word, Quantity::Angle, words, src, out);
         }
         let [Some(first), Some(second), Some(third)] = angles else { return None };
         self.set_mode(code.meaning, out);

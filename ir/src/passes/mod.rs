@@ -10,6 +10,7 @@ pub mod approach;
 pub mod arc_form;
 pub mod arithmetic;
 mod at_once;
+pub mod computed_frames;
 pub mod control_forms;
 pub mod convert_arcs;
 pub mod convert_circles;

@@ -3,7 +3,7 @@
 use super::Tracker;
 use crate::canon::AXES;
 use crate::num::Nanos;
-use crate::program::{FrameSlot, Slot};
+use crate::program::{Frame, FrameSlot, FrameStep, Slot};
 
 impl Tracker {
     /// There is no shift of the origin any more: from where coordinates count then, no program knows.
@@ -18,8 +18,7 @@ impl Tracker {
     pub(super) fn clear_frame(&mut self, slot: FrameSlot) {
         match slot {
             FrameSlot::Local => {
-                self.shift_locally(&[Some(0); AXES]);
-                self.local_lost = false;
+                self.shift_locally(&[Some(Some(0)); AXES]);
             }
             FrameSlot::Tilt => {
                 if self.tilted {
@@ -28,7 +27,7 @@ impl Tracker {
                 self.tilted = false;
             }
             FrameSlot::Chain if self.chained => {
-                self.position = [None; AXES];
+                self.move_origin(|_| Some(Some(0)), false);
                 self.chained = false;
                 self.framed = self.turned;
             }
@@ -49,10 +48,7 @@ impl Tracker {
     pub(super) fn set_slot(&mut self, slot: &Slot) {
         match slot {
             Slot::Shift { origin: false, axes } => {
-                let to = std::array::from_fn(|i| match &axes[i] {
-                    None => Some(self.local[i]),
-                    Some(word) => self.nanos(word),
-                });
+                let to = std::array::from_fn(|i| axes[i].as_ref().map(|word| self.nanos(word)));
                 self.shift_locally(&to);
             }
             Slot::Shift { origin: true, axes } => {
@@ -75,18 +71,80 @@ impl Tracker {
         }
     }
 
-    /// Another local shift: where the axes stand is counted from there.
-    fn shift_locally(&mut self, to: &[Option<Nanos>; AXES]) {
-        let from = std::mem::replace(&mut self.local, to.map(Option::unwrap_or_default));
-        let known = to.iter().all(Option::is_some);
-        if self.turned || self.chained || self.local_lost || !known {
-            self.position = [None; AXES];
-            self.local_lost |= !known;
-            return;
+    /// Another local shift of the axes that are named, as far as it is known: where they stand is counted from there.
+    fn shift_locally(&mut self, to: &[Option<Option<Nanos>>; AXES]) {
+        for (axis, to) in to.iter().enumerate() {
+            if let Some(to) = to {
+                let by = self.local.to(axis, *to);
+                self.position[axis] = self.position[axis].zip(by).and_then(|(at, by)| at.checked_sub(by));
+            }
         }
-        for (i, at) in self.position.iter_mut().enumerate() {
-            let by = self.local[i].wrapping_sub(from[i]);
-            *at = at.and_then(|at| at.checked_sub(by));
+        if self.turned || self.chain_turned {
+            self.position = [None; AXES];
+        }
+    }
+
+    /// A step of the chain.
+    pub(super) fn set_frame(&mut self, frame: &Frame) {
+        match &frame.step {
+            FrameStep::Translate(words) => {
+                let words: [_; AXES] =
+                    std::array::from_fn(|axis| words[axis].as_ref().map(|word| self.nanos(word)));
+                self.move_origin(|axis| words[axis].or(Some(Some(0)).filter(|_| !frame.added)), frame.added);
+            }
+            FrameStep::Rotate { .. } | FrameStep::Scale(_) | FrameStep::Mirror(_) => {
+                if !frame.added {
+                    self.chain = Shifted::default();
+                }
+                self.position = [None; AXES];
+                self.chain_turned = true;
+            }
+        }
+    }
+
+    /// The chain is a translation of the axes that are named, or one is added to it.
+    fn move_origin(&mut self, of: impl Fn(usize) -> Option<Option<Nanos>>, added: bool) {
+        if self.turned || self.chain_turned {
+            self.position = [None; AXES];
+        }
+        self.chain_turned &= added;
+        for axis in 0..AXES {
+            let Some(to) = of(axis) else { continue };
+            let before = self.chain.at(axis).filter(|_| added);
+            let to = if added { to.zip(before).and_then(|(to, before)| to.checked_add(before)) } else { to };
+            let by = self.chain.to(axis, to);
+            self.position[axis] = self.position[axis].zip(by).and_then(|(at, by)| at.checked_sub(by));
+        }
+    }
+}
+
+/// By how much each axis is shifted, as far as it is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Shifted {
+    by: [Nanos; AXES],
+    lost: [bool; AXES],
+}
+
+impl Shifted {
+    /// Nothing is known.
+    pub const LOST: Shifted = Shifted { by: [0; AXES], lost: [true; AXES] };
+
+    /// By how much an axis is shifted.
+    fn at(&self, axis: usize) -> Option<Nanos> {
+        (!self.lost[axis]).then_some(self.by[axis])
+    }
+
+    /// Another shift of an axis; how much more it is, if both are known.
+    pub(super) fn to(&mut self, axis: usize, to: Option<Nanos>) -> Option<Nanos> {
+        let more = to.zip(self.at(axis)).and_then(|(to, from)| to.checked_sub(from));
+        (self.by[axis], self.lost[axis]) = (to.unwrap_or_default(), to.is_none());
+        more
+    }
+
+    /// What is known on both of two ways.
+    pub(super) fn join(&mut self, other: &Shifted) {
+        for axis in 0..AXES {
+            self.lost[axis] |= other.lost[axis] || self.by[axis] != other.by[axis];
         }
     }
 }

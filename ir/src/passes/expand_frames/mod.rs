@@ -50,6 +50,11 @@ impl State {
         self.framed.is_some()
     }
 
+    /// Whether a frame is worked into the coordinates of what follows.
+    pub(super) fn is_worked_in(&self) -> bool {
+        self.framed.as_ref().is_some_and(|framed| framed.0.chain != Chain::NONE)
+    }
+
     /// At the start of another body.
     pub(super) fn start_over(&mut self) {
         *self = State::default();
@@ -247,6 +252,12 @@ impl Frames<'_> {
                     for op in ops.iter().filter(is_said) {
                         self.outer.step(&Stmt::new(stmt.span, op.clone()));
                         self.note(op);
+                    }
+                    // Where frames are said, what is made stands where the program does.
+                    if self.set.chain == Chain::NONE {
+                        for (made, own) in self.outer.at.position.iter_mut().zip(self.inner.at.position) {
+                            *made = made.or(own);
+                        }
                     }
                     return made.replace(stmt, ops.into_iter().map(|op| (false, op)));
                 }

@@ -4,6 +4,7 @@
 //! target's capabilities by the same passes; behind each nothing is known. What a pass would have to change that is
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
+use super::super::computed_frames;
 use super::super::known_facts::Known;
 use super::super::number_names;
 use super::{Legaliser, Target};
@@ -30,6 +31,17 @@ impl Legaliser {
         // What the target says of a program's flow has been looked at before.
         let mut fresh = self.clone();
         fresh.lacks &= !(super::CONTROL | super::CALL);
+        match computed_frames::run(program, &self.target.caps, known) {
+            Ok(computed_frames::Found::Straight) => {}
+            Ok(computed_frames::Found::Said) if !self.frames.is_busy() => fresh.lacks &= !super::FRAME,
+            Ok(computed_frames::Found::Said) => {
+                let at = program.procedures.first().and_then(|main| main.body.first());
+                let what = "other frames than those before it, where a program computes".into();
+                let at = at.map_or_else(Span::default, |stmt| stmt.span);
+                return diags.push(Diagnostic::new(Fault::Computes { what }, at));
+            }
+            Err(refusal) => return diags.push(refusal),
+        }
         let first = fresh.clone();
         let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
@@ -137,6 +149,12 @@ impl Region<'_> {
         let before = stmts.clone();
         let mut found = Vec::new();
         own.run(stmts, &assumed, &mut found);
+        if own.frames.is_worked_in()
+            && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)
+        {
+            let what = "a frame that is worked into coordinates, where a program computes".into();
+            found.push(Diagnostic::new(Fault::Computes { what }, last.span));
+        }
         own.finish(stmts, &mut found);
         // It may stand in the block of what came before it.
         if let (Some(first), Some(was)) = (stmts.first_mut(), before.first()) {

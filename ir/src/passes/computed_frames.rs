@@ -1,0 +1,387 @@
+//! Frames of programs that compute: each statement says, in the target's own form, all that is in force behind it.
+//!
+//! Which frame is in force where a block of a loop is executed, the run alone knows, so that none is worked into
+//! coordinates, and none is said by what has changed since the one before.
+//!
+//! Refused by name: a frame that the target has no form of its own for, a shift that leaves an axis as it is, a rotation
+//! about the place where the tool stands, steps that add up, shifts and rotations together where the target chains
+//! frames, and a move behind a rotation that does not name both axes of its plane (controls do not agree about it).
+
+use super::known_facts::Known;
+use super::write::{Rebuild, is_absolute, rebuild};
+use crate::canon::{AXES, Axis, Distance, Fact, Plane};
+use crate::caps::Caps;
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::{Expr, Node, Unary};
+use crate::kinds::flow;
+use crate::num::{Num, Unit};
+use crate::program::{Coord, Frame, FrameSlot, FrameStep, Op, Program, Slot, Stmt};
+
+/// What becomes of a program's frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Found {
+    /// There are none but before its first decision, loop or call: they are those of straight blocks.
+    Straight,
+    /// Every statement says its frame as the target has it.
+    Said,
+}
+
+/// Whether a program has frames behind its first statement of control, so that every block has to say by itself from
+/// where its words are measured.
+pub fn behind_control(program: &Program) -> bool {
+    let mut used = Used::default();
+    for (at, procedure) in program.procedures.iter().enumerate() {
+        used.look(&procedure.body, at == 0, &Caps::default());
+    }
+    used.behind
+}
+
+/// Says the frames of a program so.
+///
+/// # Errors
+/// The first one that cannot be said, at its place.
+pub(super) fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<Found, Diagnostic> {
+    let mut used = Used::default();
+    for (at, procedure) in program.procedures.iter().enumerate() {
+        used.look(&procedure.body, at == 0, caps);
+    }
+    if !used.behind {
+        return Ok(Found::Straight);
+    }
+    if used.increments {
+        program.procedures.iter().try_for_each(|procedure| absolute(&procedure.body, known))?;
+    }
+    if used.unsaid {
+        for procedure in &mut program.procedures {
+            over(&mut procedure.body, &used, caps)?;
+        }
+    }
+    Ok(Found::Said)
+}
+
+/// Whether a statement changes a frame.
+fn is_frame(op: &Op) -> bool {
+    match op {
+        Op::SetSlot(slot) => !matches!(**slot, Slot::Tilt(_)),
+        Op::ClearFrame(slot) => *slot != FrameSlot::Tilt,
+        Op::SetFrame(_) | Op::SetPosition(_) | Op::UseOriginShift(_) => true,
+        _ => false,
+    }
+}
+
+/// The frames of a whole program.
+#[derive(Clone, Debug, Default)]
+struct Used {
+    /// Whether there are any behind the first statement of control.
+    behind: bool,
+    /// Whether there is one that the target does not say as it stands.
+    unsaid: bool,
+    /// Axes that are shifted.
+    shifted: [bool; AXES],
+    /// Slots that are filled.
+    slots: Vec<FrameSlot>,
+    /// Whether a chain is turned.
+    turns: bool,
+    /// Whether words are measured from where the tool stands anywhere.
+    increments: bool,
+}
+
+impl Used {
+    fn look(&mut self, body: &[Stmt], mut straight: bool, caps: &Caps) {
+        for stmt in body {
+            straight &= !matches!(stmt.op, flow!());
+            if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| self.look(body, false, caps));
+            }
+            self.increments |= stmt.op == Op::SetDistanceMode(Distance::Incremental);
+            if !is_frame(&stmt.op) {
+                continue;
+            }
+            self.behind |= !straight;
+            self.unsaid |= !caps.says_frame(&stmt.op);
+            match &stmt.op {
+                Op::SetSlot(slot) => {
+                    if let Slot::Shift { axes, .. } = &**slot {
+                        self.shifts(&axes[..]);
+                    }
+                    self.slots.push(slot_of(slot));
+                }
+                Op::SetFrame(frame) => match &frame.step {
+                    FrameStep::Translate(axes) => self.shifts(&axes[..]),
+                    FrameStep::Rotate { .. } => self.turns = true,
+                    FrameStep::Scale(_) | FrameStep::Mirror(_) => {}
+                },
+                _ => {}
+            }
+        }
+    }
+
+    fn shifts(&mut self, axes: &[Option<Expr>]) {
+        self.shifted.iter_mut().zip(axes).for_each(|(shifted, axis)| *shifted |= axis.is_some());
+    }
+
+    /// The one slot that shifts, if no other does, and the present point is given no coordinates.
+    fn shift(&self) -> Option<FrameSlot> {
+        match (self.fills(FrameSlot::Local), self.fills(FrameSlot::Shift)) {
+            (true, true) => None,
+            (true, false) => Some(FrameSlot::Local),
+            (false, true) => Some(FrameSlot::Shift),
+            (false, false) => None,
+        }
+    }
+
+    fn fills(&self, slot: FrameSlot) -> bool {
+        self.slots.contains(&slot)
+    }
+}
+
+fn slot_of(slot: &Slot) -> FrameSlot {
+    match slot {
+        Slot::Shift { origin: true, .. } => FrameSlot::Shift,
+        Slot::Shift { origin: false, .. } => FrameSlot::Local,
+        Slot::Rotation { .. } => FrameSlot::Rotation,
+        Slot::Scale { .. } => FrameSlot::Scale,
+        Slot::Mirror(_) | Slot::NoMirror(_) => FrameSlot::Mirror,
+        Slot::Tilt(_) => FrameSlot::Tilt,
+    }
+}
+
+/// What fills a slot is absolute only where the distance mode is: that is said before it, or known of all ways to it.
+fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
+    // Whether it is; nothing where a stretch of blocks begins.
+    let mut said = None;
+    for stmt in body {
+        if matches!(stmt.op, flow!()) {
+            said = None;
+            if let Op::Control(control) = &stmt.op {
+                control.bodies().try_for_each(|body| absolute(body, known))?;
+            }
+            continue;
+        }
+        let before = || known.before(stmt).and_then(|at| at.modes.distance) == Some(Distance::Absolute);
+        let is = *said.get_or_insert_with(before);
+        match &stmt.op {
+            Op::SetDistanceMode(distance) => {
+                said = Some(*distance == Distance::Absolute && (is || stmt.skip.is_none()));
+            }
+            Op::SetSlot(_) | Op::SetPosition(_) if !is && is_frame(&stmt.op) => {
+                let what = "a frame where words may be incremental".into();
+                return Err(Diagnostic::new(Fault::Computes { what }, stmt.span));
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps) -> Result<(), Diagnostic> {
+    for stmt in body.iter_mut() {
+        if let Op::Control(control) = &mut stmt.op {
+            control.bodies_mut().try_for_each(|body| over(body, used, caps))?;
+        }
+    }
+    if !body.iter().any(|stmt| is_frame(&stmt.op)) {
+        return Ok(());
+    }
+    let mut refused = None;
+    // Whether the frame before is a translation that has begun the chain anew, with nothing behind it.
+    let mut anew = false;
+    rebuild(body, |stmt, made: &mut Rebuild| {
+        if !is_frame(&stmt.op) {
+            anew &= matches!(stmt.op, Op::Comment(_) | Op::Blank);
+            return made.push(stmt);
+        }
+        let said = match stmt.skip {
+            Some(_) => Err("that can be skipped"),
+            None if caps.frames => as_chain(&stmt.op, used),
+            None => as_slots(&stmt.op, used, caps, anew),
+        };
+        anew = matches!(&stmt.op, Op::SetFrame(frame) if !frame.added && is_translation(&frame.step));
+        match said {
+            Ok(ops) => made.replace(stmt, ops.into_iter().map(|op| (false, op))),
+            Err(why) => {
+                let what = format!("a frame {why}, where a program computes").into();
+                refused.get_or_insert(Diagnostic::new(Fault::Computes { what }, stmt.span));
+            }
+        }
+    });
+    match refused {
+        Some(refused) => Err(refused),
+        None if caps.frames => Ok(()),
+        None => placed(body),
+    }
+}
+
+fn is_translation(step: &FrameStep) -> bool {
+    matches!(step, FrameStep::Translate(_))
+}
+
+fn is_zero(e: &Expr) -> bool {
+    e.literal().is_some_and(|n| n.is_zero())
+}
+
+fn set(added: bool, step: FrameStep) -> Op {
+    Op::SetFrame(Box::new(Frame { added, step }))
+}
+
+/// A slot as a chain that begins anew.
+fn as_chain(op: &Op, used: &Used) -> Result<Vec<Op>, &'static str> {
+    let none = || Ok(vec![Op::ClearFrame(FrameSlot::Chain)]);
+    if used.shift().is_some() && used.fills(FrameSlot::Rotation) {
+        return Err("of a shift and a rotation together");
+    }
+    match op {
+        // What no block fills is empty.
+        Op::ClearFrame(FrameSlot::Chain) => none(),
+        Op::ClearFrame(slot) if !used.fills(*slot) => Ok(Vec::new()),
+        Op::ClearFrame(FrameSlot::Rotation) => none(),
+        Op::ClearFrame(slot) if used.shift() == Some(*slot) => none(),
+        Op::SetSlot(slot) => match &**slot {
+            Slot::Shift { axes, .. } if used.shift().is_some() => {
+                if (0..AXES).any(|axis| used.shifted[axis] && axes[axis].is_none()) {
+                    return Err("that leaves an axis as it is");
+                }
+                if axes.iter().flatten().all(is_zero) {
+                    return none();
+                }
+                Ok(vec![set(false, FrameStep::Translate(axes.clone()))])
+            }
+            Slot::Rotation { plane, centre, angle } => about(*plane, centre, angle),
+            _ => Err("in another form than the target has"),
+        },
+        _ => Err("in another form than the target has"),
+    }
+}
+
+/// A rotation about a point.
+fn about(plane: Fact<Plane>, centre: &[Option<Expr>; 3], angle: &Coord) -> Result<Vec<Op>, &'static str> {
+    if angle.distance != Fact::Known(Distance::Absolute) {
+        return Err("that is turned further");
+    }
+    let Fact::Known(in_plane) = plane else { return Err("in a plane that is not known") };
+    let (first, second, _) = in_plane.axes();
+    let mut there: [Option<Expr>; AXES] = [const { None }; AXES];
+    let mut back = there.clone();
+    for axis in [first, second] {
+        let Some(at) = &centre[axis as usize] else { return Err("about the place where the tool stands") };
+        there[axis as usize] = Some(at.clone());
+        back[axis as usize] = Some(negative(at));
+    }
+    let turn = FrameStep::Rotate { plane, angle: angle.value.clone() };
+    if there.iter().flatten().all(is_zero) {
+        return Ok(vec![set(false, turn)]);
+    }
+    let [there, back] = [there, back].map(|axes| FrameStep::Translate(Box::new(axes)));
+    Ok(vec![set(false, there), set(true, turn), set(true, back)])
+}
+
+fn negative(e: &Expr) -> Expr {
+    match e {
+        Expr::Num(n) => Expr::Num(Num { mantissa: -n.mantissa, ..*n }),
+        Expr::Node(_) => Expr::Node(Box::new(Node::Unary(Unary::Negate, e.clone()))),
+    }
+}
+
+/// A step of a chain as slots: a shift of all axes that are shifted anywhere, and a rotation about its zero.
+fn as_slots(op: &Op, used: &Used, caps: &Caps, anew: bool) -> Result<Vec<Op>, &'static str> {
+    let shifts = used.shifted.contains(&true);
+    let origin = !caps.local_shift;
+    if shifts && origin && !caps.stated_shift || used.turns && !caps.rotation {
+        return Err("in another form than the target has");
+    }
+    let zero = |axis: usize| Expr::Num(Num::int(0, if axis < 3 { Unit::Mm } else { Unit::Degree }));
+    let mut ops = Vec::new();
+    // A shift is said outside a rotation.
+    let to = |axes: &[Option<Expr>], ops: &mut Vec<Op>| {
+        if used.turns {
+            ops.push(Op::ClearFrame(FrameSlot::Rotation));
+        }
+        if shifts {
+            let word =
+                |axis: usize| used.shifted[axis].then(|| axes[axis].clone().unwrap_or_else(|| zero(axis)));
+            let axes = Box::new(std::array::from_fn(word));
+            ops.push(Op::SetSlot(Box::new(Slot::Shift { origin, axes })));
+        }
+    };
+    let nothing = [const { None }; AXES];
+    match op {
+        op if caps.says_frame(op) => ops.push(op.clone()),
+        Op::SetSlot(slot) => match &**slot {
+            Slot::Shift { origin, axes }
+                if used.shift().is_some() && (caps.local_shift || caps.stated_shift) =>
+            {
+                let axes = axes.clone();
+                ops.push(Op::SetSlot(Box::new(Slot::Shift { origin: !origin, axes })));
+            }
+            _ => return Err("in another form than the target has"),
+        },
+        Op::ClearFrame(slot) if used.shift() == Some(*slot) => to(&nothing, &mut ops),
+        Op::ClearFrame(FrameSlot::Chain) => to(&nothing, &mut ops),
+        Op::ClearFrame(slot) if !used.fills(*slot) => {}
+        Op::SetFrame(frame) => match &frame.step {
+            FrameStep::Translate(axes) if !frame.added => to(&axes[..], &mut ops),
+            FrameStep::Rotate { plane, angle } if !frame.added || anew => {
+                if !frame.added {
+                    to(&nothing, &mut ops);
+                }
+                let Fact::Known(in_plane) = plane else { return Err("in a plane that is not known") };
+                let (first, second, _) = in_plane.axes();
+                let mut centre = [const { None }; 3];
+                [first, second].into_iter().for_each(|axis| centre[axis as usize] = Some(zero(0)));
+                let angle = Coord { value: angle.clone(), distance: Fact::Known(Distance::Absolute) };
+                let turn = Slot::Rotation { plane: *plane, centre: Box::new(centre), angle };
+                ops.push(Op::SetSlot(Box::new(turn)));
+            }
+            FrameStep::Translate(_) | FrameStep::Rotate { .. } => return Err("that adds to another one"),
+            FrameStep::Scale(_) | FrameStep::Mirror(_) => return Err("in another form than the target has"),
+        },
+        _ => return Err("in another form than the target has"),
+    }
+    Ok(ops)
+}
+
+/// The first move in a plane behind a rotation that begins or ends names both of its axes, absolutely.
+fn placed(body: &[Stmt]) -> Result<(), Diagnostic> {
+    let mut open: Option<(Plane, &Stmt)> = None;
+    for stmt in body {
+        match &stmt.op {
+            Op::ClearFrame(FrameSlot::Rotation) => {
+                open = open.or(Some((Plane::Xy, stmt)));
+                continue;
+            }
+            Op::SetSlot(slot) => {
+                if let Slot::Rotation { plane, .. } = &**slot {
+                    open = Some((plane.or(Plane::Xy), stmt));
+                }
+                continue;
+            }
+            _ => {}
+        }
+        let Some((plane, from)) = open else { continue };
+        let (first, second, _) = plane.axes();
+        let named = match &stmt.op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) | Op::Hole(m) => {
+                [first, second].map(|axis: Axis| m.to.get(axis).map(|word| is_absolute(word, None)))
+            }
+            Op::ProgramEnd => return Ok(()),
+            flow!() | Op::ArcFeed(_) | Op::ArcForm(_) | Op::Polar(_) | Op::Pattern(_) => [Some(false), None],
+            _ => [None, None],
+        };
+        match named {
+            [None, None] => {}
+            [Some(true), Some(true)] => open = None,
+            _ => {
+                let what =
+                    "a rotation, behind which the first move does not name both axes of its plane".into();
+                return Err(Diagnostic::new(Fault::Computes { what }, from.span));
+            }
+        }
+    }
+    match open {
+        None => Ok(()),
+        Some((_, from)) => {
+            let what = "a rotation, behind which the program does not go straight on to a move".into();
+            Err(Diagnostic::new(Fault::Computes { what }, from.span))
+        }
+    }
+}
