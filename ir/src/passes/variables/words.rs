@@ -2,7 +2,9 @@
 //! remainder and a rounding up that it has no words for are said by others.
 
 use super::{each_value, expressions};
+use crate::arguments;
 use crate::canon::{Distance, Units};
+use crate::decimals::Decimals;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Node};
 use crate::num::{Num, Unit};
@@ -109,7 +111,8 @@ fn rounded(value: &Expr) -> Option<(Expr, u8)> {
 
 /// Says that lengths from zero are rounded, where the target's words do that by themselves and the source's do not:
 /// they are no further off than half of the target's last digit. `increments` are the digits in mm, or degrees, and in
-/// inches. What adds up, or counts, stays as it is, and so do all where a program goes from one unit to the other.
+/// inches. Of frames only those are, which have no more digits than that: what they move is rounded once more. What adds
+/// up, or counts, stays as it is, and so do all where a program goes from one unit to the other.
 pub(super) fn rounds(program: &mut Program, increments: [u8; 2]) {
     let mut said = (false, false, false);
     for procedure in &program.procedures {
@@ -121,7 +124,11 @@ pub(super) fn rounds(program: &mut Program, increments: [u8; 2]) {
         return;
     }
     let digits = [increments[usize::from(inch)], increments[0]];
-    program.procedures.iter_mut().for_each(|procedure| round_in(&mut procedure.body, digits, incremental));
+    let mut decimals = Decimals::of(program);
+    for (at, procedure) in program.procedures.iter_mut().enumerate() {
+        decimals.within(at);
+        round_in(&mut procedure.body, digits, incremental, &decimals);
+    }
 }
 
 /// Whether a body says mm, inches, and incremental words.
@@ -137,7 +144,7 @@ fn modes(body: &[Stmt], said: &mut (bool, bool, bool)) {
     }
 }
 
-fn round_in(body: &mut [Stmt], digits: [u8; 2], incremental: bool) {
+fn round_in(body: &mut [Stmt], digits: [u8; 2], incremental: bool, decimals: &Decimals) {
     let round = |value: &mut Expr, digits: u8| {
         if matches!(value, Expr::Node(_)) && rounded(value).is_none() {
             let own = std::mem::replace(value, Expr::int(0));
@@ -176,8 +183,22 @@ fn round_in(body: &mut [Stmt], digits: [u8; 2], incremental: bool) {
                     round(&mut plane.value, digits[0]);
                 }
             }
+            op @ (Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_)) => {
+                let all = arguments::each(op, &mut |argument, unit| {
+                    let digits = digits[usize::from(unit == Unit::Degree)];
+                    if let Some(value) = argument.expr()
+                        && decimals.digits(value).is_some_and(|own| own <= digits)
+                    {
+                        let mut value = value.clone();
+                        round(&mut value, digits);
+                        argument.set(value);
+                    }
+                    Ok::<(), std::convert::Infallible>(())
+                });
+                all.unwrap_or_else(|never| match never {});
+            }
             Op::Control(control) => {
-                control.bodies_mut().for_each(|body| round_in(body, digits, incremental));
+                control.bodies_mut().for_each(|body| round_in(body, digits, incremental, decimals));
             }
             _ => {}
         }
