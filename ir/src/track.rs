@@ -20,8 +20,7 @@ use crate::num::Nanos;
 use crate::places::Places;
 use crate::polar::{self, Pole};
 use crate::program::{
-    Arc, ArcForm, Coord, Data, FrameSlot, Move, Op, Point, Polar, SetPole, Shape, Stmt,
-    ToolLength, ToolValue,
+    Arc, ArcForm, Coord, Data, FrameSlot, Move, Op, Point, Polar, SetPole, Shape, Stmt, ToolLength, ToolValue,
 };
 use crate::round::round;
 
