@@ -294,7 +294,7 @@ impl Lower {
         if to.is_none() {
             to = self.again.end_behind(&from);
         }
-        match self.again.repeat(&from, to.as_deref(), &mut self.state) {
+        match self.again.repeat(&from, to.as_deref(), times, &mut self.state) {
             Ok(()) => {}
             Err(NotAgain::Unknown) => {
                 return self.fault(Fault::LabelUnknown { name: to.unwrap_or(from) }, head.span, out);
