@@ -372,7 +372,7 @@ impl Lower {
                 return self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
             }
             self.mean(&mut expr, &|a| Node::Call(Function::Round, vec![a]), word.span, out);
-            return Some(expr);
+            return Some(self.written(expr, quantity, word.span, out));
         };
         let counted = matches!(quantity, Quantity::Length | Quantity::Angle);
         if counted && self.assume && !std::mem::replace(&mut self.reported.increment, true) {
@@ -389,6 +389,18 @@ impl Lower {
             }
             _ => value,
         })
+    }
+
+    /// A number in brackets, `F[7]`, counts what one without them does, where it has a point.
+    pub(super) fn written(&mut self, expr: Expr, quantity: Quantity, at: Span, out: &mut Batch) -> Expr {
+        let Expr::Num(num) = expr else { return expr };
+        let unit = match quantity {
+            Quantity::Length | Quantity::Feed => unit_of(self.units(at, out)),
+            Quantity::Angle => Unit::Degree,
+            Quantity::Seconds | Quantity::Milliseconds => Unit::Second,
+            Quantity::Speed | Quantity::Integer | Quantity::Factor => Unit::One,
+        };
+        Expr::Num(Num { point: num.point || unit != Unit::One, unit, ..num })
     }
 
     /// To how many digits a word of this quantity is rounded; none of a feed, whose increment is the machine's.

@@ -272,7 +272,7 @@ impl Lower {
                 Some(node(Node::Call(Function::RoundTo, vec![expr, digits])))
             }
             Quantity::Length | Quantity::Angle | Quantity::Feed | Quantity::Speed | Quantity::Seconds => {
-                Some(expr)
+                Some(self.written(expr, quantity, at, out))
             }
             Quantity::Milliseconds | Quantity::Factor => None,
         }
