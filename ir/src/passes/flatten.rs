@@ -1,7 +1,8 @@
 //! `flatten`: executes what computes and decides, and writes the straight blocks that come of it.
 //!
 //! Subprograms, loops, jumps and variables are gone afterwards; cycles and patterns are kept as they are executed.
-//! Numbers are rounded to the target's digits. Comments stand wherever their blocks are executed. Refused are
+//! Numbers are rounded to the target's digits; what a rounded move is short of the program's point, the next incremental
+//! word of the axis makes good, so that nothing adds up. Comments stand wherever their blocks are executed. Refused are
 //! flow and variables in blocks that a switch can take out, and programs that do not come to an end.
 
 use std::collections::HashSet;
@@ -10,7 +11,7 @@ use super::expand_calls::settle;
 use super::walk::Walk;
 use super::{MOST_STATEMENTS, Target};
 use crate::arguments::{self, Argument};
-use crate::canon::Units;
+use crate::canon::{AXES, Distance, Units};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::{Exec, Runner};
 use crate::expr::Expr;
@@ -85,6 +86,7 @@ fn straight(
     let mut unseen = Vec::new();
     let mut steps = 0;
     let mut inches = walk.at.modes.units == Some(Units::Inch);
+    let mut short = [Some(0); AXES];
     loop {
         let Some(stmt) = runner.next_of(&exec, other.as_ref())? else { return Ok(out) };
         let mut stmt = stmt.clone();
@@ -102,6 +104,10 @@ fn straight(
             exec.step(&stmt, &mut unseen)?;
         }
         if let Op::UseLengthUnits(units) = stmt.op {
+            if (units == Units::Inch) != inches {
+                let by = |n: &mut i64| *n = if inches { *n * 254 / 10 } else { *n * 10 / 254 };
+                short[..3].iter_mut().flatten().for_each(by);
+            }
             inches = units == Units::Inch;
         }
         if matches!(stmt.op, Op::Label(_)) {
@@ -109,6 +115,7 @@ fn straight(
             steps = 0;
             continue;
         }
+        make_good(&mut stmt.op, target, inches, walk.at.modes.distance, &mut short);
         round(&mut stmt, target, inches)?;
         walk.enter(stmt.skip);
         settle(&mut stmt.op, &walk.at);
@@ -124,10 +131,73 @@ fn straight(
     }
 }
 
+/// Adds to computed incremental words what the axes are short of the program's point, to a billionth of the unit, and
+/// tells what they are short of it when the words have been rounded; nothing where the writer keeps account of that.
+fn make_good(
+    op: &mut Op,
+    target: &Target,
+    inches: bool,
+    in_force: Option<Distance>,
+    short: &mut [Option<i64>; AXES],
+) {
+    let point = match op {
+        Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) | Op::Hole(to) => &mut to.to,
+        Op::SynchronisedFeed(to) => &mut to.to,
+        Op::ArcFeed(arc) => &mut arc.to,
+        Op::GoToReference(reference) => {
+            // The same point on both sides.
+            let named = reference.via.axes.iter().zip(short).filter(|(word, _)| word.is_some());
+            return named.for_each(|(_, short)| *short = Some(0));
+        }
+        _ => return,
+    };
+    for (word, short) in point.axes.iter_mut().zip(short) {
+        let Some(word) = word else { continue };
+        let Some(n) = word.value.literal() else { continue };
+        let incremental = word.distance.known().or(in_force) == Some(Distance::Incremental);
+        let decimals = target.decimals + u8::from(inches && n.unit == Unit::Entry);
+        let Some(own) =
+            9u8.checked_sub(n.scale).map(|more| n.mantissa.saturating_mul(POW10[usize::from(more)]))
+        else {
+            continue;
+        };
+        // What the program has written the writer rounds, and keeps account of.
+        let finer = n.scale > decimals;
+        let computed = n.scale >= 8 && finer;
+        match (computed, incremental, *short) {
+            (false, false, _) => *short = (!finer).then_some(0),
+            (false, true, Some(left)) if finer && left != 0 => {
+                word.value = to_seven(own.saturating_add(left), n.unit);
+                *short = None;
+            }
+            (false, true, _) if finer => *short = None,
+            (false, true, _) => {}
+            (true, true, None) => word.value = to_seven(own, n.unit),
+            (true, ..) => {
+                let before = short.filter(|_| incremental).unwrap_or(0);
+                let all = own.saturating_add(before);
+                let by = POW10[usize::from(9 - decimals)];
+                let half = if all < 0 { -by / 2 } else { by / 2 };
+                let said = all.saturating_add(half) / by * by;
+                *short = Some(all - said);
+                if before != 0 {
+                    word.value = Expr::Num(Num { mantissa: said, scale: 9, point: true, unit: n.unit });
+                }
+            }
+        }
+    }
+}
+
+/// A number of billionths with as many digits as a program may have written.
+fn to_seven(billionths: i64, unit: Unit) -> Expr {
+    let half = if billionths < 0 { -50 } else { 50 };
+    Expr::Num(Num { mantissa: billionths.saturating_add(half) / 100, scale: 7, point: true, unit })
+}
+
 /// Rounds what was computed to the target's digits; a length in inches has one more.
 fn round(stmt: &mut Stmt, target: &Target, inches: bool) -> Result<(), Diagnostic> {
-    // The writer rounds a feed, once, to the digits that feeds have.
-    let feed = matches!(stmt.op, Op::SetFeedRate(_));
+    // The writer rounds a feed or a time, once, to the digits that those have.
+    let feed = matches!(stmt.op, Op::SetFeedRate(_) | Op::Dwell(_));
     arguments::each(&mut stmt.op, &mut |argument: Argument, unit| {
         let Some(n) = argument.expr().and_then(Expr::literal) else { return Ok(()) };
         let decimals = target.decimals + u8::from(inches && n.unit == Unit::Entry);
