@@ -37,6 +37,7 @@ impl Writer {
     /// Takes what jumps and loops need to know of the procedures of a program that computes.
     pub(crate) fn know(&mut self, procedures: &[Procedure]) {
         self.computing.program = true;
+        self.words.is_kept();
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
         self.know_parameters(procedures);
         self.main = procedures.first().cloned();

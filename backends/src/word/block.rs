@@ -1,6 +1,8 @@
 //! The block that is being put together: what stands in it, in which order it is written, and
 //! whether one more statement fits.
 
+use ncc_ir::source::Span;
+
 use super::codes::Code;
 use super::number::{self, Worth};
 
@@ -104,6 +106,8 @@ pub(crate) struct Block {
     pub after: Vec<u8>,
     pub number: Option<u32>,
     pub skip: Option<u8>,
+    /// The statement of the source that stands in it last.
+    pub at: Span,
     /// Codes written of which no source confirms the meaning.
     pub unsure: Vec<Code>,
     /// Whether the motion is a cycle's call.
@@ -131,6 +135,7 @@ impl Block {
             after: Vec::new(),
             number: None,
             skip: None,
+            at: Span::default(),
             unsure: Vec::new(),
             calls_up: false,
             changes: false,

@@ -28,6 +28,8 @@ const MOST_TIMES: u32 = 9999;
 pub(crate) struct Computing {
     /// Whether the program computes at all: then a call has its caller's variables, or its own.
     variables: bool,
+    /// Whether a program that computes is written with its structure, here or by whom these words are for.
+    pub(super) kept: bool,
     /// Parameters of procedures, by name.
     parameters: BTreeMap<Text, Vec<Var>>,
     /// Numbers of the blocks of the procedure at hand that are jumped to.
@@ -42,12 +44,18 @@ impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
     pub(crate) fn know(&mut self, procedures: &[Procedure]) {
         self.computing.variables = true;
+        self.computing.kept = true;
         self.computing.own = self.dialect.named_values().collect();
         let known = procedures.iter().skip(1).map(|p| (p.name.clone(), p.parameters.clone()));
         self.computing.parameters = known.collect();
         if self.has_o_words() {
             self.know_o_words(procedures);
         }
+    }
+
+    /// A program that computes is written with its structure.
+    pub(crate) fn is_kept(&mut self) {
+        self.computing.kept = true;
     }
 
     /// Whether the program computes when it runs.
@@ -129,6 +137,11 @@ impl Writer {
     }
 
     pub(super) fn statement_alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.has_o_words() && !self.block.is_empty() {
+            // It counts when what stands before it has been read.
+            self.flush(false, sink);
+            self.split = true;
+        }
         self.admit(&Need::new(Rank::Alone), sink)?;
         self.block.text(Part::Tail, text);
         Ok(())

@@ -29,6 +29,31 @@ pub(crate) fn cannot_compute(what: impl Into<Box<str>>) -> Fault {
 /// first; a value binds more tightly than any.
 type Tie = usize;
 
+/// A number among conditions that are joined, `[#1 EQ 0] XOR 1`, as one that holds or does not.
+///
+/// # Errors
+/// What is compared is a condition itself.
+fn compared(e: &mut Expr) -> Result<(), Fault> {
+    let Expr::Node(node) = e else { return Ok(()) };
+    if let Node::Binary(Binary::And | Binary::Or | Binary::Xor, a, b) = &mut **node {
+        for part in [a, b] {
+            if let Expr::Num(n) = part {
+                let holds = i64::from(n.mantissa != 0);
+                *part = Expr::Node(Box::new(Node::Binary(Binary::Equal, Expr::int(holds), Expr::int(1))));
+            }
+            compared(part)?;
+        }
+        return Ok(());
+    }
+    if let Node::Unary(Unary::Not, a) = &mut **node {
+        return compared(a);
+    }
+    match e.parts().any(|part| part.has(&decides)) {
+        true => Err(cannot_compute("a condition as a value")),
+        false => Ok(()),
+    }
+}
+
 /// What binds as loosely as can be stands without brackets.
 const LOOSEST: Tie = usize::MAX;
 
@@ -524,7 +549,11 @@ impl Writer {
     pub(crate) fn condition(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         self.rely_on_range(e, span, sink);
         let mut out = String::new();
-        self.spelling(None)?.bracketed(e, 0, &mut out)?;
+        let mut e = e.clone();
+        if self.dialect.program.macro_b {
+            compared(&mut e)?;
+        }
+        self.spelling(None)?.bracketed(&e, 0, &mut out)?;
         Ok(out)
     }
 

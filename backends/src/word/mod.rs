@@ -51,6 +51,7 @@ use codes::Codes;
 use comment::Comments;
 use cycles::Held;
 use force::InForce;
+use formula::cannot_compute;
 use start::Preamble;
 
 /// Highest block number (FANUC 16-C: N1 to N99999); numbering begins again after it.
@@ -417,6 +418,7 @@ impl Writer {
             self.flush(false, sink);
         }
         self.block.skip = stmt.skip;
+        self.block.at = stmt.span;
         let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
         if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
             let what = "a block that can be skipped on a switch of its own".into();
@@ -526,6 +528,7 @@ impl Writer {
         };
         let mark = self.skip_mark(self.block.skip);
         let to = self.preamble.as_mut().map_or(&mut *sink.out, |p| &mut p.held);
+        let start = to.len();
         if let Some((mark, level)) = mark {
             to.extend_from_slice(mark.as_bytes());
             if let Some(level) = level {
@@ -540,8 +543,14 @@ impl Writer {
             to.extend_from_slice(number.to_string().as_bytes());
         }
         self.block.write(to, number.is_some());
+        let length = to.len() - start;
         to.extend_from_slice(self.eol);
         to.append(&mut self.block.after);
+        let most = self.dialect.block.longest;
+        if most > 0 && length > most as usize {
+            let fault = cannot_compute(format!("a block of more than {most} characters"));
+            sink.report(fault, self.block.at);
+        }
     }
 
     pub(crate) fn count_number(&mut self, first: u32, step: u32) -> u32 {

@@ -14,6 +14,7 @@ use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
 use super::codes::Letter;
+use super::formula::cannot_compute;
 use super::modes::{Inserted, cannot};
 use super::number::{self, Shaped, Worth};
 use super::statement::{rounded, unwritable};
@@ -243,6 +244,10 @@ impl Writer {
             let shaped = if same { plain } else { Shaped { rounded: true, ..shaped } };
             (shaped, due - near.nanos(false).unwrap_or(due))
         };
+        // How often a block is executed decides what its rounding adds up to.
+        if self.computing.kept && distance == Some(Distance::Incremental) && (before, residue) != (0, 0) {
+            return Err(cannot_compute("an incremental word that is finer than the digits of the control"));
+        }
         if shaped.rounded {
             rounded(letter.letter, n, shaped, span, sink);
         }
