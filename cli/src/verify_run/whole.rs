@@ -9,6 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Exec, Progress, Runner};
 use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
+use ncc_ir::passes::otherwise::{Taken, otherwise};
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::program::{Procedure, Program};
 use ncc_ir::source::Span;
@@ -44,6 +45,9 @@ const LEFT_THERE: f64 = -791.3;
 /// Values that any variable may have.
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
+/// What may be taken for granted of a source's numbers, alone and together.
+const READINGS: [&[Taken]; 3] = [&[Taken::Apart], &[Taken::NotNegative], &[Taken::Apart, Taken::NotNegative]];
+
 /// Values for what a program reads and has not set.
 struct Given<'g> {
     open: Vec<(Var, Span)>,
@@ -53,6 +57,8 @@ struct Given<'g> {
     pool: Vec<f64>,
     /// What the output calls the source's variables.
     renamed: Renamed,
+    /// The source of an output that computes, in the other [`READINGS`].
+    other_readings: [Option<Program>; 3],
 }
 
 impl<'g> Given<'g> {
@@ -63,7 +69,7 @@ impl<'g> Given<'g> {
             let own = literals(source);
             pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
         }
-        Given { open, stated, pool, renamed: Renamed::default() }
+        Given { open, stated, pool, renamed: Renamed::default(), other_readings: [const { None }; 3] }
     }
 
     /// The value of a variable in a set: in the first one, a local variable has none.
@@ -123,6 +129,8 @@ enum Ended {
     Source(Diagnostic),
     /// The output does something else.
     Target(Diagnostic),
+    /// It does, for what it takes for granted of the source's numbers is not so.
+    NotSo(Diagnostic),
     /// It is long enough.
     Enough,
 }
@@ -192,6 +200,9 @@ impl Verifier {
             // It is what the source comes to with nothing given.
             given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
         }
+        if computes {
+            given.other_readings = READINGS.map(|taken| otherwise(source, taken));
+        }
         let given = &*given;
         let mut gone = Gone::default();
         let mut starts = Vec::new();
@@ -204,7 +215,7 @@ impl Verifier {
                 Ok(()) => {}
                 // With other values it may be executed.
                 Err(Ended::Source(fault)) if !given.open.is_empty() => failed = failed.or(Some(fault)),
-                Err(Ended::Source(fault)) => return Err(Stop::Source(fault)),
+                Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                 Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
                 Err(Ended::Enough) => {
                     let fault = Fault::NoEnd { steps: MOST_EVENTS };
@@ -227,6 +238,7 @@ impl Verifier {
                 match self.run_against(&mut run, [source, &target], given, set, &mut gone, &mut |_| {}) {
                     Ok(()) | Err(Ended::Enough) => executed = true,
                     Err(Ended::Source(_)) => {}
+                    Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                     Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
                 }
             }
@@ -240,8 +252,36 @@ impl Verifier {
         Ok(())
     }
 
-    /// Runs both programs from where they begin, with one set of values.
+    /// Runs both programs from where they begin, with one set of values. A difference that is none where what was
+    /// taken for granted of the source's numbers is read the other way tells that they are not so; another one is the
+    /// output's.
     fn run_against(
+        &self,
+        run: &mut Run,
+        [source, target]: [&Program; 2],
+        given: &Given,
+        set: u32,
+        gone: &mut Gone,
+        pairs: &mut dyn FnMut(&[Pair]),
+    ) -> Result<(), Ended> {
+        let start = given.other_readings.iter().any(Option::is_some).then(|| run.clone());
+        let ended = self.run_both(run, [source, target], given, set, gone, pairs);
+        let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
+        for (other, taken) in given.other_readings.iter().zip(READINGS) {
+            let Some(other) = other else { continue };
+            let mut run = start.clone();
+            run.comparison.keep_pairs(false);
+            let same =
+                self.run_both(&mut run, [other, target], given, set, &mut Gone::default(), &mut |_| {});
+            if same.is_ok() {
+                let what = taken[0].otherwise().into();
+                return Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, self.last)));
+            }
+        }
+        ended
+    }
+
+    fn run_both(
         &self,
         run: &mut Run,
         [source, target]: [&Program; 2],
@@ -295,14 +335,6 @@ impl Verifier {
                 Ok(()) if over => break Ok(()),
                 Ok(()) => {}
             }
-        };
-        let ended = match ended {
-            // What was taken for granted of the numbers that are compared is not so.
-            Err(Ended::Target(_)) if given.renamed.exact() && a.compared_nearly() => {
-                let what = "two numbers that are nearly the same where they are compared".into();
-                Err(Ended::Source(Diagnostic::new(Fault::Computes { what }, self.last)))
-            }
-            ended => ended,
         };
         a.add_taken(&mut gone.source);
         b.add_taken(&mut gone.target);

@@ -146,11 +146,6 @@ impl<'p> Runner<'p> {
         all.iter_mut().zip(&self.taken).for_each(|(all, taken)| *all |= taken);
     }
 
-    /// Whether numbers that were compared were found the same though they are only nearly so.
-    pub fn compared_nearly(&self) -> bool {
-        self.variables.nearly.get()
-    }
-
     /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
     /// were, 0 to 2, as of [`Runner::add_taken`].
     pub fn untaken(&self, all: &[u8]) -> Vec<(Span, u8)> {

@@ -2,7 +2,6 @@
 //!
 //! Not here: what operators and functions mean (`value`).
 
-use std::cell::Cell;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -300,14 +299,12 @@ pub(super) struct Variables {
     /// Where those of the present call begin.
     pub(super) base: usize,
     shared: Vec<Option<Value>>,
-    /// Whether numbers were found the same that are only nearly so.
-    pub(super) nearly: Cell<bool>,
 }
 
 impl Variables {
     pub(super) fn new(names: &Names) -> Variables {
         let locals = vec![Value::Vacant; names.count as usize];
-        Variables { locals, base: 0, shared: vec![None; names.shared()], nearly: Cell::new(false) }
+        Variables { locals, base: 0, shared: vec![None; names.shared()] }
     }
 
     pub(super) fn set(&mut self, place: Place, value: Value) {
@@ -426,11 +423,7 @@ impl Variables {
             Term::OfThree(f, all) => {
                 let [a, b, c] = &**all;
                 let (a, b) = (self.operand(a, asked)?, self.operand(b, asked)?);
-                let near = value::near(*f, a, b, self.operand(c, asked)?).map_err(Why::Wrong)?;
-                if near != 0.0 && a != b {
-                    self.nearly.set(true);
-                }
-                near
+                value::near(*f, a, b, self.operand(c, asked)?).map_err(Why::Wrong)?
             }
             Term::System(at) => asked.answer(*at).ok_or(Why::System(*at))?,
             Term::Measured => return Err(Why::Measured),

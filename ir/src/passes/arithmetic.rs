@@ -70,7 +70,11 @@ fn within(operator: Binary, a: Expr, b: Expr, tolerance: Num) -> Expr {
 }
 
 /// What is compared within a tolerance of not more than 1, and how.
-fn compared<'e>(operator: Binary, by: &'e Expr, limit: Num) -> Option<(Binary, &'e Expr, &'e Expr)> {
+pub(super) fn compared<'e>(
+    operator: Binary,
+    by: &'e Expr,
+    limit: Num,
+) -> Option<(Binary, &'e Expr, &'e Expr)> {
     let apart = |e: &'e Expr| match e {
         Expr::Node(node) => match &**node {
             Node::Binary(Binary::Subtract, a, b) => Some((a, b)),

@@ -44,6 +44,7 @@ pub mod offset_with_z;
 pub mod one_distance;
 pub mod one_move;
 pub mod origin_shift;
+pub mod otherwise;
 mod path_control;
 mod pattern_forms;
 mod polar_words;

@@ -32,19 +32,12 @@ pub struct Renamed {
     pairs: Vec<(Var, Var)>,
     /// Whether one that is not among them has some value in the target, whatever the source has.
     filled: bool,
-    /// Whether numbers that are nearly the same are so for the source's control alone.
-    exact: bool,
 }
 
 impl Renamed {
     /// The source's variable behind one of the target's.
     pub fn source(&self, target: &Var) -> Option<&Var> {
         self.pairs.iter().find(|(_, new)| new == target).map(|(old, _)| old)
-    }
-
-    /// Whether the source's control alone finds numbers equal that are nearly so.
-    pub fn exact(&self) -> bool {
-        self.exact
     }
 
     /// Whether what the target reads and has not set is something, never nothing.
@@ -79,7 +72,7 @@ pub fn run(
     }
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
-        && let Err(refused) = vacancy::resolve(program, computes.vacant)
+        && let Err(refused) = vacancy::resolve(program, computes.vacant, from.vacant)
     {
         diags.push(refused);
         return Renamed::default();
@@ -109,7 +102,7 @@ pub fn run(
         let decimals = decimals + u8::from(inches);
         program.procedures.iter_mut().for_each(|procedure| words::unrounded(&mut procedure.body, decimals));
     }
-    Renamed { pairs, filled: !computes.vacant, exact: from.near && !computes.near }
+    Renamed { pairs, filled: !computes.vacant }
 }
 
 /// Whether anything must have a value where it is read.

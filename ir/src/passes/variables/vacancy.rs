@@ -14,6 +14,7 @@ use super::defaults;
 use crate::arguments::{self, Argument};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
+use crate::open::open_variables;
 use crate::program::{Call, Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
 use crate::value;
@@ -71,16 +72,20 @@ fn either(a: Way, b: Way) -> Way {
 }
 
 /// Decides what a program decides by whether variables have a value. For a target that knows such variables
-/// (`vacant`), only what must have a value is looked at.
+/// (`vacant`), only what must have a value is looked at. Where the source's control knows them (`given`), the main
+/// program's own variables that it reads unset may have been given values, and may not: a macro is called with arguments.
 ///
 /// # Errors
 /// A variable that may or may not have a value where it is read.
-pub(super) fn resolve(program: &mut Program, vacant: bool) -> Result<(), Diagnostic> {
+pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Result<(), Diagnostic> {
     if !vacant {
         defaults::hand_over(program);
     }
     let before = program.clone();
-    let mut ways = Ways::over(&before.procedures);
+    let open = if given { open_variables(program) } else { Vec::new() };
+    let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
+    let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
+    let mut ways = Ways::over(&before.procedures, Known { vars, lost: false });
     let facts = std::mem::take(&mut ways.facts);
     let entries = std::mem::take(&mut ways.entries);
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
@@ -165,11 +170,11 @@ struct Ways<'p> {
 }
 
 impl<'p> Ways<'p> {
-    fn over(procedures: &'p [Procedure]) -> Ways<'p> {
+    fn over(procedures: &'p [Procedure], entry: Known) -> Ways<'p> {
         let mut ways = Ways {
             procedures,
             facts: Facts::new(),
-            entries: BTreeMap::from([(0, Known::default())]),
+            entries: BTreeMap::from([(0, entry)]),
             here: None,
             labels: BTreeMap::new(),
             leaves: Vec::new(),

@@ -1,0 +1,71 @@
+//! What a translation takes for granted of the numbers of a program, read the other way: not a pass.
+//!
+//! A target that compares to the least bit takes for granted that no two numbers are only nearly equal; one whose
+//! functions round towards zero, that none is below zero. Where an output differs from its source, and not from the
+//! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
+
+use super::arithmetic::compared;
+use super::variables::expressions;
+use crate::expr::{Binary, Expr, Function, Node};
+use crate::program::Program;
+
+/// What is taken for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taken {
+    /// Numbers that are compared are equal, or further apart than any tolerance.
+    Apart,
+    /// Numbers that are rounded up or down, or divided for a remainder, are not below zero.
+    NotNegative,
+}
+
+impl Taken {
+    /// What the numbers are where that is not so, in words.
+    pub const fn otherwise(self) -> &'static str {
+        match self {
+            Taken::Apart => "two numbers that are nearly the same where they are compared",
+            Taken::NotNegative => "a number below zero that is rounded, or divided for a remainder",
+        }
+    }
+}
+
+/// The program with the other reading of what is taken for granted; `None` where it has none.
+pub fn otherwise(program: &Program, taken: &[Taken]) -> Option<Program> {
+    let mut other = program.clone();
+    let mut found = false;
+    for procedure in &mut other.procedures {
+        expressions(&mut procedure.body, &mut |_, expr| over(expr, taken, &mut found));
+    }
+    found.then_some(other)
+}
+
+fn over(e: &mut Expr, taken: &[Taken], found: &mut bool) {
+    e.parts_mut().for_each(|part| over(part, taken, found));
+    let Expr::Node(node) = e else { return };
+    let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));
+    let apart = taken.contains(&Taken::Apart);
+    let not_negative = taken.contains(&Taken::NotNegative);
+    let other = match &**node {
+        Node::Call(Function::Near | Function::NearRatio, all) if apart => match &all[..] {
+            [a, b, _] => of(Binary::Equal, a, b),
+            _ => None,
+        },
+        Node::Binary(operator, by, Expr::Num(limit)) if apart => {
+            compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
+        }
+        Node::Call(Function::Remainder, all) if not_negative => match &all[..] {
+            [a, b] => of(Binary::Modulo, a, b),
+            _ => None,
+        },
+        Node::Call(function, all) if not_negative => match function {
+            Function::Floor => Some(Node::Call(Function::Truncate, all.clone())),
+            Function::Ceiling => Some(Node::Call(Function::RoundUp, all.clone())),
+            Function::RoundUp => Some(Node::Call(Function::Ceiling, all.clone())),
+            _ => None,
+        },
+        _ => None,
+    };
+    if let Some(other) = other {
+        **node = other;
+        *found = true;
+    }
+}
