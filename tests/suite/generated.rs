@@ -1,394 +1,255 @@
-//! Programs that compute and that nobody wrote: expressions, decisions, loops and calls of a Fanuc's custom
-//! macro B by chance, all of which come to an end. The compiler and the second interpreter execute each of them,
-//! and find the same moves; each goes into another dialect as straight blocks, verified, and the second
-//! interpreter finds the source's moves in what was written. What one of them refuses, the other must not run: but
-//! the compiler may refuse more, by name, of few programs.
+//! Programs that compute and that nobody wrote: expressions, decisions, loops and calls by chance, of all three
+//! languages, all of which come to an end. The compiler and the second interpreter execute each of them, and find the
+//! same moves; each goes into another dialect as straight blocks, and with its structure into the controls that
+//! compute, verified, and the second interpreter finds the source's moves in what was written. What one of them
+//! refuses, the other must not run: but the compiler may refuse more, by name, of few programs.
 //!
-//! `NCC_GENERATED=10000` makes so many, and tells what is refused.
+//! `NCC_GENERATED=10000` makes so many, each for every control that computes, and tells what is refused.
 
-use std::fmt::Write;
+mod fanuc;
+mod linuxcnc;
+mod siemens;
 
-use fastrand::Rng;
-use ncc::job::Failure;
-use ncc_tests::corpus::{DIALECTS, Program};
+use std::collections::{BTreeMap, BTreeSet};
+
+use ncc::job::{Failure, Job};
+use ncc_ir::world::World;
+use ncc_tests::corpus::DIALECTS;
 use ncc_tests::expect::Failures;
-use ncc_tests::plain::{self, Corners, Tolerance};
-use ncc_tests::translate::{self, rendered, straight_job};
+use ncc_tests::plain::{self, Corners, Happening, Plain, Tolerance};
+use ncc_tests::translate::{self, job, rendered};
 
-/// Programs in a usual run.
-const USUAL: usize = 300;
+/// Programs of a language in a usual run.
+const USUAL: usize = 200;
 
-/// At most one in so many may be refused by the compiler alone.
+/// At most one in so many may be refused by the compiler alone where it is executed, or written as straight blocks.
 const MOST_REFUSED: usize = 10;
 
+/// Faults after which it is enough.
+const MOST_FAULTS: usize = 10;
+
+/// Targets that keep what is computed.
+const KEEPING: [&str; 4] = ["fanuc", "haas", "siemens", "linuxcnc"];
+
+/// What the second interpreter refuses for the manuals say nothing of it.
+const OPEN: [&str; 4] = [
+    "halves below zero go is open",
+    "MOD of a number below zero",
+    "ROUNDUP of a number below zero",
+    "MOD of numbers that are not whole",
+];
+
 #[test]
-fn programs_that_compute_by_chance() {
-    let many = std::env::var("NCC_GENERATED").ok().and_then(|n| n.parse().ok()).unwrap_or(USUAL);
-    let mut failures = Failures::default();
-    let (mut same, mut written, mut both, mut alone) = (0, 0, 0, Vec::new());
-    for seed in 0..many {
-        let text = Maker::program(seed as u64 * 7919 + 13);
-        let what = format!("program {seed}");
-        let fault = |why: String| format!("{why}\n{text}");
-        let world = plain::world(seed as u32 % 3);
-        let start = world.start.map(|n| n as f64 / 1e9);
-        let second = |dialect: &str, text: &[u8]| {
-            let machine = plain::second(dialect, text, plain::setup(&world, 0))?;
-            Ok::<_, String>(plain::of_machine(&machine, start))
+fn programs_of_a_fanuc_by_chance() {
+    by_chance("fanuc", fanuc::Maker::program);
+}
+
+#[test]
+fn programs_of_a_sinumerik_by_chance() {
+    by_chance("siemens", siemens::Maker::program);
+}
+
+#[test]
+fn programs_of_o_words_by_chance() {
+    by_chance("linuxcnc", linuxcnc::Maker::program);
+}
+
+fn by_chance(from: &'static str, program: fn(u64) -> String) {
+    let asked: Option<usize> = std::env::var("NCC_GENERATED").ok().and_then(|n| n.parse().ok());
+    let first: usize = std::env::var("NCC_GENERATED_FROM").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
+    let many = asked.unwrap_or(USUAL);
+    let mut judge = Judge::default();
+    for seed in first..first + many {
+        let source = Source {
+            from,
+            name: format!("{from} program {seed}"),
+            text: program(seed as u64 * 7919 + 13),
+            world: plain::world(seed as u32 % 3),
         };
-        let first = translate::read("fanuc", text.as_bytes())
-            .and_then(|read| translate::execute(&read, &world, 0))
-            .map(|events| plain::of_events(&events, start));
-        let moves = match (first, second("fanuc", text.as_bytes())) {
-            (Ok(first), Ok(second)) => {
-                if let Err(why) = plain::compare(&second, &first, Tolerance::SAME) {
-                    failures.add(&what, fault(why));
-                    continue;
+        let Some(moves) = judge.executed(&source) else { continue };
+        judge.written(&source, &moves, DIALECTS[seed % DIALECTS.len()], true);
+        for (turn, to) in KEEPING.into_iter().enumerate() {
+            if asked.is_some() || turn == seed % KEEPING.len() {
+                judge.written(&source, &moves, to, false);
+            }
+        }
+        if judge.failures.count() >= MOST_FAULTS {
+            break;
+        }
+    }
+    judge.finish(from, many);
+}
+
+/// A program that was made.
+struct Source {
+    from: &'static str,
+    name: String,
+    text: String,
+    world: World,
+}
+
+impl Source {
+    /// What the second interpreter does with a text.
+    fn second(&self, dialect: &str, text: &[u8]) -> Result<Vec<Plain>, String> {
+        let machine = plain::second(dialect, text, plain::setup(&self.world, 0))?;
+        Ok(plain::of_machine(&machine, self.start()))
+    }
+
+    fn start(&self) -> [f64; 6] {
+        self.world.start.map(|n| n as f64 / 1e9)
+    }
+
+    /// How far what was written may be from it.
+    fn within(&self, to: &str) -> Tolerance {
+        // A feed in inches has three digits somewhere.
+        let inches = self.text.contains("G20");
+        let feed = if inches { 0.0005 * 25.4 + 0.002 } else { Tolerance::ROUNDED.feed };
+        Tolerance { corners: Corners::between(self.from, to), feed, ..Tolerance::ROUNDED }
+    }
+}
+
+/// Compares what a source does with what was written of it. A straight move that is no longer than a rounding is none
+/// for the one whose digits end above it.
+fn same_way(source: &[Plain], written: &[Plain], within: Tolerance) -> Result<(), String> {
+    let told = plain::compare(source, written, within);
+    let Err(why) = told else { return Ok(()) };
+    let long = |moves: &[Plain], least: f64| {
+        let mut kept: Vec<Plain> = Vec::new();
+        for event in moves {
+            let straight = matches!(event.what, Happening::Traverse | Happening::Feed);
+            let short = |from: &Plain| from.at.iter().zip(event.at).all(|(a, b)| (a - b).abs() <= least);
+            if !(straight && kept.last().is_some_and(short)) {
+                kept.push(*event);
+            }
+        }
+        kept
+    };
+    let shorter = [0.001, 0.0015, 0.0025];
+    let same = |least: &f64| plain::compare(&long(source, *least), &long(written, *least), within).is_ok();
+    if shorter.iter().any(same) { Ok(()) } else { Err(why) }
+}
+
+/// What came of all programs.
+#[derive(Default)]
+struct Judge {
+    failures: Failures,
+    same: usize,
+    both: usize,
+    open: usize,
+    straight: usize,
+    /// Into each target.
+    kept: BTreeMap<&'static str, usize>,
+    /// By the compiler alone where they are executed or written as straight blocks, and by a target that would keep
+    /// them.
+    alone: BTreeMap<String, usize>,
+    not_kept: BTreeMap<String, usize>,
+}
+
+impl Judge {
+    /// Executes a program by both, and finds the same moves.
+    fn executed(&mut self, source: &Source) -> Option<Vec<Plain>> {
+        let first = translate::read(source.from, source.text.as_bytes())
+            .and_then(|read| translate::execute(&read, &source.world, 0))
+            .map(|events| plain::of_events(&events, source.start()));
+        match (first, source.second(source.from, source.text.as_bytes())) {
+            (Ok(first), Ok(second)) => match plain::compare(&second, &first, Tolerance::SAME) {
+                Ok(()) => {
+                    self.same += 1;
+                    return Some(second);
                 }
-                same += 1;
-                second
-            }
-            (Err(_), Err(_)) => {
-                both += 1;
-                continue;
-            }
-            (Err(why), Ok(_)) => {
-                alone.push(why);
-                continue;
-            }
+                Err(why) => self.fault(source, why),
+            },
+            (Err(_), Err(_)) => self.both += 1,
+            (Err(why), Ok(_)) => *self.alone.entry(why).or_default() += 1,
+            // What no manual says, the compiler takes for granted, and tells.
+            (Ok(_), Err(why)) if OPEN.iter().any(|open| why.contains(open)) => self.open += 1,
             (Ok(_), Err(why)) => {
-                failures.add(&what, fault(format!("only the second interpreter refuses it: {why}")));
-                continue;
+                self.fault(source, format!("only the second interpreter refuses it: {why}"));
             }
+        }
+        None
+    }
+
+    /// Writes it for a target, and has the second interpreter judge what was written.
+    fn written(&mut self, source: &Source, moves: &[Plain], to: &'static str, straight: bool) {
+        let passes = match straight {
+            true => vec![ncc::rewrite::pass("flatten").expect("a pass of that name")],
+            false => Vec::new(),
         };
-        let to = DIALECTS[seed % DIALECTS.len()];
-        let source =
-            Program { dialect: "fanuc", name: what.clone(), file: what.clone(), text: text.clone().into() };
-        let job = straight_job(&source, to);
-        let (outcome, output) = translate::translate(&job, &source.text);
+        let job = Job { passes, ..job(source.from, to, &source.name) };
+        let (outcome, output) = translate::translate(&job, source.text.as_bytes());
         match outcome.release {
             Ok(()) => {
-                let corners = Corners::between("fanuc", to);
-                // A feed in inches has three digits somewhere.
-                let feed = if text.contains("G20") { 0.0005 * 25.4 + 0.002 } else { Tolerance::ROUNDED.feed };
-                let within = Tolerance { corners, feed, ..Tolerance::ROUNDED };
-                let result = second(to, &output).and_then(|moved| plain::compare(&moves, &moved, within));
-                if let Err(why) = result {
-                    failures.add(&what, fault(format!("{to}: {why}\n{}", String::from_utf8_lossy(&output))));
+                let how = if straight { "straight" } else { "kept" };
+                let fault = match source.second(to, &output) {
+                    Ok(moved) => same_way(moves, &moved, source.within(to)).err(),
+                    Err(why) if OPEN.iter().any(|open| why.contains(open)) => return self.open += 1,
+                    Err(why) => Some(why),
+                };
+                if let Some(why) = fault {
+                    self.fault(source, format!("{to}, {how}: {why}\n{}", String::from_utf8_lossy(&output)));
                 }
-                written += 1;
+                match straight {
+                    true => self.straight += 1,
+                    false => *self.kept.entry(to).or_default() += 1,
+                }
             }
             Err(Failure::Refused) => {
                 let codes = translate::stopping(&job, &outcome);
-                alone.push(format!("{to} {codes:?}"));
+                let told = match straight {
+                    true => &mut self.alone,
+                    false => &mut self.not_kept,
+                };
+                let whats: BTreeSet<String> = outcome
+                    .diagnostics
+                    .iter()
+                    .filter(|d| job.refuses(d))
+                    .filter_map(|d| match &d.fault {
+                        ncc_ir::diag::Fault::Computes { what } => Some(what.to_string()),
+                        _ => None,
+                    })
+                    .collect();
+                *told.entry(format!("{to} {codes:?} {whats:?}")).or_default() += 1;
             }
             Err(Failure::VerificationFailed) => {
-                failures.add(&what, fault(rendered(&job, &what, &source.text, &outcome.diagnostics)));
+                let told = rendered(&job, &source.name, source.text.as_bytes(), &outcome.diagnostics);
+                self.fault(source, format!("{to}, held back: {told}"));
             }
         }
     }
-    println!(
-        "{same} executed alike, {written} written and judged, {both} refused by both, {} by one",
-        alone.len()
-    );
-    if std::env::var_os("NCC_GENERATED").is_some() {
-        let mut counted = std::collections::BTreeMap::new();
-        alone.iter().for_each(|why| *counted.entry(why).or_insert(0) += 1);
-        counted.iter().for_each(|(why, count)| println!("{count:6} {why}"));
+
+    fn fault(&mut self, source: &Source, why: impl std::fmt::Display) {
+        if let Some(folder) = std::env::var_os("NCC_GENERATED_FAULTS") {
+            let file = std::path::Path::new(&folder).join(source.name.replace(' ', "-"));
+            let _ = std::fs::write(file, &source.text);
+        }
+        self.failures.add(&source.name, format!("{why}\n{}", source.text));
     }
-    if alone.len() > many / MOST_REFUSED {
-        failures.add("refused by the compiler alone", alone.join("\n"));
-    }
-    assert!(written > many / 2, "hardly any was written: {written} of {many}");
-    failures.finish();
-}
 
-/// Makes a program.
-struct Maker {
-    dice: Rng,
-    text: String,
-    /// The next block number.
-    number: u32,
-    /// How deep in loops.
-    loops: u32,
-    blocks: u32,
-    /// Which program: each counts its turns in variables of its own, which a subprogram shares with its caller.
-    program: u32,
-}
-
-/// Variables that hold something, of every kind; `#20` and `#21` never get a value.
-const VARIABLES: [&str; 9] = ["#1", "#2", "#3", "#4", "#5", "#6", "#101", "#102", "#500"];
-
-impl Maker {
-    fn program(seed: u64) -> String {
-        let mut maker = Maker {
-            dice: Rng::with_seed(seed),
-            text: String::new(),
-            number: 100,
-            loops: 0,
-            blocks: 0,
-            program: 0,
-        };
-        let inches = maker.dice.u8(..5) == 0;
-        let unit = if inches { "G20" } else { "G21" };
-        let _ = write!(
-            maker.text,
-            "%\nO1\n{unit} G17 G40 G49 G80 G94\nT3 M6\nG90 G54 G0 X0 Y0 S1000 M3\nG43 H3 Z50.\nF200.\n"
+    fn finish(mut self, from: &str, many: usize) {
+        let (alone, kept): (usize, usize) = (self.alone.values().sum(), self.kept.values().sum());
+        let not_kept: usize = self.not_kept.values().sum();
+        println!(
+            "{from}: {} executed alike, {} written straight and judged, {kept} kept and judged {:?}, {} refused by both, {} \
+             open, {alone} by the compiler alone, {not_kept} not kept",
+            self.same, self.straight, self.kept, self.both, self.open
         );
-        for variable in VARIABLES {
-            let value = maker.literal();
-            let _ = writeln!(maker.text, "{variable} = {value}");
-        }
-        for _ in 0..maker.dice.u32(2..9) {
-            maker.statement(2);
-        }
-        maker.text.push_str("G90 G0 Z50.\nM30\n");
-        for macro_number in [8101, 8102] {
-            let _ = writeln!(maker.text, "O{macro_number}");
-            maker.number = 100;
-            maker.program += 1;
-            for _ in 0..maker.dice.u32(1..5) {
-                // No call within: they end.
-                maker.statement(0);
-            }
-            maker.text.push_str("M99\n");
-        }
-        maker.text.push_str("%\n");
-        maker.text
-    }
-
-    fn literal(&mut self) -> String {
-        match self.dice.u8(..5) {
-            0 => self.dice.u32(..12).to_string(),
-            1 => format!("{}.", self.dice.u32(..60)),
-            2 => format!("-{}.{}", self.dice.u32(..20), self.dice.u32(..10)),
-            3 => format!("{}.{:03}5", self.dice.u32(..9), self.dice.u32(..1000)),
-            _ => format!("{}.{:02}", self.dice.u32(..30), self.dice.u32(..100)),
-        }
-    }
-
-    fn variable(&mut self) -> &'static str {
-        match self.dice.u8(..12) {
-            0 => ["#20", "#21", "#0"][self.dice.usize(..3)],
-            _ => VARIABLES[self.dice.usize(..VARIABLES.len())],
-        }
-    }
-
-    fn bare(&mut self) -> String {
-        match self.dice.u8(..3) {
-            // A sign stands in front of a whole expression alone.
-            0 => self.literal().trim_start_matches('-').to_owned(),
-            _ => self.variable().to_owned(),
-        }
-    }
-
-    fn operand(&mut self, deep: u32) -> String {
-        if deep == 0 {
-            return self.bare();
-        }
-        match self.dice.u8(..9) {
-            0..4 => self.bare(),
-            4 => format!("[{} + {}]", self.expression(deep - 1), self.bare()),
-            5 => {
-                let name = ["SIN", "COS", "ABS", "FIX", "FUP", "ROUND"][self.dice.usize(..6)];
-                format!("{name}[{}]", self.expression(deep - 1))
-            }
-            6 => format!("SQRT[ABS[{}]]", self.expression(0)),
-            7 => format!("ATAN[{}]/[{}]", self.expression(deep - 1), 1 + self.dice.u32(..9)),
-            _ => format!("[{} MOD {}]", self.dice.u32(..40), 1 + self.dice.u32(..9)),
-        }
-    }
-
-    /// The same within brackets: whether what has no value has none there, nothing tells.
-    fn bracketed(&mut self, deep: u32) -> String {
-        let text = self.expression(deep);
-        if text.starts_with('#') && !text.contains(' ') { format!("{text} + 0") } else { text }
-    }
-
-    /// An expression with up to four operands, in every order of priorities.
-    fn expression(&mut self, deep: u32) -> String {
-        let mut text = if self.dice.u8(..6) == 0 { "-".to_owned() } else { String::new() };
-        text.push_str(&self.operand(deep));
-        for _ in 0..self.dice.u32(..3) {
-            let sign = ["+", "-", "*", "/", "+", "*"][self.dice.usize(..6)];
-            let operand = match sign {
-                // Seldom by what may be nothing.
-                "/" if self.dice.u8(..20) > 0 => format!("{}.", 1 + self.dice.u32(..9)),
-                _ => self.operand(deep),
+        if std::env::var_os("NCC_GENERATED").is_some() {
+            let told = |refused: &BTreeMap<String, usize>| {
+                let mut refused: Vec<_> = refused.iter().collect();
+                refused.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+                refused.iter().for_each(|(why, count)| println!("{count:6} {why}"));
             };
-            let _ = write!(text, " {sign} {operand}");
+            told(&self.alone);
+            println!("not kept:");
+            told(&self.not_kept);
         }
-        text
-    }
-
-    fn condition(&mut self) -> String {
-        let how = ["EQ", "NE", "GT", "GE", "LT", "LE"][self.dice.usize(..6)];
-        let one = match self.dice.u8(..4) {
-            0 => format!("{} {how} #0", self.variable()),
-            1 => format!("{} {how} {}", self.variable(), self.literal().trim_start_matches('-')),
-            _ => format!("{} {how} {}", self.expression(1), self.expression(1)),
-        };
-        if self.dice.u8(..5) > 0 {
-            return one;
+        if alone > many / MOST_REFUSED {
+            self.failures.add("refused by the compiler alone", format!("{:?}", self.alone));
         }
-        let and = ["AND", "OR", "XOR"][self.dice.usize(..3)];
-        format!("[{one}] {and} [{} LT {}]", self.variable(), self.bare())
-    }
-
-    /// A word of an axis, of which the value is not too large.
-    fn word(&mut self, letter: char) -> String {
-        match self.dice.u8(..5) {
-            0 => format!("{letter}{}", self.variable()),
-            1 => format!("{letter}-{}", self.variable()),
-            2 => format!("{letter}[10 * SIN[{}]]", self.expression(2)),
-            3 => format!("{letter}-[{}]", self.bracketed(1)),
-            _ => format!("{letter}[{}]", self.bracketed(2)),
+        if self.failures.count() == 0 {
+            assert!(self.straight > many / 2, "hardly any was written: {} of {many}", self.straight);
         }
-    }
-
-    fn assignment(&mut self) -> String {
-        let to = VARIABLES[self.dice.usize(..VARIABLES.len())];
-        format!("{to} = {}", self.expression(2))
-    }
-
-    fn line(&mut self, text: &str) {
-        self.text.push_str(text);
-        self.text.push('\n');
-    }
-
-    fn next_number(&mut self) -> u32 {
-        self.number += 10;
-        self.number
-    }
-
-    /// A statement; `calls` says how deep it may call.
-    fn statement(&mut self, calls: u32) {
-        self.blocks += 1;
-        if self.blocks > 60 {
-            return self.movement();
-        }
-        match self.dice.u8(..12) {
-            0 | 1 => {
-                let text = self.assignment();
-                self.line(&text);
-            }
-            2 => {
-                let text = format!("IF [{}] THEN {}", self.condition(), self.assignment());
-                self.line(&text);
-            }
-            3 => {
-                // Over some blocks.
-                let number = self.next_number();
-                let text = format!("IF [{}] GOTO {number}", self.condition());
-                self.line(&text);
-                for _ in 0..self.dice.u32(1..3) {
-                    self.statement(calls);
-                }
-                let behind = if self.dice.bool() { self.assignment() } else { String::new() };
-                self.line(&format!("N{number} {behind}"));
-            }
-            4 => {
-                // One or the other.
-                let (other, end) = (self.next_number(), self.next_number());
-                let text = format!("IF [{}] GOTO {other}", self.condition());
-                self.line(&text);
-                self.statement(calls);
-                self.line(&format!("GOTO {end}"));
-                self.line(&format!("N{other}"));
-                self.statement(calls);
-                self.line(&format!("N{end}"));
-            }
-            5 | 6 if self.loops < 3 => self.turns(calls),
-            7 if self.loops < 2 => {
-                // A loop by a jump back; its turns are counted in a variable of this level alone.
-                let (number, counter) = (self.next_number(), 27 + 2 * self.program + self.loops);
-                self.line(&format!("#{counter} = 0"));
-                self.line(&format!("N{number} #{counter} = #{counter} + 1"));
-                self.loops += 1;
-                self.statement(calls);
-                self.loops -= 1;
-                let turns = self.dice.u32(1..4);
-                self.line(&format!("IF [#{counter} LT {turns}] GOTO {number}"));
-            }
-            8 if calls > 0 => self.call(),
-            _ => self.movement(),
-        }
-    }
-
-    /// WHILE, or DO that is left by a jump.
-    fn turns(&mut self, calls: u32) {
-        self.loops += 1;
-        let (level, counter) = (self.loops, 10 + 3 * self.program + self.loops);
-        let turns = self.dice.u32(..4);
-        self.line(&format!("#{counter} = 0"));
-        let end = self.next_number();
-        let left = self.dice.u8(..3) == 0;
-        match left {
-            true => {
-                self.line(&format!("DO{level}"));
-                self.line(&format!("IF [#{counter} GE {turns}] GOTO {end}"));
-            }
-            false => self.line(&format!("WHILE [#{counter} LT {turns}] DO{level}")),
-        }
-        for _ in 0..self.dice.u32(1..3) {
-            self.statement(calls);
-        }
-        self.line(&format!("#{counter} = #{counter} + 1"));
-        self.line(&format!("END{level}"));
-        if left {
-            self.line(&format!("N{end}"));
-        }
-        self.loops -= 1;
-    }
-
-    fn call(&mut self) {
-        let number = 8101 + self.dice.u32(..2);
-        if self.dice.u8(..3) == 0 {
-            let text = if self.dice.bool() { format!("M98 P{number}") } else { format!("M98 P2{number}") };
-            return self.line(&text);
-        }
-        let mut text = format!("G65 P{number}");
-        if self.dice.u8(..4) == 0 {
-            text.push_str(" L2");
-        }
-        // What is read must be set before: `A` to `C`, and two sets of `I`, `J` and `K`.
-        for letter in ['A', 'B', 'C', 'I', 'J', 'K', 'I', 'J', 'D', 'Z', 'X'] {
-            if self.dice.u8(..3) == 0 {
-                continue;
-            }
-            let value = match self.dice.u8(..4) {
-                0 => self.variable().to_owned(),
-                // `ROUND` as an argument is open.
-                1 => format!("[{} * {}]", self.bare(), self.bare()),
-                2 => format!("-{}", self.variable()),
-                _ => format!("{}.{}", self.dice.u32(..20), self.dice.u32(..100)),
-            };
-            let _ = write!(text, " {letter}{value}");
-        }
-        self.line(&text);
-    }
-
-    fn movement(&mut self) {
-        let code = ["", "G0 ", "G1 ", "G91 G1 ", "G90 ", "G90 G0 "][self.dice.usize(..6)];
-        let mut text = code.to_owned();
-        for letter in ['X', 'Y', 'Z'] {
-            if self.dice.u8(..3) > 0 {
-                let word = self.word(letter);
-                let _ = write!(text, "{word} ");
-            }
-        }
-        // A code without a move is seldom: behind it, axis words alone are refused at a jump.
-        if text == code && self.dice.u8(..40) > 0 {
-            let _ = write!(text, "X{} ", self.literal());
-        }
-        if self.dice.u8(..8) == 0 {
-            let _ = write!(text, "F[{} + 5 * ABS[SIN[{}]]]", 20 + self.dice.u32(..200), self.variable());
-        }
-        if self.dice.u8(..12) == 0 {
-            text = format!("G4 P[{} + 100 * ABS[COS[{}]]]", 1 + self.dice.u32(..500), self.expression(1));
-        }
-        if !text.trim().is_empty() {
-            self.line(text.trim_end());
-        }
+        self.failures.finish();
     }
 }

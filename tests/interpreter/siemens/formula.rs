@@ -272,8 +272,11 @@ fn function(name: &str, given: &[Worth]) -> Result<Worth, String> {
         ("EXP", [a]) => a.exp(),
         ("TRUNC", [a]) => a.trunc(),
         ("ROUND", [a]) => whole(*a)?,
-        // Below zero too, away from it.
-        ("ROUNDUP", [a]) => a.abs().ceil().copysign(*a),
+        // Below zero, the manual's words go one way (the next smaller) and its examples the other.
+        ("ROUNDUP", [a]) if *a < 0.0 && *a != a.trunc() => {
+            return Err("ROUNDUP of a number below zero is open".into());
+        }
+        ("ROUNDUP", [a]) => a.ceil(),
         ("MINVAL", [a, b]) => a.min(*b),
         ("MAXVAL", [a, b]) => a.max(*b),
         ("BOUND", [low, high, a]) if low <= high => a.max(*low).min(*high),
