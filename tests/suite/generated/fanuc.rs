@@ -32,7 +32,7 @@ impl Maker {
             loops: 0,
             blocks: 0,
             program: 0,
-            common: seed % 2 == 0,
+            common: seed.is_multiple_of(2),
         };
         let inches = maker.dice.u8(..5) == 0;
         let unit = if inches { "G20" } else { "G21" };

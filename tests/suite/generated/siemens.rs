@@ -50,7 +50,7 @@ impl Maker {
             truths: names(&["ON", "OFF"]),
             counter: "COUNT",
             calls: 0,
-            common: seed % 2 == 0,
+            common: seed.is_multiple_of(2),
             heads: Vec::new(),
         };
         for _ in 0..maker.dice.usize(..3) {
