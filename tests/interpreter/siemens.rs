@@ -42,6 +42,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         feed_inch: false,
         modal: None,
         modal_call: None,
+        uncalled: None,
         tangent: None,
         pole: (0.0, 0.0),
         radius: None,
@@ -103,6 +104,8 @@ struct Control<'a> {
     /// G63 stands in the block.
     floating: bool,
     depth: u32,
+    /// The work offset in force has other values than it counts with.
+    uncalled: Option<u32>,
     variables: Variables,
     /// Ends of the FOR loops that were begun, by how deep their program was called and their place in it.
     bounds: BTreeMap<(u32, usize), f64>,
@@ -121,7 +124,28 @@ struct Words<'b> {
     tool: Option<&'b str>,
 }
 
+/// Whether a G code calls up a work offset.
+fn is_offset(code: f64) -> bool {
+    (54.0..=57.0).contains(&code) || code == 500.0 || (505.0..=599.0).contains(&code)
+}
+
 impl Words<'_> {
+    /// Whether anything in the block may move an axis.
+    fn may_move(&self) -> bool {
+        let moves = |letter: char| AXES.contains(&letter) || "IJK".contains(letter);
+        self.call.is_some()
+            || !self.named.is_empty()
+            || self.letters.iter().any(|(letter, ..)| moves(*letter))
+    }
+
+    fn is_empty(&self) -> bool {
+        self.letters.is_empty()
+            && self.named.is_empty()
+            && self.names.is_empty()
+            && self.call.is_none()
+            && self.tool.is_none()
+    }
+
     fn letter(&self, letter: char) -> Option<Value> {
         self.letters.iter().find(|w| w.0 == letter).map(|w| w.1)
     }
@@ -157,6 +181,7 @@ impl Control<'_> {
     /// A block of words.
     fn block(&mut self, items: &[Item]) -> Result<Next, Halt> {
         let mut w = Words::default();
+        let mut tables = Vec::new();
         for item in items {
             match item {
                 Item::Word(letter, value, written) => {
@@ -182,9 +207,22 @@ impl Control<'_> {
                 Item::Call(name, arguments) if w.call.is_none() => w.call = Some((name, arguments)),
                 Item::Call(..) => return self.m.halt("two calls in a block"),
                 Item::Set(..) => {}
+                Item::Table(name, which, value) => tables.push((name.as_str(), which, *value)),
             }
         }
         let events = self.m.events.len();
+        if !tables.is_empty() {
+            if !w.is_empty() {
+                return self.m.halt("tables beside other words");
+            }
+            return self.tables(&tables);
+        }
+        if let Some(uncalled) = self.uncalled
+            && w.may_move()
+            && !w.letters.iter().any(|(letter, value, _)| *letter == 'G' && is_offset(value.number))
+        {
+            return self.m.halt(format!("work offset {uncalled} has new values, and is not called up"));
+        }
         if let Some(next) = self.alone(&w)? {
             if w.call.is_some() {
                 self.tell_places(events);
@@ -192,6 +230,46 @@ impl Control<'_> {
             return Ok(next);
         }
         self.words(&w)
+    }
+
+    /// Settable frames and tools. A frame that is in force counts with its values when it is called up the next time
+    /// (Job planning, frames), a tool's when its edge is: none is to be in use.
+    fn tables(&mut self, tables: &[(&str, &Vec<String>, f64)]) -> Result<Next, Halt> {
+        let mut at = 0;
+        while let Some((name, which, value)) = tables.get(at).copied() {
+            at += 1;
+            let which: Vec<&str> = which.iter().map(String::as_str).collect();
+            let number = which.first().and_then(|number| number.parse::<u32>().ok());
+            match (name, number, &which[..]) {
+                ("P_UIFR", Some(offset), [_, _, "TR"]) if !self.m.inch => {
+                    let mut values = [None; 6];
+                    at -= 1;
+                    while let Some((_, which, value)) = tables.get(at).filter(|(next, which, _)| {
+                        *next == name && which.first().and_then(|n| n.parse().ok()) == Some(offset)
+                    }) {
+                        let letter = which.get(1).and_then(|axis| axis.chars().next()).unwrap_or(' ');
+                        let place = AXES.iter().position(|axis| *axis == letter);
+                        match place.filter(|place| values[*place].is_none()) {
+                            Some(place) => values[place] = Some(*value),
+                            None => return self.m.halt("an axis twice, or none"),
+                        }
+                        at += 1;
+                    }
+                    self.m.store_zero(offset, values, false);
+                    if offset == self.m.offset {
+                        self.uncalled = Some(offset);
+                    }
+                }
+                ("TC_DP3" | "TC_DP12", Some(tool), [_, "1"]) if !self.m.inch => {
+                    self.m.store_length(tool, value, name == "TC_DP12", false)?;
+                }
+                ("TC_DP6" | "TC_DP15", Some(tool), [_, "1"]) if !self.m.inch => {
+                    self.m.store_radius(tool, value, name == "TC_DP15", false);
+                }
+                _ => return self.m.halt(format!("${name} is set")),
+            }
+        }
+        Ok(Next::Block)
     }
 
     /// The machine does not know the frame, in whose coordinates the program's places are.
@@ -317,8 +395,8 @@ impl Control<'_> {
 
     /// What lies between program and machine beside the frame.
     fn shift(&self) -> Place {
-        let mut shift = if self.suppressed { [0.0; 6] } else { (self.m.setup.work_offset)(self.m.offset) };
-        shift[2] += (self.m.setup.edge_length)(self.m.tool, self.edge);
+        let mut shift = if self.suppressed { [0.0; 6] } else { self.m.zero_of(self.m.offset) };
+        shift[2] += self.m.length_of_edge(self.m.tool, self.edge);
         if !self.suppressed {
             (0..3).for_each(|axis| shift[axis] += self.m.apart(axis));
         }
@@ -567,6 +645,7 @@ impl Control<'_> {
                     group(9)
                 }
                 54..=57 | 500 | 505..=599 => {
+                    self.uncalled = None;
                     self.m.use_offset(if code < 58 { code - 53 } else { code - 500 });
                     group(8)
                 }

@@ -163,6 +163,13 @@ impl Machine {
         self.stored.lengths.get(&entry).map_or_else(|| (self.setup.length)(entry), |(bare, wear)| bare + wear)
     }
 
+    /// Length of an edge of a tool; the first one is the entry with the tool's number, where a program has put
+    /// something into it.
+    pub(super) fn length_of_edge(&self, tool: Option<u32>, edge: u32) -> f64 {
+        let stored = tool.filter(|_| edge == 1).and_then(|tool| self.stored.lengths.get(&tool));
+        stored.map_or_else(|| (self.setup.edge_length)(tool, edge), |(bare, wear)| bare + wear)
+    }
+
     /// Puts the zero of a work offset into its table, for the axes with a value.
     pub(super) fn store_zero(&mut self, offset: u32, values: [Option<f64>; 6], added: bool) {
         let mut zero = self.zero_of(offset);

@@ -9,6 +9,7 @@
 
 mod computing;
 mod cycle;
+mod data;
 mod frame;
 mod motion;
 mod names;
@@ -101,6 +102,10 @@ pub struct Writer {
     cycled: bool,
     /// Whether the next straight move is in machine coordinates.
     raw: bool,
+    /// Whether a work offset has new values that may be in force, and has not been called up since.
+    stale: bool,
+    /// Whether inches have been said.
+    inches: bool,
     /// Whether the feed counts in the machine's basic system, and which that is.
     basic_feed: bool,
     basic_units: Units,
@@ -128,6 +133,8 @@ impl Writer {
             edge_with_tool: settings.get("edge_after_change") == "1",
             words: word::Writer::new(settings, layout),
             standing: Standing::START,
+            stale: false,
+            inches: false,
             owed: None,
             cycled: false,
             raw: false,
@@ -213,7 +220,7 @@ impl Writer {
         if standing.modal != Modal::Off || !standing.feed_said || standing.edge_waits {
             return false;
         }
-        if self.owed.is_some() || self.raw || self.basic_feed {
+        if self.owed.is_some() || self.raw || self.basic_feed || self.stale {
             return false;
         }
         let plain = self.words.plain_block(block, sink.out);

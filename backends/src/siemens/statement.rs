@@ -1,7 +1,7 @@
 //! One statement: which words say it.
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity};
-use ncc_ir::canon::{AdviceKind, CornerShape};
+use ncc_ir::canon::{AdviceKind, CornerShape, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Advice, FrameSlot, Op, PathControl, Stmt};
 use ncc_ir::source::Span;
@@ -35,6 +35,10 @@ impl Writer {
             }
         }
         let span = stmt.span;
+        self.inches |= matches!(stmt.op, Op::UseLengthUnits(Units::Inch));
+        if self.stale {
+            self.called_up(&stmt.op)?;
+        }
         match &stmt.op {
             Op::Comment(_)
             | Op::Blank
@@ -164,7 +168,7 @@ impl Writer {
             Op::Probe(_) => Err(cannot("a probing move")),
             Op::Detour(_) => Err(cannot("a rapid move by a detour")),
             Op::GoToReference(_) => Err(cannot("a move to the reference point")),
-            Op::SetData(_) => Err(cannot("values of tables")),
+            Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolLength(_) => Err(cannot("a tool's length by its value")),
             Op::SetFeedRate(feed) => {
                 self.feed(feed, span, sink)?;

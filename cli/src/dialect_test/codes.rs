@@ -116,10 +116,14 @@ fn stored_by(row: &DataRow) -> Vec<String> {
 
 /// A table that values are put into.
 fn stored(bench: &Bench, row: &DataRow, rows: &mut Vec<Row>) {
-    let select = row.name.split(' ').nth(1).unwrap_or_default();
+    let select = match row.is_variable() {
+        true => row.name.split('[').next().unwrap_or_default(),
+        false => row.name.split(' ').nth(1).unwrap_or_default(),
+    };
     for say in stored_by(row) {
         let tried = must_show(bench.both_ways(&Said::new(say)), select);
-        let sure = bench.dialect.code.iter().any(|code| row.name.starts_with(&code.code) && code.sure);
+        let code = bench.dialect.code.iter().any(|code| row.name.starts_with(&code.code) && code.sure);
+        let sure = code || row.is_variable();
         rows.push(tried.row("data", row.name.clone(), sure));
     }
 }

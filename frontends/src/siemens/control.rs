@@ -8,7 +8,7 @@
 use ncc_dialects::Quantity;
 use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::expr::{Node, Var};
-use ncc_ir::program::{Data, DataMode, Op};
+use ncc_ir::program::{Data, DataMode, Op, Stmt, ToolValue};
 use ncc_ir::source::Span;
 use ncc_ir::system::System;
 
@@ -18,9 +18,6 @@ use super::lower::Lower;
 use super::tree::{Address, Expr as Tree, Place, Value};
 use crate::Batch;
 use crate::word::Source;
-
-/// The highest number of a work offset that stands in a variable: G599.
-const LAST_OFFSET: i64 = 99;
 
 impl Lower {
     /// The value of a variable of the control.
@@ -33,23 +30,17 @@ impl Lower {
     ) -> Option<Typed> {
         let span = place.span;
         let name = src.text(name).to_ascii_uppercase();
-        let axis = match &place.index[..] {
-            [index] => axis_of(index.as_ref()),
-            _ => None,
-        };
-        // Siemens, list of system variables: programmed end point, actual value in workpiece and machine coordinates.
-        let (system, kind) = match (name.as_str(), axis) {
-            ("$P_EP" | "$AA_IW", Some(axis)) => (System::EndPoint(axis), Kind::Real),
-            ("$AA_IM", Some(axis)) => (System::MachinePoint(axis), Kind::Real),
-            ("$P_TOOLNO", None) if place.index.is_empty() => (System::Tool, Kind::Int),
-            ("$P_UIFR", None) => match work_offset_of(place, src) {
-                Some((number, axis)) => (System::WorkOffset { number, axis, unit: None }, Kind::Real),
-                None => return self.no_meaning(&name, span, out),
-            },
-            _ => return self.no_meaning(&name, span, out),
-        };
-        let length = !matches!(system, System::Tool);
-        if length && self.units(span, out).known() == Some(Units::Inch) {
+        let rows = &self.settings.dialect.system;
+        let found =
+            rows.iter().find_map(|row| Some((row, entry_of(&row.name, row.count, &name, place, src)?)));
+        let Some((row, (entry, axis))) = found else { return self.no_meaning(&name, span, out) };
+        let entry = entry.map_or(String::new(), |entry| format!(".{entry}"));
+        let along =
+            axis.map_or(String::new(), |axis| format!(".{}", axis.letter().to_ascii_lowercase() as char));
+        let system = System::named(&format!("{}{entry}{along}", row.means));
+        let counted = matches!(system, System::Tool | System::WorkOffsetNumber);
+        let kind = if counted { Kind::Int } else { Kind::Real };
+        if !counted && self.units(span, out).known() == Some(Units::Inch) {
             self.not_supported(&name, "position of the control where lengths count in inches", span, out);
             return None;
         }
@@ -70,6 +61,23 @@ impl Lower {
         }
     }
 
+    /// `$TC_DP3[5,1]=120.5`: a value of a tool, by its first edge. It counts from where the edge is called up the next
+    /// time; what is in use is refused where it is executed.
+    fn set_tool(
+        &mut self,
+        entry: u32,
+        which: ToolValue,
+        value: &Value,
+        span: Span,
+        src: Source,
+        out: &mut Batch,
+    ) {
+        let Some(given) = self.constant(value, span, src, out) else { return };
+        let Some(value) = self.amount(given, Quantity::Length, src, out) else { return };
+        let data = Data::Tool { entry, which, added: false, kept: false, value };
+        self.push(span, Op::SetData(Box::new(data)), out);
+    }
+
     /// A variable of the control is set: `$P_UIFR[1,X,TR]=100`.
     pub(super) fn set_control(
         &mut self,
@@ -81,17 +89,39 @@ impl Lower {
     ) {
         let Address::System(name) = place.address else { return };
         let name = src.text(name).to_ascii_uppercase();
-        let found = if name == "$P_UIFR" { work_offset_of(place, src) } else { None };
-        let (Some((offset, axis)), Value::Expr(_)) = (found, value) else {
+        let rows = self.settings.dialect.data.iter().filter(|row| row.is_variable());
+        let mut found =
+            rows.filter_map(|row| Some((row, entry_of(&row.name, u32::from(row.count), &name, place, src)?)));
+        let (Some((row, (Some(entry), axis))), Value::Expr(_)) = (found.next(), value) else {
             return self.not_supported(&name, "variable of the control that is set", span, out);
         };
         if self.state.cycle != InForce::None {
-            let name = "value of a work offset while a cycle is in force";
+            let name = "value of the control's tables while a cycle is in force";
             return self.not_supported(&src.text(span), name, span, out);
         }
+        if self.state.units.value() == Some(Units::Inch) {
+            let name = "value of the control's tables where lengths count in inches";
+            return self.not_supported(&src.text(span), name, span, out);
+        }
+        let (axis, offset) = match (axis, u16::try_from(entry), row.values.first()) {
+            (Some(axis), Ok(offset), None) => (axis, offset),
+            (None, _, Some(word)) => return self.set_tool(entry, word.of.into(), value, span, src, out),
+            _ => return self.not_supported(&name, "variable of the control that is set", span, out),
+        };
         let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
         let Some(given) = self.constant(value, span, src, out) else { return };
         let Some(value) = self.amount(given, quantity, src, out) else { return };
+        // Values of one work offset that stand in one block are put in at once.
+        let mark = self.now.mark;
+        let last = self.target(out).get_mut(mark..).and_then(|block| block.last_mut());
+        if let Some(Stmt { op: Op::SetData(data), .. }) = last
+            && let Data::Offset { offset: same, mode: DataMode::Set, words, turn: None } = &mut **data
+            && *same == offset
+            && words[axis as usize].is_none()
+        {
+            words[axis as usize] = Some(value);
+            return;
+        }
         let mut words = [const { None }; AXES];
         words[axis as usize] = Some(value);
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
@@ -102,17 +132,48 @@ impl Lower {
     }
 }
 
-/// `[1,X,TR]`: a work offset and its axis.
-fn work_offset_of(place: &Place, src: Source) -> Option<(u16, Axis)> {
-    let [Some(Tree::Number(number, _)), axis, Some(Tree::Place(Place { address: Address::Name(what), .. }))] =
-        &place.index[..]
-    else {
-        return None;
+/// The entry and the axis of a variable, where it is the one that a row of the dictionary names: `$P_UIFR[#,@,TR]`.
+fn entry_of(
+    row: &str,
+    count: u32,
+    name: &str,
+    place: &Place,
+    src: Source,
+) -> Option<(Option<u32>, Option<Axis>)> {
+    let (own, indices) = match row.split_once('[') {
+        Some((own, rest)) => (own, rest.strip_suffix(']')?.split(',').collect()),
+        None => (row, Vec::new()),
     };
-    let whole = (1..=LAST_OFFSET).contains(&number.mantissa) && number.scale == 0;
-    let shift = src.text(*what).eq_ignore_ascii_case("TR");
-    let number = u16::try_from(number.mantissa).ok().filter(|_| whole && shift)?;
-    Some((number, axis_of(axis.as_ref())?))
+    if own != name || indices.len() != place.index.len() {
+        return None;
+    }
+    let (mut entry, mut axis) = (None, None);
+    for (index, given) in indices.iter().zip(&place.index) {
+        let given = given.as_ref()?;
+        match *index {
+            "#" => {
+                let number = whole(given).filter(|number| (1..=i64::from(count)).contains(number))?;
+                entry = Some(u32::try_from(number).ok()?);
+            }
+            "@" => axis = Some(axis_of(Some(given))?),
+            index => match index.parse::<i64>() {
+                Ok(index) => drop(whole(given).filter(|number| *number == index)?),
+                Err(_) => match given {
+                    Tree::Place(Place { address: Address::Name(what), .. })
+                        if src.text(*what).eq_ignore_ascii_case(index) => {}
+                    _ => return None,
+                },
+            },
+        }
+    }
+    Some((entry, axis))
+}
+
+fn whole(index: &Tree) -> Option<i64> {
+    match index {
+        Tree::Number(number, _) => (number.scale == 0).then_some(number.mantissa),
+        _ => None,
+    }
 }
 
 /// An axis as an index.

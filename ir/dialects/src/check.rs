@@ -207,10 +207,12 @@ fn fault(row: &str, wrong: &'static str, places: &[Range<usize>], at: usize) -> 
 fn tables(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
     for (at, row) in dialect.data.iter().enumerate() {
         let wrong = |wrong| fault(&row.name, wrong, &places.data, at);
-        let (code, ..) = row.selected().ok_or_else(|| wrong("is no code with a word behind it"))?;
-        let sets = |c: &CodeRow| c.code == code && c.means == Some(Meaning::SetData);
-        if !dialect.code.iter().any(sets) {
-            return Err(wrong("is a table, and no row of [[code]] puts values into one"));
+        if !row.is_variable() {
+            let (code, ..) = row.selected().ok_or_else(|| wrong("is no code with a word behind it"))?;
+            let sets = |c: &CodeRow| c.code == code && c.means == Some(Meaning::SetData);
+            if !dialect.code.iter().any(sets) {
+                return Err(wrong("is a table, and no row of [[code]] puts values into one"));
+            }
         }
         if (row.kind == DataKind::Tool) == row.values.is_empty() {
             return Err(wrong("needs `values` if it is of tools, and has none else"));

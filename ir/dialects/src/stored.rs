@@ -14,11 +14,13 @@ use crate::schema::Dialect;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DataRow {
-    /// The code, and behind a blank the word that says which table.
+    /// The code, and behind a blank the word that says which table; or a variable of the control with a `$`: in it,
+    /// `#` is the number of the entry, `@` the letter of the axis.
     pub name: String,
     /// What the values are of.
     pub kind: DataKind,
-    /// Letter of the word that says which entry.
+    /// Letter of the word that says which entry; none of a table that is a variable.
+    #[serde(default)]
     pub entry: char,
     /// The work offset that entry 1 is.
     #[serde(default = "one")]
@@ -68,7 +70,8 @@ pub enum DataKind {
 pub struct ValueWord {
     /// Which value.
     pub of: ValueName,
-    /// Its letter.
+    /// Its letter; none in a table that is a variable.
+    #[serde(default)]
     pub letter: char,
 }
 
@@ -116,6 +119,11 @@ impl DataRow {
         let (code, word) = self.name.split_once(' ')?;
         let letter = *word.as_bytes().first().filter(|letter| letter.is_ascii_uppercase())?;
         Some((code, letter, word[1..].parse().ok()?))
+    }
+
+    /// Whether it is a variable of the control's own.
+    pub fn is_variable(&self) -> bool {
+        self.name.starts_with('$')
     }
 
     /// Whether a word of it is of a radius, which may be meant as a diameter.
@@ -166,7 +174,8 @@ pub struct SystemRow {
     pub number: u32,
     /// How many there are; 0 is one, or as many as there are axes of X, Y, Z, A, B and C.
     pub count: u32,
-    /// Name of the parameter, as programs write it within `<` and `>`; empty for none.
+    /// Name of the parameter, as programs write it within `<` and `>`; empty for none. One with a `$` is written as it
+    /// is: `@` in it is the letter of the axis, `#` the number of one of `count` entries, from 1 on.
     pub name: String,
     /// Whether there is one for each of X, Y, Z, A, B and C, by the numbers that follow.
     pub axes: bool,
@@ -230,13 +239,46 @@ impl SystemRow {
     /// Values that it is by itself on one machine or another.
     pub fn says(&self) -> impl Iterator<Item = (System, String)> + '_ {
         let units: &[&str] = if self.machine_units { &["mm", "inch"] } else { &[""] };
-        units.iter().flat_map(|machine| self.says_in(machine))
+        let own = self.by_name();
+        own.into_iter().chain(units.iter().flat_map(|machine| self.says_by_number(machine)))
     }
 
     /// Values that it is by itself on a machine of this unit, each with how a program names it behind the sign of
     /// variables: by the row's name, else by its number. Those that are several together are none.
     pub fn says_in<'r>(&'r self, machine: &'r str) -> impl Iterator<Item = (System, String)> + 'r {
-        let plain = self.refuse.is_none() && !self.means.is_empty();
+        self.by_name().into_iter().chain(self.says_by_number(machine))
+    }
+
+    /// Those whose name stands in programs as it is.
+    fn by_name(&self) -> Vec<(System, String)> {
+        if !self.name.starts_with('$') || self.refuse.is_some() {
+            return Vec::new();
+        }
+        let entries = if self.name.contains('#') { 1..=self.count.max(1) } else { 0..=0 };
+        let mut all = Vec::new();
+        for entry in entries {
+            let axes: &[Axis] = if self.axes { &Axis::ALL } else { &[Axis::X] };
+            for axis in axes {
+                let letter = char::from(axis.letter());
+                let mut means = self.means.clone();
+                if entry > 0 {
+                    means = format!("{means}.{entry}");
+                }
+                if self.axes {
+                    means = format!("{means}.{}", letter.to_ascii_lowercase());
+                }
+                let spelt = self.name.replace('#', &entry.to_string()).replace('@', &letter.to_string());
+                match System::named(&means) {
+                    System::Other(_) => {}
+                    system => all.push((system, spelt)),
+                }
+            }
+        }
+        all
+    }
+
+    fn says_by_number<'r>(&'r self, machine: &'r str) -> impl Iterator<Item = (System, String)> + 'r {
+        let plain = self.refuse.is_none() && !self.means.is_empty() && !self.name.starts_with('$');
         let unit = if self.machine_units { format!(".{machine}") } else { String::new() };
         let places = match (self.axes, self.count as usize) {
             (true, 0) => AXES,

@@ -108,6 +108,11 @@ impl Exec {
         if entry == 0 {
             return self.fault(Fault::OutOfRange { word: "entry".into() }, span);
         }
+        // A radius is taken up with its edge.
+        let edge = is_edge_of(entry, self.waiting.unwrap_or(self.modes.length));
+        if edge && matches!(which, ToolValue::Radius | ToolValue::RadiusWear) {
+            self.not_executed("another radius for the tool that is in use", span)?;
+        }
         if which.is_offset() {
             self.hold_entry(entry, kept, span)?;
         }
@@ -131,7 +136,7 @@ impl Exec {
 
     /// What is in force of an entry stays as it is.
     fn hold_entry(&mut self, entry: u32, kept: bool, span: Span) -> Result<(), Diagnostic> {
-        let counts = |length: Length| length == Length::Entry(entry);
+        let counts = |length: Length| length == Length::Entry(entry) || is_edge_of(entry, length);
         let length = Length::Value(self.world.tool_length(entry));
         if !kept && (counts(self.modes.length) || self.waiting.is_some_and(counts)) {
             return self.not_executed("another length for the tool that is in use", span);
@@ -221,5 +226,13 @@ impl Exec {
         self.world.tables.lengths.insert(entry, length);
         self.world.tables.wears.insert(entry, new_wear);
         length
+    }
+}
+
+/// Whether a length is of the first edge of the tool with an entry's number, or of one that is not known.
+fn is_edge_of(entry: u32, length: Length) -> bool {
+    match length {
+        Length::Edge(tool, edge) => tool < 0 || edge == 1 && tool == i64::from(entry),
+        _ => false,
     }
 }

@@ -240,6 +240,7 @@ impl Control {
     fn known(&self, name: &str) -> Option<f64> {
         let holds = |holds: bool| Some(if holds { 1.0 } else { 0.0 });
         match name {
+            "_CURRENT_TOOL" => self.m.tool.map(f64::from),
             "_METRIC" => holds(!self.m.inch),
             "_IMPERIAL" => holds(self.m.inch),
             "_ABSOLUTE" => holds(self.m.absolute),

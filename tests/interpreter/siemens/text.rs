@@ -63,6 +63,8 @@ pub(super) enum Item {
     Call(String, Vec<Argument>),
     /// A variable gets a value, or several places from it on get theirs.
     Set(Place, Vec<Option<Worth>>),
+    /// A variable of the control gets a value: its name, what stands in brackets, the value.
+    Table(String, Vec<String>, f64),
 }
 
 /// An argument of a call.
@@ -290,6 +292,35 @@ impl<'t> Reader<'t> {
         Some(name)
     }
 
+    /// `$P_UIFR[1,X,TR]=100`
+    fn table(&mut self) -> Result<Item, String> {
+        self.at += 1;
+        let name = self.name().ok_or("a $ alone")?;
+        let mut which = Vec::new();
+        if self.take('[') {
+            loop {
+                let mut one = String::new();
+                self.blanks();
+                while self.peek(0).is_ascii_alphanumeric() {
+                    one.push(self.peek(0).to_ascii_uppercase());
+                    self.at += 1;
+                }
+                which.push(one);
+                if self.take(']') {
+                    break;
+                }
+                if !self.take(',') {
+                    return Err(format!("${name} without the end of its brackets"));
+                }
+            }
+        }
+        if !self.take('=') {
+            return Err(format!("${name} alone"));
+        }
+        let value = self.expression()?.number()?;
+        Ok(Item::Table(name, which, value))
+    }
+
     fn label(&mut self) -> Option<String> {
         let start = self.at;
         let name = self.name();
@@ -317,6 +348,9 @@ impl<'t> Reader<'t> {
                 '=' => Ok(Item::Named(name, self.assigned()?)),
                 _ => Ok(Item::Name(name)),
             };
+        }
+        if self.peek(0) == '$' {
+            return self.table();
         }
         let letter = self.peek(0).to_ascii_uppercase();
         if !letter.is_ascii_uppercase() {

@@ -1,0 +1,137 @@
+//! Values that a program puts into the control's tables: settable frames, lengths and radii of tools.
+//!
+//! A work offset counts with its new values when it is called up the next time (PGA, frames); one that is in force is
+//! called up again at once. Fine shifts of work offsets are taken for zero, and that is told.
+
+use ncc_dialects::{DataKind, DataRow, Quantity};
+use ncc_ir::canon::{Axis, Units};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::Expr;
+use ncc_ir::program::{Data, DataMode, Op, Stmt};
+use ncc_ir::source::Span;
+
+use super::{Sink, Writer, digits};
+use crate::word::modes::cannot;
+
+impl Writer {
+    /// A value of a table.
+    ///
+    /// # Errors
+    /// A value that no variable holds, or one of a work offset that may be in force, and nobody knows.
+    pub(super) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        match data {
+            Data::Offset { offset, mode: DataMode::Set, words, turn: None } => {
+                let row = self.table(|row| row.kind == DataKind::Offset && *offset <= row.count);
+                let row = row.ok_or_else(|| cannot(format!("the zero of work offset {offset}")))?;
+                let mut texts = Vec::new();
+                for (axis, word) in Axis::ALL.into_iter().zip(words.iter()) {
+                    let Some(word) = word else { continue };
+                    let letter = char::from(axis.letter());
+                    let name = row.name.replace('#', &offset.to_string()).replace('@', &letter.to_string());
+                    texts.push(self.set(&name, axis, word, span, sink)?);
+                }
+                self.tell_fine_shifts(span, sink);
+                self.alone(&texts.join(" "), sink)?;
+                match self.words.tracker.modes.work_offset {
+                    Some(now) if now != *offset => Ok(()),
+                    Some(_) => {
+                        self.words.flush(false, sink);
+                        self.words.split = true;
+                        self.words.tracker.modes.work_offset = None;
+                        self.words.statement(&Stmt::new(span, Op::SetOriginOffsets(*offset)), sink)
+                    }
+                    None => {
+                        self.stale = true;
+                        Ok(())
+                    }
+                }
+            }
+            Data::Tool { entry, which, added: false, kept, value } => {
+                let tracker = &self.words.tracker;
+                if *kept && (tracker.tool.is_some() || tracker.selected.is_some()) {
+                    return Err(cannot(
+                        "a value of a tool that may be in use, and stays as it was until called up",
+                    ));
+                }
+                let row = self.table(|row| {
+                    let own = row.values.first().is_some_and(|word| *which == word.of.into());
+                    own && *entry <= u32::from(row.count)
+                });
+                let row = row.ok_or_else(|| cannot("this value in the control's tables"))?;
+                let name = row.name.replace('#', &entry.to_string());
+                let text = self.set(&name, Axis::Z, value, span, sink)?;
+                self.alone(&text, sink)
+            }
+            Data::Offset { .. }
+            | Data::Tool { .. }
+            | Data::Measured { .. }
+            | Data::Position(_)
+            | Data::ToolInSpindle(_) => Err(cannot("this value in the control's tables")),
+        }
+    }
+
+    /// Before another statement, where a work offset has new values that may be in force.
+    ///
+    /// # Errors
+    /// It counts from there on, or may be come to in another way.
+    pub(super) fn called_up(&mut self, op: &Op) -> Result<(), Fault> {
+        self.stale &= !matches!(op, Op::SetOriginOffsets(_));
+        let counts = matches!(
+            op,
+            Op::StraightTraverse(_)
+                | Op::StraightFeed(_)
+                | Op::SynchronisedFeed(_)
+                | Op::GoToReference(_)
+                | Op::ArcFeed(_)
+                | Op::ArcForm(_)
+                | Op::Polar(_)
+                | Op::Position(_)
+                | Op::StartCycle(_)
+                | Op::Hole(_)
+                | Op::Pattern(_)
+                | Op::Call(_)
+                | Op::Return
+                | Op::RepeatBlocks(_)
+                | Op::Control(_)
+                | Op::Goto(_)
+                | Op::Label(_)
+        );
+        if self.stale && counts {
+            return Err(cannot("the zero of a work offset that may be in force, and is not called up again"));
+        }
+        Ok(())
+    }
+
+    fn table(&self, of: impl Fn(&DataRow) -> bool) -> Option<&'static DataRow> {
+        self.dialect.data.iter().find(|row| row.is_variable() && of(row))
+    }
+
+    /// `$P_UIFR[1,X,TR]=100`
+    fn set(
+        &mut self,
+        name: &str,
+        axis: Axis,
+        value: &Expr,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<String, Fault> {
+        // Tables count in the control's own unit.
+        if self.words.tracker.modes.units == Some(Units::Inch) || self.inches {
+            return Err(cannot("values of tables where lengths do not count in millimetres"));
+        }
+        if let Expr::Node(_) = value {
+            return Ok(format!("{name}{}", self.words.behind(value, None, span, sink)?));
+        }
+        let quantity = if axis.is_rotary() { Quantity::Angle } else { Quantity::Length };
+        let letter = self.letter(name, quantity);
+        let value = self.words.number(&letter, value, span, sink)?;
+        Ok(format!("{name}={}", digits(value)))
+    }
+
+    fn tell_fine_shifts(&mut self, span: Span, sink: &mut Sink) {
+        if self.told.insert("fine shifts") {
+            let parameter = "fine shifts of work offsets ($P_UIFR[…,FI])".into();
+            sink.report(Fault::AssumedParameter { parameter, value: "0".into() }, span);
+        }
+    }
+}
