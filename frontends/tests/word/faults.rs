@@ -145,7 +145,7 @@ fn the_macro_language_is_refused_by_name() {
     refused("X[#1.]\n", "#1.");
     refused("G#1\n", "G#1");
     refused("M[#1+3]\n", "M[#1+3]");
-    refused("G92 X#1\n", "X#1");
+    refused("G51 X0 Y0 Z0 P#1\n", "P#1");
     refused("X[#1 EQ 2]\n", "X[#1 EQ 2]");
     refused("F[ROUND[#1]]\n", "F[ROUND[#1]]");
     refused("DPRNT[X#100[53]*Y]\n", "DPRNT[X#100[53]*Y]");
