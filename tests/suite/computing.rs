@@ -22,7 +22,8 @@ const KEEPING: [&str; 4] = ["fanuc", "haas", "siemens", "linuxcnc"];
 const UNROUNDED: [&str; 2] = ["siemens", "linuxcnc"];
 
 /// Dialects whose programs are kept, and where.
-const KEPT: [(&str, &[&str]); 3] = [("fanuc", &DIALECTS), ("siemens", &DIALECTS), ("linuxcnc", &["linuxcnc"])];
+const KEPT: [(&str, &[&str]); 3] =
+    [("fanuc", &DIALECTS), ("siemens", &DIALECTS), ("linuxcnc", &["linuxcnc"])];
 
 /// The programs of a dialect, by name.
 fn programs(dialect: &'static str) -> Vec<(String, Vec<u8>)> {
