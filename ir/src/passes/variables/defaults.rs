@@ -1,7 +1,8 @@
 //! Values that a macro gives the arguments that were left out, first of all: its calls give them.
 //!
 //! `IF [#7 EQ #0] THEN #7 = 1.5`, or a jump over the assignment where the argument has a value. Only literals, and
-//! only where every call tells by itself whether there is a value.
+//! only where every call tells by itself whether there is a value. What is in front of it may refuse the call, by an
+//! alarm or a return, for want of another argument.
 
 use std::collections::{HashMap, HashSet};
 
@@ -71,14 +72,15 @@ struct Default {
 }
 
 impl Default {
-    /// The next one of a body, behind nothing but others.
+    /// The next one of a body, behind nothing but others and refusals.
     fn at(body: &[Stmt], begin: usize) -> Option<Default> {
         let idle = |stmt: &Stmt| match &stmt.op {
             Op::Comment(_) | Op::Blank => true,
             Op::Label(name) => !jumps_to(body, name),
             _ => false,
         };
-        let from = begin + body.get(begin..)?.iter().position(|stmt| !idle(stmt))?;
+        let from = begin
+            + body.get(begin..)?.iter().position(|stmt| !idle(stmt) && refusal(stmt, body).is_none())?;
         let first = &body[from];
         let Op::Control(control) = &first.op else { return None };
         let Control::If { condition: Expr::Node(condition), then, otherwise } = &**control else {
@@ -87,6 +89,11 @@ impl Default {
         let Node::Binary(operator, Expr::Node(a), b) = &**condition else { return None };
         let Node::Var(Var::Local(name)) = &**a else { return None };
         if !is_nothing(b) || !otherwise.is_empty() || first.skip.is_some() {
+            return None;
+        }
+        // There the argument that is refused for is looked at, and no other.
+        let own = Target::Var(Var::Local(name.clone()));
+        if body[..from].iter().filter_map(|stmt| refusal(stmt, body)).any(|asks| asks.reads(&own)) {
             return None;
         }
         let assigned = |stmt: &Stmt| match &stmt.op {
@@ -105,6 +112,34 @@ impl Default {
         };
         Some(Default { name: name.clone(), value, from, count })
     }
+}
+
+/// What a statement decides by, that does nothing else than to end the call: by what it has in it, or by a jump to the
+/// end of the body.
+fn refusal<'b>(stmt: &'b Stmt, body: &[Stmt]) -> Option<&'b Expr> {
+    let ends = |stmts: &[Stmt]| {
+        let quiet = |stmt: &Stmt| {
+            matches!(
+                stmt.op,
+                Op::Alarm(_) | Op::Comment(_) | Op::Blank | Op::Label(_) | Op::Return | Op::ProgramEnd
+            )
+        };
+        let over = |stmt: &Stmt| matches!(stmt.op, Op::Alarm(_) | Op::Return | Op::ProgramEnd);
+        stmts.iter().all(quiet) && stmts.iter().any(over) && stmts.iter().all(|stmt| stmt.skip.is_none())
+    };
+    let Op::Control(control) = &stmt.op else { return None };
+    let Control::If { condition, then, otherwise } = &**control else { return None };
+    if stmt.skip.is_some() || !otherwise.is_empty() {
+        return None;
+    }
+    let ended = match &then[..] {
+        [Stmt { op: Op::Goto(label), skip: None, .. }] => {
+            let at = body.iter().position(|stmt| matches!(&stmt.op, Op::Label(own) if own == label))?;
+            ends(&body[at..])
+        }
+        then => ends(then),
+    };
+    ended.then_some(condition)
 }
 
 /// Whether anything jumps to a label.
