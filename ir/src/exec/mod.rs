@@ -408,8 +408,9 @@ impl Exec {
     #[inline]
     fn emit_move(&mut self, feed: bool, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let end = self.machine();
-        // Without a feed, only a cutting move that goes somewhere is a fault.
-        if same_point(&end, &self.last) && !(self.every_move && !(feed && self.feed == 0)) {
+        // A cutting move without a feed is a fault wherever it goes: controls stop at its block.
+        let needs_feed = feed && self.feed == 0;
+        if same_point(&end, &self.last) && !self.every_move && !needs_feed {
             return Ok(());
         }
         let kind = if feed { Kind::Feed } else { Kind::Traverse };

@@ -426,9 +426,11 @@ impl Control {
             (None, Some(number)) => number.to_string(),
             _ => return self.m.halt("G65 without a program, or with two"),
         };
-        // Whole arguments count increments there, which ones the letter says; a call that is repeated keeps its variables.
-        let whole =
-            raw.iter().any(|(letter, text)| !"GPL".contains(*letter) && !text.contains(['.', '#', '[']));
+        // Whole arguments count increments there, which ones the letter says, and zero is zero in any; a call that is
+        // repeated keeps its variables.
+        let counts =
+            |text: &str| !text.contains(['.', '#', '[']) && text.contains(|c| matches!(c, '1'..='9'));
+        let whole = raw.iter().any(|(letter, text)| !"GPL".contains(*letter) && counts(text));
         if self.haas && (whole || times > 1) {
             return self.m.halt("G65 on a Haas with an argument without a point, or several times");
         }
