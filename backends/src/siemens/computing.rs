@@ -13,6 +13,7 @@ use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::{Sink, Writer};
+use crate::word::formula::cannot_compute;
 use crate::word::modes::cannot;
 
 /// The last of the arithmetic parameters that every control has: R0 to R99 (PGA, arithmetic parameters).
@@ -31,7 +32,12 @@ pub(super) struct Computing {
     cycles: bool,
     told_number: bool,
     told_comparison: bool,
+    /// How many structures are open.
+    deep: usize,
 }
+
+/// Deepest nesting of structures that the control takes (PGA, program jumps and branches).
+const DEEPEST: usize = 16;
 
 impl Writer {
     /// Takes what jumps and loops need to know of the procedures of a program that computes.
@@ -179,6 +185,9 @@ impl Writer {
     }
 
     fn opens(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        if self.computing.deep >= DEEPEST {
+            return Err(cannot_compute("a structure within sixteen others"));
+        }
         self.alone(text, sink)?;
         self.words.flush(false, sink);
         self.words.block_written(sink.out);
@@ -187,7 +196,9 @@ impl Writer {
     }
 
     fn inner(&mut self, body: &[Stmt], changes: bool, stmt: &Stmt, sink: &mut Sink) {
+        self.computing.deep += 1;
         self.body(body, sink);
+        self.computing.deep -= 1;
         self.words.open_block(&Stmt::new(stmt.span, Op::Blank));
         if let Some(trace) = &mut self.words.trace {
             trace.enter(std::slice::from_ref(stmt));

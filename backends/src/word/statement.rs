@@ -508,6 +508,9 @@ impl Writer {
             }
             return self.macro_call(call, stmt, sink);
         }
+        if self.is_o_sub(&call.name) {
+            return Err(cannot_compute("a call of a program that has variables of its own elsewhere"));
+        }
         let words = self.codes.call.ok_or_else(|| cannot("a subprogram call"))?;
         self.call_up_now(stmt, sink)?;
         if self.has_name(&call.name) {
