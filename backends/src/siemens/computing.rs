@@ -36,7 +36,7 @@ pub(super) struct Computing {
     deep: usize,
 }
 
-/// Deepest nesting of structures that the control takes (PGA, program jumps and branches).
+/// Deepest nesting of structures of a program (reference, 8), as the reader has it.
 const DEEPEST: usize = 16;
 
 impl Writer {

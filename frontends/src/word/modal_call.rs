@@ -34,6 +34,8 @@ pub(super) struct AtMoves {
 pub(super) struct Reach {
     /// How many of them the text has had.
     seen: u32,
+    /// The code that says them.
+    code: Text,
     /// Blocks with numbers.
     pub(super) labels: Vec<(u32, u32)>,
     /// Jumps; of one without a number it is computed.
@@ -52,6 +54,12 @@ impl Lower {
         self.fault(Fault::NotSupported { code: code.into(), name: name.into() }, at, out);
     }
 
+    /// The same, by the code that has said the calls.
+    fn refuse_under(&mut self, name: &str, at: Span, out: &mut Batch) {
+        let code = self.computes.reach.code.clone();
+        self.refuse_modal(&code, name, at, out);
+    }
+
     /// The block that says the call; it makes none itself.
     pub(super) fn begin_calls_at_moves(&mut self, code: &Code, call: Call, block: &Block, out: &mut Batch) {
         let name = if self.computes.at_moves.is_some() {
@@ -66,6 +74,7 @@ impl Lower {
             self.assume_row(code.row, "MODAL_MACRO_CALL, its arguments anew each time", code.span, out);
             self.now.silent = true;
             self.computes.reach.seen += 1;
+            self.computes.reach.code = code.row.code.as_str().into();
             let own = self.sub.as_ref().map(|program| program.name.clone()).unwrap_or_default();
             self.computes.reach.called.push((own, call.name.clone(), code.span));
             let computed = call.arguments.iter().any(|value| value.literal().is_none() && !is_vacant(value));
@@ -135,7 +144,7 @@ impl Lower {
         });
         if other {
             let name = "cycle, corner or machine point under a modal macro call";
-            return self.refuse_modal("G66", name, block.span, out);
+            return self.refuse_under(name, block.span, out);
         }
         if !moves {
             return;
@@ -160,7 +169,7 @@ impl Lower {
     pub(super) fn within_modal(&mut self, at: Span, out: &mut Batch) -> bool {
         let within = self.computes.at_moves.is_some();
         if within {
-            self.refuse_modal("G66", "call or return under a modal macro call", at, out);
+            self.refuse_under("call or return under a modal macro call", at, out);
         }
         within
     }
@@ -169,7 +178,7 @@ impl Lower {
     pub(super) fn argument_changes(&mut self, at: Span, out: &mut Batch) {
         if self.computes.at_moves.as_ref().is_some_and(|calls| calls.computed) {
             let name = "assignment under a modal call with variables";
-            self.refuse_modal("G66", name, at, out);
+            self.refuse_under(name, at, out);
         }
     }
 
@@ -180,7 +189,7 @@ impl Lower {
         for (to, from, at) in std::mem::take(&mut self.computes.reach.jumps) {
             let named = |label: &&(u32, u32)| to.is_none_or(|to| to == label.0);
             if labels.iter().filter(named).any(|label| label.1 != from) {
-                self.refuse_modal("G66", "jump over the beginning or end of a modal call", at, out);
+                self.refuse_under("jump over the beginning or end of a modal call", at, out);
             }
         }
     }
@@ -197,7 +206,7 @@ impl Computes {
                 next += 1;
                 if self.reach.called.iter().any(|(own, ..)| own == name) {
                     let name = "modal macro call within another".into();
-                    out.report(Fault::NotSupported { code: "G66".into(), name }, *at);
+                    out.report(Fault::NotSupported { code: self.reach.code.clone(), name }, *at);
                     break;
                 }
                 let bodies = out.procedures.iter().filter(|procedure| procedure.name == *name);
@@ -230,8 +239,6 @@ fn stays(value: &Expr) -> bool {
     match &**node {
         Node::Vacant | Node::Var(Var::Local(_)) => true,
         Node::Var(_) | Node::Element(_) => false,
-        Node::Unary(_, a) => stays(a),
-        Node::Binary(_, a, b) => stays(a) && stays(b),
-        Node::Call(_, arguments) => arguments.iter().all(stays),
+        Node::Unary(..) | Node::Binary(..) | Node::Call(..) => value.parts().all(stays),
     }
 }
