@@ -67,6 +67,15 @@ impl Num {
         Num { mantissa: rounded as i64, scale: decimals.min(9), point: true, unit }.trimmed()
     }
 
+    /// The nearest literal with at most so many digits after the point, half away from zero.
+    pub fn rounded(self, digits: u8) -> Num {
+        let Some(excess) = self.scale.checked_sub(digits).filter(|excess| *excess > 0) else { return self };
+        let by = i128::from(POW10[usize::from(excess).min(POW10.len() - 1)]);
+        let half = if self.mantissa < 0 { -by / 2 } else { by / 2 };
+        let mantissa = ((i128::from(self.mantissa) + half) / by) as i64;
+        Num { mantissa, scale: digits, ..self }
+    }
+
     /// The same value without trailing zeros after the point.
     pub fn trimmed(mut self) -> Num {
         while self.scale > 0 && self.mantissa % 10 == 0 {
@@ -134,5 +143,10 @@ mod tests {
         assert_eq!(Num::from_nanos(1_000_500_000, 3, Unit::Mm).mantissa, 1001);
         assert_eq!(Num::from_nanos(-1_000_500_000, 3, Unit::Mm).mantissa, -1001);
         assert_eq!(Num::from_nanos(15_588_457_268, 3, Unit::Mm).mantissa, 15588);
+        let written = |mantissa, scale| Num { mantissa, scale, point: true, unit: Unit::Inch };
+        assert_eq!(written(48_915, 4).rounded(3), written(4892, 3));
+        assert_eq!(written(-48_915, 4).rounded(3), written(-4892, 3));
+        assert_eq!(written(48_914, 4).rounded(3), written(4891, 3));
+        assert_eq!(written(48_915, 4).rounded(4), written(48_915, 4));
     }
 }

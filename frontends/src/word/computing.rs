@@ -382,6 +382,11 @@ impl Lower {
         }
         let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
         self.mean(&mut expr, &rounded, word.span, out);
+        if let Expr::Num(num) = expr
+            && quantity != Quantity::Milliseconds
+        {
+            return Some(self.written(Expr::Num(num.rounded(digits)), quantity, word.span, out));
+        }
         let value = Expr::Node(Box::new(rounded(expr)));
         Some(match quantity {
             Quantity::Milliseconds => {

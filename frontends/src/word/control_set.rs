@@ -87,7 +87,10 @@ impl Lower {
         let Some(digits) = self.digits_of(Quantity::Length, at, out) else { return Vec::new() };
         let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
         let mut words = [const { None }; AXES];
-        words[axis as usize] = Some(Expr::Node(Box::new(rounded(value))));
+        words[axis as usize] = Some(match value {
+            Expr::Num(num) => self.written(Expr::Num(num.rounded(digits)), Quantity::Length, at, out),
+            value => Expr::Node(Box::new(rounded(value))),
+        });
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
         vec![Op::SetData(Box::new(data))]
     }

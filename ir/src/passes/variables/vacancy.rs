@@ -628,10 +628,12 @@ impl Values<'_> {
         self.settled(e, nothing())
     }
 
-    /// What is handed over: whether it is read there is looked at there.
+    /// What is handed over. One that may have no value is refused where it is read there: nothing reads it, so that
+    /// any number will do, and a control that knows no variables without one is not asked for it.
     fn handed(&self, e: &mut Expr) -> Result<(), Diagnostic> {
         let handed_on = matches!(e, Expr::Node(node) if matches!(**node, Node::Var(_)));
         if !self.vacant && may(e, self.known) == May::Either && handed_on {
+            *e = Expr::int(0);
             return Ok(());
         }
         self.whole(e)

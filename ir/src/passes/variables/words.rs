@@ -17,10 +17,8 @@ pub(super) fn whole(expr: &mut Expr) {
     if let Expr::Node(node) = expr
         && let Node::Call(Function::Round, arguments) = &**node
         && let [Expr::Num(n)] = &arguments[..]
-        && let Some(by) = 10_i64.checked_pow(u32::from(n.scale))
     {
-        let up = i64::from(n.mantissa.abs() % by * 2 >= by);
-        *expr = Expr::int((n.mantissa.abs() / by + up) * n.mantissa.signum());
+        *expr = Expr::int(n.rounded(0).mantissa);
     }
 }
 
