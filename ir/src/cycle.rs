@@ -289,6 +289,19 @@ impl CycleKind {
         }
     }
 
+    /// The clearance or lift that the control would take from a parameter, as another cycle of the kind states it.
+    pub fn state_clearance(&mut self, stated: &CycleKind) {
+        match (self, stated) {
+            (CycleKind::DrillPeck { clearance: own, .. }, CycleKind::DrillPeck { clearance: other, .. })
+            | (CycleKind::DrillBreak { lift: own, .. }, CycleKind::DrillBreak { lift: other, .. })
+                if *own == Clearance::Parameter =>
+            {
+                own.clone_from(other);
+            }
+            _ => {}
+        }
+    }
+
     /// Whether its feed out goes on to where the tool is left.
     pub fn feeds_to_level(&self) -> bool {
         match self {

@@ -32,10 +32,10 @@ pub(super) fn say(
     let mut entry = stands.clone();
     entry.modes = entry.modes.or(program.assumed);
     if there.restates && !own || computed_frames::behind_control(program) {
-        known = known_facts::run(program, &entry);
+        known = known_facts::run(program, &entry, from.id != to.id);
     } else if computes.blocks != there.blocks {
         // Words of another language lead to stretches of its blocks; what they say stays as it is.
-        known = known_facts::run(&mut program.clone(), &entry);
+        known = known_facts::run(&mut program.clone(), &entry, true);
     }
     if computes.calls != there.calls {
         found.extend(there.too_deep(program));

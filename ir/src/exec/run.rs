@@ -147,11 +147,13 @@ impl<'p> Runner<'p> {
     }
 
     /// Decisions of which not both ways are among those that were taken, in the order of the text: the ways that
-    /// were, 0 to 2, as of [`Runner::add_taken`].
+    /// were, 0 to 2, as of [`Runner::add_taken`]. Checks that the call of a cycle makes of its own values are not
+    /// the program's decisions.
     pub fn untaken(&self, all: &[u8]) -> Vec<(Span, u8)> {
-        let steps = self.code.steps.iter().zip(all);
+        let steps = self.code.steps.iter().zip(all).enumerate();
         let mut found: Vec<(Span, u8)> = steps
-            .filter_map(|(step, taken)| match step {
+            .filter_map(|(at, (step, taken))| match step {
+                Step::Unless(stmt, ..) if self.is_check(at, stmt.span) => None,
                 Step::Unless(stmt, ..) | Step::UnlessCounted(stmt, ..) if *taken != 3 => {
                     Some((stmt.span, *taken))
                 }
@@ -160,6 +162,16 @@ impl<'p> Runner<'p> {
             .collect();
         found.sort_by_key(|(span, _)| span.start);
         found
+    }
+
+    /// Whether a decision is an alarm's, of the block that then calls up a cycle.
+    fn is_check(&self, at: usize, block: Span) -> bool {
+        let is = |at: usize, op: fn(&Op) -> bool| {
+            let step = self.code.steps.get(at);
+            matches!(step, Some(Step::Do(stmt) | Step::Compute(stmt, _)) if op(&stmt.op) && stmt.span == block)
+        };
+        let calls = |after: usize| is(after, |op| matches!(op, Op::StartCycle(_)));
+        is(at + 1, |op| matches!(op, Op::Alarm(_))) && (calls(at + 2) || calls(at + 3))
     }
 
     /// Executes statements until at least `enough` events are in `out`, or the program is over.

@@ -25,7 +25,8 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
 pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
     let Some(way) = target.caps.approach else { return };
     let mut i = 0;
-    let mut other_way = false;
+    let in_force = walk.at.cycle.as_ref();
+    let mut other_way = in_force.is_some_and(|in_force| in_force.cycle.approach != way);
     while i < body.len() {
         walk.enter(body[i].skip);
         let chained = walk.at.cycle.is_some();

@@ -3,8 +3,9 @@
 //! What is in force at the head of a loop is what is so before it and behind each turn; at a label, where every jump
 //! to it comes from; in a subprogram, at every call. Found by going through the program until nothing changes. What
 //! positions do that only a caller knows stays as it is. What holds where a stretch of blocks begins is kept for those
-//! who go on from there. A position in a loop or behind a label at which one cycle is in force, as it was called up,
-//! calls it up by itself: where control goes, a target may leave none in force.
+//! who go on from there. A hole in a loop or behind a label at which one cycle is in force, as it was called up,
+//! calls it up by itself: where control goes, a target may leave none in force. A call that has served only such
+//! holes is left out.
 //!
 //! Not here: values of variables.
 
@@ -12,7 +13,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::expand_calls::{settle, settle_point};
 use crate::arguments;
-use crate::canon::Motion;
+use crate::canon::{Modes, Motion};
 use crate::cycle::Cycle;
 use crate::expr::Target;
 use crate::kinds::flow;
@@ -26,6 +27,16 @@ const MOST_ROUNDS: u32 = 24;
 #[derive(Clone, Debug, Default)]
 pub struct Known {
     starts: HashMap<u32, Tracker>,
+    /// Cycles in force at holes, by their places, that are as they were called up on every way there.
+    cycles: HashMap<u32, Option<Called>>,
+}
+
+/// Where the cycle in force at a hole is called up, what holds there, and what holds at the hole.
+#[derive(Clone, Copy, Debug)]
+struct Called {
+    at: u32,
+    with: Modes,
+    modes: Modes,
 }
 
 impl Known {
@@ -35,13 +46,65 @@ impl Known {
     }
 }
 
-/// Puts known facts in. `entry` is what holds where the program begins.
-pub fn run(program: &mut Program, entry: &Tracker) -> Known {
+/// Has holes that the text itself puts under a cycle of another stretch call it up. What is `known` is of a copy of
+/// the program with its facts put in.
+pub(super) fn holes(program: &mut Program, known: &Known) {
+    let calls = calls_of(program);
+    for procedure in &mut program.procedures {
+        if call_up(&mut procedure.body, (&known.cycles, &calls), false) {
+            without_holes(&mut procedure.body);
+        }
+    }
+}
+
+/// The calls of cycles, by their places.
+fn calls_of(program: &Program) -> HashMap<u32, Cycle> {
+    fn over(body: &[Stmt], out: &mut HashMap<u32, Cycle>) {
+        for stmt in body {
+            match &stmt.op {
+                Op::StartCycle(cycle) => out.insert(stmt.span.start, (**cycle).clone()),
+                Op::Control(control) => {
+                    control.bodies().for_each(|body| over(body, out));
+                    None
+                }
+                _ => None,
+            };
+        }
+    }
+    let mut out = HashMap::new();
+    program.procedures.iter().for_each(|procedure| over(&procedure.body, &mut out));
+    out
+}
+
+/// Leaves such holes to what is in force, for a target that keeps it in loops as the source does. Tells whether there
+/// are any.
+pub(super) fn positions(body: &mut [Stmt]) -> bool {
+    let (mut called, mut any) = (false, false);
+    for stmt in body {
+        called &= !matches!(stmt.op, flow!());
+        match &mut stmt.op {
+            Op::StartCycle(_) => called = true,
+            Op::Hole(to) if !called => {
+                any = true;
+                stmt.op = Op::Position(std::mem::take(to));
+            }
+            Op::Control(control) => {
+                any = control.bodies_mut().map(|body| positions(body)).fold(any, std::ops::BitOr::bitor);
+            }
+            _ => {}
+        }
+    }
+    any
+}
+
+/// Puts known facts in. `entry` is what holds where the program begins. With `holes`, those that the text itself
+/// puts under a cycle are made to call it up too.
+pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
     let names = program.procedures.iter().map(|p| p.name.clone()).collect();
-    let mut flow = Flow { names, ..Flow::default() };
+    let mut flow = Flow { names, holes, ..Flow::default() };
     flow.ways = vec![Ways::default(); program.procedures.len()];
     if let Some(main) = flow.ways.first_mut() {
-        main.entry = Some(Held { at: entry.clone(), as_called: false });
+        main.entry = Some(Held { at: entry.clone(), ..Held::default() });
     }
     for _ in 0..MOST_ROUNDS {
         flow.changed = false;
@@ -49,9 +112,13 @@ pub fn run(program: &mut Program, entry: &Tracker) -> Known {
         if !flow.changed {
             flow.settles = true;
             flow.over(program);
-            let cycles = flow.cycles;
-            program.procedures.iter_mut().for_each(|procedure| call_up(&mut procedure.body, &cycles));
-            return Known { starts: flow.starts };
+            let calls = calls_of(program);
+            for procedure in &mut program.procedures {
+                if call_up(&mut procedure.body, (&flow.cycles, &calls), true) {
+                    without_holes(&mut procedure.body);
+                }
+            }
+            return Known { starts: flow.starts, cycles: flow.cycles };
         }
     }
     Known::default()
@@ -63,18 +130,22 @@ struct Held {
     at: Tracker,
     /// Whether the cycle in force is as its block has called it up: the same words would call up the same.
     as_called: bool,
+    /// The place of that block, and what holds there.
+    called_at: (u32, Modes),
 }
 
 impl Held {
     fn join(&mut self, other: &Held) {
         self.at.join(&other.at);
-        self.as_called &= other.as_called;
+        self.as_called &= other.as_called && self.called_at == other.called_at;
     }
 
     /// The cycle in force, if it is known and as it was called up.
-    fn cycle(&self) -> Option<&Cycle> {
-        let sure = self.as_called && !self.at.cycle_in_doubt && self.at.modes.motion == Some(Motion::Cycle);
-        self.at.cycle.as_ref().filter(|_| sure).map(|in_force| &in_force.cycle)
+    fn cycle(&self) -> Option<Called> {
+        let in_force = self.at.cycle.is_some() && !self.at.cycle_in_doubt;
+        let sure = self.as_called && self.at.modes.motion == Some(Motion::Cycle);
+        let (at, with) = self.called_at;
+        (sure && in_force).then_some(Called { at, with, modes: self.at.modes })
     }
 
     /// A variable gets another value.
@@ -89,11 +160,11 @@ impl Held {
         self.as_called &= !found;
     }
 
-    fn apply(&mut self, op: &Op) {
+    fn apply(&mut self, op: &Op, at: u32) {
         if let Op::Assign(to, _) = op {
             self.sets(to);
         } else if matches!(op, Op::StartCycle(_)) {
-            self.as_called = true;
+            (self.as_called, self.called_at) = (true, (at, self.at.modes));
         } else if !matches!(
             op,
             Op::Hole(_)
@@ -116,25 +187,84 @@ impl Held {
     }
 }
 
-/// Positions at which a cycle is in force call it up by themselves.
-fn call_up(body: &mut Vec<Stmt>, cycles: &HashMap<u32, Option<Cycle>>) {
+/// Which cycles are in force at holes, and their calls.
+type Calls<'c> = (&'c HashMap<u32, Option<Called>>, &'c HashMap<u32, Cycle>);
+
+/// Holes at which a cycle is in force call it up by themselves; with `bare`, words too of which only the run knows
+/// that they are holes. Tells whether there are any, and all of them do.
+fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
     let mut out = Vec::with_capacity(body.len());
+    let (mut any, mut all, mut called) = (false, true, false);
     for mut stmt in std::mem::take(body) {
+        called &= !matches!(stmt.op, flow!());
+        called |= matches!(stmt.op, Op::StartCycle(_));
         if let Op::Control(control) = &mut stmt.op {
-            control.bodies_mut().for_each(|body| call_up(body, cycles));
+            for body in control.bodies_mut() {
+                let (served, holes) = (call_up(body, from, bare), has_holes(body));
+                any |= served;
+                all &= served || !holes;
+            }
         }
-        match (&stmt.op, cycles.get(&stmt.span.start)) {
-            (Op::Position(to), Some(Some(cycle))) => {
-                let hole = Op::Hole(to.clone());
-                let cycle = Op::StartCycle(Box::new(cycle.clone()));
+        let hole = match &stmt.op {
+            Op::Position(to) if bare => Some(Op::Hole(to.clone())),
+            Op::Position(_) => {
+                all = false;
+                None
+            }
+            Op::Hole(_) | Op::Pattern(_) if !called => Some(stmt.op.clone()),
+            _ => None,
+        };
+        let called = from.0.get(&stmt.span.start).copied().flatten();
+        match (hole, called.and_then(|called| Some((called, from.1.get(&called.at)?)))) {
+            (Some(mut hole), Some((called, cycle))) => {
+                any = true;
+                let mut cycle = Op::StartCycle(Box::new(cycle.clone()));
+                settle(&mut cycle, &Tracker::new(called.with));
+                settle(&mut hole, &Tracker::new(called.modes));
                 let hole = Stmt { op: hole, joined: true, number: None, ..stmt.clone() };
                 out.push(Stmt { op: cycle, comment: None, ..stmt });
                 out.push(hole);
             }
-            _ => out.push(stmt),
+            (hole, _) => {
+                all &= hole.is_none();
+                out.push(stmt);
+            }
         }
     }
     *body = out;
+    any && all
+}
+
+/// Whether anything here may make a hole under a cycle that was called up elsewhere.
+fn has_holes(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Position(_) | Op::Hole(_) | Op::Pattern(_) => true,
+        Op::Control(control) => control.bodies().any(|body| has_holes(body)),
+        _ => false,
+    })
+}
+
+/// Calls of cycles that make no hole before control goes another way leave their feed alone behind.
+fn without_holes(body: &mut [Stmt]) {
+    let mut idle = None;
+    for at in 0..body.len() {
+        match &mut body[at].op {
+            Op::StartCycle(_) => idle = Some(at),
+            Op::Hole(_) | Op::Pattern(_) | Op::Position(_) => idle = None,
+            op if matches!(op, flow!()) => {
+                let calls = matches!(op, Op::Call(_) | Op::RepeatBlocks(_));
+                if let Op::Control(control) = op {
+                    control.bodies_mut().for_each(|body| without_holes(body));
+                }
+                if let Some(call) = idle.take().filter(|_| !calls)
+                    && let Op::StartCycle(cycle) = &mut body[call].op
+                {
+                    body[call].op = cycle.feed.take().map_or(Op::Blank, Op::SetFeedRate);
+                }
+            }
+            _ => {}
+        }
+    }
 }
 
 /// Ways into and out of a procedure.
@@ -156,9 +286,11 @@ struct Flow {
     next: Vec<Option<Held>>,
     changed: bool,
     settles: bool,
+    /// Whether holes are looked at too, and whether a cycle has been called up in the stretch at hand.
+    holes: bool,
+    called: bool,
     starts: HashMap<u32, Tracker>,
-    /// Cycles in force at positions, by their places, that are as they were called up on every way there.
-    cycles: HashMap<u32, Option<Cycle>>,
+    cycles: HashMap<u32, Option<Called>>,
     /// What the text has said so far, for blocks to which no way leads: they are written as they stand there.
     text: Held,
 }
@@ -194,6 +326,7 @@ impl Flow {
         for stmt in body {
             let before = state.clone();
             let flow = matches!(stmt.op, flow!());
+            self.called = !begins && self.called;
             if let (true, false, true) = (begins, flow, self.settles) {
                 let known = state.as_ref().unwrap_or(&self.text);
                 // Statements that were made of one have its place.
@@ -258,23 +391,26 @@ impl Flow {
                 let reached = state.is_some();
                 let mut state = state.unwrap_or_else(|| self.text.clone());
                 if self.settles {
-                    if let Op::Position(m) = op {
-                        settle_point(&mut m.to, &state.at);
-                        if let Some(cycle) = state.cycle().filter(|_| reached) {
-                            let own = self.cycles.entry(stmt.span.start);
-                            own.and_modify(|own| *own = None).or_insert_with(|| Some(cycle.clone()));
-                        }
-                    } else {
-                        settle(op, &state.at);
+                    let hole = matches!(op, Op::Hole(_) | Op::Pattern(_)) && self.holes && !self.called;
+                    if (hole || matches!(op, Op::Position(_)))
+                        && let Some(cycle) = state.cycle().filter(|_| reached)
+                    {
+                        let own = self.cycles.entry(stmt.span.start);
+                        own.and_modify(|own| *own = None).or_insert(Some(cycle));
+                    }
+                    match op {
+                        Op::Position(m) => settle_point(&mut m.to, &state.at),
+                        _ => settle(op, &state.at),
                     }
                 }
+                self.called |= matches!(op, Op::StartCycle(_));
                 if let (false, Op::StartCycle(_)) = (self.settles, &*op) {
                     // It must be the same cycle as when facts are put in.
                     let mut cycle = op.clone();
                     settle(&mut cycle, &state.at);
-                    state.apply(&cycle);
+                    state.apply(&cycle, stmt.span.start);
                 } else {
-                    state.apply(op);
+                    state.apply(op, stmt.span.start);
                 }
                 self.text.clone_from(&state);
                 reached.then_some(state)

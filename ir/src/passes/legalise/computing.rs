@@ -5,7 +5,7 @@
 //! computed, or that other blocks rely on in a way that only execution knows, is refused at its place.
 
 use super::super::computed_frames;
-use super::super::known_facts::Known;
+use super::super::known_facts::{self, Known};
 use super::super::number_names;
 use super::{Legaliser, Target};
 use crate::arguments;
@@ -13,7 +13,7 @@ use crate::canon::Modes;
 use crate::cycle::Cycle;
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::{drilling, flow};
-use crate::program::{Op, Program, Stmt};
+use crate::program::{Coord, Move, Op, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -27,6 +27,22 @@ impl Legaliser {
     /// `known` is what holds where stretches of its blocks begin.
     pub fn run_computing(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
         number_names::over(program, &self.target, true, diags);
+        let mut found = Vec::new();
+        let mut bare = program.clone();
+        let any =
+            bare.procedures.iter_mut().map(|p| known_facts::positions(&mut p.body)).fold(false, |a, b| a | b);
+        if any && self.target.caps.computes.as_ref().is_some_and(|there| !there.restates) {
+            self.stretches(&mut bare, known, &mut found);
+            if found.iter().all(|d| d.fault.gravity() != Gravity::Error) {
+                *program = bare;
+                return diags.append(&mut found);
+            }
+            known_facts::holes(program, known);
+        }
+        self.stretches(program, known, diags);
+    }
+
+    fn stretches(&mut self, program: &mut Program, known: &Known, diags: &mut Vec<Diagnostic>) {
         let assumed = program.assumed;
         // What the target says of a program's flow has been looked at before.
         let mut fresh = self.clone();
@@ -43,7 +59,8 @@ impl Legaliser {
             Err(refusal) => return diags.push(refusal),
         }
         let first = fresh.clone();
-        let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body));
+        let bare = program.procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
+        let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body, bare));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             let start = match at {
                 0 => Some((first.clone(), assumed)),
@@ -76,27 +93,63 @@ fn has_positions(body: &[Stmt]) -> bool {
     })
 }
 
-/// Whether where cycles leave the tool is said nowhere but in the blocks that call them up.
-fn levels_with_cycles(body: &[Stmt]) -> bool {
+/// Whether where cycles leave the tool is said nowhere but for cycles that are called up behind it, before any hole.
+/// With `bare`, holes stand under cycles that other stretches have called up.
+fn levels_with_cycles(body: &[Stmt], bare: bool) -> bool {
     let mut blocks = body.iter().enumerate().filter(|(_, stmt)| matches!(stmt.op, Op::SetReturnLevel(_)));
     let with = blocks.all(|(at, _)| {
-        let same = body[at + 1..].iter().take_while(|stmt| stmt.joined);
-        same.into_iter().any(|stmt| matches!(stmt.op, Op::StartCycle(_)))
+        let rest = body[at + 1..].iter().take_while(|stmt| !matches!(stmt.op, flow!()));
+        let mut same = rest.clone().take_while(|stmt| stmt.joined);
+        let next = rest.into_iter().find(|stmt| matches!(stmt.op, drilling!() | Op::Position(_)));
+        same.any(|stmt| matches!(stmt.op, Op::StartCycle(_)))
+            || !bare && next.is_none_or(|next| matches!(next.op, Op::StartCycle(_)))
     });
     with && body.iter().all(|stmt| match &stmt.op {
-        Op::Control(control) => control.bodies().all(|body| levels_with_cycles(body)),
+        Op::Control(control) => control.bodies().all(|body| levels_with_cycles(body, bare)),
         _ => true,
     })
 }
 
-/// The same statement; with `levels`, a cycle may say its plane of return too, which no position changes.
-fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
-    match (was, is) {
-        (Op::StartCycle(was), Op::StartCycle(is)) if levels && was.return_plane.is_none() => {
-            **was == Cycle { return_plane: None, ..(**is).clone() }
+/// Whether holes stand in a stretch before any cycle has been called up there.
+fn has_bare_holes(body: &[Stmt]) -> bool {
+    let mut called = false;
+    body.iter().any(|stmt| {
+        called &= !matches!(stmt.op, flow!());
+        match &stmt.op {
+            Op::StartCycle(_) => {
+                called = true;
+                false
+            }
+            Op::Hole(_) | Op::Pattern(_) => !called,
+            Op::Position(_) => true,
+            Op::Control(control) => control.bodies().any(|body| has_bare_holes(body)),
+            _ => false,
         }
-        _ => was == is,
+    })
+}
+
+/// The same statement. A hole may be written out with the same computed words, on the way over it. A cycle may go to its holes in the target's way, where both ways were found to be one, and
+/// may state a parameter's value; with `levels`, it may say its plane of return, which no position changes, or the
+/// level that this plane is.
+fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
+    let (was, is) = match (was, is) {
+        (Op::StartCycle(was), Op::StartCycle(is)) => (was, is),
+        (Op::Hole(was), Op::StraightTraverse(is)) => return computed_words(was).eq(computed_words(is)),
+        (was, is) => return was == is,
+    };
+    let mut same = Cycle { approach: is.approach, ..(**was).clone() };
+    if levels && was.return_plane.is_some() != is.return_plane.is_some() {
+        same.return_plane.clone_from(&is.return_plane);
+        same.return_level = is.return_level;
     }
+    same.kind.state_clearance(&is.kind);
+    same == **is
+}
+
+/// The words of a move that are computed.
+fn computed_words(words: &Move) -> impl Iterator<Item = (usize, &Coord)> {
+    let words = words.to.axes.iter().enumerate();
+    words.filter_map(|(axis, word)| Some((axis, word.as_ref().filter(|w| w.value.literal().is_none())?)))
 }
 
 /// What is not known of a program that computes, and would be if it were executed, is told as that.
