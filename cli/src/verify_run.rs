@@ -10,6 +10,7 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::exec::{Event, Exec, named_tool};
+use ncc_ir::expr::Function;
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
@@ -73,6 +74,8 @@ pub(crate) struct Verifier {
     own_facts: Modes,
     /// What variables may be given.
     given: Given,
+    /// What the target computes with.
+    functions: Vec<Function>,
     /// Last place of the source that was executed, for differences without an event.
     last: Span,
     /// What was not executed, or with values that were made up.
@@ -224,6 +227,7 @@ impl Verifier {
             stood: false,
             own_facts: own_facts(job),
             given: job.given.clone(),
+            functions: job.to.caps().computes.map(|computes| computes.functions).unwrap_or_default(),
             last: Span::default(),
             notes: Vec::new(),
         }

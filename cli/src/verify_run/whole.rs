@@ -201,7 +201,7 @@ impl Verifier {
             given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
         }
         if computes {
-            given.other_readings = READINGS.map(|taken| otherwise(source, taken));
+            given.other_readings = READINGS.map(|taken| otherwise(source, taken, &self.functions));
         }
         let given = &*given;
         let mut gone = Gone::default();

@@ -7,12 +7,15 @@
 //! become labels and jumps; so does a decision about blocks where the target decides about one statement. What the
 //! target has stays as it is, and so do blocks, their comments and their numbers.
 //!
+//! Functions that the target has no word for are worked out by decisions before all that (`worked_out`).
+//!
 //! What neither the target nor this can say stays too, and is refused as what it is (`computes`). Not here: names of
 //! variables (`variables`), and jumps made into loops and decisions (`structures`).
 
 mod conditions;
 mod names;
 mod structures;
+mod worked_out;
 
 use std::collections::HashSet;
 
@@ -20,15 +23,16 @@ use conditions::{binary, compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::call_of::call_of;
-use crate::computes::{Computes, Said};
-use crate::expr::{Binary, Expr, Node, Target, Unary, Var};
+use crate::computes::{Computes, Said, counted};
+use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use crate::num::Num;
 use crate::program::{Control, Op, Program, Stmt, Text};
 use crate::source::Span;
 
 /// Says a program's control in the target's forms.
 pub fn run(program: &mut Program, computes: &Computes) {
-    let taken = Names::of(program);
+    let mut taken = Names::of(program);
+    worked_out::over(program, computes, &mut taken);
     let mut forms = Forms { computes, taken, turning: Vec::new(), open: 0, split: false };
     for procedure in &mut program.procedures {
         if !has_control(&procedure.body) {
@@ -418,8 +422,12 @@ impl Forms<'_> {
         self.turns(Loop { span, head: Some(head), body, tail, until: None }, out);
     }
 
-    /// A body that is executed a number of times.
+    /// A body that is executed a number of times. The turns are counted from 1: a number below that is none by itself.
     fn times(&mut self, span: Span, times: Expr, body: Vec<Stmt>, out: &mut Vec<Stmt>) {
+        let times = match counted(&times) {
+            own if *own == times => times,
+            own => Expr::Node(Box::new(Node::Call(Function::Round, vec![own.clone()]))),
+        };
         let counter = self.taken.counter("TURN");
         self.counted(span, counter, [Expr::int(1), times, Expr::int(1)], body, out);
     }

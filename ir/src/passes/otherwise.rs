@@ -28,22 +28,25 @@ impl Taken {
     }
 }
 
-/// The program with the other reading of what is taken for granted; `None` where it has none.
-pub fn otherwise(program: &Program, taken: &[Taken]) -> Option<Program> {
+/// The program with the other reading of what is taken for granted, where a target has these functions; `None` where it
+/// has none.
+pub fn otherwise(program: &Program, taken: &[Taken], functions: &[Function]) -> Option<Program> {
     let mut other = program.clone();
     let mut found = false;
     for procedure in &mut other.procedures {
-        expressions(&mut procedure.body, &mut |_, expr| over(expr, taken, &mut found));
+        expressions(&mut procedure.body, &mut |_, expr| over(expr, taken, functions, &mut found));
     }
     found.then_some(other)
 }
 
-fn over(e: &mut Expr, taken: &[Taken], found: &mut bool) {
-    e.parts_mut().for_each(|part| over(part, taken, found));
+fn over(e: &mut Expr, taken: &[Taken], functions: &[Function], found: &mut bool) {
+    e.parts_mut().for_each(|part| over(part, taken, functions, found));
     let Expr::Node(node) = e else { return };
     let of = |operator, a: &Expr, b: &Expr| Some(Node::Binary(operator, a.clone(), b.clone()));
     let apart = taken.contains(&Taken::Apart);
     let not_negative = taken.contains(&Taken::NotNegative);
+    // One that the target has is none that another stands for.
+    let has = |function| functions.contains(&function);
     let other = match &**node {
         Node::Call(Function::Near | Function::NearRatio, all) if apart => match &all[..] {
             [a, b, _] => of(Binary::Equal, a, b),
@@ -52,14 +55,14 @@ fn over(e: &mut Expr, taken: &[Taken], found: &mut bool) {
         Node::Binary(operator, by, Expr::Num(limit)) if apart => {
             compared(*operator, by, *limit).and_then(|(operator, a, b)| of(operator, a, b))
         }
-        Node::Call(Function::Remainder, all) if not_negative => match &all[..] {
+        Node::Call(Function::Remainder, all) if not_negative && !has(Function::Remainder) => match &all[..] {
             [a, b] => of(Binary::Modulo, a, b),
             _ => None,
         },
-        Node::Call(function, all) if not_negative => match function {
+        Node::Call(function, all) if not_negative && !has(*function) => match function {
             Function::Floor => Some(Node::Call(Function::Truncate, all.clone())),
-            Function::Ceiling => Some(Node::Call(Function::RoundUp, all.clone())),
-            Function::RoundUp => Some(Node::Call(Function::Ceiling, all.clone())),
+            Function::Ceiling if has(Function::RoundUp) => Some(Node::Call(Function::RoundUp, all.clone())),
+            Function::RoundUp if has(Function::Ceiling) => Some(Node::Call(Function::Ceiling, all.clone())),
             _ => None,
         },
         _ => None,

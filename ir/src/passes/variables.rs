@@ -147,7 +147,7 @@ pub fn expressions(body: &mut [Stmt], seen: &mut dyn FnMut(&Stmt, &mut Expr)) {
 }
 
 /// Shows the values of a statement that are computed, each with whether it is a length that is measured from zero.
-fn each_value(op: &mut Op, seen: &mut dyn FnMut(&mut Expr, bool)) {
+pub(super) fn each_value(op: &mut Op, seen: &mut dyn FnMut(&mut Expr, bool)) {
     if !arguments::computed(op) {
         return;
     }

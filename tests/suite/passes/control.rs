@@ -7,7 +7,7 @@
 use fastrand::Rng;
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::computes::{Computes, Said};
-use ncc_ir::expr::{Binary, Expr, Node, Unary, Var};
+use ncc_ir::expr::{Binary, Expr, Function, Node, Unary, Var};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::control_forms;
 use ncc_ir::program::{Call, Control, Coord, Move, Op, Procedure, Program, Stmt};
@@ -19,6 +19,9 @@ use super::{same_events, told, write};
 const MANY: u64 = 1000;
 
 const VARIABLES: [&str; 4] = ["A", "B", "C", "D"];
+
+/// Functions that targets have or have not; they cut off all the same.
+const FUNCTIONS: [Function; 4] = [Function::Min, Function::Max, Function::RoundUp, Function::Ceiling];
 
 /// Turns of all loops after which a program ends.
 const FUEL: i64 = 60;
@@ -93,13 +96,26 @@ impl Maker {
     }
 
     fn number(&mut self, depth: u32) -> Expr {
-        match self.dice.u8(..6) {
+        match self.dice.u8(..8) {
             0 | 1 => value(VARIABLES[self.dice.usize(..4)]),
             2 if depth > 0 => {
                 let operator = [Binary::Add, Binary::Subtract, Binary::Multiply][self.dice.usize(..3)];
                 binary(operator, self.number(depth - 1), self.number(depth - 1))
             }
             3 if depth > 0 => Expr::Node(Box::new(Node::Unary(Unary::Negate, self.number(depth - 1)))),
+            6 if depth > 0 => {
+                let function = FUNCTIONS[self.dice.usize(..FUNCTIONS.len())];
+                let both = matches!(function, Function::Min | Function::Max);
+                let arguments = (0..=usize::from(both)).map(|_| self.number(depth - 1)).collect();
+                Expr::Node(Box::new(Node::Call(function, arguments)))
+            }
+            7 if depth > 0 => {
+                let power = Expr::int(self.dice.i64(0..4));
+                match self.dice.bool() {
+                    true => binary(Binary::Power, self.number(depth - 1), power),
+                    false => self.condition(0),
+                }
+            }
             _ => self.literal(),
         }
     }
@@ -264,6 +280,7 @@ fn target(dice: &mut Rng) -> Computes {
     let statements = all.into_iter().filter(|_| dice.bool()).chain([Said::Jump]).collect();
     Computes {
         statements,
+        functions: FUNCTIONS.into_iter().filter(|_| dice.bool()).chain([Function::Truncate]).collect(),
         opposite: dice.bool(),
         blocks: dice.bool(),
         loops: dice.u8(..4),

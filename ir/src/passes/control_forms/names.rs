@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{Target, Var};
+use crate::expr::{Element, Expr, Many, Node, Scope, Target, Var};
 use crate::open::open_variables;
+use crate::passes::variables::expressions;
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
 
 /// Names of labels and variables that the program has.
@@ -11,6 +12,9 @@ use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
 pub(super) struct Names {
     labels: BTreeSet<Text>,
     variables: BTreeSet<Text>,
+    /// Whether variables of a call have numbers, and whether any is reached by a computed number.
+    numbered: bool,
+    reached: bool,
 }
 
 impl Names {
@@ -25,7 +29,9 @@ impl Names {
     }
 
     fn variable(&mut self, var: &Var) {
-        self.variables.insert(var.name().into());
+        let name = var.name();
+        self.numbered |= matches!(var, Var::Local(_)) && name.bytes().all(|b| b.is_ascii_digit());
+        self.variables.insert(name.into());
     }
 
     fn look(&mut self, body: &[Stmt]) {
@@ -39,6 +45,7 @@ impl Names {
                     self.labels.extend(repeat.to.clone());
                 }
                 Op::Assign(Target::Var(var), _) => self.variable(var),
+                Op::Assign(Target::Element(element), _) => self.element(element),
                 Op::Declare(declare) => self.variable(&declare.var),
                 Op::Control(control) => {
                     if let Control::For { variable, .. } = &**control {
@@ -68,6 +75,43 @@ impl Names {
 
     pub(super) fn counter(&mut self, kind: &str) -> Var {
         Var::Local(Names::fresh(&mut self.variables, kind))
+    }
+
+    /// Takes down the variables that are read too.
+    pub(super) fn read(&mut self, program: &mut Program) {
+        fn each(names: &mut Names, e: &Expr) {
+            if let Expr::Node(node) = e {
+                match &**node {
+                    Node::Var(var) => names.variable(var),
+                    Node::Element(element) => names.element(element),
+                    Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {}
+                }
+            }
+            e.parts().for_each(|part| each(names, part));
+        }
+        for procedure in &mut program.procedures {
+            expressions(&mut procedure.body, &mut |_, e| each(self, e));
+        }
+    }
+
+    fn element(&mut self, element: &Element) {
+        if let Many::Numbered(rows) = &element.of {
+            self.reached |= rows.iter().any(|row| row.scope == Scope::Local);
+        }
+    }
+
+    /// A variable to work in: of a program whose variables have numbers, the last of the call's own that is free,
+    /// unless one of them is reached by a computed number.
+    pub(super) fn room(&mut self, local: &[[u32; 2]]) -> Var {
+        let numbers = local.iter().rev().flat_map(|[from, to]| (*from..=*to).rev());
+        let mut free = numbers.map(|n| Text::from(n.to_string())).filter(|_| self.numbered && !self.reached);
+        match free.find(|name| !self.variables.contains(name)) {
+            Some(name) => {
+                self.variables.insert(name.clone());
+                Var::Local(name)
+            }
+            None => self.counter("WORKED"),
+        }
     }
 
     /// Gives labels of one name different ones, with the jumps that go to each, before bodies become part of others.
