@@ -93,8 +93,8 @@ struct Control<'a> {
     feed_inch: bool,
     /// The cycle of MCALL.
     modal: Option<cycles::Cycle>,
-    /// The subprogram of MCALL.
-    modal_call: Option<String>,
+    /// The subprogram of MCALL, and what it is given: its values where MCALL stands.
+    modal_call: Option<(String, Vec<Argument>)>,
     /// Direction in which the last move at feed ended, in program coordinates.
     tangent: Option<[f64; 3]>,
     /// The pole, and the last radius and angle about it.
@@ -286,6 +286,15 @@ impl Control<'_> {
         }
         let bare = w.letters.is_empty() && w.named.is_empty();
         if let Some((name, arguments)) = w.call.filter(|call| self.has_program(call.0)) {
+            if bare && w.names[..] == ["MCALL"] {
+                let fixed = |argument: &Argument| match argument {
+                    Argument::Number(number, _) => Argument::Number(*number, None),
+                    other => other.clone(),
+                };
+                let given = arguments.iter().map(fixed).collect();
+                (self.modal, self.modal_call) = (None, Some((name.to_owned(), given)));
+                return Ok(Some(Next::Block));
+            }
             return self.call(name, w, 0, arguments).map(Some);
         }
         if let Some((name, arguments)) = w.call {
@@ -322,7 +331,7 @@ impl Control<'_> {
             }
             let name = format!("L{digits}");
             if w.names[..] == ["MCALL"] && w.letters.len() == 1 && w.named.is_empty() {
-                (self.modal, self.modal_call) = (None, Some(name));
+                (self.modal, self.modal_call) = (None, Some((name, Vec::new())));
                 return Ok(Some(Next::Block));
             }
             return self.call(&name, w, 1, &[]).map(Some);
@@ -333,7 +342,7 @@ impl Control<'_> {
             name if ADVICE.contains(&name) => return Ok(None),
             "MCALL" if bare && w.names.len() == 1 => (self.modal, self.modal_call) = (None, None),
             "MCALL" if bare && w.names.len() == 2 => {
-                (self.modal, self.modal_call) = (None, Some(w.names[1].to_owned()))
+                (self.modal, self.modal_call) = (None, Some((w.names[1].to_owned(), Vec::new())))
             }
             "RET" if bare && w.names.len() == 1 => {
                 if self.depth == 0 {
@@ -544,10 +553,10 @@ impl Control<'_> {
                 self.suppressed = false;
                 self.run_cycle(cycle)?;
             }
-            if let Some(name) = self.modal_call.take() {
+            if let Some((name, given)) = self.modal_call.take() {
                 let alone = Words { names: vec![""], ..Words::default() };
-                self.call(&name, &alone, 0, &[])?;
-                self.modal_call = Some(name);
+                self.call(&name, &alone, 0, &given)?;
+                self.modal_call = Some((name, given));
             }
         }
         self.end_codes(&m_codes)

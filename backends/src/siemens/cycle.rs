@@ -278,13 +278,13 @@ impl Writer {
             self.argument(to, Role::SpeedOut, &Expr::Num(speed), span, sink)?;
         }
         let Pitch::Stated(pitch) = &tap.pitch else { return Ok(()) };
-        let in_force = match self.words.force.units {
-            Some(Units::Mm) => Unit::Mm,
-            Some(Units::Inch) => Unit::Inch,
-            None => Unit::Entry,
-        };
-        let pitch = pitch.literal().filter(|n| matches!(n.unit, Unit::Entry) || n.unit == in_force);
-        let pitch = pitch.ok_or_else(|| cannot("a pitch in another unit"))?.trimmed();
+        let pitch = pitch.literal().ok_or_else(|| cannot("a computed pitch"))?.trimmed();
+        match (self.words.force.units, pitch.unit) {
+            (Some(Units::Mm), Unit::Inch) | (Some(Units::Inch), Unit::Mm) => {
+                return Err(cannot("a pitch in another unit"));
+            }
+            _ => self.words.check_unit(pitch, span)?,
+        }
         let sign = if tap.turn == Turn::Counterclockwise { "-" } else { "" };
         let digits = format!("{:0>1$}", pitch.mantissa.unsigned_abs(), usize::from(pitch.scale) + 1);
         let (whole, rest) = digits.split_at(digits.len() - usize::from(pitch.scale));

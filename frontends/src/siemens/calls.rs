@@ -4,24 +4,50 @@
 //! by that number; `L012` is another subprogram and keeps its whole name, as all others do, in
 //! capitals.
 //!
-//! A subprogram that is called after each move becomes a call behind every block with motion.
+//! A subprogram that is called after each move becomes a call behind every block with motion. What it hands over is
+//! computed from variables of the calling program, which do not change meanwhile, so that it is one thing when it is
+//! worked out.
 //!
 //! Refused by name: calls by path, calls while a subprogram is called after each move
 //! (it would be called after the moves in them as well), and subprograms that leave a cycle in force.
 
 use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::expr::{Expr as Value, Many, Node, Var};
 use ncc_ir::program::{Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
 
 use super::again::{NotAgain, Under};
 use super::cycles::is_cycle;
-use super::facts::{InForce, Motion, State};
+use super::facts::{AfterMove, InForce, Motion, State};
+use super::formula::Typed;
 use super::lower::{Head, Lower};
-use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value};
+use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Written};
 use crate::Batch;
 use crate::word::Source;
 use crate::word::block::{Digits, Value as Number, Word};
 use crate::word::facts::{Know, report};
+
+/// What a call hands over.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Handing<'h> {
+    /// The arguments that are written.
+    Written(&'h [Option<Expr>]),
+    /// Those of a call after each move.
+    AfterMove(&'h [Option<Typed>]),
+}
+
+/// Whether a value is computed from variables of the program at hand alone.
+fn is_own(expr: &Value) -> bool {
+    let own = match expr {
+        Value::Num(_) => true,
+        Value::Node(node) => match &**node {
+            Node::Var(var) => matches!(var, Var::Local(_)),
+            Node::Element(element) => matches!(&element.of, Many::Array { var: Var::Local(_), .. }),
+            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => true,
+        },
+    };
+    own && expr.parts().all(is_own)
+}
 
 /// Most calls, or repetitions, by one word.
 const MOST_TIMES: i64 = 9999;
@@ -55,7 +81,7 @@ impl Lower {
         if !text[1..].bytes().all(|b| b.is_ascii_digit()) {
             return self.fault(Fault::OutOfRange { word: text.into() }, word, out);
         }
-        self.call(&text, word, &[], [before, after], src, out);
+        self.call(&text, word, Handing::Written(&[]), [before, after], src, out);
     }
 
     /// A name that the dictionary has as a cycle or pattern, or does not have: a subprogram's.
@@ -74,7 +100,7 @@ impl Lower {
         let message = dialect.name_row(&name).is_some();
         if row.is_none() && !message {
             let arguments = called.arguments.as_deref().unwrap_or_default();
-            return self.call(&name, called.span, arguments, [before, after], src, out);
+            return self.call(&name, called.span, Handing::Written(arguments), [before, after], src, out);
         }
         if !before.is_empty() || !after.is_empty() {
             return self.not_supported(&name, "call beside other words", head.span, out);
@@ -96,7 +122,7 @@ impl Lower {
         if !plain || name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
             return self.not_supported("CALL", "call by path", head.span, out);
         }
-        self.call(name, head.span, &[], [&[], &[]], src, out);
+        self.call(name, head.span, Handing::Written(&[]), [&[], &[]], src, out);
     }
 
     /// `MCALL`, alone or with a cycle.
@@ -120,8 +146,21 @@ impl Lower {
 
     /// `MCALL NAME`: of a subprogram, after each block with motion.
     fn call_modal_program(&mut self, name: &str, called: &Called, src: Source, out: &mut Batch) {
-        let refuse = if called.arguments.as_ref().is_some_and(|a| !a.is_empty()) {
-            Some("call with arguments")
+        let mut given = Vec::new();
+        for argument in called.arguments.as_deref().unwrap_or_default() {
+            given.push(match argument {
+                None => None,
+                Some(argument) => match self.formula(argument, src, out) {
+                    Some(typed) => Some(typed),
+                    None => {
+                        self.state.cycle = InForce::Refused;
+                        return;
+                    }
+                },
+            });
+        }
+        let refuse = if given.iter().flatten().any(|typed| !is_own(&typed.expr)) {
+            Some("call after each move with what others may change")
         } else if self.skipped() {
             Some("call after each move that a switch may skip")
         } else if matches!(self.state.cycle, InForce::Inherited { .. } | InForce::Lost { .. }) {
@@ -141,13 +180,13 @@ impl Lower {
             self.push(called.span, Op::EndCycle, out);
         }
         self.now.heading = true;
-        self.state.cycle = InForce::Subprogram(name.into());
+        self.state.cycle = InForce::Subprogram(Box::new(AfterMove { name: name.into(), given }));
     }
 
     /// The call behind a block with motion, as a block of its own.
-    pub(super) fn call_after_move(&mut self, name: &str, block: Span, src: Source, out: &mut Batch) {
+    pub(super) fn call_after_move(&mut self, after: &AfterMove, block: Span, src: Source, out: &mut Batch) {
         self.apart();
-        self.call(name, block, &[], [&[], &[]], src, out);
+        self.call(&after.name, block, Handing::AfterMove(&after.given), [&[], &[]], src, out);
     }
 
     /// A call of a subprogram by its name in the text.
@@ -155,7 +194,7 @@ impl Lower {
         &mut self,
         written: &str,
         at: Span,
-        given: &[Option<Expr>],
+        given: Handing,
         [before, after]: [&[Item]; 2],
         src: Source,
         out: &mut Batch,
@@ -368,7 +407,7 @@ fn times(item: &Item) -> Option<i64> {
         Item::Word(Word { letter: b'P', value: Number::Number(digits), .. }) => whole(*digits),
         Item::Set {
             place: Place { address: Address::Letter(b'P'), extension: None, index, .. },
-            value: Value::Expr(Expr::Number(digits, _)),
+            value: Written::Expr(Expr::Number(digits, _)),
             ..
         } if index.is_empty() => whole(*digits),
         Item::Word(_) | Item::Set { .. } | Item::Name(_) => None,

@@ -3,7 +3,7 @@
 //! What a written argument is refused for is found when the program runs: planes that are not one above the other end
 //! it with the cycle's own alarm 61101 (reference, 9).
 //!
-//! Refused by name: other arguments than planes and depths, and other cycles than those that drill and bore.
+//! Refused by name: other arguments than planes and depths.
 
 use ncc_dialects::{CallKind, ParameterRole as Role, Quantity};
 use ncc_ir::canon::Distance;
@@ -18,6 +18,7 @@ use super::formula::binary;
 use super::lower::Lower;
 use crate::Batch;
 use crate::word::Source;
+use crate::word::number::unit_of;
 
 /// A length, as it counts by itself and as an operand.
 #[derive(Clone)]
@@ -117,6 +118,7 @@ impl Lower {
             let level = Expr::Node(Box::new(Node::Unary(Unary::Not, higher)));
             wrong = binary(Binary::Or, wrong, level);
         }
+        let (mut feed, mut speed) = (None, None);
         let kind = match a.row.kind {
             CallKind::Drill => CycleKind::Drill,
             CallKind::DrillDwell => dwell.map_or(CycleKind::Drill, |dwell| CycleKind::DrillDwell { dwell }),
@@ -133,18 +135,33 @@ impl Lower {
                 let first = safety.as_ref().map(|safety| stroke.with(safety, false).own);
                 self.computed_pecks(a, stroke.own, first, dwell, src, out)?
             }
-            CallKind::Bore
-            | CallKind::Tap
-            | CallKind::TapRigid
-            | CallKind::BoreFine
-            | CallKind::BoreStop
-            | CallKind::Line
-            | CallKind::Circle
-            | CallKind::Grid
-            | CallKind::List => {
-                self.not_supported(&a.row.name, "computed arguments of this cycle", a.span, out);
-                return None;
+            CallKind::Tap => {
+                self.planes_alone(a, out)?;
+                let unit = unit_of(self.units(a.span, out));
+                self.chuck_tap(a, unit, dwell, out)?
             }
+            CallKind::TapRigid => {
+                self.planes_alone(a, out)?;
+                let unit = unit_of(self.units(a.span, out));
+                let (kind, own) = self.rigid_tap(a, unit, dwell, src, out)?;
+                speed = own;
+                kind
+            }
+            CallKind::BoreFine => {
+                self.planes_alone(a, out)?;
+                self.fine_bore(a, plane.known(), dwell, src, out)?
+            }
+            CallKind::BoreStop => {
+                self.planes_alone(a, out)?;
+                self.stop_bore(a, dwell, out)?
+            }
+            CallKind::Bore => {
+                self.planes_alone(a, out)?;
+                let (kind, into) = self.bore_by_feeds(a, dwell, src, out)?;
+                feed = Some(into);
+                kind
+            }
+            CallKind::Line | CallKind::Circle | CallKind::Grid | CallKind::List => return None,
         };
         if self.now.failed {
             return None;
@@ -153,6 +170,7 @@ impl Lower {
         let then = vec![Stmt::new(a.span, Op::Alarm(Box::new(alarm)))];
         let check = Control::If { condition: wrong, then, otherwise: Vec::new() };
         self.push(a.span, Op::Control(Box::new(check)), out);
+        self.speed_of_tap(speed, a.span, out);
         Some(Cycle {
             kind,
             plane,
@@ -161,8 +179,24 @@ impl Lower {
             return_level: Fact::Entry,
             return_plane: Some(return_plane.coord()),
             approach: self.settings.approach(),
-            feed: None,
+            feed,
         })
+    }
+
+    /// Of a cycle that does something with the spindle, or has feeds of its own, planes and depths alone may be
+    /// computed; `None` if another argument is (reported).
+    fn planes_alone(&mut self, a: &Arguments, out: &mut Batch) -> Option<()> {
+        const PLANES: [Role; 5] =
+            [Role::ReturnPlane, Role::ReferencePlane, Role::SafetyDistance, Role::Depth, Role::RelativeDepth];
+        for (given, parameter) in a.given.iter().zip(&a.row.parameters) {
+            let Some(given) = given.filter(|given| given.computed.is_some()) else { continue };
+            if !parameter.role.is_some_and(|role| PLANES.contains(&role)) {
+                let name = format!("{}: an argument that is computed", parameter.name);
+                self.not_supported(&a.row.name, &name, given.span, out);
+                return None;
+            }
+        }
+        Some(())
     }
 
     /// Deep-hole drilling with a stroke that is computed.

@@ -219,22 +219,40 @@ impl Lower {
     }
 
     fn put(&mut self, kept: Kept, value: Expr, span: Span, out: &mut Batch) {
-        if let InForce::Active(cycle) = &self.state.cycle {
-            let mut found = false;
-            arguments::each(&mut Op::StartCycle(cycle.clone()), &mut |argument, _| {
-                if let Some(expr) = argument.expr() {
-                    reads(expr, &mut |name| found |= may_be_one(name, &kept.name));
-                }
-                Ok::<(), std::convert::Infallible>(())
-            })
-            .unwrap_or_else(|never| match never {});
-            if found {
-                let name = "assignment to what the arguments of the modal cycle were computed from";
-                return self.not_supported(&kept.name, name, span, out);
-            }
+        if !self.is_free_to_change(&kept.name, span, out) {
+            return;
         }
         self.now.set.push(kept.name);
         self.push(span, Op::Assign(kept.target, value), out);
+    }
+
+    /// Whether a variable is none of those from which is computed what `MCALL` has put in force; else that is
+    /// reported: whether it counts with the new value is open.
+    pub(super) fn is_free_to_change(&mut self, name: &str, span: Span, out: &mut Batch) -> bool {
+        let mut found = false;
+        let mut one = |expr: &Expr| reads(expr, &mut |read| found |= may_be_one(read, name));
+        let refuse = match &self.state.cycle {
+            InForce::Active(cycle) => {
+                let op = &mut Op::StartCycle(cycle.clone());
+                arguments::each(op, &mut |argument, _| {
+                    argument.expr().into_iter().for_each(&mut one);
+                    Ok::<(), std::convert::Infallible>(())
+                })
+                .unwrap_or_else(|never| match never {});
+                "assignment to what the arguments of the modal cycle were computed from"
+            }
+            InForce::Subprogram(after) => {
+                after.given.iter().flatten().for_each(|typed| one(&typed.expr));
+                "assignment to what is handed over after each move"
+            }
+            InForce::None | InForce::Inherited { .. } | InForce::Lost { .. } | InForce::Refused => {
+                return true;
+            }
+        };
+        if found {
+            self.not_supported(name, refuse, span, out);
+        }
+        !found
     }
 
     /// `FIELD[0]=SET(1,2,3)`, `FIELD[0]=REP(0)`: from an element on.

@@ -263,25 +263,20 @@ impl Lower {
             CallKind::DrillDwell => dwell.map_or(CycleKind::Drill, |dwell| CycleKind::DrillDwell { dwell }),
             CallKind::DrillPeck => self.pecks(a, [reference, safety, depth], dwell, src, out)?,
             CallKind::Tap => self.chuck_tap(a, return_plane.unit, dwell, out)?,
-            CallKind::TapRigid => self.rigid_tap(a, return_plane.unit, dwell, src, out)?,
+            CallKind::TapRigid => {
+                let (kind, speed) = self.rigid_tap(a, return_plane.unit, dwell, src, out)?;
+                self.speed_of_tap(speed, a.span, out);
+                kind
+            }
             CallKind::BoreFine => self.fine_bore(a, plane.known(), dwell, src, out)?,
             CallKind::BoreStop => self.stop_bore(a, dwell, out)?,
             CallKind::Bore if a.row.place(Role::FeedIn).is_none() => {
                 CycleKind::Bore { dwell, feed_out: None, to_level: false }
             }
             CallKind::Bore => {
-                let into = self.needed(a, Role::FeedIn, src, out)?;
-                let back = self.needed(a, Role::FeedOut, src, out)?;
-                for (num, role) in [(into, Role::FeedIn), (back, Role::FeedOut)] {
-                    if num.is_zero() {
-                        return self.out_of_range(a, role, out);
-                    }
-                }
-                self.rely_on_feed_mode(a.span, out);
-                feed = Some(Expr::Num(into));
-                let other = into.trimmed().mantissa != back.trimmed().mantissa
-                    || into.trimmed().scale != back.trimmed().scale;
-                CycleKind::Bore { dwell, feed_out: other.then_some(Expr::Num(back)), to_level: false }
+                let (kind, into) = self.bore_by_feeds(a, dwell, src, out)?;
+                feed = Some(into);
+                kind
             }
             CallKind::Line | CallKind::Circle | CallKind::Grid | CallKind::List => return None,
         };
@@ -295,6 +290,28 @@ impl Lower {
             approach: self.settings.approach(),
             feed,
         })
+    }
+
+    /// Boring with feeds of the cycle's own: the cycle, and its feed into the hole.
+    pub(super) fn bore_by_feeds(
+        &mut self,
+        a: &Arguments,
+        dwell: Option<Expr>,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<(CycleKind, Expr)> {
+        use ParameterRole as Role;
+        let into = self.needed(a, Role::FeedIn, src, out)?;
+        let back = self.needed(a, Role::FeedOut, src, out)?;
+        for (num, role) in [(into, Role::FeedIn), (back, Role::FeedOut)] {
+            if num.is_zero() {
+                return self.out_of_range(a, role, out);
+            }
+        }
+        self.rely_on_feed_mode(a.span, out);
+        let value = |num: Num| (num.trimmed().mantissa, num.trimmed().scale);
+        let other = (value(into) != value(back)).then_some(Expr::Num(back));
+        Some((CycleKind::Bore { dwell, feed_out: other, to_level: false }, Expr::Num(into)))
     }
 
     /// Whether an argument is there and not 0.

@@ -14,6 +14,7 @@ use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::source::Span;
 
+use super::formula::Typed;
 use super::lower::Lower;
 use super::polar::Pole;
 use crate::Batch;
@@ -51,8 +52,8 @@ pub(super) enum InForce {
     #[default]
     None,
     Active(Box<Cycle>),
-    /// A subprogram, by its name in the text, that is called where a block with motion ends.
-    Subprogram(Box<str>),
+    /// A subprogram that is called where a block with motion ends.
+    Subprogram(Box<AfterMove>),
     /// The caller's; one is in force.
     Inherited {
         /// Whether it has a feed of its own, or may have.
@@ -65,6 +66,15 @@ pub(super) enum InForce {
     },
     /// One that was refused: what follows from it is not blamed as well.
     Refused,
+}
+
+/// A subprogram that `MCALL` has called where each block with motion ends.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct AfterMove {
+    /// Its name in the text.
+    pub(super) name: Box<str>,
+    /// What each call hands over; `None` where nothing is.
+    pub(super) given: Vec<Option<Typed>>,
 }
 
 impl InForce {

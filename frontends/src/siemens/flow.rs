@@ -414,6 +414,9 @@ impl Lower {
             },
             _ => None,
         };
+        if let Some(variable) = &variable {
+            self.is_free_to_change(&variable.name(), counter.span, out);
+        }
         let what = match (variable, from, to) {
             (Some(variable), Some(from), Some(to)) => {
                 // A counter that is no whole number is rounded to one.

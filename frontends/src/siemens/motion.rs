@@ -84,12 +84,12 @@ impl Lower {
                 let made = self.path(motion.is_some(), machine, block, words, src, out);
                 self.moved = made;
             }
-            InForce::Subprogram(name) => {
+            InForce::Subprogram(after) => {
                 self.moved = self.path(motion.is_some(), machine, block, words, src, out);
                 if !self.now.failed {
-                    self.call_after_move(&name, block, src, out);
+                    self.call_after_move(&after, block, src, out);
                 }
-                self.state.cycle = InForce::Subprogram(name);
+                self.state.cycle = InForce::Subprogram(after);
             }
             InForce::Active(cycle) => {
                 self.state.cycle = InForce::Active(cycle.clone());

@@ -18,6 +18,7 @@ use ncc_ir::expr::{Expr, Node, Target, Var};
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::calls::Handing;
 use super::computing::stored;
 use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::lower::Lower;
@@ -39,6 +40,8 @@ struct Call {
     at: Span,
     /// What is handed over; `None` where nothing is.
     given: Vec<Option<Typed>>,
+    /// Whether it is made after each move.
+    modal: bool,
 }
 
 /// A parameter: its type, and its value where a call has none.
@@ -110,25 +113,28 @@ impl Lower {
     pub(super) fn handed_over(
         &mut self,
         name: &str,
-        given: &[Option<Tree>],
+        given: Handing,
         at: Span,
         src: Source,
         out: &mut Batch,
     ) -> Option<Vec<Expr>> {
-        if given.is_empty() {
-            self.handed.calls.push(Call { name: name.into(), at, given: Vec::new() });
-            return Some(Vec::new());
-        }
-        let mut all = Vec::with_capacity(given.len());
-        for argument in given {
-            all.push(match argument {
-                None => None,
-                Some(argument) => Some(self.formula(argument, src, out)?),
-            });
-        }
+        let all = match given {
+            Handing::AfterMove(given) => given.to_vec(),
+            Handing::Written(given) => {
+                let mut all = Vec::with_capacity(given.len());
+                for argument in given {
+                    all.push(match argument {
+                        None => None,
+                        Some(argument) => Some(self.formula(argument, src, out)?),
+                    });
+                }
+                all
+            }
+        };
         let nothing = || Expr::Node(Box::new(Node::Vacant));
         let arguments = all.iter().map(|a| a.as_ref().map_or_else(nothing, |a| a.expr.clone())).collect();
-        self.handed.calls.push(Call { name: name.into(), at, given: all });
+        let modal = matches!(given, Handing::AfterMove(_));
+        self.handed.calls.push(Call { name: name.into(), at, given: all, modal });
         Some(arguments)
     }
 
@@ -157,6 +163,11 @@ impl Lower {
             for parameter in takes {
                 let value = given.next().flatten();
                 arguments.push(match (value, &parameter.reference) {
+                    (_, Some(_)) if call.modal => {
+                        let name = "caller's own variable in a call after each move".into();
+                        out.report(Fault::NotSupported { code: "VAR".into(), name }, call.at);
+                        Expr::int(0)
+                    }
                     (value, Some(reference)) => {
                         let var =
                             value.as_ref().filter(|value| value.kind == parameter.kind).and_then(variable);

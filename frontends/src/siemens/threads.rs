@@ -9,6 +9,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Op, Pitch};
+use ncc_ir::source::Span;
 
 use super::cycles::Arguments;
 use super::facts::InForce;
@@ -92,7 +93,8 @@ impl Lower {
         Some(Some(found))
     }
 
-    /// Rigid tapping: the control turns the spindle itself.
+    /// Rigid tapping: the control turns the spindle itself. With it its speed, if it has one of its own
+    /// ([`Lower::speed_of_tap`]).
     pub(super) fn rigid_tap(
         &mut self,
         a: &Arguments,
@@ -100,7 +102,7 @@ impl Lower {
         dwell: Option<Expr>,
         src: Source,
         out: &mut Batch,
-    ) -> Option<CycleKind> {
+    ) -> Option<(CycleKind, Option<Num>)> {
         let Some((pitch, turn)) = self.thread_pitch(a, unit, out)? else {
             let (code, word) = (a.row.name.as_str().into(), a.name(Role::ThreadPitch).into());
             return self.refuse(Fault::WordMissing { code, word }, a.span, out);
@@ -119,25 +121,20 @@ impl Lower {
             self.not_supported(&a.row.name, name, a.at(Role::SpeedOut), out);
             return None;
         }
-        if let Some(speed) = speed {
-            // The cycle that was modal is over before that: its own speed is what it was called up with.
-            if matches!(self.state.cycle, InForce::Active(_)) {
-                self.push(a.span, Op::EndCycle, out);
-            }
-            self.push(a.span, Op::SetSpindleSpeed(Expr::Num(speed)), out);
-            self.idle_tap = true;
-        }
         let pitch = Pitch::Stated(pitch.into());
-        Some(CycleKind::Tap(Box::new(Tap {
-            turn,
-            pitch,
-            chuck: false,
-            dwell,
-            back: None,
-            settle: None,
-            after,
-            to_level: false,
-        })))
+        let tap = Tap { turn, pitch, chuck: false, dwell, back: None, settle: None, after, to_level: false };
+        Some((CycleKind::Tap(Box::new(tap)), speed))
+    }
+
+    /// The speed that a rigid tap has of its own is set before it is called up.
+    pub(super) fn speed_of_tap(&mut self, speed: Option<Num>, at: Span, out: &mut Batch) {
+        let Some(speed) = speed else { return };
+        // The cycle that was modal is over before that: its own speed is what it was called up with.
+        if matches!(self.state.cycle, InForce::Active(_)) {
+            self.push(at, Op::EndCycle, out);
+        }
+        self.push(at, Op::SetSpindleSpeed(Expr::Num(speed)), out);
+        self.idle_tap = true;
     }
 
     /// Tapping with a compensating chuck.

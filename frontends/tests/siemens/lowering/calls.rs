@@ -223,7 +223,10 @@ fn a_subprogram_after_each_move() {
         faults("MCALL L70\nL80\n"),
         refused("call while a subprogram is called after each move", "L80", "L80")
     );
-    assert_eq!(faults("MCALL SUB(1)\n"), refused("call with arguments", "SUB(1)", "SUB(1)"));
+    assert_eq!(
+        faults("MCALL SUB(R1)\n"),
+        refused("call after each move with what others may change", "SUB(R1)", "SUB(R1)")
+    );
     assert_eq!(faults("/MCALL L70\n"), refused("call after each move that a switch may skip", "L70", "L70"));
     assert_eq!(
         faults("MCALL L70\n/MCALL\n"),

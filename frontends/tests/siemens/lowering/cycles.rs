@@ -203,7 +203,7 @@ fn a_cycle_behind_a_switch_leaves_open_what_a_position_is() {
 #[test]
 fn a_refused_cycle_is_refused_once() {
     let follow = "X10\nG1 X5\nHOLES2(0,0,5,0,0,3)\nL1\nF5\nMCALL\nX1\n";
-    for call in ["CYCLE81(5,0,2)", "CYCLE84(5,0,2,-5)", "CYCLE81(5,0,2,-3,4)", "L70(1)"] {
+    for call in ["CYCLE81(5,0,2)", "CYCLE84(5,0,2,-5)", "CYCLE81(5,0,2,-3,4)", "L70(R1)"] {
         assert_eq!(faults(&format!("MCALL {call}\n{follow}")).len(), 1, "{call}");
     }
 }
