@@ -13,6 +13,7 @@ use ncc_backends::{Head, Origin, Writer};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_ir::given_back::left_out;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
@@ -296,6 +297,10 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let mut program = source.clone();
+        if !self.job.to.dialect.can.everything {
+            let told = left_out(&program, &self.job.to.caps());
+            self.take(told, Told::Writer);
+        }
         let mut known = Known::default();
         let mut renamed = Renamed::default();
         let computes = anything(&source).is_some() && !self.executes_computed();

@@ -45,6 +45,8 @@ pub enum Said {
     Stop,
     /// What [`crate::call_of`] finds.
     CallOf,
+    /// [`crate::program::Attribute`] of a procedure.
+    Attributes,
 }
 
 /// How arguments come to the variables of what is called.

@@ -20,6 +20,7 @@ pub mod diag;
 pub mod exec;
 pub mod expr;
 pub mod geometry;
+pub mod given_back;
 mod kinds;
 pub mod maps;
 pub mod num;

@@ -66,8 +66,22 @@ pub struct Procedure {
     /// What the parameters hold, in their order, where that is said; else any number. A call has converted what it
     /// hands over.
     pub kinds: Vec<Type>,
+    /// What is said of it as a whole, in the order in which it is said.
+    pub attributes: Vec<Attribute>,
     /// What it does.
     pub body: Vec<Stmt>,
+}
+
+/// What is said of a procedure as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attribute {
+    /// `gives-back`: behind each call the modes, the work offset and the chain of frames are those that were in force
+    /// before it. The statements that say so stand there ([`crate::given_back`]).
+    GivesBack,
+    /// `runs-through`: advice to stop behind none of its blocks where the operator has the control stop behind each.
+    RunsThrough,
+    /// `not-shown`: advice not to show its blocks.
+    NotShown,
 }
 
 /// A statement.

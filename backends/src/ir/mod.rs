@@ -14,7 +14,7 @@ use ncc_dialects::Settings;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::expr::Var;
-use ncc_ir::program::{Control, Op, Procedure, Stmt, Type};
+use ncc_ir::program::{Attribute, Control, Op, Procedure, Stmt, Type};
 use ncc_ir::source::Span;
 
 use crate::canon::text::{quote, whole};
@@ -76,6 +76,13 @@ impl Writer {
             out.extend_from_slice(b" (");
             self.list(&p.parameters, &p.kinds, out);
             out.push(b')');
+        }
+        for attribute in &p.attributes {
+            out.extend_from_slice(match attribute {
+                Attribute::GivesBack => b" gives-back",
+                Attribute::RunsThrough => b" runs-through",
+                Attribute::NotShown => b" not-shown",
+            });
         }
         out.extend_from_slice(b" {");
         out.extend_from_slice(self.eol);

@@ -13,7 +13,7 @@ use ncc_ir::arguments;
 use ncc_ir::cycle::Cycle;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
-use ncc_ir::program::{Alarm, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
+use ncc_ir::program::{Alarm, Attribute, Call, Control, Declare, Op, Piece, Procedure, Stmt, Text, Type};
 use ncc_ir::source::Span;
 use ncc_ir::types::Types;
 
@@ -174,10 +174,19 @@ impl Writer {
         Ok(())
     }
 
-    /// The head of a subprogram with parameters.
+    /// The head of a subprogram with parameters or attributes.
     pub(super) fn parameters(&self, procedure: &Procedure, name: &str) -> Result<Option<String>, Fault> {
+        let attributes: String = procedure
+            .attributes
+            .iter()
+            .map(|attribute| match attribute {
+                Attribute::GivesBack => " SAVE",
+                Attribute::RunsThrough => " SBLOF",
+                Attribute::NotShown => " DISPLOF",
+            })
+            .collect();
         if procedure.parameters.is_empty() {
-            return Ok(None);
+            return Ok((!attributes.is_empty()).then(|| format!("PROC {name}{attributes}")));
         }
         let mut all = Vec::with_capacity(procedure.parameters.len());
         for parameter in &procedure.parameters {
@@ -189,7 +198,7 @@ impl Writer {
             let written = written.ok_or_else(|| cannot_compute("a parameter that all programs see"))?;
             all.push(format!("{var}{} {written}", word(self.variables.types.of_var(parameter))));
         }
-        Ok(Some(format!("PROC {name}({})", all.join(", "))))
+        Ok(Some(format!("PROC {name}({}){attributes}", all.join(", "))))
     }
 
     /// A call's arguments, each as its parameter takes it.

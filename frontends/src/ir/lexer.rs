@@ -7,7 +7,7 @@ use logos::Logos;
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Detour, Op, Text, ToolValue, Type};
+use ncc_ir::program::{Attribute, Detour, Op, Text, ToolValue, Type};
 
 use super::scan::{block_number, number, quoted, variable};
 
@@ -358,6 +358,10 @@ pub(crate) enum Token {
     Assumed,
     #[token("procedure")]
     Procedure,
+    #[token("gives-back", |_| Attribute::GivesBack)]
+    #[token("runs-through", |_| Attribute::RunsThrough)]
+    #[token("not-shown", |_| Attribute::NotShown)]
+    Attribute(Attribute),
     #[token("repeat")]
     Repeat,
     #[token("loop")]

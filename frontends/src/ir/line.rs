@@ -39,7 +39,7 @@ pub(crate) enum Line {
 pub(crate) fn procedure(name: Text, title: Option<Text>, parameters: Vec<(Option<Type>, Var)>) -> Procedure {
     let kinds = parameters.iter().map_while(|(kind, _)| *kind).collect();
     let parameters = parameters.into_iter().map(|(_, var)| var).collect();
-    Procedure { name, title, parameters, kinds, body: Vec::new() }
+    Procedure { name, title, parameters, kinds, ..Procedure::default() }
 }
 
 /// Why a line that has the form of one is refused.

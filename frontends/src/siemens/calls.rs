@@ -13,7 +13,7 @@
 
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Expr as Value, Many, Node, Var};
-use ncc_ir::program::{Call, Move, Op, RepeatBlocks, Text};
+use ncc_ir::program::{Attribute, Call, Move, Op, RepeatBlocks, Text};
 use ncc_ir::source::Span;
 
 use super::again::{NotAgain, Under};
@@ -52,8 +52,18 @@ fn is_own(expr: &Value) -> bool {
 /// Most calls, or repetitions, by one word.
 const MOST_TIMES: i64 = 9999;
 
-/// Attributes of a subprogram that change only what is shown or how it is stopped.
-const ATTRIBUTES: [&str; 7] = ["SBLOF", "SBLON", "DISPLOF", "DISPLON", "ACTBLOCNO", "PREPRO", "ICYCOF"];
+/// Attributes of a subprogram, with what they say (Job planning, subprograms); of the others, which change only what is
+/// shown and when it is made ready, nothing is kept.
+const ATTRIBUTES: [(&str, Option<Attribute>); 8] = [
+    ("SAVE", Some(Attribute::GivesBack)),
+    ("SBLOF", Some(Attribute::RunsThrough)),
+    ("SBLON", None),
+    ("DISPLOF", Some(Attribute::NotShown)),
+    ("DISPLON", None),
+    ("ACTBLOCNO", None),
+    ("PREPRO", None),
+    ("ICYCOF", None),
+];
 
 /// The name of a subprogram's procedure, from its name in the text.
 pub(super) fn procedure_name(name: &str) -> Text {
@@ -363,8 +373,21 @@ impl Lower {
         self.parameters(parameters, head.span, src, out);
         for &attribute in attributes {
             let name = src.text(attribute).to_ascii_uppercase();
-            if !ATTRIBUTES.contains(&name.as_str()) {
+            let Some((_, own)) = ATTRIBUTES.iter().find(|(own, _)| *own == name) else {
                 self.not_supported(&name, "attribute of a subprogram", attribute, out);
+                continue;
+            };
+            match (own, &mut self.sub) {
+                (Some(own), Some(procedure)) if procedure.attributes.contains(own) => {}
+                (Some(own), Some(procedure)) => procedure.attributes.push(*own),
+                // Of a program by itself the heading is not kept.
+                (Some(Attribute::GivesBack), None) => {
+                    self.not_supported(&name, "attribute of a subprogram", attribute, out);
+                }
+                (Some(Attribute::RunsThrough | Attribute::NotShown), None) => {
+                    out.report(Fault::AdviceLeftOut { kind: name.into() }, attribute);
+                }
+                (None, _) => {}
             }
         }
         self.sub_alone |= self.sub.is_none();

@@ -13,13 +13,17 @@
 
 use std::collections::BTreeSet;
 
+use ncc_ir::canon::{self, Modes};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::{Expr, Node, Target, Var};
-use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
+use ncc_ir::given_back;
+use ncc_ir::program::{Attribute, Control, Op, Procedure, Program, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::track::Tracker;
 
 use super::calls::Handing;
 use super::computing::stored;
+use super::facts::Motion;
 use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::lower::Lower;
 use super::tree::{Expr as Tree, Parameter, Value};
@@ -31,6 +35,8 @@ use crate::word::Source;
 pub(super) struct Handed {
     calls: Vec<Call>,
     parameters: Vec<(Text, Vec<Taken>)>,
+    /// What holds where the part of the text begins that is kept whole.
+    stood: Tracker,
 }
 
 /// A call with arguments, by its place.
@@ -136,6 +142,51 @@ impl Lower {
         let modal = matches!(given, Handing::AfterMove(_));
         self.handed.calls.push(Call { name: name.into(), at, given: all, modal });
         Some(arguments)
+    }
+
+    /// Notes what holds where further text begins. Of what was `before` it, what the state does not say is not known.
+    pub(super) fn note_stand(&mut self, before: bool) {
+        let state = &self.state;
+        let framed = state.in_frame.contains(&true);
+        self.handed.stood = Tracker {
+            modes: Modes {
+                motion: match state.motion.value() {
+                    Some(Motion::Traverse) => Some(canon::Motion::Traverse),
+                    Some(Motion::Feed) => Some(canon::Motion::Feed),
+                    Some(Motion::Arc(_) | Motion::Through | Motion::Tangent | Motion::Thread(_)) | None => {
+                        None
+                    }
+                },
+                distance: state.distance.value(),
+                units: state.units.value(),
+                plane: state.plane.value(),
+                feed_mode: state.feed_mode.value(),
+                work_offset: state.work_offset.value(),
+                ..Modes::default()
+            },
+            framed,
+            chained: framed,
+            turned: framed,
+            chain_turned: framed,
+            compensated: before,
+            ..Tracker::default()
+        };
+    }
+
+    /// The text is over: behind the calls of a subprogram with SAVE stands what it gives back.
+    pub(super) fn give_back(&mut self, out: &mut Batch) {
+        let gives = |procedure: &Procedure| procedure.attributes.contains(&Attribute::GivesBack);
+        if !out.procedures.iter().any(gives) {
+            return;
+        }
+        let mut entry = std::mem::take(&mut self.handed.stood);
+        entry.modes = entry.modes.or(out.assumed);
+        let mut procedures = vec![Procedure { body: std::mem::take(&mut out.stmts), ..Procedure::default() }];
+        procedures.append(&mut out.procedures);
+        let mut program = Program { procedures, ..Program::default() };
+        given_back::run(&mut program, &entry, "SAVE", &mut out.diagnostics);
+        out.stmts = program.procedures.remove(0).body;
+        out.procedures = program.procedures;
     }
 
     /// The text is over: each call gets the values that its subprogram takes.

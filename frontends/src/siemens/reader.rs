@@ -108,6 +108,9 @@ impl Reader {
             return self.not_text(Span::new(at, at + 1), out);
         }
         self.lower.look_ahead(text, out);
+        if !out.whole {
+            self.lower.note_stand(base > 0);
+        }
         let src = Source { text, base };
         let mut at = if base == 0 && text.starts_with(b"\xEF\xBB\xBF") { 3 } else { 0 };
         while at < text.len() {
@@ -158,6 +161,7 @@ impl Reader {
         }
         self.end_of_program(out);
         self.lower.hand_over(out);
+        self.lower.give_back(out);
         for (name, at) in self.lower.again.unknown() {
             out.report(Fault::CallUnknown { name }, at);
         }

@@ -161,6 +161,8 @@ pub enum Statement {
     Stop,
     /// A call of which the number, or how often, is computed.
     CallOf,
+    /// What is said of a subprogram as a whole.
+    Attributes,
 }
 
 impl From<Statement> for Said {
@@ -180,6 +182,7 @@ impl From<Statement> for Said {
             Statement::Alarm => Said::Alarm,
             Statement::Stop => Said::Stop,
             Statement::CallOf => Said::CallOf,
+            Statement::Attributes => Said::Attributes,
         }
     }
 }

@@ -13,11 +13,11 @@ use std::collections::{BTreeMap, HashMap};
 
 use super::expand_calls::{settle, settle_point};
 use crate::arguments;
-use crate::canon::{Modes, Motion};
+use crate::canon::{AXES, Modes, Motion};
 use crate::cycle::Cycle;
 use crate::expr::Target;
 use crate::kinds::flow;
-use crate::program::{Control, Op, Program, Stmt, Text};
+use crate::program::{Attribute, Control, Op, PathControl, Program, Stmt, Text};
 use crate::track::Tracker;
 
 /// Most times that a program is gone through; one that needs more keeps what it says.
@@ -124,10 +124,45 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
     Known::default()
 }
 
+/// What holds at a call.
+#[derive(Clone, Debug)]
+pub(crate) struct At {
+    pub(crate) before: Tracker,
+    /// How corners are taken, if it is known.
+    pub(crate) path: Option<Box<PathControl>>,
+    /// What holds where the subprogram goes back; `None` if it does not.
+    pub(crate) behind: Option<Tracker>,
+}
+
+/// What holds at each call that a way leads to, by its place, where subprograms give back what they say they do;
+/// `None` if that is not found. `entry` is what holds where the program begins.
+pub(crate) fn at_calls(program: &Program, entry: &Tracker) -> Option<HashMap<u32, At>> {
+    let mut program = program.clone();
+    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let gives = program.procedures.iter().map(|p| p.attributes.contains(&Attribute::GivesBack)).collect();
+    let mut flow = Flow { names, gives, ..Flow::default() };
+    flow.ways = vec![Ways::default(); program.procedures.len()];
+    if let Some(main) = flow.ways.first_mut() {
+        main.entry = Some(Held { at: entry.clone(), ..Held::default() });
+    }
+    for _ in 0..MOST_ROUNDS {
+        flow.changed = false;
+        flow.over(&mut program);
+        if !flow.changed {
+            flow.settles = true;
+            flow.over(&mut program);
+            return Some(flow.calls);
+        }
+    }
+    None
+}
+
 /// What holds at a place.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Held {
     at: Tracker,
+    /// How corners are taken, if the program has said it.
+    path: Option<Box<PathControl>>,
     /// Whether the cycle in force is as its block has called it up: the same words would call up the same.
     as_called: bool,
     /// The place of that block, and what holds there.
@@ -137,6 +172,9 @@ struct Held {
 impl Held {
     fn join(&mut self, other: &Held) {
         self.at.join(&other.at);
+        if self.path != other.path {
+            self.path = None;
+        }
         self.as_called &= other.as_called && self.called_at == other.called_at;
     }
 
@@ -146,6 +184,25 @@ impl Held {
         let sure = self.as_called && self.at.modes.motion == Some(Motion::Cycle);
         let (at, with) = self.called_at;
         (sure && in_force).then_some(Called { at, with, modes: self.at.modes })
+    }
+
+    /// Behind a call that gives back what its caller had.
+    fn given_back(mut self, caller: &Held) -> Held {
+        let (own, before) = (&mut self.at, &caller.at);
+        let (modes, had) = (&mut own.modes, &before.modes);
+        modes.motion = had.motion;
+        modes.distance = had.distance;
+        modes.units = had.units;
+        modes.plane = had.plane;
+        modes.feed_mode = had.feed_mode;
+        modes.work_offset = had.work_offset;
+        (own.framed, own.chained, own.turned) = (before.framed, before.chained, before.turned);
+        (own.chain, own.chain_turned) = (before.chain, before.chain_turned);
+        own.compensated = before.compensated;
+        // They were those of its own frames.
+        own.position = [None; AXES];
+        self.path.clone_from(&caller.path);
+        self
     }
 
     /// A variable gets another value.
@@ -165,6 +222,9 @@ impl Held {
             self.sets(to);
         } else if matches!(op, Op::StartCycle(_)) {
             (self.as_called, self.called_at) = (true, (at, self.at.modes));
+        } else if let Op::SetMotionControlMode(control) = op {
+            self.path = Some(control.clone());
+            self.as_called = false;
         } else if !matches!(
             op,
             Op::Hole(_)
@@ -278,6 +338,8 @@ struct Ways {
 #[derive(Default)]
 struct Flow {
     names: Vec<Text>,
+    /// Those that give back what their callers had.
+    gives: Vec<bool>,
     ways: Vec<Ways>,
     /// The procedure at hand.
     at: usize,
@@ -291,6 +353,8 @@ struct Flow {
     called: bool,
     starts: HashMap<u32, Tracker>,
     cycles: HashMap<u32, Option<Called>>,
+    /// What holds at calls, by their places.
+    calls: HashMap<u32, At>,
     /// What the text has said so far, for blocks to which no way leads: they are written as they stand there.
     text: Held,
 }
@@ -380,10 +444,22 @@ impl Flow {
                 let entered = state.clone().map(|held| Held { as_called: false, ..held });
                 self.changed |= meet(&mut called.entry, entered.as_ref());
                 // Where it leads is known after it has been gone through.
-                state.and(called.exit.clone())
+                let caller = state?;
+                let behind = called.exit.clone();
+                if self.settles {
+                    let at = At {
+                        before: caller.at.clone(),
+                        path: caller.path.clone(),
+                        behind: behind.as_ref().map(|behind| behind.at.clone()),
+                    };
+                    self.calls.insert(stmt.span.start, at);
+                }
+                let gives = self.gives.get(found + 1) == Some(&true);
+                behind.map(|behind| if gives { behind.given_back(&caller) } else { behind })
             }
             Op::RepeatBlocks(_) => state.map(|mut state| {
                 state.at.forget();
+                state.path = None;
                 state
             }),
             Op::Control(control) => self.control(control, state),

@@ -4,12 +4,13 @@
 //! Not here, for nothing says what comes of it: a jump into a structure, one out of a part that is repeated, a FOR
 //! whose end is another one when the loop turns.
 
-use super::super::{Halt, What};
+use super::super::{Corner, Halt, Per, What};
 use super::formula::same;
+use super::frame::Frame;
 use super::shape;
 use super::text::{self, Argument, Block, Item, Reader, Unit};
 use super::variables::{self, Kind, Known, Worth};
-use super::{Control, Next, Words};
+use super::{Control, Motion, Next, Words};
 
 /// More blocks than any program here runs.
 const MOST: u64 = 200_000;
@@ -334,8 +335,9 @@ impl<'a> Control<'a> {
             let line = self.m.line;
             self.depth += 1;
             self.variables.enter();
+            let before = self.saved();
             let heading = unit.blocks.first().and_then(|(_, block)| shape::first_word(&block.rest));
-            let taken = match heading {
+            let taken = match &heading {
                 Some((word, rest)) if word == "PROC" => {
                     variables::parameters(rest, &given, &mut self.variables)
                 }
@@ -357,12 +359,69 @@ impl<'a> Control<'a> {
             if let Err(why) = self.variables.leave(&references) {
                 return self.m.halt(why);
             }
+            if heading.is_some_and(|(word, rest)| word == "PROC" && saves(rest)) {
+                self.restore(&before);
+            }
             self.m.line = line;
             if next == Next::End && self.m.events.last().is_some_and(|e| e.what == What::Alarm) {
                 return Ok(Next::End);
             }
         }
         Ok(Next::Block)
+    }
+}
+
+/// Whether SAVE stands in the heading of a subprogram, behind what it takes.
+fn saves(heading: &[char]) -> bool {
+    let text: String = heading.iter().collect::<String>().to_ascii_uppercase();
+    let behind = text.rsplit(')').next().unwrap_or(&text);
+    behind.split_whitespace().any(|word| word == "SAVE")
+}
+
+/// What SAVE brings back: the G functions that are modal, and the frame that is programmed. Of a settable frame that
+/// is still the one called up, new values stay (K2 08/2005, 2.4.10).
+struct Modes {
+    motion: Option<Motion>,
+    frame: Frame,
+    feed_inch: bool,
+    inch: bool,
+    absolute: bool,
+    plane: u32,
+    offset: u32,
+    per: Per,
+    surface: bool,
+    corners: Corner,
+}
+
+impl Control<'_> {
+    fn saved(&self) -> Modes {
+        let m = &self.m;
+        Modes {
+            motion: self.motion,
+            frame: self.frame,
+            feed_inch: self.feed_inch,
+            inch: m.inch,
+            absolute: m.absolute,
+            plane: m.plane,
+            offset: m.offset,
+            per: m.per,
+            surface: m.surface,
+            corners: m.corners,
+        }
+    }
+
+    fn restore(&mut self, modes: &Modes) {
+        let frame = std::mem::replace(&mut self.frame, modes.frame);
+        for axis in 0..3 {
+            self.m.settled[axis] &= frame.agrees(&modes.frame, axis);
+        }
+        if self.m.offset != modes.offset {
+            self.m.settled = [false; 6];
+        }
+        (self.motion, self.feed_inch) = (modes.motion, modes.feed_inch);
+        let m = &mut self.m;
+        (m.inch, m.absolute, m.plane, m.offset) = (modes.inch, modes.absolute, modes.plane, modes.offset);
+        (m.per, m.surface, m.corners) = (modes.per, modes.surface, modes.corners);
     }
 }
 

@@ -299,7 +299,7 @@ pub(super) fn parameters(
     }
     while !reader.over() {
         match reader.name().as_deref() {
-            Some("SBLOF" | "SBLON" | "DISPLOF" | "DISPLON" | "ACTBLOCNO") => {}
+            Some("SAVE" | "SBLOF" | "SBLON" | "DISPLOF" | "DISPLON" | "ACTBLOCNO") => {}
             other => return Err(format!("{other:?} behind the parameters")),
         }
     }

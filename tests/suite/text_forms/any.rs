@@ -656,11 +656,15 @@ pub(super) fn program() -> impl Strategy<Value = Program> {
         of(text()),
         prop::collection::vec(var(), 0..3),
         prop::collection::vec(holds(), 0..3),
+        prop::sample::subsequence(
+            vec![Attribute::GivesBack, Attribute::RunsThrough, Attribute::NotShown],
+            0..=3,
+        ),
         body(),
     )
-        .prop_map(|(name, title, parameters, kinds, body)| {
+        .prop_map(|(name, title, parameters, kinds, attributes, body)| {
             let kinds = kinds.into_iter().take(parameters.len()).collect();
-            Procedure { name, title, parameters, kinds, body }
+            Procedure { name, title, parameters, kinds, attributes, body }
         });
     let name = (of(any::<u32>()), of(text())).prop_map(|(number, title)| ProgramName { number, title });
     (name, modes(), body(), prop::collection::vec(procedure, 0..3)).prop_map(|(name, assumed, main, subs)| {
