@@ -13,8 +13,10 @@ use ncc_ir::canon::{
 use ncc_ir::exec::{Compensation, Event, Kind, Stored};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{ReferencePoint, ToolValue};
+use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
+use crate::interpreter::setup::Counted;
 use crate::interpreter::{self, Beside, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What};
 
 /// An event.
@@ -129,7 +131,7 @@ impl Tolerance {
 /// A world in the second interpreter's terms.
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
-    let (points, stored) = (world.clone(), world.clone());
+    let (points, stored, counts) = (world.clone(), world.clone(), world.clone());
     let named = Rc::new(RefCell::new(BTreeMap::new()));
     let known = named.clone();
     Setup {
@@ -155,6 +157,18 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         break_lift: mm(world.break_lift),
         reference: Box::new(move |point| points.reference(ReferencePoint::Further(point as u8)).map(mm)),
         stored: Box::new(move |point| stored.reference(ReferencePoint::Stored(point as u8)).map(mm)),
+        counted: Box::new(move |what, of| {
+            let what = match what {
+                Counted::Made => Kept::Parts,
+                Counted::Wanted => Kept::PartsWanted,
+                Counted::Second => Kept::PartsAgain,
+                Counted::Fed => Kept::FeedTime,
+                Counted::InSpindle => Kept::ToolTime,
+                Counted::Limit => Kept::UsesAllowed,
+                Counted::Used => Kept::Uses,
+            };
+            f64::from(counts.kept(what, of as u16))
+        }),
         touched: mm(world.touched()),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
         orientation: mm(world.orientation),
@@ -219,6 +233,10 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Orient(angle) => Happening::Orient(angle),
             What::Gear(0) => Happening::MachineFunction(hash_of("automatic spindle gear")),
             What::Gear(number) => Happening::MachineFunction(hash_of(&format!("spindle gear {number}"))),
+            What::Through(on) => {
+                let to = if on { "on" } else { "off" };
+                Happening::MachineFunction(hash_of(&format!("coolant through the spindle {to}")))
+            }
             What::Dwell(seconds) => Happening::Dwell(seconds),
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,

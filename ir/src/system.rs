@@ -6,6 +6,7 @@
 use std::fmt::{self, Display, Formatter};
 
 use crate::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use crate::program::ToolValue;
 
 /// A value of the control's own.
 ///
@@ -17,7 +18,9 @@ pub enum System {
     EndPoint(Axis),
     /// Where the last probing move ended along an axis, in the coordinates that the program had then (Fanuc `#5061`).
     TouchPoint(Axis),
-    /// The same in machine coordinates, tool length included (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
+    /// The same with the offsets of the tool that were in force counted in: where the spindle's end was.
+    TouchWithOffsets(Axis),
+    /// Where the tool stands in machine coordinates, tool length included (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
     MachinePoint(Axis),
     /// A work offset along an axis; 1 is the first (`#5221`, `$P_UIFR[1,X,TR]`).
     WorkOffset {
@@ -51,6 +54,19 @@ pub enum System {
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
+    /// A value of an entry of the table of tools, as the table has it now, whether in force or not (Fanuc `#2201`).
+    ToolTable {
+        /// Which value.
+        value: ToolValue,
+        /// The entry; 1 is the first.
+        entry: u16,
+    },
+    /// The number of the entry of the length table in force (Fanuc `#4111`).
+    LengthEntry,
+    /// The number of the work offset in force, where it is one of the first six (Fanuc `#4014`, less 53).
+    FirstWorkOffset,
+    /// What the machine keeps count of by itself.
+    Kept(Kept, u16),
     /// Number of the tool in the spindle.
     Tool,
     /// Number of the tool selected last.
@@ -88,14 +104,19 @@ impl System {
         match self {
             System::MachinePoint(_)
             | System::TouchPoint(_)
+            | System::TouchWithOffsets(_)
             | System::WorkOffset { .. }
             | System::WorkTurn(_)
             | System::OriginShift { .. }
             | System::OriginShifted
             | System::ToolLength
-            | System::TableOffset { .. } => true,
+            | System::TableOffset { .. }
+            | System::ToolTable { .. }
+            | System::Kept(..) => true,
             System::EndPoint(_)
             | System::WorkOffsetNumber
+            | System::FirstWorkOffset
+            | System::LengthEntry
             | System::Tool
             | System::SelectedTool
             | System::Feed
@@ -131,6 +152,7 @@ impl System {
         let found = match (kind, &rest[..]) {
             ("end", [along]) => System::EndPoint(axis(along)?),
             ("touch", [along]) => System::TouchPoint(axis(along)?),
+            ("spindle-touch", [along]) => System::TouchWithOffsets(axis(along)?),
             ("machine", [along]) => System::MachinePoint(axis(along)?),
             ("offset", [of, along]) => {
                 System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: None }
@@ -142,6 +164,12 @@ impl System {
             ("table", [along, in_unit]) => {
                 System::TableOffset { axis: axis(along)?, unit: Some(unit(in_unit)?) }
             }
+            ("tool", [of, entry]) => {
+                let value = TOOL_VALUES.iter().find(|(_, name)| name == of)?.0;
+                System::ToolTable { value, entry: number(entry)? }
+            }
+            ("kept", [what]) => System::Kept(Kept::named(what)?, 0),
+            ("kept", [what, of]) => System::Kept(Kept::named(what)?, number(of).filter(|of| *of > 0)?),
             ("turn", [of]) => System::WorkTurn(number(of)?),
             ("shift", [along]) => System::OriginShift { axis: axis(along)?, unit: None },
             ("shift", [along, in_unit]) => {
@@ -154,12 +182,72 @@ impl System {
 
     /// Whether it depends on where the tool stands.
     pub fn is_place(&self) -> bool {
-        matches!(self, System::EndPoint(_) | System::TouchPoint(_) | System::MachinePoint(_))
+        matches!(
+            self,
+            System::EndPoint(_)
+                | System::TouchPoint(_)
+                | System::TouchWithOffsets(_)
+                | System::MachinePoint(_)
+        )
     }
 }
 
+/// What a machine keeps count of by itself, and no program says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Kept {
+    /// Parts made since somebody has set the count to nothing (Fanuc and Haas `#3901`).
+    Parts,
+    /// Parts that shall be made (Fanuc `#3902`).
+    PartsWanted,
+    /// The second count of ends of programs (Haas `#3902`).
+    PartsAgain,
+    /// Seconds that a tool was fed (Haas `#5401` and on).
+    FeedTime,
+    /// Seconds that a tool was in the spindle (Haas `#5501` and on).
+    ToolTime,
+    /// How often a tool may be used (Haas `#5601` and on).
+    UsesAllowed,
+    /// How often a tool was used (Haas `#5701` and on).
+    Uses,
+}
+
+impl Kept {
+    /// Its name in text.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Kept::Parts => "parts",
+            Kept::PartsWanted => "parts-wanted",
+            Kept::PartsAgain => "parts-again",
+            Kept::FeedTime => "feed-time",
+            Kept::ToolTime => "tool-time",
+            Kept::UsesAllowed => "uses-allowed",
+            Kept::Uses => "uses",
+        }
+    }
+
+    fn named(name: &str) -> Option<Kept> {
+        KEPT.into_iter().find(|kept| kept.name() == name)
+    }
+}
+
+const KEPT: [Kept; 7] = [
+    Kept::Parts,
+    Kept::PartsWanted,
+    Kept::PartsAgain,
+    Kept::FeedTime,
+    Kept::ToolTime,
+    Kept::UsesAllowed,
+    Kept::Uses,
+];
+
+/// Values of the table of tools that have a name here.
+const TOOL_VALUES: [(ToolValue, &str); 2] =
+    [(ToolValue::Length, "length"), (ToolValue::LengthWear, "length-wear")];
+
 /// Those that have nothing of their own to say.
-const PLAIN: [(&str, System); 24] = [
+const PLAIN: [(&str, System); 26] = [
+    ("offset.first", System::FirstWorkOffset),
+    ("length.entry", System::LengthEntry),
     ("offset", System::WorkOffsetNumber),
     ("shifted", System::OriginShifted),
     ("length", System::ToolLength),
@@ -213,6 +301,7 @@ impl Display for System {
         match self {
             System::EndPoint(axis) => write!(f, "end.{}", letter(axis)),
             System::TouchPoint(axis) => write!(f, "touch.{}", letter(axis)),
+            System::TouchWithOffsets(axis) => write!(f, "spindle-touch.{}", letter(axis)),
             System::MachinePoint(axis) => write!(f, "machine.{}", letter(axis)),
             System::WorkOffset { number, axis, unit: of } => {
                 write!(f, "offset.{number}.{}{}", letter(axis), unit(of))
@@ -220,6 +309,12 @@ impl Display for System {
             System::WorkTurn(number) => write!(f, "turn.{number}"),
             System::TableOffset { axis, unit: of } => write!(f, "table.{}{}", letter(axis), unit(of)),
             System::OriginShift { axis, unit: of } => write!(f, "shift.{}{}", letter(axis), unit(of)),
+            System::ToolTable { value, entry } => {
+                let name = TOOL_VALUES.iter().find(|(own, _)| own == value).map_or("", |(_, name)| name);
+                write!(f, "tool.{name}.{entry}")
+            }
+            System::Kept(what, 0) => write!(f, "kept.{}", what.name()),
+            System::Kept(what, of) => write!(f, "kept.{}.{of}", what.name()),
             System::Other(name) => f.write_str(name),
             plain => f.write_str(PLAIN.iter().find(|(_, other)| other == plain).map_or("", |(name, _)| name)),
         }
@@ -235,6 +330,7 @@ mod tests {
         let more = [
             System::EndPoint(Axis::X),
             System::TouchPoint(Axis::Z),
+            System::TouchWithOffsets(Axis::Z),
             System::MachinePoint(Axis::C),
             System::WorkOffset { number: 12, axis: Axis::Z, unit: None },
             System::WorkOffset { number: 1, axis: Axis::A, unit: Some(Units::Inch) },
@@ -243,6 +339,9 @@ mod tests {
             System::TableOffset { axis: Axis::Z, unit: Some(Units::Inch) },
             System::OriginShift { axis: Axis::Y, unit: Some(Units::Mm) },
             System::OriginShift { axis: Axis::Y, unit: None },
+            System::ToolTable { value: ToolValue::LengthWear, entry: 7 },
+            System::Kept(Kept::Parts, 0),
+            System::Kept(Kept::FeedTime, 12),
             System::Other("$AA_IW".into()),
         ];
         for system in PLAIN.iter().map(|(_, system)| system).chain(&more) {
@@ -250,7 +349,17 @@ mod tests {
             assert!(!name.is_empty(), "{system:?}");
             assert_eq!(System::named(&name), *system);
         }
-        for name in ["end.X", "end.u", "offset.01.x", "offset.x", "", "shift.x.cm", "END.x"] {
+        for name in [
+            "end.X",
+            "end.u",
+            "offset.01.x",
+            "offset.x",
+            "",
+            "shift.x.cm",
+            "END.x",
+            "kept.uses.0",
+            "tool.width.1",
+        ] {
             assert_eq!(System::named(name), System::Other(name.into()));
         }
     }

@@ -9,6 +9,7 @@ use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, Ret
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 use crate::program::{ReferencePoint, ToolValue};
+use crate::system::Kept;
 
 /// One state of the machine and its tables before the program starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -247,6 +248,12 @@ impl World {
     /// How much of a probing move's way is gone when the probe says so, in billionths; in the plain world, all.
     pub fn touched(&self) -> Nanos {
         if self.seed == 0 { ONE } else { ONE / 2 + self.odd(130_000, 100) / 400 }
+    }
+
+    /// What the machine keeps count of by itself, of something with a number or of all; in the plain world, nothing yet.
+    pub fn kept(&self, what: Kept, of: u16) -> u32 {
+        let index = 140_000 + what as u32 * 1000 + u32::from(of);
+        if self.seed == 0 { 0 } else { (self.odd(index, 3000) / ONE).unsigned_abs() as u32 }
     }
 
     /// What a return to the reference point leaves of a tool's length.

@@ -103,6 +103,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
     }
     dialect.index.m[tenths] = Some(at);
     dialect.code.push(CodeRow {
+        after_move: false,
         code: code.clone(),
         upto: None,
         count: None,

@@ -153,8 +153,8 @@ fn call(m: &mut Machine, name: &str, a: &[&str]) -> Result<bool, Halt> {
         }
         ("ADVISE", _) => {}
         ("MACHINE_FUNCTION", [name]) => {
-            let Some(gear) = super::gear(name.trim_matches('"')) else { return m.halt("a function") };
-            m.record(What::Gear(gear));
+            let Some(what) = super::function(name.trim_matches('"')) else { return m.halt("a function") };
+            m.record(what);
         }
         ("PROGRAM_STOP", []) => m.record(What::Stop),
         ("OPTIONAL_PROGRAM_STOP", []) => m.record(What::OptionalStop),

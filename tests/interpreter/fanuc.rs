@@ -323,6 +323,9 @@ impl Control {
             Some(7) => self.m.cool(self.m.coolant.0, true),
             Some(8) => self.m.cool(true, self.m.coolant.1),
             Some(19) => self.stop_at_angle(&words)?,
+            Some(88) if self.haas => self.m.record(What::Through(true)),
+            // What is switched off is so behind the block's move.
+            Some(89) if self.haas => {}
             Some(29) if !self.haas => self.rigid = true,
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
@@ -399,6 +402,7 @@ impl Control {
         match m {
             Some(5) => self.m.turn(Spindle::Stopped),
             Some(9) => self.m.cool(false, false),
+            Some(89) => self.m.record(What::Through(false)),
             Some(0) => self.m.record(What::Stop),
             Some(1) => self.m.record(What::OptionalStop),
             Some(2 | 30) => {

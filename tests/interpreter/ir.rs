@@ -559,8 +559,8 @@ impl Control {
             "END_CYCLE" => self.cycle = None,
             "MACHINE_FUNCTION" => {
                 let [Token::Text(name)] = a else { return self.m.halt("a function without its name") };
-                let Some(gear) = super::gear(name) else { return self.m.halt("a function") };
-                self.m.record(What::Gear(gear));
+                let Some(what) = super::function(name) else { return self.m.halt("a function") };
+                self.m.record(what);
             }
             "MESSAGE" => self.m.record(What::Message),
             "PROGRAM_STOP" => self.m.record(What::Stop),

@@ -15,7 +15,7 @@ mod hole;
 pub mod ir;
 pub mod linuxcnc;
 pub mod mach9;
-mod setup;
+pub mod setup;
 pub mod siemens;
 mod slots;
 mod speed;
@@ -95,6 +95,8 @@ pub enum What {
     Orient(f64),
     /// A gear of the spindle; 0 is the control's own choice.
     Gear(u32),
+    /// Coolant through the spindle goes on or off.
+    Through(bool),
     /// Standing still for so many seconds.
     Dwell(f64),
     /// The spindle was started, stopped or reversed.
@@ -179,6 +181,8 @@ pub struct Machine {
     pub at: Place,
     /// Where the probe touched last, as the program counted then.
     pub touched: Option<Place>,
+    /// How high the end of the spindle was then, above what the program counts from.
+    pub touched_above: Option<f64>,
     /// Shifts, rotation, scale and mirror of a control that has them in slots.
     slots: Slots,
     /// What rotation, scale and mirror amount to.
@@ -247,6 +251,7 @@ impl Machine {
         Machine {
             at: setup.start,
             touched: None,
+            touched_above: None,
             setup,
             stored: Stored::default(),
             slots: Slots::default(),
@@ -444,6 +449,7 @@ impl Machine {
         let (from, part) = (self.at, self.setup.touched);
         self.at = std::array::from_fn(|axis| from[axis] + (to[axis] - from[axis]) * part);
         self.touched = Some(std::array::from_fn(|axis| self.at[axis] - self.shift(axis)));
+        self.touched_above = Some(self.at[2] - self.shift(2) + self.length_of(self.entry));
         self.record(What::Probe(to, away, error));
         Ok(())
     }
@@ -597,8 +603,17 @@ impl Machine {
     }
 }
 
+/// A function of the machine by its name.
+pub fn function(name: &str) -> Option<What> {
+    match name.strip_prefix("coolant through the spindle ") {
+        Some("on") => Some(What::Through(true)),
+        Some("off") => Some(What::Through(false)),
+        _ => gear(name).map(What::Gear),
+    }
+}
+
 /// The gear that a function of the machine names.
-pub fn gear(name: &str) -> Option<u32> {
+fn gear(name: &str) -> Option<u32> {
     match name.strip_prefix("spindle gear ") {
         Some(number) => number.parse().ok(),
         None => (name == "automatic spindle gear").then_some(0),

@@ -27,6 +27,8 @@ pub struct Setup {
     pub reference: Box<dyn Fn(u32) -> Place>,
     /// The positions that a LinuxCNC goes to by G28 (1) and G30 (2), in machine coordinates.
     pub stored: Box<dyn Fn(u32) -> Place>,
+    /// What the machine has counted of something with a number, or of all (0).
+    pub counted: Box<dyn Fn(Counted, u32) -> f64>,
     /// How much of a probing move's way is gone when the probe says so.
     pub touched: f64,
     /// Where a Fanuc shifts a tool off the wall of a bore: which axis of the plane, and its sign.
@@ -37,6 +39,25 @@ pub struct Setup {
     pub kinematics: Kinematics,
     /// Modes at power-on.
     pub power_on: PowerOn,
+}
+
+/// What a machine counts by itself.
+#[derive(Clone, Copy, Debug)]
+pub enum Counted {
+    /// Parts that were made.
+    Made,
+    /// Parts that are wanted, on a Fanuc.
+    Wanted,
+    /// Ends of programs by a Haas's second count.
+    Second,
+    /// Seconds at feed of a tool.
+    Fed,
+    /// Seconds of a tool in the spindle.
+    InSpindle,
+    /// Uses of a tool before it is worn.
+    Limit,
+    /// Its uses.
+    Used,
 }
 
 /// Modes at power-on.
@@ -93,6 +114,7 @@ impl Setup {
             break_lift: 1.0,
             reference: Box::new(|_| [0.0; 6]),
             stored: Box::new(|_| [0.0; 6]),
+            counted: Box::new(|_, _| 0.0),
             touched: 1.0,
             bore_shift: (0, 1.0),
             orientation: 0.0,

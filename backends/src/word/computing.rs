@@ -7,6 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::call_of::call_of;
 use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
@@ -15,7 +16,7 @@ use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
-use super::formula::{cannot_compute, literal, number_of};
+use super::formula::{arcs, cannot_compute, literal, number_of};
 use super::modal_call::AtMoves;
 use super::modes::cannot;
 use super::{HIGHEST_NUMBER, Sink, Writer};
@@ -45,7 +46,12 @@ impl Writer {
     pub(crate) fn know(&mut self, procedures: &[Procedure]) {
         self.computing.variables = true;
         self.computing.kept = true;
-        self.computing.own = self.dialect.named_values().collect();
+        self.computing.own = self
+            .dialect
+            .named_values()
+            .filter(|(row, ..)| row.counts(&self.settings))
+            .map(|(_, number, value)| (number, value))
+            .collect();
         let known = procedures.iter().skip(1).map(|p| (p.name.clone(), p.parameters.clone()));
         self.computing.parameters = known.collect();
         if self.has_o_words() {
@@ -145,6 +151,38 @@ impl Writer {
         self.admit(&Need::new(Rank::Alone), sink)?;
         self.block.text(Part::Tail, text);
         Ok(())
+    }
+
+    /// What is taken for granted of the machine where an expression stands.
+    pub(super) fn rely_on(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
+        if arcs(e) {
+            self.rely(ANGLE_RANGE, span, sink);
+        }
+        let dialect = self.dialect;
+        if !e.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
+            return;
+        }
+        let told = |row: &&SystemRow| !row.option.is_empty() || !row.assumes.is_empty();
+        for row in dialect.system.iter().filter(told) {
+            if !row.counts(&self.settings) {
+                continue;
+            }
+            let asks = |part: &Node| match part {
+                Node::Var(Var::System(system)) => row.says().any(|(says, _)| says == *system),
+                _ => false,
+            };
+            if !e.has(&asks) {
+                continue;
+            }
+            if !row.option.is_empty() {
+                self.rely(&row.option, span, sink);
+            }
+            if !row.assumes.is_empty() && !self.told_options.contains(&&*row.assumes) {
+                self.told_options.push(&row.assumes);
+                let parameter = row.assumes.as_str().into();
+                sink.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+            }
+        }
     }
 
     /// A value for a variable.

@@ -3,13 +3,15 @@
 use ncc_dialects::{DataKind, DataRow, RADIUS_DATA};
 use ncc_ir::canon::{Axis, Distance, Fact};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
-use ncc_ir::num::Num;
+use ncc_ir::expr::{Expr, Node, Target, Var};
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Data, DataMode, ToolLength, ToolValue};
 use ncc_ir::source::Span;
+use ncc_ir::system::System;
 
 use super::block::{Need, Part, Rank};
 use super::codes::{Code, Letter};
+use super::formula::rounding;
 use super::modes::{Inserted, cannot};
 use super::number::Worth;
 use super::{Sink, Writer};
@@ -32,6 +34,13 @@ pub(crate) struct DataCode {
 impl Writer {
     /// Puts values into a table, in a block of its own.
     pub(crate) fn data(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        // The code's words count as the distance mode says; where nobody knows it, the control's variable is set.
+        if self.dialect.program.macro_b
+            && self.force.distance != Some(Distance::Absolute)
+            && let Some(text) = self.data_setting(data, span, sink)?
+        {
+            return self.statement_alone(&text, sink);
+        }
         let tables = &self.codes.tables;
         match data {
             Data::Position(place) => {
@@ -95,6 +104,50 @@ impl Writer {
                 self.stored(&table, *entry, *added, &[(letter, value)], span, sink)
             }
         }
+    }
+
+    /// What is computed for a table, as an assignment to the control's variable of that value; `None` where it has none,
+    /// or rounds it otherwise.
+    fn data_setting(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<Option<String>, Fault> {
+        let (system, value) = match data {
+            Data::Offset { offset, mode: DataMode::Set, words, turn: None } => {
+                let mut said =
+                    Axis::ALL.into_iter().filter_map(|axis| Some((axis, words[axis as usize].as_ref()?)));
+                let (Some((axis, value)), None) = (said.next(), said.next()) else { return Ok(None) };
+                (System::WorkOffset { number: *offset, axis, unit: None }, value)
+            }
+            Data::Tool { entry, which, added: false, value, .. } => {
+                let Ok(entry) = u16::try_from(*entry) else { return Ok(None) };
+                (System::ToolTable { value: *which, entry }, value)
+            }
+            Data::Offset { .. }
+            | Data::Tool { .. }
+            | Data::Measured { .. }
+            | Data::Position(_)
+            | Data::ToolInSpindle(_) => return Ok(None),
+        };
+        let rounds = self.codes.axes[Axis::X as usize].and_then(|letter| letter.format.rounds);
+        let (said, value) = rounding(value);
+        let mut value = value.clone();
+        match (said, rounds, &mut value) {
+            (None, _, Expr::Num(num)) if num.unit != Unit::Entry => {
+                self.check_unit(Num::int(1, num.unit), span)?;
+                num.unit = Unit::One;
+            }
+            (Some(said), Some([mm, inch]), _) if mm == inch && said == mm => {}
+            (Some(said), Some([mm, inch]), _) if said == mm || said == inch => {
+                let unit = if said == mm { Unit::Mm } else { Unit::Inch };
+                self.check_unit(Num::int(1, unit), span)?;
+            }
+            _ => return Ok(None),
+        }
+        let own = Expr::Node(Box::new(Node::Var(Var::System(system.clone()))));
+        let Ok(name) = self.spelling(None)?.target(&Target::Var(Var::System(system))) else {
+            return Ok(None);
+        };
+        self.rely_on(&own, span, sink);
+        let value = self.expression(&value, span, sink)?;
+        Ok(Some(self.sets(&name, &value)))
     }
 
     /// A length that is no entry of the table, in a block of its own.

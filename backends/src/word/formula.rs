@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use ncc_dialects::{ANGLE_RANGE, FormulaRules, MACHINE_UNITS, SystemRow};
+use ncc_dialects::{ANGLE_RANGE, FormulaRules, MACHINE_UNITS, Settings, SystemRow};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Unary, Var};
 use ncc_ir::num::{Num, Unit};
@@ -65,6 +65,7 @@ pub(crate) struct Spelling<'d> {
     own: &'d [(u32, Expr)],
     /// What the control calls its own values.
     system: &'d [SystemRow],
+    settings: &'d Settings,
     /// The machine's own unit, if the dialect asks for it.
     machine: &'d str,
     blanks: bool,
@@ -175,7 +176,12 @@ impl Spelling<'_> {
     /// What the control calls one of its own values.
     fn own_value(&self, system: &System) -> Result<String, Fault> {
         let says = |row: &'_ SystemRow| row.says_in(self.machine).collect::<Vec<_>>();
-        let all = self.system.iter().flat_map(says).filter(|(own, _)| own == system);
+        let all = self
+            .system
+            .iter()
+            .filter(|row| row.counts(self.settings))
+            .flat_map(says)
+            .filter(|(own, _)| own == system);
         // A name says more than a number.
         let found = all.map(|(_, spelt)| spelt).min_by_key(|spelt| !spelt.starts_with('<'));
         found.ok_or_else(|| cannot_compute(format!("the system variable {system}")))
@@ -520,6 +526,7 @@ impl Writer {
             rules: &self.dialect.formula,
             own: &self.computing.own,
             system: &self.dialect.system,
+            settings: &self.settings,
             machine: self.settings.get(MACHINE_UNITS),
             blanks: self.dialect.block.blanks,
             turn: self.settings.get(ANGLE_RANGE) == "turn",
@@ -539,7 +546,7 @@ impl Writer {
     /// An expression as what is assigned.
     pub(crate) fn expression(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         self.no_condition(e)?;
-        self.rely_on_range(e, span, sink);
+        self.rely_on(e, span, sink);
         let mut out = String::new();
         self.spelling(None)?.expr(e, LOOSEST, true, 0, &mut out)?;
         Ok(out)
@@ -547,7 +554,7 @@ impl Writer {
 
     /// A condition, in its brackets.
     pub(crate) fn condition(&mut self, e: &Expr, span: Span, sink: &mut Sink) -> Result<String, Fault> {
-        self.rely_on_range(e, span, sink);
+        self.rely_on(e, span, sink);
         let mut out = String::new();
         let mut e = e.clone();
         if self.dialect.program.macro_b {
@@ -566,7 +573,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         self.no_condition(e)?;
-        self.rely_on_range(e, span, sink);
+        self.rely_on(e, span, sink);
         let spelling = self.spelling(digits)?;
         let mut out = String::new();
         if !spelling.rules.behind.is_empty() {
@@ -631,12 +638,6 @@ impl Writer {
         let text = self.behind(inner, digits, span, sink)?;
         Ok(self.block.formula(text))
     }
-
-    fn rely_on_range(&mut self, e: &Expr, span: Span, sink: &mut Sink) {
-        if arcs(e) {
-            self.rely(ANGLE_RANGE, span, sink);
-        }
-    }
 }
 
 /// What must have a value, as that value.
@@ -664,6 +665,6 @@ pub(super) fn rounding(e: &Expr) -> (Option<u8>, &Expr) {
 }
 
 /// Whether there is an angle of an arc in an expression.
-fn arcs(e: &Expr) -> bool {
+pub(super) fn arcs(e: &Expr) -> bool {
     e.has(&|node| matches!(node, Node::Call(Function::Asin | Function::Atan2, _)))
 }

@@ -1,5 +1,5 @@
-//! Variables of the control's own: what they are worth, and those that a program sets: zeros of work offsets, which is
-//! the data input of them, and those by which it gives an alarm, or stops with a message. The
+//! Variables of the control's own: what they are worth, and those that a program sets: zeros of work
+//! offsets and lengths of tools, which is the data input of them, and those by which it gives an alarm, or stops with a message. The
 //! comment of the block is the text (16-C, custom macro, system variables, alarms: `#3000 = n (MESSAGE)`; B-63684EN,
 //! stop with a message: `#3006 = 1 (MESSAGE)`).
 //!
@@ -9,7 +9,7 @@ use ncc_dialects::{Quantity, SystemRow};
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Var};
-use ncc_ir::program::{Alarm, Data, DataMode, Op, Text};
+use ncc_ir::program::{Alarm, Data, DataMode, Op, Text, ToolValue};
 use ncc_ir::source::Span;
 use ncc_ir::system::System;
 
@@ -31,11 +31,20 @@ impl Lower {
     ) -> Vec<Op> {
         let name = to.to_string();
         let found = self.row_of(&name);
-        if let Some((row, place)) = found
+        if let Some((row, place)) = found.filter(|(row, _)| row.refuse.is_none())
             && let Some(Expr::Node(node)) = row.value(place, "")
-            && let Node::Var(Var::System(System::WorkOffset { number, axis, .. })) = *node
+            && let Node::Var(Var::System(system)) = *node
         {
-            return self.offset_set(number, axis, value, block.span, out);
+            match system {
+                System::WorkOffset { number, axis, .. } => {
+                    return self.offset_set(number, axis, value, block.span, out);
+                }
+                System::ToolTable { value: which, entry } => {
+                    self.rely_on_row(row, block.span, out);
+                    return self.tool_set(which, entry, value, block.span, out);
+                }
+                _ => {}
+            }
         }
         let row = found.map(|(row, _)| row);
         match row.map(|row| &*row.means) {
@@ -60,7 +69,8 @@ impl Lower {
     /// The row of a variable of the control's own, and which of the row's it is.
     fn row_of(&self, name: &str) -> Option<(&'static SystemRow, u32)> {
         let number: u32 = name.strip_prefix('#')?.parse().ok()?;
-        let row = self.settings.dialect.system.iter().find(|row| row.numbers().contains(&number))?;
+        let row = self.settings.dialect.system.iter();
+        let row = row.filter(|row| row.counts(&self.settings)).find(|row| row.numbers().contains(&number))?;
         Some((row, number - row.number))
     }
 
@@ -71,6 +81,7 @@ impl Lower {
             && row.refuse.is_none()
             && let Some(value) = self.value_of(row, place, at, out)
         {
+            self.rely_on_row(row, at, out);
             return Some(value);
         }
         let told =
@@ -78,19 +89,53 @@ impl Lower {
         self.refuse(Fault::NotSupported { code: name.into(), name: told.into() }, at, out)
     }
 
-    /// The zero of a work offset along an axis, as the code of data input sets it.
-    fn offset_set(&mut self, offset: u16, axis: Axis, value: Expr, at: Span, out: &mut Batch) -> Vec<Op> {
+    /// What is taken for granted where a variable of the control's own is used.
+    fn rely_on_row(&mut self, row: &'static SystemRow, at: Span, out: &mut Batch) {
+        if !row.option.is_empty() {
+            self.option(&row.option, at, out);
+        }
+        let told = &mut self.reported.values;
+        if self.assume && !row.assumes.is_empty() && !told.contains(&&*row.assumes) {
+            told.push(&row.assumes);
+            let parameter = row.assumes.as_str().into();
+            out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, at);
+        }
+    }
+
+    /// A value of the table of tools, as the code of data input sets it.
+    fn tool_set(&mut self, which: ToolValue, entry: u16, value: Expr, at: Span, out: &mut Batch) -> Vec<Op> {
+        self.check_no_cycle(at, out);
+        let Some(value) = self.stored_length(value, at, out) else { return Vec::new() };
+        let data = Data::Tool { entry: u32::from(entry), which, added: false, kept: false, value };
+        vec![Op::SetData(Box::new(data))]
+    }
+
+    /// No data goes in while a cycle is in force.
+    fn check_no_cycle(&mut self, at: Span, out: &mut Batch) {
         if let InForce::Active(_) = self.state.cycle {
             let name = "data input while a cycle is in force".into();
             self.fault(Fault::NotSupported { code: "#".into(), name }, at, out);
         }
-        let Some(digits) = self.digits_of(Quantity::Length, at, out) else { return Vec::new() };
-        let rounded = |a| Node::Call(Function::RoundTo, vec![a, Expr::int(i64::from(digits))]);
-        let mut words = [const { None }; AXES];
-        words[axis as usize] = Some(match value {
+    }
+
+    /// A length as tables have it, to the least increment.
+    fn stored_length(&mut self, value: Expr, at: Span, out: &mut Batch) -> Option<Expr> {
+        let digits = self.digits_of(Quantity::Length, at, out)?;
+        Some(match value {
             Expr::Num(num) => self.written(Expr::Num(num.rounded(digits)), Quantity::Length, at, out),
-            value => Expr::Node(Box::new(rounded(value))),
-        });
+            value => {
+                let rounded = Node::Call(Function::RoundTo, vec![value, Expr::int(i64::from(digits))]);
+                Expr::Node(Box::new(rounded))
+            }
+        })
+    }
+
+    /// The zero of a work offset along an axis, as the code of data input sets it.
+    fn offset_set(&mut self, offset: u16, axis: Axis, value: Expr, at: Span, out: &mut Batch) -> Vec<Op> {
+        self.check_no_cycle(at, out);
+        let Some(value) = self.stored_length(value, at, out) else { return Vec::new() };
+        let mut words = [const { None }; AXES];
+        words[axis as usize] = Some(value);
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
         vec![Op::SetData(Box::new(data))]
     }

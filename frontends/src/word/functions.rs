@@ -29,11 +29,11 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
-        let first_function = codes.partition_point(|c| self.rank(c.meaning) < RANK_WORDS);
+        let first_function = codes.partition_point(|c| self.rank(c) < RANK_WORDS);
         let (settings, functions) = codes.split_at(first_function);
-        let before_motion = functions.partition_point(|c| self.rank(c.meaning) < RANK_MOTION);
+        let before_motion = functions.partition_point(|c| self.rank(c) < RANK_MOTION);
         let (before, rest) = functions.split_at(before_motion);
-        let motion_end = rest.partition_point(|c| self.rank(c.meaning) < RANK_AFTER);
+        let motion_end = rest.partition_point(|c| self.rank(c) < RANK_AFTER);
         let (motion, after) = rest.split_at(motion_end);
 
         self.nothing_before_the_tap(codes, block.span, words, out);
@@ -355,7 +355,7 @@ impl Lower {
                 Op::StopSpindleTurning
             }
             Meaning::MachineFunction(name) => {
-                if b"XYZABC".iter().any(|letter| words.get(*letter).is_some()) {
+                if !code.row.after_move && b"XYZABC".iter().any(|letter| words.get(*letter).is_some()) {
                     // Whether it comes before or after the move is a matter of the machine.
                     let name = "function of the machine in a block with axis words".into();
                     let code_text = code.row.code.as_str().into();

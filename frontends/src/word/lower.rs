@@ -91,6 +91,8 @@ pub(super) struct Reported {
     pub(super) no_length: bool,
     /// Options of the dictionary, by place.
     options: u32,
+    /// What is taken for granted of the control's own values.
+    pub(super) values: Vec<&'static str>,
 }
 
 /// State of the block that is being lowered.

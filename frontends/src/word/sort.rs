@@ -167,15 +167,16 @@ impl Lower {
                 }
             }
         }
-        codes.sort_by_key(|c| self.rank(c.meaning));
+        codes.sort_by_key(|c| self.rank(c));
     }
 
     /// When a code's function happens within its block, by this dialect.
-    pub(super) fn rank(&self, meaning: Meaning) -> u8 {
-        match (meaning, self.settings.dialect.block.off_before_move) {
+    pub(super) fn rank(&self, code: &Code) -> u8 {
+        match (code.meaning, self.settings.dialect.block.off_before_move) {
+            (Meaning::MachineFunction(_), _) if code.row.after_move => rank(Meaning::CoolantOff),
             (Meaning::StopSpindleTurning, true) => rank(Meaning::StartSpindleClockwise),
             (Meaning::CoolantOff, true) => rank(Meaning::FloodOn),
-            _ => rank(meaning),
+            (meaning, _) => rank(meaning),
         }
     }
 

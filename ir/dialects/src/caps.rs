@@ -360,7 +360,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     own.chain(between).chain(remainder).chain(given).chain(by_bits).collect()
                 },
                 whole_remainder: rules.whole_remainder,
-                values: dialect.named_values().map(|(_, value)| value).collect(),
+                values: dialect.named_values().map(|(.., value)| value).collect(),
                 local: rules.local.clone(),
                 common: rules.common.clone(),
                 retentive: rules.retentive.clone(),

@@ -24,6 +24,10 @@ pub struct CodeRow {
     /// the one that the row means. Its letter is the first of `words`.
     #[serde(default)]
     pub count: Option<u16>,
+    /// Of a function of the machine, whether it comes behind the move of its block; else a block with a move is
+    /// refused.
+    #[serde(default)]
+    pub after_move: bool,
     /// What it means; without, it is refused by `refuse`.
     #[serde(default)]
     pub means: Option<Meaning>,

@@ -4,7 +4,7 @@
 //! - A table is merged field by field, to any depth.
 //! - A list of rows is merged row by row. Rows are told apart by their key: `code` in `[[code]]`,
 //!   `[[cycle]]` and `[[pattern]]` (`G1` is `G01`), `letter` in `[[address]]`, `name` in `[[name]]`,
-//!   `[[call]]`, `[[option]]` and `[[data]]`. A row of a key that the base has is merged over the base's row field
+//!   `[[call]]`, `[[option]]` and `[[data]]`, `number` or else `name` in `[[system]]`. A row of a key that the base has is merged over the base's row field
 //!   by field and keeps its place; any other is added at the end. Lists inside a row are replaced.
 //! - In `[[code]]` and `[[name]]`, `means`, `role` and `refuse` exclude each other: a row that says one
 //!   of them takes away the base's others.
@@ -29,6 +29,9 @@ const REMOVE: &str = "remove";
 /// Puts a row or table in the place of the base's.
 const REPLACE: &str = "replace";
 
+/// The field that tells values of the control's own apart; those without it have a name.
+const NUMBER: &str = "number";
+
 /// Words of a row of which only one can be said.
 const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
 
@@ -38,6 +41,7 @@ pub(crate) fn row_key(table: &str) -> Option<&'static str> {
         "code" | "cycle" | "pattern" => Some("code"),
         "name" | "call" | "option" | "data" => Some("name"),
         "address" => Some("letter"),
+        "system" => Some(NUMBER),
         _ => None,
     }
 }
@@ -182,7 +186,9 @@ fn merge_rows<'i>(
                     Some(DeValue::Table(there)) => there,
                     Some(_) | None => DeTable::new(),
                 };
-                if EXCLUSIVE.iter().any(|word| over.contains_key(*word)) && matches!(table, "code" | "name") {
+                if EXCLUSIVE.iter().any(|word| over.contains_key(*word))
+                    && matches!(table, "code" | "name" | "system")
+                {
                     for word in EXCLUSIVE {
                         merged.remove(word);
                     }
@@ -197,7 +203,15 @@ fn merge_rows<'i>(
 
 /// The key of a row, and its place.
 pub(crate) fn key_of(row: &DeTable<'_>, field: &str) -> Option<(String, std::ops::Range<usize>)> {
-    let value = row.get(field)?;
+    let Some(value) = row.get(field) else {
+        // A value of the control's own has a number, or else a name.
+        return if field == NUMBER { key_of(row, "name") } else { None };
+    };
+    if field == NUMBER {
+        // One number may be several values, each with a choice of an option.
+        let when = row.get("when").and_then(|when| when.get_ref().as_str()).unwrap_or_default();
+        return Some((format!("{} {when}", value.get_ref().as_integer()?), value.span()));
+    }
     Some((value.get_ref().as_str()?.to_owned(), value.span()))
 }
 

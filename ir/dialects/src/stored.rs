@@ -9,6 +9,7 @@ use ncc_ir::system::System;
 use serde::Deserialize;
 
 use crate::schema::Dialect;
+use crate::settings::Settings;
 
 /// A table that a code with a number puts values into: `G10 L2`.
 #[derive(Clone, Debug, Deserialize)]
@@ -146,10 +147,12 @@ impl Dialect {
     }
 
     /// Values of the control's own that have numbers, with these; in the unit in force.
-    pub fn named_values(&self) -> impl Iterator<Item = (u32, Expr)> {
+    pub fn named_values(&self) -> impl Iterator<Item = (&SystemRow, u32, Expr)> {
         let rows = self.system.iter().filter(|row| row.refuse.is_none() && !row.machine_units && !row.zero);
+        // One of many entries is found by its meaning.
+        let rows = rows.filter(|row| !row.entries);
         rows.flat_map(|row| {
-            row.numbers().filter_map(|number| Some((number, row.value(number - row.number, "")?)))
+            row.numbers().filter_map(move |number| Some((row, number, row.value(number - row.number, "")?)))
         })
     }
 
@@ -181,7 +184,15 @@ pub struct SystemRow {
     pub axes: bool,
     /// Whether lengths count in the machine's own unit, whatever is in force: the option `machine_units`.
     pub machine_units: bool,
-    /// What it means: the name of a system variable, without its axis and unit.
+    /// Whether there is one for each entry of a table, from 1 on, by the numbers that follow: as many as `count`.
+    pub entries: bool,
+    /// The option of the dictionary that decides whether the row counts; empty if it always does.
+    pub option: String,
+    /// The value of the option with which it does.
+    pub when: String,
+    /// What is taken for granted where it is asked, in words; empty if nothing is.
+    pub assumes: String,
+    /// What it means: the name of a system variable, without its axis, entry and unit.
     pub means: String,
     /// What it means, where it is several such values together.
     pub sum: Vec<SystemTerm>,
@@ -197,7 +208,7 @@ pub struct SystemRow {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SystemTerm {
-    /// The name of a system variable.
+    /// The name of a system variable; empty for a plain number.
     pub means: String,
     /// How many times it counts.
     pub times: i64,
@@ -215,6 +226,9 @@ impl SystemRow {
                 name.push('.');
                 name.push(char::from(axis.letter().to_ascii_lowercase()));
             }
+            if self.entries {
+                name.push_str(&format!(".{}", place + 1));
+            }
             if !unit.is_empty() {
                 name.push('.');
                 name.push_str(unit);
@@ -228,12 +242,20 @@ impl SystemRow {
             return of(&self.means);
         }
         self.sum.iter().try_fold(None, |all, term| {
-            let worth = node(Node::Binary(Binary::Multiply, of(&term.means)?, Expr::int(term.times)));
+            let worth = match term.means.is_empty() {
+                true => Expr::int(term.times),
+                false => node(Node::Binary(Binary::Multiply, of(&term.means)?, Expr::int(term.times))),
+            };
             Some(Some(match all {
                 None => worth,
                 Some(before) => node(Node::Binary(Binary::Add, before, worth)),
             }))
         })?
+    }
+
+    /// Whether it counts, as options are chosen.
+    pub fn counts(&self, settings: &Settings) -> bool {
+        self.option.is_empty() || settings.get(&self.option) == self.when
     }
 
     /// Values that it is by itself on one machine or another.
@@ -283,6 +305,7 @@ impl SystemRow {
         let places = match (self.axes, self.count as usize) {
             (true, 0) => AXES,
             (true, count) => count.min(AXES),
+            (false, count) if self.entries => count,
             (false, _) => 1,
         };
         (0..places).filter(move |_| plain).filter_map(move |place| {
@@ -291,6 +314,7 @@ impl SystemRow {
                     let axis = char::from(Axis::ALL[place].letter().to_ascii_lowercase());
                     format!("{}.{axis}{unit}", self.means)
                 }
+                false if self.entries => format!("{}.{}", self.means, place + 1),
                 false => format!("{}{unit}", self.means),
             };
             let spelt = match self.name.is_empty() {

@@ -8,7 +8,7 @@ use super::{Exec, Length, SHIFT_STORED, SHIFT_TAKEN_UP, State, Z};
 use crate::canon::{AXES, Axis, Distance, FeedMode, Motion, Plane, Spindle, SpindleMode, Turn, Units};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
-use crate::program::Coord;
+use crate::program::{Coord, ToolValue};
 use crate::source::Span;
 use crate::system::System;
 
@@ -120,8 +120,14 @@ impl Exec {
                 settled.then(|| self.counted(self.position[at], *axis, None))
             }
             System::TouchPoint(axis) => {
-                let touched = self.touched.as_ref()?;
+                let [touched, _] = &**self.touched.as_ref()?;
                 (!self.is_tilted()).then(|| self.counted(touched[*axis as usize], *axis, None))
+            }
+            System::TouchWithOffsets(axis) => {
+                let [touched, offsets] = &**self.touched.as_ref()?;
+                let at = touched[*axis as usize].checked_add(offsets[*axis as usize])?;
+                let plain = !self.is_tilted() && !self.has_program_frames();
+                plain.then(|| self.counted(at, *axis, None))
             }
             System::MachinePoint(axis) => {
                 self.stands().then(|| self.counted(self.machine()[*axis as usize], *axis, None))
@@ -144,6 +150,26 @@ impl Exec {
                 let stated = self.stated_offset(*axis as usize)?;
                 Some(self.counted(stated, *axis, *unit))
             }
+            System::ToolTable { value, entry } => {
+                let (entry, wear) = (u32::from(*entry), self.world.length_wear(u32::from(*entry)));
+                let worth = match value {
+                    ToolValue::Length => self.world.tool_length(entry).checked_sub(wear)?,
+                    ToolValue::LengthWear => wear,
+                    ToolValue::Radius | ToolValue::RadiusWear | ToolValue::OffsetX | ToolValue::OffsetY => {
+                        return None;
+                    }
+                };
+                Some(self.counted(worth, Axis::Z, None))
+            }
+            System::LengthEntry => match self.waiting.unwrap_or(self.modes.length) {
+                Length::Entry(entry) if entry > 0 => Some(f64::from(self.world.entry_number(entry))),
+                Length::Entry(_) | Length::Edge(..) | Length::Value(_) | Length::Left => None,
+            },
+            System::FirstWorkOffset => {
+                let number = self.modes.work_offset;
+                (1..=6).contains(&number).then_some(f64::from(number))
+            }
+            System::Kept(what, of) => Some(f64::from(self.world.kept(*what, *of))),
             System::Tool => (self.state.tool >= 0).then_some(self.state.tool as f64),
             System::SelectedTool => (self.selected >= 0).then_some(self.selected as f64),
             System::Feed if self.state.feed_mode == FeedMode::InverseTime => None,

@@ -125,7 +125,7 @@ impl Exec {
             from[axis].wrapping_add((way * share / i128::from(ONE)) as Nanos)
         });
         self.position = self.unplace(&self.last);
-        self.touched = Some(Box::new(self.position));
+        self.touched = Some(Box::new([self.position, self.tool_offset()]));
         self.emit(Kind::Probe { to: Box::new(to), probe }, span, out)
     }
 

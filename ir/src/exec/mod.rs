@@ -108,7 +108,7 @@ pub struct Exec {
     feed_inch: Option<bool>,
     selected: i64,
     /// Where the last probing move ended, in the coordinates that the program had then.
-    touched: Option<Box<[Nanos; AXES]>>,
+    touched: Option<Box<[[Nanos; AXES]; 2]>>,
     state: State,
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
