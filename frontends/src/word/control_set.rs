@@ -52,6 +52,16 @@ impl Lower {
                 let text = self.text_of(block, src, out).unwrap_or_default();
                 vec![Op::Alarm(Box::new(Alarm { number: Some(value), text }))]
             }
+            // Whether single block stops between blocks is the operator's, as long as functions are waited for.
+            Some("single-block")
+                if value.literal().is_some_and(|n| n.scale == 0 && matches!(n.mantissa, 0 | 1)) =>
+            {
+                let said = if value.literal().is_some_and(|n| n.mantissa == 1) { 1 } else { 0 };
+                if self.assume {
+                    out.report(Fault::AssumedNoEffect { code: name.as_str().into() }, block.span);
+                }
+                vec![Op::NoEffect(format!("{name}={said}").into())]
+            }
             Some("stop") => {
                 let text = self.text_of(block, src, out);
                 text.map(Op::Message).into_iter().chain([Op::ProgramStop]).collect()

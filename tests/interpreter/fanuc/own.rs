@@ -75,6 +75,10 @@ impl Control {
 
     /// Sets the zero of a work offset along an axis, or a length of a tool.
     pub(super) fn set_own(&mut self, number: u32, value: Option<f64>) -> Result<(), Halt> {
+        // Single block, with functions waited for.
+        if number == 3003 && [Some(0.0), Some(1.0)].contains(&value) {
+            return Ok(());
+        }
         let table = match number {
             2001..=2400 => Some(((number - 2001) % 200 + 1, (number > 2200) == self.haas)),
             10_001..=10_400 if !self.haas => Some((number - 10_000, true)),
