@@ -235,7 +235,7 @@ impl Lower {
             return self.fault(Fault::NotSupported { code, name }, span, out);
         }
         if calls != self.calls_in_force() {
-            return self.refuse_modal("G66", "modal call that begins or ends within a loop", span, out);
+            return self.refuse_under("modal call that begins or ends within a loop", span, out);
         }
         if skip.is_some() || self.now.skip.is_some() {
             let name = "loop whose head or end can be skipped".into();

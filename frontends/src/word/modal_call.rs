@@ -55,7 +55,7 @@ impl Lower {
     }
 
     /// The same, by the code that has said the calls.
-    fn refuse_under(&mut self, name: &str, at: Span, out: &mut Batch) {
+    pub(super) fn refuse_under(&mut self, name: &str, at: Span, out: &mut Batch) {
         let code = self.computes.reach.code.clone();
         self.refuse_modal(&code, name, at, out);
     }
