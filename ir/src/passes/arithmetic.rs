@@ -240,11 +240,13 @@ impl Over<'_> {
             (Function::Min | Function::Max, [a, b])
                 if self.computes.worth && !is_count(function, arguments) =>
             {
-                let (less, more) = if function == Function::Max { (a, b) } else { (b, a) };
-                let below = of(Binary::Less, less.clone(), more.clone());
-                let other = node(Node::Unary(Unary::Not, below.clone()));
-                let one = of(Binary::Multiply, below, more.clone());
-                Some(of(Binary::Add, one, of(Binary::Multiply, other, less.clone())))
+                let second = match function {
+                    Function::Max => of(Binary::Less, a.clone(), b.clone()),
+                    _ => of(Binary::Less, b.clone(), a.clone()),
+                };
+                let first = node(Node::Unary(Unary::Not, second.clone()));
+                let one = of(Binary::Multiply, second, b.clone());
+                Some(of(Binary::Add, one, of(Binary::Multiply, first, a.clone())))
             }
             (Function::Floor, [a]) if self.has(Function::Truncate) => {
                 self.never_negative(a, "what is rounded down");
