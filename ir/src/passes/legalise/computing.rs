@@ -6,7 +6,7 @@
 
 use super::super::computed_frames;
 use super::super::known_facts::{self, Known};
-use super::super::number_names;
+use super::super::{number_names, origin_shift};
 use super::{Legaliser, Target};
 use crate::arguments;
 use crate::canon::Modes;
@@ -67,8 +67,9 @@ impl Legaliser {
                 _ => None,
             };
             let inherits = has_positions(&procedure.body);
-            let mut region = Region { fresh: &fresh, known, inherits, levels, diags };
+            let mut region = Region { fresh: &fresh, known, inherits, levels, diags, shift: self.shift };
             region.body(&mut procedure.body, start);
+            self.shift = region.shift;
         }
     }
 
@@ -171,6 +172,8 @@ struct Region<'l> {
     /// Whether a cycle's plane of return is one for all its positions.
     levels: bool,
     diags: &'l mut Vec<Diagnostic>,
+    /// What has been taken for granted of the origin's shift.
+    shift: origin_shift::State,
 }
 
 impl Region<'_> {
@@ -201,7 +204,9 @@ impl Region<'_> {
         let (mut own, assumed) = start.unwrap_or_else(|| (self.fresh.anew(known.cloned()), Modes::default()));
         let before = stmts.clone();
         let mut found = Vec::new();
+        own.shift = self.shift;
         own.run(stmts, &assumed, &mut found);
+        self.shift = own.shift;
         if own.frames.is_worked_in()
             && let Some(last) = before.last().filter(|last| last.op != Op::ProgramEnd)
         {
