@@ -1,5 +1,7 @@
 //! One writer for every dialect: which text form it has is in the dictionary.
 
+use std::collections::BTreeSet;
+
 use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::Diagnostic;
@@ -105,11 +107,12 @@ impl Writer {
         }
     }
 
-    /// Says which procedures a program has that computes, before any of it is written.
-    pub fn know(&mut self, procedures: &[Procedure]) {
+    /// Says which procedures a program has that computes, before any of it is written, and the places of statements
+    /// whose words say their own distance mode, where others rely on the one in force.
+    pub fn know(&mut self, procedures: &[Procedure], own_distance: &BTreeSet<u32>) {
         match &mut self.kind {
             Kind::Word(writer) => writer.know(procedures),
-            Kind::Siemens(writer) => writer.know(procedures),
+            Kind::Siemens(writer) => writer.know(procedures, own_distance),
             // The text form says them all by itself; the other writes no such programs.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }

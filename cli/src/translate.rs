@@ -17,6 +17,7 @@ use ncc_ir::given_back::left_out;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
+use ncc_ir::passes::own_distance;
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
@@ -303,6 +304,7 @@ impl<'j> Line<'j> {
         }
         let mut known = Known::default();
         let mut renamed = Renamed::default();
+        let mut own_distance = BTreeSet::new();
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             let caps = self.job.to.caps();
@@ -313,6 +315,14 @@ impl<'j> Line<'j> {
             if let Some(there) = there {
                 let stands = self.legaliser.stands();
                 (known, renamed) = as_there::say(self.job, &mut program, there, stands, &mut found);
+            }
+            if there.is_some() && self.job.from.caps().word_distance {
+                own_distance = own_distance::places(&program, &known);
+                if !caps.word_distance
+                    && let Err(refusal) = own_distance::refused(&own_distance, &program)
+                {
+                    found.push(refusal);
+                }
             }
             let refused = |found: &[Diagnostic]| found.iter().any(|d| d.fault.gravity() == Gravity::Error);
             let fault = computing(&program, there).filter(|_| !refused(&found));
@@ -343,7 +353,7 @@ impl<'j> Line<'j> {
         self.renumbering.run(&mut program, &mut found);
         if computes {
             self.legaliser.run_computing(&mut program, &known, &mut found);
-            self.writer.know(&program.procedures);
+            self.writer.know(&program.procedures, &own_distance);
             if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
                 self.take(found, Told::Writer);
                 return Ok(());

@@ -30,19 +30,20 @@ pub(super) struct Computing {
     written: BTreeSet<Text>,
     /// Whether there are cycles in it.
     cycles: bool,
+    /// Statements whose words say their own distance mode, where others rely on the one in force, by their places.
+    pub(super) own_distance: BTreeSet<u32>,
     told_number: bool,
     told_comparison: bool,
     /// How many structures are open.
     deep: usize,
 }
 
-/// Deepest nesting of structures of a program (reference, 8), as the reader has it.
-const DEEPEST: usize = 16;
-
 impl Writer {
-    /// Takes what jumps and loops need to know of the procedures of a program that computes.
-    pub(crate) fn know(&mut self, procedures: &[Procedure]) {
+    /// Takes what jumps and loops need to know of the procedures of a program that computes, and at which places words
+    /// say their own distance mode.
+    pub(crate) fn know(&mut self, procedures: &[Procedure], own_distance: &BTreeSet<u32>) {
         self.computing.program = true;
+        self.computing.own_distance.clone_from(own_distance);
         self.words.is_kept();
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
         self.know_parameters(procedures);
@@ -185,8 +186,9 @@ impl Writer {
     }
 
     fn opens(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
-        if self.computing.deep >= DEEPEST {
-            return Err(cannot_compute("a structure within sixteen others"));
+        let most = self.dialect.formula.loops;
+        if self.computing.deep >= most.into() {
+            return Err(cannot_compute(format!("a structure within {most} others")));
         }
         self.alone(text, sink)?;
         self.words.flush(false, sink);

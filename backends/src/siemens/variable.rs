@@ -286,8 +286,13 @@ impl Writer {
             Target::Var(var) => self.variables.types.of_var(var),
             Target::Element(element) => self.variables.types.of_many(&element.of),
         };
+        let element = matches!(to, Target::Element(_));
         let to = self.words.spelling(None)?.target(to)?;
-        let value = self.of_type(kind, value, span, sink)?;
+        let mut value = self.of_type(kind, value, span, sink)?;
+        if element && value.starts_with('(') {
+            // Behind an element of an array, brackets hold the values of several (PGA, arrays: FIELD[0]=(1,2,3)).
+            value.insert_str(0, "0 + ");
+        }
         self.tell_number(&to, span, sink);
         self.alone(&format!("{to}={value}"), sink)
     }

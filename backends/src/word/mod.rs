@@ -148,6 +148,8 @@ pub struct Writer {
     pub(crate) variables: BTreeMap<Text, String>,
     /// What is known of its O words.
     o_words: o_words::OWords,
+    /// Whether the words of the statement at hand say their own distance mode, where others rely on the one in force.
+    pub(crate) says_distance: bool,
     /// Whether the words of the plane's axes are radius and angle.
     polar: bool,
     /// Whether lengths are taken up with control of the tool's tip.
@@ -232,6 +234,7 @@ impl Writer {
             at_moves: modal_call::AtMoves::None,
             variables: BTreeMap::new(),
             o_words: o_words::OWords::default(),
+            says_distance: false,
             polar: false,
             tip: false,
             units_stated: [false; 2],

@@ -267,9 +267,10 @@ impl Writer {
         let mut inherits = false;
         // Words that say their own distance need nothing put in, once a mode is in force.
         let qualifiers = self.dialect.block.qualifiers;
+        let in_force = self.says_distance || self.force.distance.is_some();
         for coord in coords {
             match coord.distance {
-                Fact::Known(_) if qualifiers && (self.force.distance.is_some() || wanted.is_some()) => {}
+                Fact::Known(_) if qualifiers && (in_force || wanted.is_some()) => {}
                 Fact::Known(d) if wanted.is_some_and(|w| w != d) => {
                     return Err(cannot("absolute and incremental words in one block"));
                 }

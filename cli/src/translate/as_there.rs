@@ -6,7 +6,7 @@ use ncc_ir::computes::Computes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
-use ncc_ir::passes::{arithmetic, computed_frames, control_forms, exact_comparisons};
+use ncc_ir::passes::{arithmetic, computed_frames, control_forms, exact_comparisons, own_distance};
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
 
@@ -36,6 +36,11 @@ pub(super) fn say(
     } else if computes.blocks != there.blocks {
         // Words of another language lead to stretches of its blocks; what they say stays as it is.
         known = known_facts::run(&mut program.clone(), &entry, true);
+        // Where a target's words have no mode of their own, the mode behind one that has is said anew.
+        let measures = job.from.caps().word_distance && !job.to.caps().word_distance;
+        if measures && !own_distance::places(program, &known).is_empty() {
+            known = known_facts::run(program, &entry, true);
+        }
     }
     if computes.calls != there.calls {
         found.extend(there.too_deep(program));

@@ -27,9 +27,6 @@ use crate::Batch;
 use crate::word::Source;
 use crate::word::facts::Know;
 
-/// Deepest nesting of structures of a program (reference, 8).
-const DEEPEST: usize = 16;
-
 /// What the text says of jumps, and the structures that are open.
 #[derive(Debug, Default)]
 pub(super) struct Flow {
@@ -349,8 +346,9 @@ impl Lower {
         if self.skipped() {
             self.not_supported(what.word(), "structure whose head can be skipped", head.span, out);
         }
-        if self.flow.open.len() >= DEEPEST {
-            self.not_supported(what.word(), "structure within sixteen others", head.span, out);
+        let most = self.settings.dialect.formula.loops;
+        if self.flow.open.len() >= most.into() {
+            self.not_supported(what.word(), &format!("structure within {most} others"), head.span, out);
         }
         let scaled = self.state.scaled;
         if !matches!(what, What::If { .. }) {

@@ -75,7 +75,7 @@ pub struct FormulaRules {
     pub common: Vec<[u32; 2]>,
     /// Of those that are kept when it is.
     pub retentive: Vec<[u32; 2]>,
-    /// How deep loops can stand in one another.
+    /// How deep loops can stand in one another, and decisions with them whose blocks are their own.
     pub loops: u8,
     /// How deep calls with variables of their own can; 0 is not known.
     pub calls: u8,

@@ -45,6 +45,7 @@ pub mod one_distance;
 pub mod one_move;
 pub mod origin_shift;
 pub mod otherwise;
+pub mod own_distance;
 mod path_control;
 mod pattern_forms;
 mod polar_words;
