@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
+use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::exec::{Event, Exec, named_tool};
@@ -98,6 +99,11 @@ pub(crate) fn fixed(dialect: &Dialect) -> Modes {
     }
 }
 
+/// How a control says alarms.
+pub(crate) fn alarms_of(settings: &Settings) -> Option<Alarms> {
+    settings.caps().computes.and_then(|computes| computes.alarms)
+}
+
 /// What a dialect's numbers resolve.
 pub(crate) fn resolution(settings: &Settings) -> Resolution {
     let numbers = |q| settings.dialect.numbers(q);
@@ -184,6 +190,7 @@ impl Verifier {
                 let mut comparison = Comparison::new(finest, source.start);
                 comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
                 comparison.see(job.to.dialect.caps.seen());
+                comparison.say_alarms(alarms_of(&job.to));
                 Run {
                     seed,
                     skip: 0,

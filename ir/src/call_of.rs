@@ -8,7 +8,7 @@ use crate::program::{Alarm, Call, Control, Op, Stmt, Text};
 use crate::source::Span;
 
 /// The text of the alarm where no program has the number, or none is to be called.
-const NO_SUCH_PROGRAM: &str = "no such program";
+pub const NO_SUCH_PROGRAM: &str = "no such program";
 
 /// Such a call.
 #[derive(Clone, Copy, Debug)]

@@ -2,6 +2,7 @@
 //!
 //! Not here: how it spells it, and what only the digits of its words can tell (the back-end's).
 
+use crate::alarms::Alarms;
 use crate::arguments;
 use crate::call_of::call_of;
 use crate::diag::{Diagnostic, Fault};
@@ -147,6 +148,8 @@ pub struct Computes {
     pub equal_within: Option<Num>,
     /// To how many digits behind the point a number is looked at that must be whole, where that is not exactly so.
     pub whole: Option<u8>,
+    /// Its alarms, if a program can give such.
+    pub alarms: Option<Alarms>,
     /// Values of the control's own that a program can ask for.
     pub system: Vec<System>,
     /// Whether a condition is worth 1 or 0 wherever a number can stand.

@@ -333,6 +333,8 @@ faults! {
     Flattened { blocks: u64 } = 420, verdict(Verdict::Expanded);
     /// Variables have other names in the target; which is which.
     VariablesRenamed { map: Box<str> } = 421, verdict(Verdict::Reformatted);
+    /// Alarms have other numbers in the target, or their number in the text; which is which.
+    AlarmsRenumbered { map: Box<str> } = 422, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

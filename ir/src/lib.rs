@@ -7,6 +7,7 @@
 //!
 //! This crate knows no dialect by name, reads no file and prints nothing.
 
+pub mod alarms;
 pub mod arguments;
 pub mod beside;
 pub mod call_of;

@@ -7,6 +7,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::alarms::Alarms;
 use crate::canon::{AXES, Axis, Turn, same_point};
 use crate::exec::{Event, Kind, Seen, State, Stored, named_tool};
 use crate::expr::Expr;
@@ -184,6 +185,8 @@ pub struct Comparison {
     target_at: [Nanos; AXES],
     /// What of the machine's state the target has words for.
     seen: Option<Seen>,
+    /// How the target says alarms, where that may be another way.
+    alarms: Option<Alarms>,
     /// What the source calls the target's tools, where that may be another number.
     tools: Option<BTreeMap<u32, u32>>,
     /// What the source's tools are that it calls by name, by the target's numbers.
@@ -209,6 +212,7 @@ impl Comparison {
             source_at: start,
             target_at: start,
             seen: None,
+            alarms: None,
             tools: None,
             named: BTreeMap::new(),
             events: 0,
@@ -229,6 +233,20 @@ impl Comparison {
     /// The target has words for so much of the machine's state alone: the rest does not count.
     pub fn see(&mut self, seen: Seen) {
         self.seen = (seen != Seen::default()).then_some(seen);
+    }
+
+    /// The target's control says alarms so.
+    pub fn say_alarms(&mut self, alarms: Option<Alarms>) {
+        self.alarms = alarms;
+    }
+
+    /// Whether an alarm is the same under the target's number.
+    fn same_alarm(&self, (number, text): (Option<Nanos>, &str), there: (Option<Nanos>, &str)) -> bool {
+        let whole = number.is_none_or(|number| number % ONE == 0);
+        let said =
+            self.alarms.filter(|_| whole).and_then(|alarms| alarms.said(number.map(|n| n / ONE), text));
+        let said = said.as_ref().map(|(number, text)| (number.map(|n| n * ONE), &**text));
+        (number, text) == there || said == Some(there)
     }
 
     /// Says whether the pairs are kept from now on, until they are taken.
@@ -524,6 +542,11 @@ impl Comparison {
             (Kind::Tilt(Some(x)), Kind::Tilt(Some(y))) => {
                 let half = self.half[usize::from(b.inch || self.as_inches)].max(self.within);
                 if !x.is_same(y, half, Resolution::half(self.resolution.degree, false)) {
+                    return Some(Aspect::Kind);
+                }
+            }
+            (Kind::Alarm(number, text), Kind::Alarm(other, shown)) => {
+                if !self.same_alarm((*number, text), (*other, shown)) {
                     return Some(Aspect::Kind);
                 }
             }

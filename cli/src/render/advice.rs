@@ -171,6 +171,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
         | Fault::Flattened { .. }
+        | Fault::AlarmsRenumbered { .. }
         | Fault::VariablesRenamed { .. }
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }

@@ -221,6 +221,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
+        Fault::AlarmsRenumbered { .. } => "alarms under other numbers".to_owned(),
         Fault::VariablesRenamed { .. } => "variables under other names".to_owned(),
         Fault::Flattened { blocks } => format!("what computes into {blocks} straight blocks"),
         Fault::FramesExpanded => "frames into the coordinates".to_owned(),

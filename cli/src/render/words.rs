@@ -302,6 +302,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("executed, and written as {blocks} straight blocks"),
             "variables, loops, jumps and subprograms are gone, with the comments beside them".into(),
         ),
+        Fault::AlarmsRenumbered { map } => ("alarms have other numbers".into(), format!("in {to}, {map}")),
         Fault::VariablesRenamed { map } => ("variables have other names".into(), format!("in {to}, {map}")),
         Fault::SkipLevelLost { level } => (
             format!("block-skip level {level} lost"),

@@ -6,7 +6,9 @@ use ncc_ir::computes::Computes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
-use ncc_ir::passes::{arithmetic, computed_frames, control_forms, exact_comparisons, own_distance};
+use ncc_ir::passes::{
+    alarm_numbers, arithmetic, computed_frames, control_forms, exact_comparisons, own_distance,
+};
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
 
@@ -23,6 +25,9 @@ pub(super) fn say(
 ) -> (Known, Renamed) {
     let mut known = Known::default();
     let (from, to) = (job.from.dialect, job.to.dialect);
+    if let Some(alarms) = there.alarms.filter(|_| from.id != to.id) {
+        alarm_numbers::run(program, alarms, found);
+    }
     exact_comparisons::run(program, there, found);
     control_forms::run(program, there);
     arithmetic::run(program, there, from.formula.tolerance(), found);

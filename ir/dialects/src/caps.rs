@@ -1,5 +1,6 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
+use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, Side, Turn};
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
@@ -375,6 +376,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 exists: rules.exists.is_some(),
                 equal_within: rules.tolerance(),
                 whole: rules.whole,
+                alarms: rules
+                    .statements
+                    .contains(&Statement::Alarm)
+                    .then_some(Alarms { numbers: rules.alarms, capitals: dialect.comment.upper_ascii }),
                 system: systems(dialect),
                 worth: rules.not_behind.is_some(),
                 named_programs: dialect.program.o_words,

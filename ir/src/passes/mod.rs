@@ -6,6 +6,7 @@
 //! does: what it cannot mend it refuses.
 
 pub mod absolute_holes;
+pub mod alarm_numbers;
 pub mod approach;
 pub mod arc_form;
 pub mod arithmetic;

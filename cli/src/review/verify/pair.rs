@@ -13,6 +13,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
 use ncc_dialects::SafeStart;
+use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Distance, FeedMode, Modes, Plane, Units};
 use ncc_ir::diag::{Diagnostic, Gravity};
 use ncc_ir::exec::{Event, Exec, Seen};
@@ -24,7 +25,7 @@ use crate::job::Job;
 use crate::machines::pair::Machines;
 use crate::review::side::Side;
 use crate::review::stream::{Course, Made, Stage, Unsaid, clearances, stream, stream_as};
-use crate::verify_run::{WORLDS, fixed, resolution, worlds_of};
+use crate::verify_run::{WORLDS, alarms_of, fixed, resolution, worlds_of};
 
 /// Events of a piece that a side hands over.
 const PIECE: usize = 4096;
@@ -145,6 +146,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         resolution: found.resolution,
         own: resolution(&job.to),
         tools: job.machines.renaming(),
+        alarms: alarms_of(&job.to),
         seen: job.from.dialect.caps.seen().both(job.to.dialect.caps.seen()),
     };
     let mut beyond = false;
@@ -294,6 +296,7 @@ struct Plan {
     /// What the output's own digits resolve.
     own: Resolution,
     tools: ncc_ir::maps::Renaming,
+    alarms: Option<Alarms>,
     seen: Seen,
 }
 
@@ -324,6 +327,7 @@ impl Plan {
             comparison.rename_tools(self.tools.tools.clone(), &self.tools.tool_names);
             comparison.measure(self.tolerance);
             comparison.see(self.seen);
+            comparison.say_alarms(self.alarms);
             comparison.measure_by(self.own);
             if self.in_inches {
                 comparison.as_inches();

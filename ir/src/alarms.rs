@@ -1,0 +1,67 @@
+//! Alarms of a program as another control shows them: by a number of its own, or by their text alone.
+//!
+//! A number that the control has stays. Else it is counted from the first that it has (`10` is 65010 on a control with
+//! alarms from 65000), or is what its last three digits are (65010 is 10). One that no number had gets the first above
+//! zero. Where alarms have no numbers, the number stands before the text. The text stays, in the letters that the
+//! control has.
+//!
+//! Not here: characters that a control cannot show, and how long a text may be (the back-end's).
+
+use crate::program::Text;
+
+/// How a control says the alarms of a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Alarms {
+    /// Its numbers, from and to; without, alarms have no number.
+    pub numbers: Option<[u32; 2]>,
+    /// Whether its texts have capitals alone.
+    pub capitals: bool,
+}
+
+impl Alarms {
+    /// What an alarm is on this control; nothing where it has no number for it.
+    pub fn said(&self, number: Option<i64>, text: &str) -> Option<(Option<i64>, Text)> {
+        let shown = |text: &str| if self.capitals { text.to_ascii_uppercase() } else { text.to_owned() };
+        let Some([from, to]) = self.numbers.map(|range| range.map(i64::from)) else {
+            return Some((
+                None,
+                match (number, text) {
+                    (None, text) => shown(text),
+                    (Some(number), "") => number.to_string(),
+                    (Some(number), text) => format!("{number} {}", shown(text)),
+                }
+                .into(),
+            ));
+        };
+        let has = |n: &i64| (from..=to).contains(n);
+        let own = match number {
+            None => Some(from.max(1)),
+            Some(number) if has(&number) => Some(number),
+            Some(number) if (0..1000).contains(&number) => Some(from + number),
+            Some(number) => Some(number % 1000),
+        };
+        own.filter(has).map(|own| (Some(own), shown(text).into()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_alarm_has_the_number_and_the_text_of_the_other_control() {
+        let mill = Alarms { numbers: Some([0, 200]), capitals: true };
+        let other = Alarms { numbers: Some([65_000, 66_999]), capitals: false };
+        let texts = Alarms { numbers: None, capitals: false };
+        let of = |alarms: Alarms, number, text| alarms.said(number, text).map(|(n, t)| (n, t.to_string()));
+        assert_eq!(of(other, Some(10), "TOO WIDE"), Some((Some(65_010), "TOO WIDE".into())));
+        assert_eq!(of(mill, Some(65_010), "too wide"), Some((Some(10), "TOO WIDE".into())));
+        assert_eq!(of(mill, Some(101), ""), Some((Some(101), String::new())));
+        assert_eq!(of(mill, Some(65_201), ""), None);
+        assert_eq!(of(mill, None, "no size"), Some((Some(1), "NO SIZE".into())));
+        assert_eq!(of(other, None, "no size"), Some((Some(65_000), "no size".into())));
+        assert_eq!(of(texts, Some(10), "TOO WIDE"), Some((None, "10 TOO WIDE".into())));
+        assert_eq!(of(texts, Some(7), ""), Some((None, "7".into())));
+        assert_eq!(of(texts, None, "no size"), Some((None, "no size".into())));
+    }
+}

@@ -1,0 +1,64 @@
+//! Alarms under the numbers that the target has, or with their number before the text where it has none
+//! ([`crate::alarms`]), and told.
+//!
+//! Not here: alarms whose number is computed, and those that a control gives by itself.
+
+use crate::alarms::Alarms;
+use crate::call_of::NO_SUCH_PROGRAM;
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::program::{Alarm, NO_SUCH_BLOCK, Op, Program, Stmt};
+use crate::source::Span;
+
+/// Most alarms that are told.
+const MOST_TOLD: usize = 20;
+
+/// Says the alarms of a program as a control does that has these.
+pub fn run(program: &mut Program, alarms: Alarms, diags: &mut Vec<Diagnostic>) {
+    let mut told: Vec<(String, Span)> = Vec::new();
+    for procedure in &mut program.procedures {
+        body(&mut procedure.body, alarms, &mut told);
+    }
+    if let Some((_, at)) = told.first() {
+        let all: Vec<&str> = told.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
+        let map = all.join(", ").into();
+        diags.push(Diagnostic::new(Fault::AlarmsRenumbered { map }, *at));
+    }
+}
+
+fn body(stmts: &mut [Stmt], alarms: Alarms, told: &mut Vec<(String, Span)>) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            Op::Alarm(alarm) => {
+                if let Some(other) = other(alarm, alarms) {
+                    let number = |alarm: &Alarm| {
+                        let number = alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole());
+                        number.map_or_else(
+                            || format!("the one with the text {:?}", &*alarm.text),
+                            |n| n.to_string(),
+                        )
+                    };
+                    let what = format!("{} is {}", number(alarm), number(&other));
+                    if !told.iter().any(|(known, _)| *known == what) {
+                        told.push((what, stmt.span));
+                    }
+                    **alarm = other;
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, told)),
+            _ => {}
+        }
+    }
+}
+
+/// What an alarm becomes, if that is another one.
+fn other(alarm: &Alarm, alarms: Alarms) -> Option<Alarm> {
+    let own = alarm.number.is_none() && (*alarm.text == *NO_SUCH_BLOCK || *alarm.text == *NO_SUCH_PROGRAM);
+    let number = match &alarm.number {
+        None => None,
+        Some(number) => Some(number.literal().and_then(|n| n.whole())?),
+    };
+    let (said, text) = alarms.said(number, &alarm.text).filter(|_| !own)?;
+    let same = said == number && text == alarm.text;
+    (!same).then(|| Alarm { number: said.map(Expr::int), text })
+}
