@@ -18,6 +18,7 @@ use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::own_distance;
+use ncc_ir::passes::passed_labels;
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::passes::{Legaliser, Target};
 use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
@@ -301,6 +302,9 @@ impl<'j> Line<'j> {
         if !self.job.to.dialect.can.everything {
             let told = left_out(&program, &self.job.to.caps());
             self.take(told, Told::Writer);
+        }
+        if self.job.from.dialect.program.macro_b {
+            passed_labels::run(&mut program);
         }
         let mut known = Known::default();
         let mut renamed = Renamed::default();

@@ -7,7 +7,7 @@ use std::convert::Infallible;
 
 use crate::canon::Axis;
 use crate::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Shift};
-use crate::expr::Expr;
+use crate::expr::{Expr, Target};
 use crate::kinds::{flow, modes, variables};
 use crate::num::Unit;
 use crate::program::{
@@ -43,6 +43,17 @@ impl Argument<'_> {
             Argument::Value(place) => *place = value,
         }
     }
+}
+
+/// Whether an argument of a statement follows from what is given a value.
+pub fn reads(op: &Op, to: &Target) -> bool {
+    let mut found = false;
+    each(&mut op.clone(), &mut |argument, _| {
+        found |= argument.expr().is_some_and(|expr| expr.reads(to));
+        Ok::<(), Infallible>(())
+    })
+    .unwrap_or_else(|never| match never {});
+    found
 }
 
 /// Whether any argument of a statement must be computed.

@@ -216,7 +216,7 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<String, Fault> {
         self.spelling(None)?;
-        self.variable_changes()?;
+        self.variable_changes(to, span, sink)?;
         let value = match value {
             // Where a value is no sum without brackets.
             Expr::Node(_) if self.has_o_words() => self.behind(value, None, span, sink)?,
@@ -231,13 +231,14 @@ impl Writer {
         format!("{to}{blank}={blank}{value}")
     }
 
-    /// A variable gets another value: what was said with it is not what the same words would say now.
-    fn variable_changes(&mut self) -> Result<(), Fault> {
-        let Some(held) = &self.held else { return Ok(()) };
-        if !held.is_computed() {
+    /// A variable gets another value: what was said with it is not what the same words would say now. A cycle that
+    /// is computed from it is called up before.
+    fn variable_changes(&mut self, to: &Target, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if !self.held.as_ref().is_some_and(|held| held.reads(to)) {
             return Ok(());
         }
-        if !held.in_text {
+        self.call_up_now(&Stmt::new(span, Op::Blank), sink)?;
+        if self.held.as_ref().is_some_and(|held| !held.in_text) {
             return Err(cannot_compute("an assignment between a cycle with variables and its first hole"));
         }
         self.held = None;

@@ -4,11 +4,11 @@
 //! kind a call is held back until its first position; a cycle that ends before leaves nothing but
 //! its feed.
 
-use ncc_ir::arguments::computed;
+use ncc_ir::arguments::reads;
 use ncc_ir::canon::{Axis, Fact, Motion, Plane, ReturnLevel};
 use ncc_ir::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Row, Shift};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
+use ncc_ir::expr::{Expr, Target};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Coord, Move, Op, Point, Stmt};
 use ncc_ir::source::Span;
@@ -37,12 +37,12 @@ pub(crate) struct Held {
 }
 
 impl Held {
-    /// Whether a word of it is computed.
-    pub(crate) fn is_computed(&self) -> bool {
-        let computed = |cycle: &Cycle| computed(&Op::StartCycle(Box::new(cycle.clone())));
-        computed(&self.cycle)
-            || self.before.as_deref().is_some_and(computed)
-            || self.feed.as_ref().is_some_and(|feed| feed.literal().is_none())
+    /// Whether a word of it is computed from what is given a value.
+    pub(crate) fn reads(&self, to: &Target) -> bool {
+        let reads = |cycle: &Cycle| reads(&Op::StartCycle(Box::new(cycle.clone())), to);
+        reads(&self.cycle)
+            || self.before.as_deref().is_some_and(reads)
+            || self.feed.as_ref().is_some_and(|feed| feed.reads(to))
     }
 }
 

@@ -357,7 +357,7 @@ impl Verifier {
         let of_target = Runner::new(target).untaken(&gone.target).len();
         let told = untaken.iter().take(MOST_TOLD);
         self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
-        if of_target > untaken.len() {
+        if of_target > Runner::new(source).open_ways(&gone.source) {
             // The output decides what the source does not.
             self.notes.push(Diagnostic::new(ways(0), self.last));
         }

@@ -164,6 +164,12 @@ impl<'p> Runner<'p> {
         found
     }
 
+    /// How many decisions there are of which not both ways were taken, such checks among them.
+    pub fn open_ways(&self, all: &[u8]) -> usize {
+        let decides = |step: &Step| matches!(step, Step::Unless(..) | Step::UnlessCounted(..));
+        self.code.steps.iter().zip(all).filter(|(step, taken)| decides(step) && **taken != 3).count()
+    }
+
     /// Whether a decision is an alarm's, of the block that then calls up a cycle.
     fn is_check(&self, at: usize, block: Span) -> bool {
         let is = |at: usize, op: fn(&Op) -> bool| {

@@ -208,13 +208,7 @@ impl Held {
     /// A variable gets another value.
     fn sets(&mut self, to: &Target) {
         let Some(in_force) = &self.at.cycle else { return };
-        let mut found = false;
-        arguments::each(&mut Op::StartCycle(Box::new(in_force.cycle.clone())), &mut |argument, _| {
-            found |= argument.expr().is_some_and(|expr| expr.reads(to));
-            Ok::<(), std::convert::Infallible>(())
-        })
-        .unwrap_or_else(|never| match never {});
-        self.as_called &= !found;
+        self.as_called &= !arguments::reads(&Op::StartCycle(Box::new(in_force.cycle.clone())), to);
     }
 
     fn apply(&mut self, op: &Op, at: u32) {

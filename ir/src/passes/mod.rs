@@ -47,6 +47,7 @@ pub mod one_move;
 pub mod origin_shift;
 pub mod otherwise;
 pub mod own_distance;
+pub mod passed_labels;
 mod path_control;
 mod pattern_forms;
 mod polar_words;

@@ -32,7 +32,7 @@ use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::maps::{Maps, Renaming};
 use ncc_ir::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{Legaliser, PASSES, Target, control_forms, exact_comparisons};
+use ncc_ir::passes::{Legaliser, PASSES, Target, control_forms, exact_comparisons, passed_labels};
 use ncc_ir::program::{Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::verify::{Comparison, Resolution};
@@ -234,7 +234,7 @@ fn refused(diags: &[Diagnostic]) -> bool {
 const NUMBERS: &str = "machine-numbers";
 
 /// Those of the passes that programs go through which compute.
-const COMPUTING: [&str; 2] = ["control-forms", "exact-comparisons"];
+const COMPUTING: [&str; 3] = ["control-forms", "exact-comparisons", "passed-labels"];
 
 fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnostic>, String> {
     let mut diags = Vec::new();
@@ -250,6 +250,7 @@ fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnosti
     if let (true, Some(computes)) = (COMPUTING.contains(&pass), &told.target.caps.computes) {
         match pass {
             "control-forms" => control_forms::run(program, computes),
+            "passed-labels" => passed_labels::run(program),
             _ => exact_comparisons::run(program, computes, &mut diags),
         }
         return Ok(diags);
