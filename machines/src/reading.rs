@@ -296,6 +296,11 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         [letter] | [letter, b'0'] => dialect.address_row(*letter).is_some(),
         _ => false,
     };
+    let variable = |number: u32| format!("{}{number}", dialect.formula.variable);
+    let told = |assumes: &str| !assumes.is_empty() && slug(assumes) == key;
+    if dialect.system.iter().any(|row| told(&row.assumes) || variable(row.number) == key) {
+        return true;
+    }
     let skip = !dialect.block.skip.is_empty() && key == dialect.block.skip;
     code(key) || call(key) || dialect.name_row(key).is_some() || letter(key) || skip
 }

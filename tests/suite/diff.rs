@@ -47,6 +47,9 @@ fn a_program_is_the_same_as_itself() {
     failures.finish();
 }
 
+/// Programs that go the ways that values of the machine's tables have them go: no two of them are compared (NC0226).
+const ASKING: [&str; 2] = ["tool-length-check.nc", "tool-life.nc"];
+
 /// Each side takes for granted what its own dialect does: translations state what they need.
 #[test]
 fn a_program_is_the_same_as_its_translation() {
@@ -74,6 +77,7 @@ fn a_program_is_the_same_as_its_translation() {
                 }
                 Some(document) if document["equal"] == true => compared += 1,
                 Some(document) => failures.add(what, summary(&document)),
+                None if ASKING.contains(&&*program.file) => {}
                 None => failures.add(what, "cannot be executed"),
             }
         }

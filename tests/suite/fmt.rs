@@ -107,10 +107,18 @@ fn every_case_looks_as_it_should() {
     failures.finish();
 }
 
+/// Programs that go the ways that values of the machine's tables have them go: they are held to their words alone. With
+/// a number in every block each may be jumped to, where no cycle may be in force for G31.
+const ASKING: [&str; 2] = ["tool-length-check.nc", "tool-life.nc"];
+
 #[test]
 fn the_corpus_is_laid_out_and_does_the_same() {
     let mut failures = Failures::default();
     for program in corpus::all() {
+        if ASKING.contains(&&*program.file) {
+            failures.check(&program.file, holds(program.dialect, "", &program.text));
+            continue;
+        }
         let result = holds(program.dialect, "--executed", &program.text)
             .and_then(|laid_out| laid_out.map(|_| ()).ok_or_else(|| "refused".to_owned()));
         failures.check(&program.file, result);
