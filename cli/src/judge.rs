@@ -8,7 +8,7 @@ use std::io;
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
-use ncc_ir::program::{Procedure, Program};
+use ncc_ir::program::Program;
 
 use crate::job::{Job, Outcome, Verified};
 use crate::translate::translate_keeping;
@@ -34,7 +34,8 @@ impl<'j> Judge<'j> {
         let mut batch = Batch::default();
         reader.read(source, 0, &mut batch);
         reader.finish(&mut batch);
-        let mut procedures = vec![Procedure { body: batch.stmts, ..Procedure::default() }];
+        let body = std::mem::take(&mut batch.stmts);
+        let mut procedures = vec![batch.main(body)];
         procedures.append(&mut batch.procedures);
         let source = Program { name: batch.name, assumed: batch.assumed, procedures };
         Ok(Judge { job, source, inherited, outcome })

@@ -21,7 +21,7 @@ use ncc_ir::passes::own_distance;
 use ncc_ir::passes::passed_labels;
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::passes::{Legaliser, Target};
-use ncc_ir::program::{Op, Procedure, Program, ProgramName, Stmt};
+use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::{anything, computing, unknown_calls};
@@ -290,7 +290,7 @@ impl<'j> Line<'j> {
         let assumed = self.batch.assumed;
         let mut body = self.folder.as_mut().map(Folder::held).unwrap_or_default();
         body.append(&mut self.batch.stmts);
-        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
         let source = Program { name: self.batch.name.clone(), assumed, procedures };
         let unknown = unknown_calls(&source);

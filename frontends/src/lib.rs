@@ -42,9 +42,18 @@ pub struct Batch {
     pub pointed: bool,
     /// Whether the text has been found to be a subprogram without its main program.
     pub subprogram: bool,
+    /// What the main procedure says of itself, where that is more than its name: a subprogram that is read alone has
+    /// parameters, which are given their values from elsewhere. Its body is empty.
+    pub heading: Option<Box<Procedure>>,
 }
 
 impl Batch {
+    /// The main procedure with these statements, and what it says of itself.
+    pub fn main(&mut self, body: Vec<Stmt>) -> Procedure {
+        let heading = self.heading.take().map(|heading| *heading).unwrap_or_default();
+        Procedure { body, ..heading }
+    }
+
     /// Where further statements go: into the subprogram that is being read, else into the main procedure.
     #[inline]
     pub(crate) fn body<'o>(&'o mut self, sub: &'o mut Option<Procedure>) -> &'o mut Vec<Stmt> {

@@ -189,6 +189,9 @@ impl Writer {
         let mut sink = Sink { out, diags };
         if let Some(main) = self.main.take() {
             self.begin_variables(&main, &mut sink);
+            if !main.parameters.is_empty() {
+                self.main_parameters(&main, &mut sink);
+            }
         }
         self.body(stmts, &mut sink);
     }

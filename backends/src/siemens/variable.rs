@@ -201,6 +201,23 @@ impl Writer {
         Ok(Some(format!("PROC {name}({}){attributes}", all.join(", "))))
     }
 
+    /// The head of a subprogram that stands alone, with parameters.
+    #[cold]
+    pub(super) fn main_parameters(&mut self, main: &Procedure, sink: &mut Sink) {
+        let span = main.body.first().map_or(Span::default(), |stmt| stmt.span);
+        let name = self.program_name(&main.name, span, sink);
+        match self.parameters(main, &name) {
+            Ok(head) => {
+                sink.out.extend_from_slice(head.unwrap_or_default().as_bytes());
+                sink.out.extend_from_slice(self.words.eol);
+                if let Some(trace) = &mut self.words.trace {
+                    trace.frame(sink.out);
+                }
+            }
+            Err(fault) => sink.report(fault, span),
+        }
+    }
+
     /// A call's arguments, each as its parameter takes it.
     pub(super) fn arguments(&mut self, call: &Call, span: Span, sink: &mut Sink) -> Result<String, Fault> {
         self.variables.back.clear();

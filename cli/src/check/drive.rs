@@ -14,7 +14,7 @@ use ncc_frontends::{Batch, Flow, REFUSED, Reader, flow};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Exec, Runner};
 use ncc_ir::open::asked_of_the_machine;
-use ncc_ir::program::{Op, Procedure, Program, Stmt, Text};
+use ncc_ir::program::{Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
 use crate::chunks::{Chunk, Chunks};
@@ -182,7 +182,7 @@ impl<'d> Drive<'d> {
     /// The rest of a program, kept whole.
     fn whole(&mut self, main: Vec<Stmt>) {
         self.exec.assume(&self.batch.assumed);
-        let mut procedures = vec![Procedure { body: main, ..Procedure::default() }];
+        let mut procedures = vec![self.batch.main(main)];
         procedures.append(&mut self.batch.procedures);
         let program = Program { procedures, ..Program::default() };
         // What was not read may call anything.

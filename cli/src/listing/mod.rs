@@ -14,7 +14,7 @@ use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::canon::rs274;
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::diag::{Fault, Gravity};
-use ncc_ir::program::{Procedure, Program};
+use ncc_ir::program::Program;
 
 use crate::args::{Format, Style, Translate};
 use crate::files::{self, Destination, Source};
@@ -74,7 +74,8 @@ pub(crate) fn run(
     let refused = |found: &[ncc_ir::diag::Diagnostic]| found.iter().any(|d| job.refuses(d));
     let mut listing = None;
     if !refused(&found) {
-        let main = Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() };
+        let body = std::mem::take(&mut batch.stmts);
+        let main = batch.main(body);
         let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
         let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
         match rs274::print(&program, &text, &job.compensating().radii) {

@@ -9,7 +9,7 @@ use ncc_dialects::Settings;
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::{Distance, FeedMode, Motion, Plane, ReturnLevel, Spindle, SpindleMode, Turn, Units};
 use ncc_ir::exec::{Exec, Runner};
-use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 use ncc_ir::world::World;
@@ -75,7 +75,8 @@ pub(crate) fn around(settings: &Settings, text: &mut dyn Read, line: (u32, u32))
     }
     reader.finish(&mut batch);
     walk.exec.assume(&batch.assumed);
-    let mut procedures = vec![Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() }];
+    let body = std::mem::take(&mut batch.stmts);
+    let mut procedures = vec![batch.main(body)];
     procedures.append(&mut batch.procedures);
     let program = Program { procedures, ..Program::default() };
     walk.occurs |= program.procedures.iter().any(|p| walk.is_in(&p.body));

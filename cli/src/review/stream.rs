@@ -24,7 +24,7 @@ use ncc_ir::cycle::{Clearance, CycleKind};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Runner};
 use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::program::{FrameSlot, Op, Procedure, Program, Stmt};
+use ncc_ir::program::{FrameSlot, Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::system::System;
 use ncc_ir::world::World;
@@ -258,7 +258,7 @@ impl Run<'_> {
     /// The rest of a program, kept whole.
     fn whole(&mut self) {
         let body = std::mem::take(&mut self.batch.stmts);
-        let mut procedures = vec![Procedure { body, ..Procedure::default() }];
+        let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
         let program = Program { procedures, ..Program::default() };
         for procedure in &program.procedures {

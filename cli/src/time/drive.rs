@@ -17,7 +17,7 @@ use ncc_ir::exec::{Event, Exec, Kind, Runner};
 use ncc_ir::maps::Renaming;
 use ncc_ir::num::Nanos;
 use ncc_ir::open::asked_of_the_machine;
-use ncc_ir::program::{Op, Procedure, Program, Stmt};
+use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::world::{Sideways, Tables, World};
 use ncc_machines::reading::Told;
@@ -299,8 +299,8 @@ impl<'d> Drive<'d> {
 
     /// The rest of a program, kept whole.
     fn whole(&mut self, text: &[u8], progress: &mut Progress) -> io::Result<()> {
-        let mut procedures =
-            vec![Procedure { body: std::mem::take(&mut self.batch.stmts), ..Procedure::default() }];
+        let body = std::mem::take(&mut self.batch.stmts);
+        let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
         let program = Program { procedures, ..Program::default() };
         for procedure in &program.procedures {

@@ -2,14 +2,15 @@
 //! variables.
 
 use ncc_dialects::Quantity;
-use ncc_ir::computes::Computes;
-use ncc_ir::diag::Diagnostic;
+use ncc_ir::computes::{Computes, Handed};
+use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, computed_frames, control_forms, exact_comparisons, own_distance,
 };
 use ncc_ir::program::Program;
+use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 use crate::job::Job;
@@ -27,6 +28,14 @@ pub(super) fn say(
     let (from, to) = (job.from.dialect, job.to.dialect);
     if let Some(alarms) = there.alarms.filter(|_| from.id != to.id) {
         alarm_numbers::run(program, alarms, found);
+    }
+    if there.handed == Handed::Places
+        && let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty())
+    {
+        let what = "a subprogram with parameters without its main program".into();
+        let at = main.body.first().map_or(Span::default(), |stmt| stmt.span);
+        found.push(Diagnostic::new(Fault::Computes { what }, at));
+        return (Known::default(), Renamed::default());
     }
     exact_comparisons::run(program, there, found);
     control_forms::run(program, there);

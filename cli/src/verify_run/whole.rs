@@ -11,7 +11,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
 use ncc_ir::passes::otherwise::{Taken, otherwise};
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::program::{Procedure, Program};
+use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
 use ncc_ir::valid::anything;
 use ncc_ir::value::Value;
@@ -51,6 +51,8 @@ const READINGS: [&[Taken]; 3] = [&[Taken::Apart], &[Taken::NotNegative], &[Taken
 /// Values for what a program reads and has not set.
 struct Given<'g> {
     open: Vec<(Var, Span)>,
+    /// Parameters of the main procedure, and what they hold: each has a value, which a call has converted.
+    parameters: Vec<(Var, Type)>,
     /// What is stated of them.
     stated: &'g Stated,
     /// What is tried first: the numbers of the program, and those beside them.
@@ -69,7 +71,20 @@ impl<'g> Given<'g> {
             let own = literals(source);
             pool.extend(own.iter().flat_map(|n| [*n, n - 1.0, n + 1.0, n / 2.0]).take(4096));
         }
-        Given { open, stated, pool, renamed: Renamed::default(), other_readings: [const { None }; 3] }
+        let main = source.procedures.first().into_iter();
+        let parameters = main.flat_map(|main| {
+            let kinds = main.kinds.iter().copied().chain(std::iter::repeat(Type::Real));
+            main.parameters.iter().cloned().zip(kinds)
+        });
+        let parameters = parameters.collect();
+        Given {
+            open,
+            parameters,
+            stated,
+            pool,
+            renamed: Renamed::default(),
+            other_readings: [const { None }; 3],
+        }
     }
 
     /// The value of a variable in a set: in the first one, a local variable has none.
@@ -77,21 +92,29 @@ impl<'g> Given<'g> {
         if !self.open.iter().any(|(open, _)| open == var) {
             return None;
         }
-        let local = matches!(var, Var::Local(_));
+        let parameter = self.parameters.iter().find(|(own, _)| own == var).map(|(_, kind)| *kind);
+        let local = matches!(var, Var::Local(_)) && parameter.is_none();
         let name = var.name();
         let hash = name.bytes().chain(seed.to_le_bytes()).chain(set.to_le_bytes());
         let hash =
             hash.fold(0xcbf2_9ce4_8422_2325_u64, |h, b| (h ^ u64::from(b)).wrapping_mul(0x100_0000_01b3));
         let hash = mixed(hash);
+        let converted = |value: f64| {
+            Value::Number(match parameter {
+                Some(Type::Int) => value.round(),
+                Some(Type::Bool) => f64::from(u8::from(value != 0.0)),
+                Some(Type::Real) | None => value,
+            })
+        };
         if let Some(value) = self.stated.value(&name, set, hash) {
-            return Some(value.map_or(Value::Vacant, Value::Number));
+            return Some(value.map_or(Value::Vacant, converted));
         }
         // In every second set all of them are given, else some are not.
         if local && (set == 0 || set.is_multiple_of(2) && hash.is_multiple_of(4)) {
             return Some(Value::Vacant);
         }
         let among = if set % 3 == 1 { FIRST.len() } else { self.pool.len() };
-        Some(Value::Number(self.pool[(mixed(hash) >> 20) as usize % among]))
+        Some(converted(self.pool[(mixed(hash) >> 20) as usize % among]))
     }
 }
 

@@ -76,3 +76,38 @@ fn what_a_program_asks_of_the_machine_differs_between_machines() {
     let timed = ncc(folder.path(), &["time", "--from", "fanuc", "asks.nc"]).exits(0).out;
     assert!(timed.contains("the machine's offset.1.x, which the program asks for"), "{timed}");
 }
+
+/// A subprogram that stands alone: its caller says how long and how often.
+const ALONE: &str = "PROC PASSES(REAL LENGTH, INT TIMES, BOOL DRY)\nDEF INT II\nG17 G90 G94 G71 G54\nG0 X0 Y0\n\
+    IF DRY==FALSE\nM8\nENDIF\nFOR II=1 TO TIMES\nG1 X=LENGTH F500\nG0 X0\nENDFOR\nRET\n";
+
+#[test]
+fn a_subprogram_by_itself_is_given_its_parameters() {
+    let folder = folder();
+    write(&folder, "passes.spf", ALONE);
+    write(
+        &folder,
+        "some.toml",
+        "[variables]\nLENGTH = { from = 5, to = 50 }\nTIMES = [1, 3]\nDRY = [0, 1]\n",
+    );
+    write(&folder, "one.toml", "[variables]\nLENGTH = 20\nTIMES = 2\nDRY = 0\n");
+    let run = |arguments: &str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        ncc(folder.path(), &arguments)
+    };
+    let kept = run("siemens to siemens passes.spf --args some.toml").exits(0);
+    assert!(kept.out.contains("\nPROC PASSES(REAL LENGTH, INT TIMES, BOOL DRY)\n"), "{}", kept.out);
+    assert!(!kept.err.contains("NC0604"), "{}", kept.err);
+    // Without, values are made up for them, and that is told.
+    assert!(run("siemens to siemens passes.spf").exits(0).err.contains("NC0604"));
+    let macro_b = run("siemens to fanuc passes.spf --args some.toml").exits(0);
+    assert!(macro_b.out.contains("G01 X#1 F500."), "{}", macro_b.out);
+    assert!(run("siemens to linuxcnc passes.spf --args some.toml").exits(1).err.contains("NC0233"));
+    let straight = run("siemens to linuxcnc passes.spf --pass flatten --args one.toml").exits(0);
+    assert_eq!(straight.out.matches("G1 X20").count(), 2, "{}", straight.out);
+    for verb in ["siemens to fanuc passes.spf --pass flatten", "time passes.spf --from siemens"] {
+        let without = run(verb);
+        assert!(without.code != 0 && without.err.contains("NC0232"), "{verb}: {}", without.err);
+    }
+    run("time passes.spf --from siemens --args one.toml").exits(0);
+}

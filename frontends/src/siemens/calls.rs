@@ -124,10 +124,15 @@ impl Lower {
         }
     }
 
-    /// `CALL "NAME"`
-    pub(super) fn call_by_text(&mut self, name: Span, head: &Head, src: Source, out: &mut Batch) {
-        let text = src.text(name);
-        let name = text.trim_matches('"');
+    /// `CALL "NAME"`, `CALL "L"<<20`, and by a text variable whose text is known.
+    pub(super) fn call_by_text(&mut self, name: &Expr, head: &Head, src: Source, out: &mut Batch) {
+        if !self.is_text(name, src) {
+            return self.refuse_word("CALL", head.span, out);
+        }
+        let Some(text) = self.known_text(name, src) else {
+            return self.not_supported("CALL", "call by a text that is not known", head.span, out);
+        };
+        let name = &*text;
         let plain = name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
         if !plain || name.starts_with(|c: char| c.is_ascii_digit()) || name.is_empty() {
             return self.not_supported("CALL", "call by path", head.span, out);
@@ -363,14 +368,14 @@ impl Lower {
     /// `PROC NAME` at the head of a subprogram.
     pub(super) fn procedure(
         &mut self,
+        name: Span,
         parameters: &[Parameter],
         attributes: &[Span],
-        head: &Head,
         src: Source,
         out: &mut Batch,
     ) {
         self.now.heading = true;
-        self.parameters(parameters, head.span, src, out);
+        self.parameters(parameters, name, src, out);
         for &attribute in attributes {
             let name = src.text(attribute).to_ascii_uppercase();
             let Some((_, own)) = ATTRIBUTES.iter().find(|(own, _)| *own == name) else {

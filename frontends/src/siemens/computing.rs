@@ -4,7 +4,7 @@
 //! definition sets it sets each time the program runs. Words of a block are read when its assignments are made or
 //! not: a word that reads what its own block sets is refused.
 //!
-//! A text variable is followed through the program text, and has its text as long as that is known.
+//! Not here: what is known of texts (`texts`).
 //!
 //! Refused by name: variables that the program does not define, those of definition files, characters, axes and frames
 //! as variables.
@@ -17,13 +17,14 @@ use ncc_ir::canon::Fact;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Element, Expr, Many, Node, Numbers, Scope, Target, Var};
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Declare, Op, Text, Type as Stored};
+use ncc_ir::program::{Declare, Op, Type as Stored};
 use ncc_ir::source::Span;
 
 use super::facts::InForce;
 use super::formula::{ANY_R, Kind, Typed, is_r, may_be_one, r_parameter, reads};
 use super::lower::Lower;
 use super::sort::Given;
+use super::texts::TextOf;
 use super::tree::{Address, Declaration, Declared, Expr as Tree, Place, TypeName, Value};
 use crate::Batch;
 use crate::word::Source;
@@ -45,8 +46,8 @@ pub(super) struct Variable {
     pub(super) kind: Kind,
     /// Of an array.
     sizes: Box<[u32]>,
-    /// The text of a text variable, where it is known.
-    text: Option<Text>,
+    /// The text of a text variable.
+    pub(super) text: TextOf,
     /// Of a parameter that is the caller's variable itself, where it is kept.
     reference: Option<Var>,
 }
@@ -364,8 +365,12 @@ impl Lower {
             return self.not_supported("DEF", "definition behind blocks that are executed", span, out);
         }
         let Some(kind) = self.kind_of(definition.kind.name, span, src, out) else { return };
+        let longest = match definition.kind.size.first() {
+            Some(Some(Tree::Number(digits, _))) if digits.scale == 0 => usize::try_from(digits.mantissa).ok(),
+            _ => None,
+        };
         for declared in &definition.names {
-            self.define_one(declared, kind, src, out);
+            self.define_one(declared, kind, longest, src, out);
         }
     }
 
@@ -448,15 +453,22 @@ impl Lower {
         let program = self.sub.as_ref().map_or("", |procedure| &procedure.name);
         let reference = by_reference.then(|| Var::Common(format!("{program}.{name}").into()));
         let var = reference.clone().unwrap_or_else(|| Var::Local(name.as_str().into()));
-        self.variables.insert(name.into(), Variable { kind, sizes, text: None, reference });
+        self.variables.insert(name.into(), Variable { kind, sizes, text: TextOf::default(), reference });
         Some(var)
     }
 
-    fn define_one(&mut self, declared: &Declared, kind: Kind, src: Source, out: &mut Batch) {
+    fn define_one(
+        &mut self,
+        declared: &Declared,
+        kind: Kind,
+        longest: Option<usize>,
+        src: Source,
+        out: &mut Batch,
+    ) {
         let place = &declared.place;
         let span = place.span;
         let Some((name, sizes)) = self.new_variable(place, src, out) else { return };
-        let text = (kind == Kind::Text).then(|| "".into());
+        let text = if kind == Kind::Text { TextOf::empty(longest) } else { TextOf::default() };
         let variable = Variable { kind, sizes: sizes.clone(), text, reference: None };
         if kind == Kind::Text {
             if !sizes.is_empty() {
@@ -465,6 +477,9 @@ impl Lower {
             self.variables.insert(name.as_str().into(), variable);
             if let Some(value) = &declared.initial {
                 self.set_text(&name, value, span, src, out);
+                if let Some(Variable { text, .. }) = self.variables.get_mut(name.as_str()) {
+                    text.first.clone_from(&text.now);
+                }
             }
             return;
         }
@@ -488,44 +503,6 @@ impl Lower {
         let Some(initial) = initial else { return };
         let declare = Declare { var: Var::Local(name.into()), kind: stored(kind), sizes, initial };
         self.push(span, Op::Declare(Box::new(declare)), out);
-    }
-
-    /// The name of a text variable.
-    pub(super) fn text_variable(&self, place: &Place, src: Source) -> Option<String> {
-        let Address::Name(name) = place.address else { return None };
-        let name = src.text(name).to_ascii_uppercase();
-        let variable = self.variables.get(&*name)?;
-        (variable.kind == Kind::Text).then_some(name)
-    }
-
-    fn set_text(&mut self, name: &str, value: &Value, span: Span, src: Source, out: &mut Batch) {
-        let text = match value {
-            Value::Expr(value) => self.known_text(value, src),
-            Value::Qualified(..) | Value::List(_) => None,
-        };
-        let Some(text) = text else {
-            return self.not_supported(&src.text(span), "text that is put together", span, out);
-        };
-        self.now.heading = true;
-        let skipped = self.skipped();
-        if let Some(variable) = self.variables.get_mut(name) {
-            variable.text = (!skipped).then_some(text);
-        }
-    }
-
-    /// A text that is written, or that of a variable where it is known.
-    pub(super) fn known_text(&self, value: &Tree, src: Source) -> Option<Text> {
-        match value {
-            Tree::Text(span) => Some(unquoted(src.bytes(*span))),
-            Tree::Place(place) => self.variables.get(&*self.text_variable(place, src)?)?.text.clone(),
-            Tree::Group(inner, _) => self.known_text(inner, src),
-            _ => None,
-        }
-    }
-
-    /// Where a program can come to from elsewhere, no text is known.
-    pub(super) fn forget_texts(&mut self) {
-        self.variables.values_mut().for_each(|variable| variable.text = None);
     }
 
     /// The value of a word or an argument: written, or to be computed.
@@ -621,14 +598,4 @@ fn several_values<'t>(value: &'t Value, src: Source) -> Option<Several<'t>> {
         }
         Value::Expr(_) | Value::Qualified(..) => None,
     }
-}
-
-/// A text without its quotes, blanks and all: UTF-8, else Latin-1.
-pub(super) fn unquoted(bytes: &[u8]) -> Text {
-    let inner = bytes.get(1..bytes.len().saturating_sub(1)).unwrap_or_default();
-    let text = match std::str::from_utf8(inner) {
-        Ok(text) => text.to_owned(),
-        Err(_) => inner.iter().map(|&b| char::from(b)).collect(),
-    };
-    text.replace("\"\"", "\"").into()
 }

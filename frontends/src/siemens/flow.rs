@@ -283,7 +283,7 @@ impl Lower {
                 src.text(*name).to_ascii_uppercase().into()
             }
             Some(Target::Named(Tree::Text(span))) => {
-                super::computing::unquoted(src.bytes(*span)).to_ascii_uppercase().into()
+                super::texts::unquoted(src.bytes(*span)).to_ascii_uppercase().into()
             }
             Some(Target::Named(other)) => {
                 let span = other.span();
@@ -291,6 +291,7 @@ impl Lower {
                 return None;
             }
         };
+        self.texts_may_be_passed_over();
         self.no_idle_tap(jump.span, src, out);
         self.no_stale_offset(jump.span, out);
         self.leave_motion(jump.span, out);

@@ -150,6 +150,12 @@ impl Lower {
                     self.not_supported(&src.text(span), name, span, out);
                     return None;
                 }
+                if matches!(operator, Operator::Equal | Operator::NotEqual)
+                    && let Some(same) = self.same_texts([a, b], span, src, out)
+                {
+                    let holds = same? == (*operator == Operator::Equal);
+                    return Some(Typed::literal(one(i64::from(holds)), Kind::Bool));
+                }
                 let a = self.meaning(a, depth + 1, src, out);
                 let b = self.meaning(b, depth + 1, src, out)?;
                 self.operation(*operator, a?, b, span, out)

@@ -26,7 +26,7 @@ use super::formula::Typed;
 use super::parameters::Handed;
 use super::sort::Words;
 use super::speed::Surfaces;
-use super::tree::{Block, BlockNumber, Called, Expr, Item, Statement};
+use super::tree::{Block, BlockNumber, Called, Item, Statement};
 use crate::word::Source;
 use crate::word::block::{Value, Word};
 use crate::word::facts::Know;
@@ -413,11 +413,11 @@ impl Lower {
                 self.repeat(*first, *last, count.as_ref(), head, src, out);
             }
             Statement::CallModal(called) => self.call_modal(called.as_ref(), head, src, out),
-            Statement::Call { file: Some(Expr::Text(name)), section: None } => {
-                self.call_by_text(*name, head, src, out);
+            Statement::Call { file: Some(name), section: None } => {
+                self.call_by_text(name, head, src, out);
             }
-            Statement::Procedure { parameters, attributes, .. } => {
-                self.procedure(parameters, attributes, head, src, out);
+            Statement::Procedure { name, parameters, attributes } => {
+                self.procedure(*name, parameters, attributes, src, out);
             }
             Statement::Extern { .. } => self.now.heading = true,
             Statement::RepeatBlock { label, count } => {
@@ -508,7 +508,7 @@ impl Lower {
     }
 
     /// A word of the language that the dictionary refuses.
-    fn refuse_word(&mut self, word: &str, at: Span, out: &mut Batch) {
+    pub(super) fn refuse_word(&mut self, word: &str, at: Span, out: &mut Batch) {
         let row = self.settings.dialect.name_row(word);
         let name = row.and_then(|row| row.refuse.as_deref()).unwrap_or("call");
         self.not_supported(word, name, at, out);

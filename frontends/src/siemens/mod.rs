@@ -42,6 +42,7 @@ mod synchronised;
 #[cfg(test)]
 #[path = "../../tests/siemens/mod.rs"]
 mod tests;
+mod texts;
 mod threads;
 mod tilt;
 mod token;

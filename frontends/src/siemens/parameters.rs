@@ -69,7 +69,7 @@ struct Ready {
 
 impl Lower {
     /// The parameters of the subprogram that is being read.
-    pub(super) fn parameters(&mut self, all: &[Parameter], span: Span, src: Source, out: &mut Batch) {
+    pub(super) fn parameters(&mut self, all: &[Parameter], name: Span, src: Source, out: &mut Batch) {
         if all.is_empty() {
             return;
         }
@@ -84,7 +84,13 @@ impl Lower {
                 self.not_supported(&src.text(at), "array or text as a parameter", at, out);
                 continue;
             }
+            let alone = self.sub.is_none();
             let otherwise = match &declared.initial {
+                _ if alone && (parameter.by_reference || declared.initial.is_some()) => {
+                    let name = "VAR, or a first value, in a subprogram without its main program";
+                    self.not_supported("PROC", name, at, out);
+                    None
+                }
                 Some(_) if parameter.by_reference => {
                     self.not_supported("VAR", "first value of the caller's own variable", at, out);
                     None
@@ -111,7 +117,12 @@ impl Lower {
                 procedure.parameters = vars;
                 self.handed.parameters.push((procedure.name.clone(), taken));
             }
-            None => self.not_supported("PROC", "main program with parameters", span, out),
+            None => {
+                let kinds = taken.iter().map(|taken| stored(taken.kind)).collect();
+                let name = src.text(name).to_ascii_uppercase().into();
+                let heading = Procedure { name, parameters: vars, kinds, ..Procedure::default() };
+                out.heading = Some(Box::new(heading));
+            }
         }
     }
 

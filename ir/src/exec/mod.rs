@@ -17,6 +17,7 @@ mod event;
 mod frame;
 mod holes;
 mod message;
+mod needed;
 mod polar;
 mod rounds;
 mod run;

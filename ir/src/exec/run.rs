@@ -5,6 +5,7 @@ use std::rc::Rc;
 
 use super::code::{Again, At, Called, Code, Declared, Step};
 use super::message;
+use super::needed::needed;
 use super::rounds::Rounds;
 use super::term::{Asked, Place, Variables, Why, real};
 use super::{Event, Exec};
@@ -50,7 +51,7 @@ pub struct Runner<'p> {
     blocks: Vec<Blocks>,
     /// Where those of them that are the innermost end, if the present call executes them.
     end: At,
-    variables: Variables,
+    pub(super) variables: Variables,
     /// Statements with what was computed for them last.
     now: Vec<Stmt>,
     steps: u64,
@@ -61,6 +62,8 @@ pub struct Runner<'p> {
     most: u64,
     /// Most steps between two statements that are executed by themselves.
     most_idle: u64,
+    /// Parameters of the main procedure that are read, with the place where it begins.
+    pub(super) needed: Vec<(Var, Place, Span)>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -99,6 +102,7 @@ impl<'p> Runner<'p> {
     /// Ready to run the main procedure.
     pub fn new(program: &'p Program) -> Runner<'p> {
         let code = Code::new(program);
+        let needed = needed(program, &code.names);
         let (parameters, given) = (Rc::new([]), Rc::new([]));
         let main =
             Frame { entry: 0, back: NOWHERE, again: 0, turns: 0, base: 0, shared: false, parameters, given };
@@ -115,6 +119,7 @@ impl<'p> Runner<'p> {
             taken: vec![0; code.steps.len()],
             most: MOST_STEPS,
             most_idle: MOST_IDLE,
+            needed,
             code: Rc::new(code),
         }
     }
@@ -218,6 +223,9 @@ impl<'p> Runner<'p> {
         let code = Rc::clone(&self.code);
         let asked = Asked { exec, other, system: &code.names.system };
         let before = self.steps;
+        if self.steps == 0 {
+            self.parameters_have_values()?;
+        }
         loop {
             if exec.ended() {
                 return Ok(None);

@@ -9,7 +9,7 @@ use super::formula::same;
 use super::frame::Frame;
 use super::shape;
 use super::text::{self, Argument, Block, Item, Reader, Unit};
-use super::variables::{self, Kind, Known, Worth};
+use super::variables::{self, Kind, Known, Place, Worth};
 use super::{Control, Motion, Next, Words};
 
 /// More blocks than any program here runs.
@@ -66,6 +66,19 @@ impl<'a> Control<'a> {
 
     /// A block of words, or one that repeats a part of the program.
     fn other(&mut self, unit: &'a Unit, at: usize, block: &Block) -> Result<Next, Halt> {
+        if let Some((word, rest)) = shape::first_word(&block.rest)
+            && word == "CALL"
+        {
+            let mut reader = Reader::new(rest, &self.variables);
+            return match reader.expression() {
+                Ok(Worth::Text(name)) if reader.over() => {
+                    let alone = Words { names: vec![""], ..Words::default() };
+                    self.call(&name.to_ascii_uppercase(), &alone, 0, &[])
+                }
+                Ok(_) => self.m.halt("CALL of what is no text"),
+                Err(why) => self.m.halt(why),
+            };
+        }
         let read = text::items(&block.rest, &self.variables);
         let items = read.or_else(|why| self.m.halt(why))?;
         if let Some(Item::Name(name)) = items.first()
@@ -438,11 +451,20 @@ fn destination(reader: &mut Reader, unit: &Unit, at: usize) -> Result<Option<usi
     let Some(word) = reader.name() else { return Err("no GOTO".into()) };
     reader.blanks();
     let letter = reader.peek(0).to_ascii_uppercase();
-    let (label, number) = if matches!(letter, 'N' | ':') && reader.peek(1).is_ascii_digit() {
+    let (label, number) = if letter == '"' {
+        match reader.expression()? {
+            Worth::Text(text) => (Some(text.to_ascii_uppercase()), None),
+            Worth::Number(..) => return Err("a GOTO to a number that is computed".into()),
+        }
+    } else if matches!(letter, 'N' | ':') && reader.peek(1).is_ascii_digit() {
         reader.at += 1;
         (None, Some(format!("{letter}{}", reader.digits().trim_start_matches('0'))))
     } else {
-        (Some(reader.name().ok_or("a GOTO to something computed")?), None)
+        let name = reader.name().ok_or("a GOTO to something computed")?;
+        match reader.variables.get(&Place::Of(name.clone(), 0)) {
+            Ok(Worth::Text(text)) => (Some(text.to_ascii_uppercase()), None),
+            _ => (Some(name), None),
+        }
     };
     let is_it = |k: &usize| {
         let block = &unit.blocks[*k].1;

@@ -55,7 +55,9 @@ fn what_is_computed_and_has_no_meaning() {
         "SETAL(62000)",
     );
     refused("MSG(\"A\"<<(R1==1))", "(R1==1)", "truth value in a text", "(R1==1)");
-    refused("PROC A_B(REAL C_D)", "PROC", "main program with parameters", "PROC A_B(REAL C_D)");
+    let alone = "VAR, or a first value, in a subprogram without its main program";
+    refused("PROC A_B(VAR REAL C_D)", "PROC", alone, "C_D");
+    refused("PROC A_B(REAL C_D=5)", "PROC", alone, "C_D");
     assert_eq!(one("R1000=5"), "OutOfRange { word: 'R1000' } at 'R1000'");
     assert_eq!(faults("X=(5)\n"), [] as [&str; 0]);
 }
