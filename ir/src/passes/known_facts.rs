@@ -17,7 +17,7 @@ use crate::canon::{AXES, Modes, Motion};
 use crate::cycle::Cycle;
 use crate::expr::Target;
 use crate::kinds::flow;
-use crate::program::{Attribute, Control, Op, PathControl, Program, Stmt, Text};
+use crate::program::{Attribute, Control, Op, PathControl, Procedure, Program, Stmt, Text};
 use crate::track::Tracker;
 
 /// Most times that a program is gone through; one that needs more keeps what it says.
@@ -49,11 +49,20 @@ impl Known {
 /// Has holes that the text itself puts under a cycle of another stretch call it up. What is `known` is of a copy of
 /// the program with its facts put in.
 pub(super) fn holes(program: &mut Program, known: &Known) {
+    call_up_all(program, &known.cycles, false);
+}
+
+/// Has holes call up their cycles. Where all of them do, in whatever program, what has called them up is left out.
+fn call_up_all(program: &mut Program, cycles: &HashMap<u32, Option<Called>>, bare: bool) {
     let calls = calls_of(program);
-    for procedure in &mut program.procedures {
-        if call_up(&mut procedure.body, (&known.cycles, &calls), false) {
-            without_holes(&mut procedure.body);
-        }
+    let (mut any, mut all) = (false, true);
+    for Procedure { body, .. } in &mut program.procedures {
+        let served = call_up(body, (cycles, &calls), bare);
+        any |= served;
+        all &= served || !has_bare_holes(body);
+    }
+    if any && all {
+        program.procedures.iter_mut().for_each(|procedure| without_holes(&mut procedure.body));
     }
 }
 
@@ -112,12 +121,7 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
         if !flow.changed {
             flow.settles = true;
             flow.over(program);
-            let calls = calls_of(program);
-            for procedure in &mut program.procedures {
-                if call_up(&mut procedure.body, (&flow.cycles, &calls), true) {
-                    without_holes(&mut procedure.body);
-                }
-            }
+            call_up_all(program, &flow.cycles, true);
             return Known { starts: flow.starts, cycles: flow.cycles };
         }
     }
@@ -254,7 +258,7 @@ fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
         called |= matches!(stmt.op, Op::StartCycle(_));
         if let Op::Control(control) = &mut stmt.op {
             for body in control.bodies_mut() {
-                let (served, holes) = (call_up(body, from, bare), has_holes(body));
+                let (served, holes) = (call_up(body, from, bare), has_bare_holes(body));
                 any |= served;
                 all &= served || !holes;
             }
@@ -289,13 +293,31 @@ fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
     any && all
 }
 
-/// Whether anything here may make a hole under a cycle that was called up elsewhere.
-fn has_holes(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| match &stmt.op {
-        Op::Position(_) | Op::Hole(_) | Op::Pattern(_) => true,
-        Op::Control(control) => control.bodies().any(|body| has_holes(body)),
-        _ => false,
+/// Whether holes stand in a stretch before any cycle has been called up there.
+pub(super) fn has_bare_holes(body: &[Stmt]) -> bool {
+    let mut called = false;
+    body.iter().any(|stmt| {
+        called &= !matches!(stmt.op, flow!());
+        match &stmt.op {
+            Op::StartCycle(_) => {
+                called = true;
+                false
+            }
+            Op::Hole(_) | Op::Pattern(_) => !called,
+            Op::Position(_) => true,
+            Op::Control(control) => control.bodies().any(|body| has_bare_holes(body)),
+            _ => false,
+        }
     })
+}
+
+/// Whether programs are called here, or blocks repeated.
+fn has_calls(stmt: &Stmt) -> bool {
+    match &stmt.op {
+        Op::Call(_) | Op::RepeatBlocks(_) => true,
+        Op::Control(control) => control.bodies().flatten().any(has_calls),
+        _ => false,
+    }
 }
 
 /// Calls of cycles that make no hole before control goes another way leave their feed alone behind.
@@ -306,11 +328,10 @@ fn without_holes(body: &mut [Stmt]) {
             Op::StartCycle(_) => idle = Some(at),
             Op::Hole(_) | Op::Pattern(_) | Op::Position(_) => idle = None,
             op if matches!(op, flow!()) => {
-                let calls = matches!(op, Op::Call(_) | Op::RepeatBlocks(_));
                 if let Op::Control(control) = op {
                     control.bodies_mut().for_each(|body| without_holes(body));
                 }
-                if let Some(call) = idle.take().filter(|_| !calls)
+                if let Some(call) = idle.take().filter(|_| !has_calls(&body[at]))
                     && let Op::StartCycle(cycle) = &mut body[call].op
                 {
                     body[call].op = cycle.feed.take().map_or(Op::Blank, Op::SetFeedRate);

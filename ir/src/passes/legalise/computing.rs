@@ -59,7 +59,7 @@ impl Legaliser {
             Err(refusal) => return diags.push(refusal),
         }
         let first = fresh.clone();
-        let bare = program.procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
+        let bare = program.procedures.iter().any(|procedure| known_facts::has_bare_holes(&procedure.body));
         let levels = program.procedures.iter().all(|procedure| levels_with_cycles(&procedure.body, bare));
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             let start = match at {
@@ -108,24 +108,6 @@ fn levels_with_cycles(body: &[Stmt], bare: bool) -> bool {
     with && body.iter().all(|stmt| match &stmt.op {
         Op::Control(control) => control.bodies().all(|body| levels_with_cycles(body, bare)),
         _ => true,
-    })
-}
-
-/// Whether holes stand in a stretch before any cycle has been called up there.
-fn has_bare_holes(body: &[Stmt]) -> bool {
-    let mut called = false;
-    body.iter().any(|stmt| {
-        called &= !matches!(stmt.op, flow!());
-        match &stmt.op {
-            Op::StartCycle(_) => {
-                called = true;
-                false
-            }
-            Op::Hole(_) | Op::Pattern(_) => !called,
-            Op::Position(_) => true,
-            Op::Control(control) => control.bodies().any(|body| has_bare_holes(body)),
-            _ => false,
-        }
     })
 }
 
