@@ -486,15 +486,16 @@ impl Writer {
         Ok(shaped.into())
     }
 
-    /// A word without effect: its own code, or a comment.
     /// Whether it is an assignment to a variable of the control's own that has no effect on what the program says.
     fn sets_no_effect(&self, name: &str) -> bool {
-        let variable = name.split('=').next().and_then(|to| to.strip_prefix('#'));
+        let to = name.split('=').next();
+        let variable = to.and_then(|to| to.strip_prefix(&*self.dialect.formula.variable));
         let number: Option<u32> = variable.and_then(|number| number.parse().ok());
         let row = |number| self.dialect.system.iter().find(|row| row.number == number);
         number.and_then(row).is_some_and(|row| self.dialect.program.macro_b && row.means == "single-block")
     }
 
+    /// A word without effect: its own code, or a comment.
     fn no_effect(&mut self, name: &str, span: Span, sink: &mut Sink) -> Result<(), Fault> {
         let code = self.codes.no_effect.iter().find(|(own, _)| own == name).map(|(_, code)| *code);
         let Some(code) = code else {
