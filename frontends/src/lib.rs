@@ -5,6 +5,7 @@
 //!
 //! Not here: file access, formatting, printing, anything of back-ends.
 
+mod begins;
 pub mod canon;
 pub mod ir;
 pub mod pieces;

@@ -84,11 +84,8 @@ impl Writer {
             o.left |= leaves(&procedure.body, false);
             o.taken.extend(procedure.name.parse::<u32>().ok());
         }
-        // They stand before the blocks that state the units of all.
         let mut stated = [false; 2];
         procedures.iter().for_each(|procedure| units(&procedure.body, &mut stated));
-        let known = self.preamble.as_ref().and_then(|preamble| preamble.units()).or(self.assumed.units);
-        known.into_iter().for_each(|units| stated[units as usize] = true);
         (0..2).for_each(|at| self.units_stated[at] |= stated[at]);
         for procedure in procedures.iter().skip(1) {
             if own.contains(&procedure.name) || !shared.contains(&procedure.name) {
@@ -118,6 +115,9 @@ impl Writer {
             }
             sink.out.append(&mut preamble.held);
         }
+        // They stand before the blocks that state the units of all.
+        let known = self.preamble.as_ref().and_then(|preamble| preamble.units()).or(self.assumed.units);
+        known.into_iter().for_each(|units| self.units_stated[units as usize] = true);
         // They are passed over where they stand: what is in force there stays.
         let preamble = self.preamble.take();
         let (force, tracker, held) = (self.force, self.tracker.clone(), self.held.take());

@@ -23,9 +23,10 @@ use super::formula::Typed;
 use super::lower::{Head, Lower};
 use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Written};
 use crate::Batch;
+use crate::begins::report;
 use crate::word::Source;
 use crate::word::block::{Digits, Value as Number, Word};
-use crate::word::facts::{Know, report};
+use crate::word::facts::Know;
 
 /// What a call hands over.
 #[derive(Clone, Copy, Debug)]
@@ -264,21 +265,17 @@ impl Lower {
             return self.not_supported(&src.text(at), name, at, out);
         }
         // What a subprogram finds in force that nothing has said is not what the text says.
-        if self.state.units == Know::Unsaid {
-            self.only_units.open();
-        }
-        if self.state.plane == Know::Unsaid {
-            self.only_plane.open();
-        }
+        self.as_it_begins(out);
         out.whole = true;
         let times = times as u32;
         self.no_stale_offset(at, out);
         let Some(arguments) = self.handed_over(name, given, at, src, out) else { return };
+        self.inherited.call(Some(name.into()), self.state.unsaid());
         self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments, shared: false })), out);
         // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
         let cycle = std::mem::take(&mut self.state.cycle);
         let motion = self.state.motion;
-        self.state = State::lost(cycle);
+        self.state = self.state.behind_call(cycle);
         if drills {
             self.state.motion = motion;
         }
@@ -405,7 +402,8 @@ impl Lower {
             out.report(Fault::ProgramTwice { name: name.clone() }, at);
         }
         self.entry = entry.unwrap_or_default();
-        self.state = State::lost(self.entry.clone());
+        self.state = State::called(self.entry.clone());
+        self.inherited.enter(name.clone());
         self.variables.clear();
         self.executed = false;
         self.stand.forget();
@@ -415,6 +413,34 @@ impl Lower {
         self.rounding = None;
         self.ended = false;
         self.refresh();
+    }
+
+    /// What is called runs under what the text has not said: as the program begins, where that is taken for granted.
+    fn as_it_begins(&mut self, out: &mut Batch) {
+        let begins = &self.settings.dialect.power_on;
+        let relied = [
+            match &begins.units {
+                _ if !self.state.units.unsaid() => None,
+                Some(units) if self.assume => self.only_units.see(units.value.into()),
+                _ => {
+                    self.only_units.open();
+                    None
+                }
+            }
+            .map(|at| (ModeName::Units, at)),
+            match &begins.plane {
+                _ if !self.state.plane.unsaid() => None,
+                Some(plane) if self.assume => self.only_plane.see(plane.value.into()),
+                _ => {
+                    self.only_plane.open();
+                    None
+                }
+            }
+            .map(|at| (ModeName::Plane, at)),
+        ];
+        for (fact, at) in relied.into_iter().flatten() {
+            out.report(Fault::EntryFactNeeded { fact }, at);
+        }
     }
 
     /// Under a cycle, positions are taken for rapid where the motion in force is not known.

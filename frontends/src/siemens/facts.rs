@@ -18,7 +18,8 @@ use super::formula::Typed;
 use super::lower::Lower;
 use super::polar::Pole;
 use crate::Batch;
-use crate::word::facts::{Know, report, take};
+use crate::begins::{self, Unsaid, report, take};
+use crate::word::facts::Know;
 use crate::word::number::unit_of;
 
 /// What axis words do.
@@ -146,6 +147,37 @@ impl State {
         }
     }
 
+    /// A subprogram begins: what its caller leaves is in force.
+    pub(super) fn called(cycle: InForce) -> State {
+        State {
+            units: Know::Callers,
+            distance: Know::Callers,
+            plane: Know::Callers,
+            feed_mode: Know::Callers,
+            ..State::lost(cycle)
+        }
+    }
+
+    /// Behind a call, what the text has not said is as the program began, or not.
+    pub(super) fn behind_call(&self, cycle: InForce) -> State {
+        State {
+            units: self.units.lost(),
+            distance: self.distance.lost(),
+            plane: self.plane.lost(),
+            feed_mode: self.feed_mode.lost(),
+            ..State::lost(cycle)
+        }
+    }
+
+    /// Which modes the text has not said so far.
+    pub(super) fn unsaid(&self) -> Unsaid {
+        Unsaid(0)
+            .with(ModeName::Distance, self.distance)
+            .with(ModeName::Units, self.units)
+            .with(ModeName::Plane, self.plane)
+            .with(ModeName::FeedMode, self.feed_mode)
+    }
+
     /// What is known after a block that may have been skipped.
     pub(super) fn join(&mut self, before: &State) {
         self.units.join(before.units);
@@ -218,27 +250,19 @@ impl<T: Copy + PartialEq> Only<T> {
 impl Lower {
     pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
         self.again.use_fact(super::again::DISTANCE);
-        if self.assume && self.state.distance == Know::Unsaid {
-            let (know, row) = (&mut self.state.distance, &self.settings.dialect.power_on.distance);
-            let value = take(know, &mut out.assumed.distance, row).map(|d| match d {
-                Distance::Absolute => "absolute",
-                Distance::Incremental => "incremental",
-            });
-            report(out, at, ModeName::Distance, value);
+        self.inherited.rely(&self.state.distance, ModeName::Distance, at);
+        if self.assume && self.state.distance.unsaid() {
+            begins::distance(&mut self.state.distance, &self.settings.dialect.power_on, at, out);
         }
         self.state.distance.fact()
     }
 
     pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
         self.again.use_fact(super::again::UNITS);
-        if self.assume && self.state.units == Know::Unsaid {
-            let (know, row) = (&mut self.state.units, &self.settings.dialect.power_on.units);
-            let value = take(know, &mut out.assumed.units, row).map(|u| match u {
-                Units::Mm => "mm",
-                Units::Inch => "inch",
-            });
-            report(out, at, ModeName::Units, value);
-            if let Some(units) = self.state.units.value() {
+        self.inherited.rely(&self.state.units, ModeName::Units, at);
+        if self.assume && self.state.units.unsaid() {
+            begins::units(&mut self.state.units, &self.settings.dialect.power_on, at, out);
+            if let Some(units) = out.assumed.units {
                 self.only_units.see(units);
             }
         }
@@ -247,15 +271,10 @@ impl Lower {
 
     pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
         self.again.use_fact(super::again::PLANE);
-        if self.assume && self.state.plane == Know::Unsaid {
-            let (know, row) = (&mut self.state.plane, &self.settings.dialect.power_on.plane);
-            let value = take(know, &mut out.assumed.plane, row).map(|p| match p {
-                Plane::Xy => "XY",
-                Plane::Zx => "ZX",
-                Plane::Yz => "YZ",
-            });
-            report(out, at, ModeName::Plane, value);
-            if let Some(plane) = self.state.plane.value() {
+        self.inherited.rely(&self.state.plane, ModeName::Plane, at);
+        if self.assume && self.state.plane.unsaid() {
+            begins::plane(&mut self.state.plane, &self.settings.dialect.power_on, at, out);
+            if let Some(plane) = out.assumed.plane {
                 self.only_plane.see(plane);
             }
         }
@@ -287,13 +306,13 @@ impl Lower {
     /// The unit of a feed. Under G70 and G71 it is that of the machine's basic system.
     pub(super) fn feed_unit(&mut self, at: Span, out: &mut Batch) -> Option<Unit> {
         self.again.use_fact(super::again::SCALED);
-        if !matches!(self.state.scaled, Know::Lost | Know::Open) {
+        if !matches!(self.state.scaled, Know::Lost | Know::Open | Know::Callers) {
             self.rely_on_scaled(at);
         }
         let scaled = match self.state.scaled {
             Know::Said(scaled) | Know::Taken(scaled) => scaled,
             Know::Unsaid => false,
-            Know::Lost | Know::Open => match self.only_scaled.rely(Some(false), at) {
+            Know::Lost | Know::Open | Know::Callers => match self.only_scaled.rely(Some(false), at) {
                 Some(scaled) => scaled,
                 None => return self.refuse(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out),
             },
@@ -303,7 +322,9 @@ impl Lower {
         }
         let basic = self.settings.get("feed_unit") == "inch";
         let unit = if basic { Units::Inch } else { Units::Mm };
-        if self.state.units == Know::Lost && self.only_units.rely(None, at) == Some(unit) {
+        if matches!(self.state.units, Know::Lost | Know::Callers)
+            && self.only_units.rely(None, at) == Some(unit)
+        {
             // The only units of the text are those of the basic system.
             return Some(Unit::Entry);
         }
@@ -315,14 +336,9 @@ impl Lower {
 
     /// A feed relies on what it counts.
     pub(super) fn rely_on_feed_mode(&mut self, at: Span, out: &mut Batch) {
-        if self.assume && self.state.feed_mode == Know::Unsaid {
-            let (know, row) = (&mut self.state.feed_mode, &self.settings.dialect.power_on.feed_mode);
-            let value = take(know, &mut out.assumed.feed_mode, row).map(|f| match f {
-                FeedMode::PerMinute => "per minute",
-                FeedMode::PerRevolution => "per revolution",
-                FeedMode::InverseTime => "inverse time",
-            });
-            report(out, at, ModeName::FeedMode, value);
+        self.inherited.rely(&self.state.feed_mode, ModeName::FeedMode, at);
+        if self.assume && self.state.feed_mode.unsaid() {
+            begins::feed_mode(&mut self.state.feed_mode, &self.settings.dialect.power_on, at, out);
         }
     }
 
@@ -374,7 +390,7 @@ impl Lower {
     pub(super) fn motion(&mut self, at: Span, out: &mut Batch) -> Result<Option<Motion>, ()> {
         self.again.use_fact(super::again::MOTION);
         match self.state.motion {
-            Know::Lost | Know::Open => Ok(None),
+            Know::Lost | Know::Open | Know::Callers => Ok(None),
             Know::Said(motion) | Know::Taken(motion) => Ok(Some(motion)),
             Know::Unsaid if !self.assume => Ok(None),
             Know::Unsaid => {

@@ -27,6 +27,7 @@ use super::parameters::Handed;
 use super::sort::Words;
 use super::speed::Surfaces;
 use super::tree::{Block, BlockNumber, Called, Item, Statement};
+use crate::begins::Inherited;
 use crate::word::Source;
 use crate::word::block::{Value, Word};
 use crate::word::facts::Know;
@@ -42,6 +43,8 @@ pub(super) struct Lower {
     pub(super) settings: Settings,
     /// Whether what the program never says is taken for granted and reported.
     pub(super) assume: bool,
+    /// What subprograms find in force.
+    pub(super) inherited: Inherited,
     /// Whether refused blocks are noted.
     pub(super) watch: bool,
     pub(super) state: State,
@@ -152,6 +155,7 @@ impl Lower {
         Lower {
             settings,
             assume,
+            inherited: Inherited::default(),
             watch: false,
             state: State::default(),
             only_units: Only::default(),
@@ -228,8 +232,8 @@ impl Lower {
             _ => return None,
         };
         let open = self.assume
-            && (state.distance == Know::Unsaid
-                || state.units == Know::Unsaid
+            && (state.distance.unsaid()
+                || state.units.unsaid()
                 || state.work_offset == Know::Unsaid
                 || state.no_shift == Know::Unsaid
                 || state.implied_edge.is_some()
@@ -270,7 +274,7 @@ impl Lower {
     fn settled_feed(&self) -> Option<FeedWord> {
         let (dialect, state) = (self.settings.dialect, &self.state);
         let row = dialect.address.iter().find(|row| row.role == Role::Feed)?;
-        let open = self.assume && state.feed_mode == Know::Unsaid;
+        let open = self.assume && state.feed_mode.unsaid();
         if !row.sure || open || state.feed != Know::Said(()) {
             return None;
         }

@@ -18,7 +18,7 @@ use super::sort::{Code, Words};
 use crate::Batch;
 
 /// What such a call is called until the text is read; its number is the argument. No program has this name.
-const COMPUTED: &str = "#";
+pub(super) const COMPUTED: &str = "#";
 
 impl Lower {
     /// A call of which the number, or how often, is computed.

@@ -371,8 +371,10 @@ impl Lower {
             _ if !takes => None,
             Know::Said(dwell) | Know::Taken(dwell) => Some(dwell),
             Know::Unsaid => None,
-            Know::Lost | Know::Open if self.dwells.said => self.refuse(left_open(row), code.span, out),
-            Know::Lost | Know::Open => {
+            Know::Lost | Know::Open | Know::Callers if self.dwells.said => {
+                self.refuse(left_open(row), code.span, out)
+            }
+            Know::Lost | Know::Open | Know::Callers => {
                 self.dwells.relied.get_or_insert(code.span);
                 None
             }

@@ -6,7 +6,7 @@
 //!
 //! Not here: what a control has in force at run time; that is execution's.
 
-use ncc_dialects::{CodeRow, PowerOnFact};
+use ncc_dialects::CodeRow;
 use ncc_ir::canon::{Distance, Fact, FeedMode, Motion, Plane, ReturnLevel, Units};
 use ncc_ir::cycle::CycleKind;
 use ncc_ir::diag::{Fault, ModeName};
@@ -18,6 +18,7 @@ use ncc_ir::source::Span;
 use super::lower::Lower;
 use super::polar::Words;
 use crate::Batch;
+use crate::begins::{self, Unsaid, report, take};
 
 /// What is known of a modal fact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,6 +35,8 @@ pub(crate) enum Know<T> {
     /// The program has not said it up to a place that can be come to from elsewhere: the first time here it is as the
     /// program began, and any other time perhaps not.
     Open,
+    /// A subprogram has not said it: it is as its caller leaves it.
+    Callers,
 }
 
 impl<T: Copy> Know<T> {
@@ -41,7 +44,7 @@ impl<T: Copy> Know<T> {
     pub(crate) fn fact(self) -> Fact<T> {
         match self {
             Know::Said(value) | Know::Taken(value) => Fact::Known(value),
-            Know::Unsaid | Know::Lost | Know::Open => Fact::Entry,
+            Know::Unsaid | Know::Lost | Know::Open | Know::Callers => Fact::Entry,
         }
     }
 
@@ -51,12 +54,16 @@ impl<T: Copy> Know<T> {
     }
 
     /// What is known where control may come from elsewhere.
-    fn lost(self) -> Know<T> {
-        if self.unsaid() { Know::Open } else { Know::Lost }
+    pub(crate) fn lost(self) -> Know<T> {
+        match self {
+            Know::Unsaid | Know::Open => Know::Open,
+            Know::Callers => Know::Callers,
+            Know::Said(_) | Know::Taken(_) | Know::Lost => Know::Lost,
+        }
     }
 
     /// Takes a value for granted.
-    fn take(&mut self, value: T) {
+    pub(crate) fn take(&mut self, value: T) {
         *self = if matches!(self, Know::Open) { Know::Lost } else { Know::Taken(value) };
     }
 
@@ -244,6 +251,28 @@ impl State {
         }
     }
 
+    /// A subprogram begins: what its caller leaves is in force.
+    pub(super) fn called() -> State {
+        State {
+            units: Know::Callers,
+            distance: Know::Callers,
+            plane: Know::Callers,
+            feed_mode: Know::Callers,
+            return_level: Know::Callers,
+            ..State::lost()
+        }
+    }
+
+    /// Which modes the text has not said so far.
+    pub(super) fn unsaid(&self) -> Unsaid {
+        Unsaid(0)
+            .with(ModeName::Distance, self.distance)
+            .with(ModeName::Units, self.units)
+            .with(ModeName::Plane, self.plane)
+            .with(ModeName::FeedMode, self.feed_mode)
+            .with(ModeName::ReturnLevel, self.return_level)
+    }
+
     /// What is known where control may come from elsewhere, too.
     pub(super) fn met(&self) -> State {
         State {
@@ -306,42 +335,20 @@ impl State {
     }
 }
 
-/// Takes a fact for granted. Gives what is to be reported: the value, if not every such control
-/// has it so.
-pub(crate) fn take<T: Copy, U: Copy + From<T>>(
-    know: &mut Know<U>,
-    assumed: &mut Option<U>,
-    power_on: &Option<PowerOnFact<T>>,
-) -> Option<U> {
-    let row = power_on.as_ref()?;
-    let value = U::from(row.value);
-    know.take(value);
-    *assumed = Some(value);
-    (!row.always).then_some(value)
-}
-
 /// Facts as they are asked for. Each is reported once, where the program first relies on it.
 impl Lower {
     pub(super) fn distance(&mut self, at: Span, out: &mut Batch) -> Fact<Distance> {
+        self.inherited.rely(&self.state.distance, ModeName::Distance, at);
         if self.assume && self.state.distance.unsaid() {
-            let (know, row) = (&mut self.state.distance, &self.settings.dialect.power_on.distance);
-            let value = take(know, &mut out.assumed.distance, row).map(|d| match d {
-                Distance::Absolute => "absolute",
-                Distance::Incremental => "incremental",
-            });
-            report(out, at, ModeName::Distance, value);
+            begins::distance(&mut self.state.distance, &self.settings.dialect.power_on, at, out);
         }
         self.state.distance.fact()
     }
 
     pub(super) fn units(&mut self, at: Span, out: &mut Batch) -> Fact<Units> {
+        self.inherited.rely(&self.state.units, ModeName::Units, at);
         if self.assume && self.state.units.unsaid() {
-            let (know, row) = (&mut self.state.units, &self.settings.dialect.power_on.units);
-            let value = take(know, &mut out.assumed.units, row).map(|u| match u {
-                Units::Mm => "mm",
-                Units::Inch => "inch",
-            });
-            report(out, at, ModeName::Units, value);
+            begins::units(&mut self.state.units, &self.settings.dialect.power_on, at, out);
             // Behind this place others may be in force, if the text says others.
             if let Some(units) = out.assumed.units {
                 self.see_units(units, out);
@@ -351,28 +358,18 @@ impl Lower {
     }
 
     pub(super) fn plane(&mut self, at: Span, out: &mut Batch) -> Fact<Plane> {
+        self.inherited.rely(&self.state.plane, ModeName::Plane, at);
         if self.assume && self.state.plane.unsaid() {
-            let (know, row) = (&mut self.state.plane, &self.settings.dialect.power_on.plane);
-            let value = take(know, &mut out.assumed.plane, row).map(|p| match p {
-                Plane::Xy => "XY",
-                Plane::Zx => "ZX",
-                Plane::Yz => "YZ",
-            });
-            report(out, at, ModeName::Plane, value);
+            begins::plane(&mut self.state.plane, &self.settings.dialect.power_on, at, out);
         }
         self.state.plane.fact()
     }
 
     /// A feed word relies on what it counts.
     pub(super) fn rely_on_feed_mode(&mut self, at: Span, out: &mut Batch) {
+        self.inherited.rely(&self.state.feed_mode, ModeName::FeedMode, at);
         if self.assume && self.state.feed_mode.unsaid() {
-            let (know, row) = (&mut self.state.feed_mode, &self.settings.dialect.power_on.feed_mode);
-            let value = take(know, &mut out.assumed.feed_mode, row).map(|f| match f {
-                FeedMode::PerMinute => "per minute",
-                FeedMode::PerRevolution => "per revolution",
-                FeedMode::InverseTime => "inverse time",
-            });
-            report(out, at, ModeName::FeedMode, value);
+            begins::feed_mode(&mut self.state.feed_mode, &self.settings.dialect.power_on, at, out);
         }
     }
 
@@ -380,13 +377,9 @@ impl Lower {
         if let Some(level) = self.settings.dialect.cycles.return_level {
             return Fact::Known(level.into());
         }
+        self.inherited.rely(&self.state.return_level, ModeName::ReturnLevel, at);
         if self.assume && self.state.return_level.unsaid() {
-            let (know, row) = (&mut self.state.return_level, &self.settings.dialect.power_on.return_level);
-            let value = take(know, &mut out.assumed.return_level, row).map(|r| match r {
-                ReturnLevel::Initial => "initial level",
-                ReturnLevel::Retract => "retract plane",
-            });
-            report(out, at, ModeName::ReturnLevel, value);
+            begins::return_level(&mut self.state.return_level, &self.settings.dialect.power_on, at, out);
         }
         self.state.return_level.fact()
     }
@@ -447,7 +440,7 @@ impl Lower {
         }
         let power_on = &self.settings.dialect.power_on.motion;
         match self.state.motion {
-            Know::Lost | Know::Open => Ok(None),
+            Know::Lost | Know::Open | Know::Callers => Ok(None),
             Know::Unsaid if !self.assume => Ok(None),
             Know::Unsaid => match take(&mut self.state.motion, &mut out.assumed.motion, power_on) {
                 None if self.state.motion == Know::Unsaid => {
@@ -481,11 +474,5 @@ fn motion_name(motion: Motion) -> &'static str {
         Motion::Feed => "line at feed",
         Motion::Arc(_) => "arc",
         Motion::Cycle => "cycle",
-    }
-}
-
-pub(crate) fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&str>) {
-    if let Some(value) = value {
-        out.report(Fault::AssumedMode { fact, value: value.into() }, at);
     }
 }

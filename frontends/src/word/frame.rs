@@ -267,9 +267,10 @@ impl Reader {
         self.lower.o.subs.numbered(name.clone());
         self.lower.o.numbered_program = true;
         self.lower.o.given = Default::default();
+        self.lower.inherited.enter(name.clone());
         self.lower.sub = Some(Procedure { name, title, ..Procedure::default() });
         self.lower.ended = false;
-        self.lower.state = State::lost();
+        self.lower.state = State::called();
         self.lower.refresh();
         out.whole = true;
     }

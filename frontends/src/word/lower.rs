@@ -24,6 +24,7 @@ use super::o_words::ODecides;
 use super::sort::{Code, Roles, Words};
 use super::tilt::Met;
 use super::unmoved::Unmoved;
+use crate::begins::Inherited;
 use crate::{Batch, refused};
 
 /// Lowers the blocks of one text, one after the other.
@@ -32,6 +33,8 @@ pub(super) struct Lower {
     pub(super) settings: Settings,
     /// Whether what the program never says is taken for granted and reported.
     pub(super) assume: bool,
+    /// What subprograms find in force.
+    pub(super) inherited: Inherited,
     /// Whether refused blocks and numbers without a point are noted.
     pub(super) watch: bool,
     /// Number rules by quantity.
@@ -172,6 +175,7 @@ impl Lower {
             reported: Reported { codes: vec![false; dialect.code.len()], ..Reported::default() },
             settings,
             assume,
+            inherited: Inherited::default(),
             watch: false,
             state: State::default(),
             units_seen: UnitsSeen::default(),
@@ -385,6 +389,10 @@ impl Lower {
     pub(super) fn push(&mut self, span: Span, op: Op, out: &mut Batch) {
         if self.unmoved() {
             self.moved(&op);
+        }
+        if let Op::Call(call) = &op {
+            let name = (*call.name != *super::call_of::COMPUTED).then(|| call.name.clone());
+            self.inherited.call(name, self.state.unsaid());
         }
         let now = &mut self.now;
         let joined = now.pushed && now.last_skip == now.skip;

@@ -191,6 +191,7 @@ impl Reader {
             self.lower.computes.join_calls(out);
             self.lower.computes.no_calls_within(out);
             self.lower.settle_calls(out);
+            self.lower.inherited.settle(&self.lower.settings.dialect.power_on, out);
         }
     }
 

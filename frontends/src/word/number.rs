@@ -140,8 +140,10 @@ impl Lower {
             Know::Said(from) | Know::Taken(from) => Some(from),
             Know::Unsaid => Some(row.value.into()),
             // Open here, but if the whole text says no other, it is that at power-on.
-            Know::Lost | Know::Open if self.centre_seen.other => self.refuse(centre_open(), at, out),
-            Know::Lost | Know::Open => {
+            Know::Lost | Know::Open | Know::Callers if self.centre_seen.other => {
+                self.refuse(centre_open(), at, out)
+            }
+            Know::Lost | Know::Open | Know::Callers => {
                 self.centre_seen.relied.get_or_insert(at);
                 Some(row.value.into())
             }

@@ -13,6 +13,7 @@ use ncc_ir::program::{Alarm, Call, Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::block::Block;
+use super::call_of::COMPUTED;
 use super::facts::State;
 use super::lower::Lower;
 use super::o_words::{Decision, Kind, spelled};
@@ -55,9 +56,6 @@ impl Subs {
         self.called.push((name, true, at, main));
     }
 }
-
-/// The name of the calls whose program is computed, until all programs are known; no program has it.
-const COMPUTED: &str = "";
 
 /// Within what the number of a program is whole (interp_read.cc, `read_integer_value`).
 const WHOLE: Num = Num { mantissa: 1, scale: 4, point: true, unit: Unit::One };
@@ -138,13 +136,14 @@ impl Reader {
         let lower = &mut self.lower;
         let outer = Outer {
             unmoved: lower.unmoved.aside(),
-            state: std::mem::replace(&mut lower.state, State::lost()),
+            state: std::mem::replace(&mut lower.state, State::called()),
             ended: std::mem::replace(&mut lower.ended, false),
             labels: std::mem::take(&mut lower.o.labels),
             numbered_program: std::mem::replace(&mut lower.o.numbered_program, false),
         };
         lower.open_sub(&name, outer, span);
         lower.o.given.numbered = true;
+        lower.inherited.enter(name.clone());
         lower.sub = Some(Procedure { name, ..Procedure::default() });
         lower.refresh();
         out.whole = true;
@@ -178,6 +177,7 @@ impl Reader {
             return self.sub_fault(fault, span, out);
         };
         let Some(mut procedure) = lower.sub.take() else { return };
+        lower.inherited.leave();
         let count = highest(&procedure.body);
         procedure.parameters = (1..=count).map(|n| Var::Local(n.to_string().into())).collect();
         out.procedures.push(procedure);

@@ -31,7 +31,7 @@ impl Met {
         match now {
             Know::Said(on) | Know::Taken(on) => on,
             Know::Unsaid => false,
-            Know::Lost | Know::Open => {
+            Know::Lost | Know::Open | Know::Callers => {
                 self.taken_for_none |= !self.on;
                 self.on
             }

@@ -1,0 +1,226 @@
+//! How a program begins, as far as it relies on it and never says it: the dictionary's state at power-on, taken for
+//! granted and told where the program first relies on it.
+//!
+//! A subprogram begins as its caller leaves things. What it relies on is known when the whole text has been read:
+//! where no text on the way from the program's start to it has said a mode, it is how the program begins.
+//!
+//! Not here: what axis words do where no motion was said.
+
+use ncc_dialects::{PowerOn, PowerOnFact};
+use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Units};
+use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::program::Text;
+use ncc_ir::source::Span;
+
+use crate::Batch;
+use crate::word::facts::Know;
+
+/// Takes a fact for granted. Gives what is to be reported: the value, if not every such control
+/// has it so.
+pub(crate) fn take<T: Copy, U: Copy + From<T>>(
+    know: &mut Know<U>,
+    assumed: &mut Option<U>,
+    power_on: &Option<PowerOnFact<T>>,
+) -> Option<U> {
+    let row = power_on.as_ref()?;
+    let value = U::from(row.value);
+    know.take(value);
+    *assumed = Some(value);
+    (!row.always).then_some(value)
+}
+
+/// Tells what was taken for granted, if it is not always so.
+pub(crate) fn report(out: &mut Batch, at: Span, fact: ModeName, value: Option<&str>) {
+    if let Some(value) = value {
+        out.report(Fault::AssumedMode { fact, value: value.into() }, at);
+    }
+}
+
+/// Whether lengths are absolute.
+pub(crate) fn distance(know: &mut Know<Distance>, begins: &PowerOn, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.distance, &begins.distance).map(|d| match d {
+        Distance::Absolute => "absolute",
+        Distance::Incremental => "incremental",
+    });
+    report(out, at, ModeName::Distance, value);
+}
+
+/// The units of lengths.
+pub(crate) fn units(know: &mut Know<Units>, begins: &PowerOn, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.units, &begins.units).map(|u| match u {
+        Units::Mm => "mm",
+        Units::Inch => "inch",
+    });
+    report(out, at, ModeName::Units, value);
+}
+
+/// The plane of arcs and cycles.
+pub(crate) fn plane(know: &mut Know<Plane>, begins: &PowerOn, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.plane, &begins.plane).map(|p| match p {
+        Plane::Xy => "XY",
+        Plane::Zx => "ZX",
+        Plane::Yz => "YZ",
+    });
+    report(out, at, ModeName::Plane, value);
+}
+
+/// What a feed counts.
+pub(crate) fn feed_mode(know: &mut Know<FeedMode>, begins: &PowerOn, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.feed_mode, &begins.feed_mode).map(|f| match f {
+        FeedMode::PerMinute => "per minute",
+        FeedMode::PerRevolution => "per revolution",
+        FeedMode::InverseTime => "inverse time",
+    });
+    report(out, at, ModeName::FeedMode, value);
+}
+
+/// Where cycles leave the tool.
+pub(crate) fn return_level(know: &mut Know<ReturnLevel>, begins: &PowerOn, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.return_level, &begins.return_level).map(|r| match r {
+        ReturnLevel::Initial => "initial level",
+        ReturnLevel::Retract => "retract plane",
+    });
+    report(out, at, ModeName::ReturnLevel, value);
+}
+
+/// Modes that a subprogram may rely on.
+const MODES: [ModeName; 5] =
+    [ModeName::Distance, ModeName::Units, ModeName::Plane, ModeName::FeedMode, ModeName::ReturnLevel];
+
+/// Some of [`MODES`], a bit each.
+pub(crate) type ModeSet = u8;
+
+/// The set of one mode; none where a subprogram cannot rely on it.
+const fn bit(mode: ModeName) -> ModeSet {
+    match mode {
+        ModeName::Distance => 1,
+        ModeName::Units => 2,
+        ModeName::Plane => 4,
+        ModeName::FeedMode => 8,
+        ModeName::ReturnLevel => 16,
+        ModeName::Motion | ModeName::WorkOffset | ModeName::LengthOffset | ModeName::OriginShift => 0,
+    }
+}
+
+/// What the texts of a program find in force, and hand on to those that they call.
+#[derive(Debug, Default)]
+pub(crate) struct Inherited {
+    main: Own,
+    subs: Vec<(Text, Own)>,
+    /// Whether a subprogram is being read: the last of them.
+    in_sub: bool,
+}
+
+/// What one text finds in force, and hands on.
+#[derive(Debug, Default)]
+struct Own {
+    /// Modes that it relies on as it finds them, and where it first does.
+    relied: Vec<(ModeName, Span)>,
+    /// What it calls, and which modes it has not said there. No name: whatever is called by a number that is computed.
+    calls: Vec<(Option<Text>, ModeSet)>,
+}
+
+impl Own {
+    fn relies(&self) -> ModeSet {
+        self.relied.iter().fold(0, |all, (mode, _)| all | bit(*mode))
+    }
+}
+
+/// Which modes of a text are as the program began, or as its caller left them.
+pub(crate) struct Unsaid(pub(crate) ModeSet);
+
+impl Unsaid {
+    /// With a mode, as far as it is known.
+    pub(crate) fn with<T: PartialEq + Copy>(self, mode: ModeName, know: Know<T>) -> Unsaid {
+        Unsaid(if know.unsaid() || know == Know::Callers { self.0 | bit(mode) } else { self.0 })
+    }
+}
+
+impl Inherited {
+    /// A subprogram begins.
+    pub(crate) fn enter(&mut self, name: Text) {
+        self.subs.push((name, Own::default()));
+        self.in_sub = true;
+    }
+
+    /// It is over, and the main program goes on.
+    pub(crate) fn leave(&mut self) {
+        self.in_sub = false;
+    }
+
+    fn own(&mut self) -> &mut Own {
+        match self.subs.last_mut() {
+            Some((_, own)) if self.in_sub => own,
+            _ => &mut self.main,
+        }
+    }
+
+    /// A block relies on a mode.
+    #[inline]
+    pub(crate) fn rely<T: PartialEq>(&mut self, know: &Know<T>, mode: ModeName, at: Span) {
+        if *know == Know::Callers {
+            let own = self.own();
+            if !own.relied.iter().any(|(other, _)| *other == mode) {
+                own.relied.push((mode, at));
+            }
+        }
+    }
+
+    /// A text calls another one.
+    pub(crate) fn call(&mut self, name: Option<Text>, unsaid: Unsaid) {
+        if unsaid.0 != 0 {
+            self.own().calls.push((name, unsaid.0));
+        }
+    }
+
+    /// The text is over: takes for granted what subprograms find as the program began.
+    pub(crate) fn settle(&self, begins: &PowerOn, out: &mut Batch) {
+        let mut found = vec![0; self.subs.len()];
+        let hand_on = |calls: &[(Option<Text>, ModeSet)], has: ModeSet, found: &mut [ModeSet]| {
+            let mut more = false;
+            for (name, unsaid) in calls {
+                for ((other, _), found) in self.subs.iter().zip(&mut *found) {
+                    if name.as_ref().is_none_or(|name| name == other) && *found | unsaid & has != *found {
+                        *found |= unsaid & has;
+                        more = true;
+                    }
+                }
+            }
+            more
+        };
+        hand_on(&self.main.calls, !0, &mut found);
+        loop {
+            let before = found.clone();
+            let mut more = false;
+            for ((_, own), has) in self.subs.iter().zip(before) {
+                more |= hand_on(&own.calls, has, &mut found);
+            }
+            if !more {
+                break;
+            }
+        }
+        for mode in MODES {
+            let mut relied = self
+                .subs
+                .iter()
+                .zip(&found)
+                .filter(|((_, own), found)| **found & own.relies() & bit(mode) != 0);
+            let Some(((_, own), _)) = relied.next() else { continue };
+            let Some((_, at)) = own.relied.iter().find(|(other, _)| *other == mode) else { continue };
+            match mode {
+                ModeName::Distance if out.assumed.distance.is_none() => {
+                    distance(&mut Know::Unsaid, begins, *at, out);
+                }
+                ModeName::Units if out.assumed.units.is_none() => units(&mut Know::Unsaid, begins, *at, out),
+                ModeName::Plane if out.assumed.plane.is_none() => plane(&mut Know::Unsaid, begins, *at, out),
+                ModeName::FeedMode if out.assumed.feed_mode.is_none() => {
+                    feed_mode(&mut Know::Unsaid, begins, *at, out);
+                }
+                ModeName::ReturnLevel if out.assumed.return_level.is_none() => {
+                    return_level(&mut Know::Unsaid, begins, *at, out);
+                }
+                _ => {}
+            }
+        }
+    }
+}
