@@ -1,6 +1,6 @@
 //! One writer for every dialect: which text form it has is in the dictionary.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::{AXES, Modes};
@@ -108,11 +108,17 @@ impl Writer {
     }
 
     /// Says which procedures a program has that computes, before any of it is written, and the places of statements
-    /// whose words say their own distance mode, where others rely on the one in force.
-    pub fn know(&mut self, procedures: &[Procedure], own_distance: &BTreeSet<u32>) {
+    /// whose words say their own distance mode, where others rely on the one in force. `stands` are modes that are in
+    /// force where stretches of blocks begin, by the places of their first statements.
+    pub fn know(
+        &mut self,
+        procedures: &[Procedure],
+        own_distance: &BTreeSet<u32>,
+        stands: HashMap<u32, Modes>,
+    ) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.know(procedures),
-            Kind::Siemens(writer) => writer.know(procedures, own_distance),
+            Kind::Word(writer) => writer.know(procedures, stands),
+            Kind::Siemens(writer) => writer.know(procedures, own_distance, stands),
             // The text form says them all by itself; the other writes no such programs.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }

@@ -6,7 +6,7 @@
 
 mod as_there;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::io::{self, Read};
 
 use ncc_backends::{Head, Origin, Writer};
@@ -308,7 +308,7 @@ impl<'j> Line<'j> {
         }
         let mut known = Known::default();
         let mut renamed = Renamed::default();
-        let mut own_distance = BTreeSet::new();
+        let (mut own_distance, mut stands) = (BTreeSet::new(), HashMap::new());
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             let caps = self.job.to.caps();
@@ -319,6 +319,9 @@ impl<'j> Line<'j> {
             if let Some(there) = there {
                 let stands = self.legaliser.stands();
                 (known, renamed) = as_there::say(self.job, &mut program, there, stands, &mut found);
+            }
+            if there.is_some() && own_distance::others(&program, &known).is_empty() {
+                stands = known.modes();
             }
             if there.is_some() && self.job.from.caps().word_distance {
                 own_distance = own_distance::places(&program, &known);
@@ -357,7 +360,7 @@ impl<'j> Line<'j> {
         self.renumbering.run(&mut program, &mut found);
         if computes {
             self.legaliser.run_computing(&mut program, &known, &mut found);
-            self.writer.know(&program.procedures, &own_distance);
+            self.writer.know(&program.procedures, &own_distance, stands);
             if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
                 self.take(found, Told::Writer);
                 return Ok(());

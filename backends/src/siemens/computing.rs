@@ -5,8 +5,9 @@
 //!
 //! Not here: which variables there are (`passes/variables`), their types, and calls with arguments (`variable`).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
+use ncc_ir::canon::Modes;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
@@ -41,10 +42,15 @@ pub(super) struct Computing {
 impl Writer {
     /// Takes what jumps and loops need to know of the procedures of a program that computes, and at which places words
     /// say their own distance mode.
-    pub(crate) fn know(&mut self, procedures: &[Procedure], own_distance: &BTreeSet<u32>) {
+    pub(crate) fn know(
+        &mut self,
+        procedures: &[Procedure],
+        own_distance: &BTreeSet<u32>,
+        stands: HashMap<u32, Modes>,
+    ) {
         self.computing.program = true;
         self.computing.own_distance.clone_from(own_distance);
-        self.words.is_kept();
+        self.words.is_kept(stands);
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
         self.know_parameters(procedures);
         self.main = procedures.first().cloned();

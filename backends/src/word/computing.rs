@@ -5,10 +5,11 @@
 //!
 //! Not here: expressions (`formula`), and which structures the target has (`computes`).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::call_of::call_of;
+use ncc_ir::canon::Modes;
 use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
@@ -37,15 +38,17 @@ pub(crate) struct Computing {
     numbers: BTreeMap<Text, u32>,
     /// Loops that are open.
     open: u8,
+    /// Modes in force where stretches of blocks begin, by the places of their first statements.
+    stands: HashMap<u32, Modes>,
     /// Values of the control's own, by their numbers.
     pub(super) own: Vec<(u32, Expr)>,
 }
 
 impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
-    pub(crate) fn know(&mut self, procedures: &[Procedure]) {
+    pub(crate) fn know(&mut self, procedures: &[Procedure], stands: HashMap<u32, Modes>) {
+        self.is_kept(stands);
         self.computing.variables = true;
-        self.computing.kept = true;
         self.computing.own = self
             .dialect
             .named_values()
@@ -60,8 +63,22 @@ impl Writer {
     }
 
     /// A program that computes is written with its structure.
-    pub(crate) fn is_kept(&mut self) {
+    pub(crate) fn is_kept(&mut self, stands: HashMap<u32, Modes>) {
         self.computing.kept = true;
+        self.computing.stands = stands;
+    }
+
+    /// Where a stretch of blocks begins, modes that are known there on every way are in force in the text as in the
+    /// source: the text states each that the source does, and no other.
+    pub(crate) fn stand(&mut self, stmt: &Stmt) {
+        let Some(known) = self.computing.stands.get(&stmt.span.start) else { return };
+        if self.preamble.is_some() {
+            return;
+        }
+        self.forgotten = false;
+        self.force.distance = self.force.distance.or(known.distance);
+        self.force.plane = self.force.plane.or(known.plane);
+        self.force.units = self.force.units.or(known.units);
     }
 
     /// Whether the program computes when it runs.

@@ -111,6 +111,8 @@ pub struct Writer {
     pub(crate) assumed: Modes,
     /// Whether facts of the program's start may have been changed unseen (a call, a skipped block).
     lost: bool,
+    /// Whether a stretch of blocks begins.
+    pub(super) forgotten: bool,
     stated: Modes,
     next_number: u32,
     numbers_left: u32,
@@ -213,6 +215,7 @@ impl Writer {
             preamble: (!dialect.safe_start.is_empty()).then(Preamble::default),
             assumed: Modes::default(),
             lost: false,
+            forgotten: false,
             stated: Modes::default(),
             next_number,
             numbers_left: 0,
@@ -422,6 +425,9 @@ impl Writer {
         }
         self.block.skip = stmt.skip;
         self.block.at = stmt.span;
+        if self.forgotten {
+            self.stand(stmt);
+        }
         let silent = matches!(stmt.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
         if stmt.skip.is_some() && !silent && self.skip_mark(stmt.skip).is_none() {
             let what = "a block that can be skipped on a switch of its own".into();
@@ -593,5 +599,6 @@ impl Writer {
         self.residual = false;
         self.named = 0;
         self.lost = true;
+        self.forgotten = true;
     }
 }

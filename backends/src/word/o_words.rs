@@ -128,6 +128,7 @@ impl Writer {
         self.preamble = preamble;
         (self.force, self.tracker, self.held) = (force, tracker, held);
         (self.residue, self.residual, self.named, self.lost) = (residue, residual, named, lost);
+        self.forgotten = false;
         lead
     }
 

@@ -44,6 +44,11 @@ impl Known {
     pub(super) fn before(&self, stmt: &Stmt) -> Option<&Tracker> {
         self.starts.get(&stmt.span.start)
     }
+
+    /// The modes in force where stretches begin, by the places of their first statements.
+    pub fn modes(&self) -> HashMap<u32, Modes> {
+        self.starts.iter().map(|(at, known)| (*at, known.modes)).collect()
+    }
 }
 
 /// Has holes that the text itself puts under a cycle of another stretch call it up. What is `known` is of a copy of

@@ -17,10 +17,16 @@ use crate::source::Span;
 /// The places of statements with a word that says another mode than the source's there, or one where that is not known,
 /// in a program that relies on the source's elsewhere. `known` is what holds where stretches of its blocks begin.
 pub fn places(program: &Program, known: &Known) -> BTreeSet<u32> {
-    let mut found = BTreeSet::new();
-    if program.procedures.iter().any(|procedure| is_open(&procedure.body)) {
-        program.procedures.iter().for_each(|procedure| within(&procedure.body, known, &mut found));
+    match program.procedures.iter().any(|procedure| is_open(&procedure.body)) {
+        true => others(program, known),
+        false => BTreeSet::new(),
     }
+}
+
+/// The places of statements with a word that says another mode than the source's there, or one where that is not known.
+pub fn others(program: &Program, known: &Known) -> BTreeSet<u32> {
+    let mut found = BTreeSet::new();
+    program.procedures.iter().for_each(|procedure| within(&procedure.body, known, &mut found));
     found
 }
 
