@@ -140,8 +140,10 @@ fn missing(text: &[u8], settings: &Settings) -> Vec<Text> {
 /// What statements call.
 fn names(stmts: &[Stmt], found: &mut Vec<Text>) {
     for stmt in stmts {
-        if let Op::Call(call) = &stmt.op {
-            found.push(call.name.clone());
+        match &stmt.op {
+            Op::Call(call) => found.push(call.name.clone()),
+            Op::Control(control) => control.bodies().for_each(|body| names(body, found)),
+            _ => {}
         }
     }
 }
@@ -191,7 +193,10 @@ fn read(path: &Path, name: &str, dialect: &Dialect, whole: &mut Vec<u8>) -> Resu
     if text.contains(&0) || whole.len() as u64 + text.len() as u64 > LARGEST {
         return Err(no_program());
     }
-    let own = program_of(&text, dialect).ok_or_else(no_program)?;
+    let own = match sub_of(&text, name, dialect) {
+        Some(own) => own,
+        None => program_of(&text, dialect).ok_or_else(no_program)?,
+    };
     if let Some(other) = own.name.as_deref().filter(|own| !own.eq_ignore_ascii_case(name)) {
         return Err(Problem {
             exit: Exit::Refused,
@@ -270,6 +275,47 @@ fn program_of(text: &[u8], dialect: &Dialect) -> Option<Own> {
     let name = first.and_then(|(_, line)| name_of(line, dialect));
     // The main text keeps its opening mark: places in it are those of its file.
     Some(Own { start, end, name })
+}
+
+/// The subprogram of O words that a file is named by: what stands beside it there, the control passes by where it is
+/// called (LinuxCNC 2.9, gcode/o-code.html, Calling files).
+fn sub_of(text: &[u8], name: &str, dialect: &Dialect) -> Option<Own> {
+    if !dialect.program.o_words {
+        return None;
+    }
+    let letter = dialect.program.number?;
+    let mut at = 0;
+    let mut start = None;
+    for line in text.split_inclusive(|b| *b == b'\n') {
+        let own = at;
+        at += line.len();
+        let Some((label, word)) = o_word(line, letter) else { continue };
+        if !label.eq_ignore_ascii_case(name) {
+            continue;
+        }
+        match (word.as_str(), start) {
+            ("sub", None) => start = Some(own),
+            ("endsub", Some(start)) => return Some(Own { start, end: at, name: Some(label) }),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The label of an O word and the word behind it, in small letters and without blanks.
+fn o_word(line: &[u8], letter: char) -> Option<(String, String)> {
+    let line: String = std::str::from_utf8(line).ok()?.chars().filter(|c| !c.is_whitespace()).collect();
+    let line = line.to_ascii_lowercase();
+    let numbered = line.strip_prefix('n').map(|rest| rest.trim_start_matches(|c: char| c.is_ascii_digit()));
+    let rest = numbered.unwrap_or(&line).strip_prefix(letter.to_ascii_lowercase())?;
+    let (label, word) = match rest.strip_prefix('<') {
+        Some(rest) => rest.split_once('>')?,
+        None => rest.split_at(rest.find(|c: char| !c.is_ascii_digit())?),
+    };
+    let word = word.split(|c: char| !c.is_ascii_alphabetic()).next()?;
+    let number = label.bytes().all(|b| b.is_ascii_digit());
+    let label = if number { label.trim_start_matches('0') } else { label };
+    Some((label.to_owned(), word.to_owned()))
 }
 
 /// The name that a line gives the program that begins with it.

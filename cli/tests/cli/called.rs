@@ -85,3 +85,33 @@ fn a_message_names_the_file_and_its_line() {
     let done = say(shop.path(), "fanuc to siemens main.nc -I nowhere").exits(2);
     assert!(done.err.contains("no such folder"), "{}", done.err);
 }
+
+#[test]
+fn o_words_are_found_in_files_of_their_names() {
+    let shop = folder();
+    let at = shop.path();
+    fs::create_dir(at.join("sub")).unwrap();
+    let main = "G21 G17 G90 G94 G40 G49 G54\nF200\n#1=2\nG0 X0 Y0 Z5\no1 if [#1 GT 1]\n  o<groove> call [12]\no1 endif\no20 call\nM2\n";
+    for (name, text) in [
+        ("main.ngc", main),
+        // What stands beside the subprogram is not executed.
+        (
+            "sub/groove.ngc",
+            "(A)\nG0 X99\n O <Groove> SUB (length)\nG1 Z-1\nX#1\no20 call\nG0 Z5\no<groove> endsub\nM2\n",
+        ),
+        ("sub/20.ngc", "o020 sub\nG4 P1\no20 endsub\nM2\n"),
+    ] {
+        fs::write(at.join(name), text).unwrap();
+    }
+    say(at, "linuxcnc to fanuc main.ngc").exits(1);
+    let done = say(at, "linuxcnc to linuxcnc -I sub main.ngc").exits(0);
+    assert!(done.err.contains("verified") && !done.out.contains("X99"), "{}{}", done.out, done.err);
+    assert!(
+        done.out.contains("(called: groove.ngc sha256 ") && done.out.contains("(called: 20.ngc"),
+        "{}",
+        done.out
+    );
+    fs::write(at.join("sub/20.ngc"), "G4 P1\nM99\n").unwrap();
+    let done = say(at, "linuxcnc to linuxcnc -I sub main.ngc").exits(1);
+    assert!(done.err.contains("NC0202"), "{}", done.err);
+}
