@@ -131,7 +131,7 @@ impl Tolerance {
 /// A world in the second interpreter's terms.
 pub fn setup(world: &World, skip: u16) -> Setup {
     let (offsets, lengths, edges, wears) = (world.clone(), world.clone(), world.clone(), world.clone());
-    let (points, stored, counts) = (world.clone(), world.clone(), world.clone());
+    let (points, stored, counts, radii) = (world.clone(), world.clone(), world.clone(), world.clone());
     let named = Rc::new(RefCell::new(BTreeMap::new()));
     let known = named.clone();
     Setup {
@@ -142,6 +142,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
             u32::MAX => mm(lengths.edge_length(-1, 1)),
             entry => mm(lengths.tool_length(entry)),
         }),
+        diameter: Box::new(move |entry| mm(radii.tool_radius(entry).map_or(0, |radius| 2 * radius))),
         wear: Box::new(move |entry| mm(wears.length_wear(entry))),
         edge_length: Box::new(move |tool, edge| {
             let own = |tool| known.borrow().get(&tool).copied().unwrap_or(i64::from(tool));

@@ -54,6 +54,11 @@ pub enum System {
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
+    /// The diameter of the tool in the spindle, as the table of tools has it now, wear counted in (LinuxCNC `#5410`).
+    TableDiameter {
+        /// The unit that it counts in, whatever is in force.
+        unit: Option<Units>,
+    },
     /// A value of an entry of the table of tools, as the table has it now, whether in force or not (Fanuc `#2201`).
     ToolTable {
         /// Which value.
@@ -111,6 +116,7 @@ impl System {
             | System::OriginShifted
             | System::ToolLength
             | System::TableOffset { .. }
+            | System::TableDiameter { .. }
             | System::ToolTable { .. }
             | System::Kept(..) => true,
             System::EndPoint(_)
@@ -160,6 +166,8 @@ impl System {
             ("offset", [of, along, in_unit]) => {
                 System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: Some(unit(in_unit)?) }
             }
+            ("table", ["diameter"]) => System::TableDiameter { unit: None },
+            ("table", ["diameter", in_unit]) => System::TableDiameter { unit: Some(unit(in_unit)?) },
             ("table", [along]) => System::TableOffset { axis: axis(along)?, unit: None },
             ("table", [along, in_unit]) => {
                 System::TableOffset { axis: axis(along)?, unit: Some(unit(in_unit)?) }
@@ -308,6 +316,7 @@ impl Display for System {
             }
             System::WorkTurn(number) => write!(f, "turn.{number}"),
             System::TableOffset { axis, unit: of } => write!(f, "table.{}{}", letter(axis), unit(of)),
+            System::TableDiameter { unit: of } => write!(f, "table.diameter{}", unit(of)),
             System::OriginShift { axis, unit: of } => write!(f, "shift.{}{}", letter(axis), unit(of)),
             System::ToolTable { value, entry } => {
                 let name = TOOL_VALUES.iter().find(|(own, _)| own == value).map_or("", |(_, name)| name);
@@ -337,6 +346,8 @@ mod tests {
             System::WorkTurn(9),
             System::TableOffset { axis: Axis::X, unit: None },
             System::TableOffset { axis: Axis::Z, unit: Some(Units::Inch) },
+            System::TableDiameter { unit: None },
+            System::TableDiameter { unit: Some(Units::Inch) },
             System::OriginShift { axis: Axis::Y, unit: Some(Units::Mm) },
             System::OriginShift { axis: Axis::Y, unit: None },
             System::ToolTable { value: ToolValue::LengthWear, entry: 7 },

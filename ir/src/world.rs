@@ -270,6 +270,21 @@ impl World {
         }
     }
 
+    /// Radius of an entry of the table of tools, wear counted in, as a program reads it there; entry 0 has none. `None`
+    /// is what a program has added to a radius that nobody knows.
+    pub fn tool_radius(&self, entry: u32) -> Option<Nanos> {
+        match self.tables.radius(entry) {
+            _ if entry == 0 => Some(0),
+            Some(stated) => Some(stated),
+            None if self.tables.radius_wears.contains_key(&entry) => None,
+            None if self.seed == 0 => Some(0),
+            None => {
+                let index = renamed(&self.renaming.entries, entry).wrapping_mul(8).wrapping_add(4);
+                Some(3 * ONE / 2 + self.odd(index.wrapping_add(150_000), 1))
+            }
+        }
+    }
+
     /// Offsets of an entry along X and Y.
     pub fn tool_offsets(&self, entry: u32) -> [Nanos; 2] {
         self.tables.offsets.get(&entry).copied().unwrap_or_default()

@@ -10,7 +10,9 @@ pub struct Setup {
     pub work_offset: Box<dyn Fn(u32) -> Place>,
     /// Length of each entry of the tool table; 0 is none.
     pub length: Box<dyn Fn(u32) -> f64>,
-    /// How much of that is wear.
+    /// Diameter of each entry, millimetres.
+    pub diameter: Box<dyn Fn(u32) -> f64>,
+    /// How much of the length is wear.
     pub wear: Box<dyn Fn(u32) -> f64>,
     /// Length of an edge of a tool, on a control whose tools have edges; `None` is a tool that was
     /// in the spindle at power-on and that nothing is known of. Edge 0 is none.
@@ -106,6 +108,7 @@ impl Setup {
             start: [0.0; 6],
             work_offset: Box::new(|_| [0.0; 6]),
             length: Box::new(|_| 0.0),
+            diameter: Box::new(|_| 0.0),
             wear: Box::new(|_| 0.0),
             named_tool: Box::new(|_| 1 << 31),
             edge_length: Box::new(|_, _| 0.0),

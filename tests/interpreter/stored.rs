@@ -16,6 +16,8 @@ pub(super) struct Stored {
     lengths: BTreeMap<u32, (f64, f64)>,
     /// What tools are put aside along X and Y (LinuxCNC, G10 L1), and how much of it is in force.
     asides: BTreeMap<u32, [f64; 2]>,
+    /// Radii that the program has put into the table; `None` is what nobody knows any more.
+    radii: BTreeMap<u32, Option<f64>>,
     aside: [f64; 2],
 }
 
@@ -204,7 +206,17 @@ impl Machine {
         Ok(())
     }
 
-    /// Puts a radius or its wear into that table. Nothing looks at it.
+    /// The diameter of the tool in the spindle, as a program that asks is told; `None` is no tool, and what wear or
+    /// an addition makes of it.
+    pub(super) fn stored_diameter(&self) -> Option<f64> {
+        let tool = self.tool.filter(|tool| *tool != 0)?;
+        match self.stored.radii.get(&tool) {
+            Some(radius) => radius.map(|radius| 2.0 * radius),
+            None => Some((self.setup.diameter)(tool)),
+        }
+    }
+
+    /// Puts a radius or its wear into that table.
     pub(super) fn store_radius(&mut self, entry: u32, value: f64, wear: bool, added: bool) {
         let table = match (wear, added) {
             (false, false) => "radius",
@@ -212,6 +224,7 @@ impl Machine {
             (true, false) => "wear of the radius",
             (true, true) => "wear of the radius, added",
         };
+        self.stored.radii.insert(entry, (!wear && !added).then_some(value));
         self.record(What::Data(table, entry, alone(value)));
     }
 }

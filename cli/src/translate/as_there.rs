@@ -7,7 +7,8 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
-    alarm_numbers, arithmetic, computed_frames, control_forms, exact_comparisons, own_distance,
+    alarm_numbers, arithmetic, centres_from_start, computed_frames, control_forms, exact_comparisons,
+    own_distance, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
@@ -55,6 +56,10 @@ pub(super) fn say(
         if measures && !own_distance::places(program, &known).is_empty() {
             known = known_facts::run(program, &entry, true);
         }
+    }
+    centres_from_start::run(program, &job.to.caps());
+    if from.id != to.id {
+        unit_in_force::run(program);
     }
     if computes.calls != there.calls {
         found.extend(there.too_deep(program));

@@ -10,7 +10,7 @@ use ncc_ir::program::{Detour, Move, Op};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::facts::{InForce, Know};
+use super::facts::Know;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
@@ -27,10 +27,9 @@ impl Lower {
     ) {
         let Meaning::Detour(detour) = code.meaning else { return };
         let text = || code.row.code.as_str().into();
+        let name = "a rapid move while a cycle is in force".into();
+        self.without_cycle(Fault::NotSupported { code: text(), name }, code.span, out);
         let why = match () {
-            () if !matches!(self.state.cycle, InForce::None) => {
-                Some("a rapid move while a cycle is in force")
-            }
             () if self.state.compensated.value() == Some(true) => {
                 Some("a rapid move under cutter radius compensation")
             }

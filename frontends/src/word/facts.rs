@@ -175,6 +175,9 @@ pub(super) struct State {
     pub(super) no_motion: bool,
     /// From where the words of a centre are measured.
     pub(super) centre: Know<CentreFrom>,
+    /// What the program has said of that on every way to here, whatever other programs and bodies of structures that
+    /// it has come through may have said since.
+    pub(super) centre_before: Option<CentreFrom>,
     /// Whether a feed was said.
     pub(super) feed: Know<()>,
     /// Whether a tool was selected.
@@ -229,6 +232,7 @@ impl State {
             after_cycle: false,
             no_motion: false,
             centre: Know::Lost,
+            centre_before: None,
             feed: Know::Lost,
             tool: Know::Lost,
             cycle: InForce::Lost,
@@ -303,6 +307,7 @@ impl State {
         self.tool.join(before.tool);
         self.after_cycle |= before.after_cycle;
         self.centre.join(before.centre);
+        self.centre_before = self.centre_before.filter(|from| before.centre_before == Some(*from));
         if self.no_motion != before.no_motion {
             self.no_motion = false;
             self.motion = Know::Lost;

@@ -58,6 +58,7 @@ pub(super) struct Lower {
     pub(super) computes: Computes,
     pub(super) o: ODecides,
     pub(super) unmoved: Unmoved,
+    pub(super) cycles: CyclesMet,
     /// What plain moves need; `None` if a block must be looked at.
     pub(super) fast: Option<Fast>,
     pub(super) now: Now,
@@ -65,6 +66,16 @@ pub(super) struct Lower {
     /// What the text has said of control of the tool's tip, and of tilted planes.
     pub(super) tip: Met,
     pub(super) tilt: Met,
+}
+
+/// Cycles in the whole text: where it has none, none is in force anywhere.
+#[derive(Debug, Default)]
+pub(super) struct CyclesMet {
+    /// Whether one was called up so far.
+    any: bool,
+    /// What cannot be where a cycle is in force, in blocks that are come to from elsewhere: refused as soon as the
+    /// text calls one up.
+    doubts: Vec<(Fault, Span)>,
 }
 
 /// Dwells of cycles in the whole text, where they stay in force for other cycles.
@@ -185,6 +196,7 @@ impl Lower {
             computes: Computes::default(),
             o: ODecides::default(),
             unmoved: Unmoved::default(),
+            cycles: CyclesMet::default(),
             fast: None,
             now: Now::default(),
             codes: Vec::new(),
@@ -423,6 +435,24 @@ impl Lower {
     pub(super) fn refuse<T>(&mut self, fault: Fault, span: Span, out: &mut Batch) -> Option<T> {
         self.fault(fault, span, out);
         None
+    }
+
+    /// Refuses what cannot be where a cycle is in force, if one is or may be. Whether one may be where control comes
+    /// to from elsewhere, the rest of the text says.
+    pub(super) fn without_cycle(&mut self, fault: Fault, span: Span, out: &mut Batch) {
+        match self.state.cycle {
+            InForce::None => {}
+            InForce::Lost if !self.cycles.any && out.whole => self.cycles.doubts.push((fault, span)),
+            InForce::Active(_) | InForce::Lost => self.fault(fault, span, out),
+        }
+    }
+
+    /// The text calls a cycle up.
+    pub(super) fn cycle_met(&mut self, out: &mut Batch) {
+        self.cycles.any = true;
+        for (fault, span) in std::mem::take(&mut self.cycles.doubts) {
+            out.report(fault, span);
+        }
     }
 
     /// The comments of a block that do nothing.

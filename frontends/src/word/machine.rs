@@ -11,7 +11,6 @@ use ncc_ir::program::{Coord, Move, Op, Point, Reference, ReferencePoint};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
@@ -28,10 +27,8 @@ impl Lower {
         out: &mut Batch,
     ) {
         let text = || code.row.code.as_str().into();
-        if !matches!(self.state.cycle, InForce::None) {
-            let name = "move of the machine while a cycle is in force".into();
-            self.fault(Fault::NotSupported { code: text(), name }, code.span, out);
-        }
+        let name = "move of the machine while a cycle is in force".into();
+        self.without_cycle(Fault::NotSupported { code: text(), name }, code.span, out);
         self.check_shut(code, out);
         let number = match code.row.words.chars().next() {
             Some(letter) => match words.take(letter as u8) {

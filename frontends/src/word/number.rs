@@ -27,12 +27,12 @@ pub(super) struct UnitsSeen {
     pub(super) relied: Option<Span>,
 }
 
-/// Whether the text says that centres are measured otherwise than at power-on.
-#[derive(Clone, Copy, Debug, Default)]
+/// From where the text says that centres are measured.
+#[derive(Clone, Debug, Default)]
 pub(super) struct CentreSeen {
-    other: bool,
-    /// The first arc that relied on its saying nothing else.
-    relied: Option<Span>,
+    said: Vec<CentreFrom>,
+    /// For a way of measuring, the first arc that relies on the text's saying no other.
+    relied: Vec<(CentreFrom, Span)>,
 }
 
 fn centre_open() -> Fault {
@@ -139,26 +139,31 @@ impl Lower {
         match self.state.centre {
             Know::Said(from) | Know::Taken(from) => Some(from),
             Know::Unsaid => Some(row.value.into()),
-            // Open here, but if the whole text says no other, it is that at power-on.
-            Know::Lost | Know::Open | Know::Callers if self.centre_seen.other => {
-                self.refuse(centre_open(), at, out)
-            }
+            // Open here, but if the whole text says no other, it is what was said on every way to here, or else that at
+            // power-on.
             Know::Lost | Know::Open | Know::Callers => {
-                self.centre_seen.relied.get_or_insert(at);
-                Some(row.value.into())
+                let from = self.state.centre_before.unwrap_or(row.value.into());
+                let seen = &mut self.centre_seen;
+                if seen.said.iter().any(|said| *said != from) {
+                    return self.refuse(centre_open(), at, out);
+                }
+                if !seen.relied.iter().any(|(other, _)| *other == from) {
+                    seen.relied.push((from, at));
+                }
+                Some(from)
             }
         }
     }
 
     /// The program says from where the words of a centre are measured.
     pub(super) fn set_centre_mode(&mut self, from: CentreFrom, out: &mut Batch) {
-        self.state.centre = Know::Said(from);
-        let first = self.settings.dialect.power_on.centre.as_ref().map(|row| row.value.into());
-        if first != Some(from) {
-            self.centre_seen.other = true;
-            if let Some(at) = self.centre_seen.relied.take() {
-                out.report(centre_open(), at);
-            }
+        (self.state.centre, self.state.centre_before) = (Know::Said(from), Some(from));
+        let seen = &mut self.centre_seen;
+        if !seen.said.contains(&from) {
+            seen.said.push(from);
+        }
+        for (_, at) in seen.relied.extract_if(.., |(other, _)| *other != from) {
+            out.report(centre_open(), at);
         }
     }
 

@@ -227,7 +227,7 @@ impl Lower {
         self.found_variables(out);
         self.leave_motion(None, out);
         self.push(span, Op::Call(Box::new(Call { name, times: 1, arguments, shared: false })), out);
-        self.lose(span, out);
+        self.lose_within(self.state.centre_before, span, out);
     }
 
     /// Whether a subprogram of O words is being read.

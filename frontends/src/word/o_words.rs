@@ -10,8 +10,9 @@
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
-use ncc_ir::program::{Control, Op, Stmt, Text};
+use ncc_ir::program::{CentreFrom, Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::system::System;
 
 use super::block::Block;
 use super::lower::Lower;
@@ -65,6 +66,8 @@ pub(super) struct Open {
     block: Span,
     number: Option<u32>,
     given: Given,
+    /// From where the program has said before that centres are measured.
+    centre: Option<CentreFrom>,
 }
 
 #[derive(Debug)]
@@ -260,25 +263,42 @@ impl Lower {
             return;
         }
         let mark = self.now.mark;
-        let mut changed = false;
+        let (mut changed, mut moved) = (false, false);
         let mut late = None;
         for stmt in self.target(out).iter_mut().skip(mark) {
-            let mut here = false;
+            // Whether anything is asked, and anything else than where the last move ended.
+            let (mut here, mut other) = (false, false);
+            let mut look = |expr: &Expr| {
+                here |= asks(expr).is_some();
+                other |= expr.has(
+                    &|node| matches!(node, Node::Var(Var::System(s)) if !matches!(s, System::EndPoint(_))),
+                );
+            };
             let seen = ncc_ir::arguments::each(&mut stmt.op, &mut |argument, _| {
-                here |= argument.expr().is_some_and(|expr| asks(expr).is_some());
+                argument.expr().into_iter().for_each(&mut look);
                 Ok::<(), std::convert::Infallible>(())
             });
             seen.unwrap_or_else(|never| match never {});
             if let Op::Assign(_, value) = &stmt.op {
-                here |= asks(value).is_some();
+                look(value);
             }
-            if here && changed {
+            if here && moved || other && changed {
                 late = Some(stmt.span);
             }
-            changed |= !matches!(
+            let says_nothing = matches!(
                 stmt.op,
                 Op::Assign(..) | Op::Message(_) | Op::MessageOf(_) | Op::Comment(_) | Op::SelectTool(_)
             );
+            changed |= !says_nothing;
+            let stays = matches!(
+                stmt.op,
+                Op::SetFeedRate(_)
+                    | Op::SetFeedMode(_)
+                    | Op::SetDistanceMode(_)
+                    | Op::SelectPlane(_)
+                    | Op::SetSpindleSpeed(_)
+            );
+            moved |= !says_nothing && !stays;
         }
         if let Some(at) = late {
             let name = "value of the control's own in a block that does something before".into();
@@ -366,7 +386,7 @@ impl Lower {
                 }
                 open.at = None;
                 self.o.given = open.given.clone();
-                self.lose(span, out);
+                self.lose_within(open.centre, span, out);
                 self.o.open.push(open);
             }
             FlowWord::EndIf | FlowWord::EndWhile | FlowWord::EndRepeat => {
@@ -416,8 +436,15 @@ impl Lower {
             self.check_break(block, out);
         }
         let (number, given) = (self.now.number, self.o.given.clone());
-        self.o.open.push(Open { label: label.into(), kind, at: None, block, number, given });
-        self.lose(block, out);
+        let centre = self.state.centre_before;
+        self.o.open.push(Open { label: label.into(), kind, at: None, block, number, given, centre });
+        self.lose_within(centre, block, out);
+    }
+
+    /// Facts are lost, and what the program has said before stays said.
+    pub(super) fn lose_within(&mut self, centre: Option<CentreFrom>, at: Span, out: &mut Batch) {
+        self.lose(at, out);
+        self.state.centre_before = centre;
     }
 
     /// Takes what was opened last, with its body.
@@ -441,7 +468,7 @@ impl Lower {
         self.o.given = open.given;
         self.push(open.block, Op::Control(Box::new(control)), out);
         self.separate(out);
-        self.lose(open.block, out);
+        self.lose_within(open.centre, open.block, out);
     }
 
     /// `break` and `continue`.
@@ -498,7 +525,8 @@ impl Lower {
     pub(super) fn open_sub(&mut self, label: &str, outer: Outer, block: Span) {
         let given = std::mem::take(&mut self.o.given);
         let kind = Kind::Sub(Box::new(outer));
-        self.o.open.push(Open { label: label.into(), kind, at: Some(0), block, number: None, given });
+        let (number, centre) = (None, None);
+        self.o.open.push(Open { label: label.into(), kind, at: Some(0), block, number, given, centre });
     }
 
     /// The subprogram that is open, if it has this label and nothing in it is.

@@ -1,6 +1,6 @@
 //! Lowering of probing moves: straight at feed, until the probe says so.
 //!
-//! What the control measures there, programs read from variables, which are not translated; the move is.
+//! What the control measures there, programs read from variables (`[[system]]` of the dictionary).
 //!
 //! Refused by name: under a cycle or cutter radius compensation, and bare axis words behind a code that stays in
 //! force, which would probe again.
@@ -11,7 +11,7 @@ use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::facts::{InForce, Know};
+use super::facts::Know;
 use super::lower::Lower;
 use super::sort::{Code, Words};
 use crate::Batch;
@@ -28,8 +28,9 @@ impl Lower {
     ) {
         let Meaning::StraightProbe(probe) = code.meaning else { return };
         let text = || code.row.code.as_str().into();
+        let under = Fault::NotSupported { code: text(), name: "probing while a cycle is in force".into() };
+        self.without_cycle(under, code.span, out);
         let why = match () {
-            () if !matches!(self.state.cycle, InForce::None) => Some("probing while a cycle is in force"),
             () if self.state.compensated.value() == Some(true) => {
                 Some("probing under cutter radius compensation")
             }

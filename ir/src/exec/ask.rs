@@ -150,6 +150,11 @@ impl Exec {
                 let stated = self.stated_offset(*axis as usize)?;
                 Some(self.counted(stated, *axis, *unit))
             }
+            System::TableDiameter { unit } => {
+                let tool = u32::try_from(self.state.tool).ok()?;
+                let radius = self.world.tool_radius(tool)?;
+                Some(self.counted(radius.checked_mul(2)?, Axis::X, *unit))
+            }
             System::ToolTable { value, entry } => {
                 let (entry, wear) = (u32::from(*entry), self.world.length_wear(u32::from(*entry)));
                 let worth = match value {

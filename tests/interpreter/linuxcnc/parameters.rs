@@ -212,6 +212,23 @@ impl Control {
             Place::Number(n @ 5420..=5425) => self.stands((n - 5420) as usize),
             // In millimetres, the machine's unit.
             Place::Number(n @ 5401..=5403) => self.m.stored_offset((n - 5401) as usize),
+            Place::Number(5410) => self.m.stored_diameter(),
+            // In the coordinates that the probing move had, in the unit in force.
+            Place::Number(n @ 5061..=5066) => {
+                let unit = if *n < 5064 { self.unit() } else { 1.0 };
+                self.m.touched.filter(|_| !self.offset_turned()).map(|at| at[(n - 5061) as usize] / unit)
+            }
+            Place::Number(5067..=5069) => Some(0.0),
+            // Coordinate systems: twenty numbers for each, lengths in millimetres, the machine's unit.
+            Place::Number(n @ 5221..=5390) => {
+                let (system, axis) = ((n - 5221) / 20 + 1, (n - 5221) % 20);
+                match axis {
+                    0..=5 => Some(self.m.zero_of(system)[axis as usize]),
+                    6..=8 => Some(0.0),
+                    9 => Some(self.m.turn_of(system)),
+                    _ => None,
+                }
+            }
             Place::Number(5220) => Some(f64::from(self.m.offset)),
             Place::Number(_) => None,
             Place::Name(name) if !name.starts_with('_') => self.calls().names.get(name).copied(),
@@ -227,9 +244,14 @@ impl Control {
         }
     }
 
+    /// Whether the work offset in force is turned.
+    fn offset_turned(&self) -> bool {
+        self.m.turn_of(self.m.offset) != 0.0
+    }
+
     /// Where the tool stands along an axis, in the unit in force.
     fn stands(&self, axis: usize) -> Option<f64> {
-        if self.m.turn_of(self.m.offset) != 0.0 || self.m.beside.is_some() {
+        if self.offset_turned() || self.m.beside.is_some() {
             return None;
         }
         let unit = if axis < 3 { self.unit() } else { 1.0 };
