@@ -97,6 +97,8 @@ pub struct Named {
     pub capitals: bool,
     /// How many letters or underlines they begin with.
     pub letters: usize,
+    /// Characters that they have besides letters, digits and the underline.
+    pub also: Text,
     /// Most characters.
     pub longest: usize,
     /// What no variable can be called, in capitals.
@@ -106,7 +108,8 @@ pub struct Named {
 impl Named {
     /// A name in the target's characters, for a variable that all programs see or for one of a call.
     pub(crate) fn adapted(&self, name: &str, common: bool) -> Text {
-        let fits = |c: char| if c.is_ascii_alphanumeric() || c == '_' { c } else { '_' };
+        let known = |c: char| c.is_ascii_alphanumeric() || c == '_' || self.also.contains(c);
+        let fits = |c: char| if known(c) { c } else { '_' };
         let mut made: String = name.chars().map(fits).collect();
         let global = self.common.as_deref();
         if !common && let Some(global) = global.filter(|global| made.starts_with(global)) {

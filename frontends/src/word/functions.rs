@@ -230,18 +230,22 @@ impl Lower {
         let (first, second) = (letters.next().unwrap_or(0), letters.next().unwrap_or(0));
         let mut length = |lower: &mut Lower, letter: u8, out: &mut Batch| {
             let word = words.take(letter)?;
-            let number = lower.number(&word, Quantity::Length, src, out)?;
-            match number.mantissa < 0 {
+            let value = lower.amount(&word, Quantity::Length, words, src, out)?;
+            match value.literal().is_some_and(|number| number.mantissa < 0) {
                 true => lower.refuse(Fault::OutOfRange { word: src.text(word.span) }, word.span, out),
-                false => Some((number, word.span)),
+                false => Some((value, word.span)),
             }
+        };
+        let same = |one: &Expr, other: &Expr| match (one.literal(), other.literal()) {
+            (Some(one), Some(other)) => one.trimmed() == other.trimmed(),
+            _ => one == other,
         };
         let within = length(self, first, out);
         let merged = length(self, second, out);
         let control = match (within, merged) {
             (Some((within, _)), merged) => PathControl {
-                merged: merged.filter(|m| m.0.trimmed() != within.trimmed()).map(|m| Expr::Num(m.0)),
-                within: Some(Expr::Num(within)),
+                merged: merged.map(|merged| merged.0).filter(|merged| !same(merged, &within)),
+                within: Some(within),
                 ..PathControl::plain(PathMode::Tolerance)
             },
             (None, None) => PathControl::plain(PathMode::Continuous),

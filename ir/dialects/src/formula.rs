@@ -121,6 +121,8 @@ pub struct VariableNames {
     pub capitals: bool,
     /// How many letters or underlines they begin with.
     pub letters: usize,
+    /// Characters that they have besides letters, digits and the underline.
+    pub also: String,
     /// Most characters.
     pub longest: usize,
     /// Words beyond those of the dictionary that no variable can be called.
@@ -306,6 +308,7 @@ impl FormulaRules {
             common: rules.common.as_deref().map(Into::into),
             capitals: rules.capitals,
             letters: rules.letters,
+            also: rules.also.as_str().into(),
             longest: rules.longest,
             reserved: all.collect(),
         })

@@ -193,8 +193,8 @@ impl Exec {
     fn length_within(&self, length: &Option<Expr>, span: Span) -> Result<i32, Diagnostic> {
         let nanos = length.as_ref().map_or(Ok(0), |length| self.value(length, span))?;
         match i32::try_from((nanos + 50_000) / 100_000) {
-            Ok(tenths) => Ok(tenths),
-            Err(_) => self.fault(Fault::OutOfRange { word: "".into() }, span),
+            Ok(tenths) if nanos >= 0 => Ok(tenths),
+            Ok(_) | Err(_) => self.fault(Fault::OutOfRange { word: "".into() }, span),
         }
     }
 

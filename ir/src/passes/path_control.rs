@@ -7,6 +7,7 @@
 
 use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
+use crate::arguments;
 use crate::canon::{AdviceKind, PathMode};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
@@ -79,14 +80,17 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
                 made.push(Stmt { op: Op::SetMotionControlMode(Box::new(control)), ..stmt });
             }
             Op::ExactStop if !caps.exact_stop && caps.says_path(PathMode::ExactStop) => match &state.said {
-                Some(control) => {
+                // What is computed may be something else behind it.
+                Some(control)
+                    if !arguments::computed(&Op::SetMotionControlMode(Box::new(control.clone()))) =>
+                {
                     if control.mode != PathMode::ExactStop {
                         state.again = Some((control.clone(), false));
                     }
                     let stop = PathControl::plain(PathMode::ExactStop);
                     made.push(Stmt { op: Op::SetMotionControlMode(Box::new(stop)), ..stmt });
                 }
-                None => {
+                _ => {
                     let what = "an exact stop of one move, where the mode before it is not known".into();
                     diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
                     made.leave_out(stmt);

@@ -214,7 +214,11 @@ impl Region<'_> {
     fn relied_on(&self, before: &[Stmt], after: &[Stmt]) -> Option<Span> {
         let relies = |stmt: &&Stmt| {
             let cycle = matches!(stmt.op, drilling!() | Op::EndCycle | Op::Position(_));
-            arguments::computed(&stmt.op) || matches!(stmt.op, Op::Assign(..)) || self.inherits && cycle
+            // How corners are taken may be said with less, which is told; nothing relies on it.
+            let corners = matches!(stmt.op, Op::SetMotionControlMode(_));
+            arguments::computed(&stmt.op) && !corners
+                || matches!(stmt.op, Op::Assign(..))
+                || self.inherits && cycle
         };
         let (mut was, mut is) = (before.iter().filter(relies), after.iter().filter(relies));
         loop {
