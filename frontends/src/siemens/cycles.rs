@@ -6,7 +6,7 @@
 //! Not here: the moves of a cycle.
 
 use ncc_dialects::{CallKind, CallRow, ParameterRole, Quantity};
-use ncc_ir::canon::{Fact, Units};
+use ncc_ir::canon::{Fact, Plane, Units};
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -86,6 +86,7 @@ impl Lower {
                     }
                     Some(Given { digits: *digits, distance: None, way: None, computed: None, span: *span })
                 }
+                Some(Argument::Text(_)) if parameter.role == Some(ParameterRole::FormText) => None,
                 Some(other) => {
                     let span = other.span();
                     if parameter.refuse.is_some() {
@@ -96,7 +97,50 @@ impl Lower {
                 }
             });
         }
-        (!self.now.failed).then_some(Arguments { row, given, span: called.span })
+        let arguments = Arguments { row, given, span: called.span };
+        self.modes(&arguments, out);
+        (!self.now.failed).then_some(arguments)
+    }
+
+    /// Refuses what the newer lists of arguments append, where it says something else than the arguments before it and
+    /// the plane in force.
+    fn modes(&mut self, a: &Arguments, out: &mut Batch) {
+        use ParameterRole as Role;
+        let plane = self.whole_of(a, Role::WorkingPlane);
+        let says = match plane {
+            Some(0) => None,
+            Some(1) => Some(Plane::Xy),
+            Some(2) => Some(Plane::Zx),
+            Some(3) => Some(Plane::Yz),
+            _ => {
+                let name = format!("{}: mode of the display", a.name(Role::WorkingPlane));
+                return self.not_supported(&a.row.name, &name, a.at(Role::WorkingPlane), out);
+            }
+        };
+        if says.is_some() && self.known_plane(a.at(Role::WorkingPlane), out) != says {
+            let name = format!("{}: another plane than the one in force", a.name(Role::WorkingPlane));
+            return self.not_supported(&a.row.name, &name, a.at(Role::WorkingPlane), out);
+        }
+        let Some(place) = a.row.place(Role::DepthMode) else { return };
+        let mode = self.whole_of(a, Role::DepthMode).unwrap_or(-1);
+        let rest = mode - mode % 10;
+        let agrees = match mode % 10 {
+            0 => true,
+            1 => self.is_given(a, Role::RelativeDepth) && !self.is_given(a, Role::Depth),
+            2 => a.get(Role::Depth).is_some() && !self.is_given(a, Role::RelativeDepth),
+            _ => false,
+        };
+        if !agrees || rest != 0 && !a.row.parameters[place].neutral.contains(&rest) {
+            let name = format!("{}: mode of depths and dwells", a.name(Role::DepthMode));
+            self.not_supported(&a.row.name, &name, a.at(Role::DepthMode), out);
+        }
+    }
+
+    /// The whole number with a role; 0 for an empty argument, none for one that is computed or no whole number.
+    fn whole_of(&self, a: &Arguments, role: ParameterRole) -> Option<i64> {
+        let Some(given) = a.row.place(role).and_then(|place| *a.given.get(place)?) else { return Some(0) };
+        let digits = given.computed.is_none().then_some(given.digits)?;
+        Num { mantissa: digits.mantissa, scale: digits.scale, point: true, unit: Unit::One }.whole()
     }
 
     /// The number with a role; nothing for an empty argument, or one that is refused.

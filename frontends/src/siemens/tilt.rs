@@ -4,7 +4,7 @@
 //! turns the tool towards a stated side or not at all. Before it turns the tool it may retract along Z, or along
 //! Z and then along X and Y: to where is data of the machine, which is taken to be its zero (an option, told).
 //! Refused by name: further transformations and their parameters, planes that are added, other ways of stating
-//! angles, a second shift, and retracting along the tool, whose way follows from the limits of the axes.
+//! angles, a second shift, a status that is about the other direction than the stated one, and retracting along the tool, whose way follows from the limits of the axes.
 
 use ncc_dialects::Quantity;
 use ncc_ir::canon::{AXES, Axis};
@@ -92,6 +92,21 @@ impl Lower {
                 return self.not_supported(name, "swivelled plane without a stated direction", span, out);
             }
         };
+        let optimised = match number(arguments.get(ADDED)).unwrap_or(0) {
+            0 => None,
+            100_000 => Some(Toward::Minus),
+            _ => Some(Toward::Plus),
+        };
+        if optimised.is_some() && toward.is_some() {
+            if optimised != toward {
+                let what = "swivelled plane whose status is about the other direction";
+                return self.not_supported(name, what, span, out);
+            }
+            if self.option("swivel_side", span, out) == "other" {
+                let what = "swivelled plane of which another side than the stated one is chosen";
+                return self.not_supported(name, what, span, out);
+            }
+        }
         let retracts: &[&[Axis]] = match number(arguments.get(RETRACT)) {
             None => &[],
             Some(0) => &[],
@@ -186,7 +201,9 @@ fn refused(arguments: &[Option<Expr>]) -> Option<&'static str> {
         () if !matches!(arguments.get(RETRACT), None | Some(None | Some(Expr::Number(..)))) => {
             Some("swivelled plane that retracts by a computed value")
         }
-        () if !is_zero(ADDED) => Some("swivelled plane that is added, or tracks the tool's tip"),
+        () if !is_zero(ADDED) && !matches!(number(arguments.get(ADDED)), Some(100_000 | 200_000)) => {
+            Some("swivelled plane that is added, or tracks the tool's tip")
+        }
         () if !SECOND_SHIFT.iter().all(|place| is_zero(*place)) => {
             Some("swivelled plane with a shift behind its turns")
         }

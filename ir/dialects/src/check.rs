@@ -273,7 +273,8 @@ fn names(dialect: &Dialect, places: &Places) -> Result<(), Fault> {
             if p.role.is_some() == p.refuse.is_some() || p.role.is_some() != p.quantity.is_some() {
                 return Err(wrong("has a parameter without `role` and `quantity`, or `refuse`"));
             }
-            let several = matches!(p.role, Some(ParameterRole::PointFirst | ParameterRole::PointSecond));
+            use ParameterRole as Role;
+            let several = matches!(p.role, Some(Role::PointFirst | Role::PointSecond | Role::FormText));
             let same = row.parameters.iter().filter(|q| q.role == p.role).count();
             if p.role.is_some() && !several && same > 1 {
                 return Err(wrong("has two parameters of one role"));

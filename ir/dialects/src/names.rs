@@ -314,6 +314,13 @@ pub enum ParameterRole {
     Settle,
     /// 0 breaks the chip, 1 clears it.
     Way,
+    /// The cycle's own plane: 0 the one in force, 1 XY, 2 ZX, 3 YZ.
+    WorkingPlane,
+    /// Ones: how the depth is stated, 0 by its argument, 1 below the reference plane, 2 absolute. The rest must be one
+    /// of `neutral`.
+    DepthMode,
+    /// A text that the input form shows, on which the hole does not depend.
+    FormText,
     /// How far up to break the chip; empty or 0 is 1 mm.
     Lift,
     /// Dwell at the bottom; empty or 0 is as after each peck.

@@ -90,7 +90,11 @@ impl Arguments<'_> {
 
     /// All from a place on are empty or zero.
     fn unused(&self, from: usize) -> bool {
-        (from..self.given.len()).all(|place| match self.given[place] {
+        self.all_unused(from, self.given.len())
+    }
+
+    fn all_unused(&self, from: usize, before: usize) -> bool {
+        (from..before.min(self.given.len())).all(|place| match self.given[place] {
             Argument::Empty => true,
             Argument::Number(number, _) => number == 0.0,
             Argument::Text => false,
@@ -118,7 +122,15 @@ pub(super) fn is_cycle(name: &str) -> bool {
 impl Control<'_> {
     /// Reads the call of a cycle.
     pub(super) fn cycle(&self, name: &str, given: &[Argument]) -> Result<Cycle, Halt> {
-        if given.contains(&Argument::Text) {
+        // Three places of the taps hold texts that the form alone shows.
+        let shown = match name {
+            "CYCLE84" => 18..21,
+            "CYCLE840" => 14..17,
+            _ => 0..0,
+        };
+        let text =
+            |(place, argument): (usize, &Argument)| *argument == Argument::Text && !shown.contains(&place);
+        if given.iter().enumerate().any(text) {
             return self.m.halt("a text as an argument of a cycle");
         }
         let a = Arguments { given, unit: self.unit() };
@@ -139,7 +151,8 @@ impl Control<'_> {
             "CYCLE81" => (Some(5), 6, 10.0),
             "CYCLE82" => (Some(5), 6, 10.0),
             "CYCLE85" => (Some(5), 8, 10.0),
-            "CYCLE84" | "CYCLE840" => (Some(5), 21, 10.0),
+            "CYCLE84" => (Some(5), 21, 10.0),
+            "CYCLE840" => (Some(5), 17, 10.0),
             "CYCLE86" => (Some(5), 11, 10.0),
             "CYCLE87" => (None, 6, 10.0),
             "CYCLE88" => (Some(5), 7, 10.0),
@@ -148,13 +161,18 @@ impl Control<'_> {
         };
         let dwell = dwell.map_or(0.0, |place| a.or_zero(place));
         let modes = [0, 1, 2].map(|k| a.or_zero(appended + k));
-        if modes[0] != 0.0 || modes[1] != 0.0 || ![0.0, mode].contains(&modes[2]) || !a.unused(appended + 3) {
+        // The last digit of the third: whether the depth stands as DPR (1) or DP (2), which it then does.
+        let stated = modes[2] % 10.0;
+        let agrees = stated == 0.0 || stated == if a.length(3).is_some() { 2.0 } else { 1.0 };
+        let others = [0.0, mode].contains(&(modes[2] - stated));
+        if modes[0] != 0.0 || !agrees || !others || !a.unused(appended + 3) {
             return self.m.halt("a way of machining in the appended arguments");
         }
+        self.own_plane(modes[1])?;
         let kind = match name {
             "CYCLE81" | "CYCLE82" => Kind::Drill,
             "CYCLE84" => {
-                if !a.unused(12) || a.or_zero(9) != 0.0 {
+                if !a.all_unused(12, 18) || a.or_zero(9) != 0.0 {
                     return self.m.halt("CYCLE84 with more than is known");
                 }
                 let (pitch, into) = self.pitch(&a, 7)?;
@@ -166,7 +184,7 @@ impl Control<'_> {
                 Kind::Rigid { pitch, into, speed, after: self.sense(a.or_zero(6))? }
             }
             "CYCLE840" => {
-                if !a.unused(11) {
+                if !a.all_unused(11, 14) {
                     return self.m.halt("CYCLE840 with more than is known");
                 }
                 let (pitch, _) = self.pitch(&a, 9)?;
@@ -200,6 +218,14 @@ impl Control<'_> {
         }
         let safe = reference + clearance;
         Ok(Cycle { kind, retract, reference, safe, depth, dwell, inch: self.m.inch, plane: self.m.plane })
+    }
+
+    /// A cycle's own plane: none, or G17, G18, G19 by 1, 2, 3, which is in force.
+    fn own_plane(&self, said: f64) -> Result<(), Halt> {
+        if said != 0.0 && said + 16.0 != f64::from(self.m.plane) {
+            return self.m.halt("a cycle of another plane than the one in force");
+        }
+        Ok(())
     }
 
     /// 3, 4 and 5 are M3, M4 and M5.
@@ -458,8 +484,10 @@ impl Control<'_> {
             "CYCLE801" => 7,
             _ => return self.points(&a),
         };
+        let last = if name == "CYCLE801" { 13 } else { 10 };
+        self.own_plane(a.or_zero(last))?;
         // An empty argument is zero (section 8), which is no number of holes.
-        if !a.unused(appended) {
+        if !a.all_unused(appended, last) || !a.unused(last + 1) {
             return self.m.halt(format!("an appended argument of {name}"));
         }
         let number = |place: usize| a.or_zero(place);

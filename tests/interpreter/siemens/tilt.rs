@@ -39,7 +39,17 @@ impl Control<'_> {
                 _ => return self.m.halt("another argument of CYCLE800"),
             }
         }
-        let nothing = [2, 10, 11, 12].iter().all(|place| values[*place] == 0.0);
+        // An optimised direction, minus or plus: the side is the stated one, as is taken for granted.
+        let optimised = match values[2] as i64 {
+            0 => 0.0,
+            100_000 => -1.0,
+            200_000 => 1.0,
+            _ => return self.m.halt("a status of CYCLE800"),
+        };
+        if optimised * values[13] < 0.0 {
+            return self.m.halt("CYCLE800 of two directions");
+        }
+        let nothing = [10, 11, 12].iter().all(|place| values[*place] == 0.0);
         if !nothing || arguments.len() < 14 || ![0.0, 1.0].contains(&values[15]) {
             return self.m.halt("CYCLE800 that does more than set a plane");
         }

@@ -141,6 +141,26 @@ fn cycles_that_are_none() {
         "NotSupported { code: 'CYCLE82', name: '_AMODE: mode of depths and dwells' } at '11'"
     );
     assert_eq!(
+        one("CYCLE82(5,0,2,,3,,,,12)"),
+        "NotSupported { code: 'CYCLE82', name: '_AMODE: mode of depths and dwells' } at '12'"
+    );
+    assert_eq!(
+        one("CYCLE82(5,0,2,-3,,,,,22)"),
+        "NotSupported { code: 'CYCLE82', name: '_AMODE: mode of depths and dwells' } at '22'"
+    );
+    assert_eq!(
+        one("CYCLE82(5,0,2,-3,,,,2,12)"),
+        "NotSupported { code: 'CYCLE82', name: '_DMODE: another plane than the one in force' } at '2'"
+    );
+    assert_eq!(
+        one("G18\nCYCLE82(5,0,2,-3,,,,2,12)\nCYCLE82(5,0,2,-3,,,,1,12)"),
+        "NotSupported { code: 'CYCLE82', name: '_DMODE: another plane than the one in force' } at '1'"
+    );
+    assert_eq!(
+        one("CYCLE82(5,0,2,-3,,,,11,12)"),
+        "NotSupported { code: 'CYCLE82', name: '_DMODE: mode of the display' } at '11'"
+    );
+    assert_eq!(
         one("CYCLE83(5,0,1,-20,,-8,,2,,,1,1)"),
         "NotSupported { code: 'CYCLE83', name: 'DAM: degression of pecks' } at '2'"
     );
