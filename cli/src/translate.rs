@@ -20,7 +20,7 @@ use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::own_distance;
 use ncc_ir::passes::passed_labels;
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::passes::{Legaliser, Target};
+use ncc_ir::passes::{Legaliser, Target, leave_out_values};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -317,6 +317,7 @@ impl<'j> Line<'j> {
             let there = caps.computes.as_deref().filter(|_| plainly);
             let mut found = Vec::new();
             if let Some(there) = there {
+                leave_out_values(&mut program, &caps, &mut found);
                 let stands = self.legaliser.stands();
                 (known, renamed) = as_there::say(self.job, &mut program, there, stands, &mut found);
             }

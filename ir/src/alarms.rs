@@ -3,9 +3,9 @@
 //! A number that the control has stays. Else it is counted from the first that it has (`10` is 65010 on a control with
 //! alarms from 65000), or is what its last three digits are (65010 is 10). One that no number had gets the first above
 //! zero. Where alarms have no numbers, the number stands before the text. The text stays, in the letters that the
-//! control has.
+//! control has, as far as it has place for it.
 //!
-//! Not here: characters that a control cannot show, and how long a text may be (the back-end's).
+//! Not here: characters that a control cannot show (the back-end's).
 
 use crate::program::Text;
 
@@ -16,12 +16,20 @@ pub struct Alarms {
     pub numbers: Option<[u32; 2]>,
     /// Whether its texts have capitals alone.
     pub capitals: bool,
+    /// How many characters of a text it shows; without, all.
+    pub longest: Option<usize>,
 }
 
 impl Alarms {
     /// What an alarm is on this control; nothing where it has no number for it.
     pub fn said(&self, number: Option<i64>, text: &str) -> Option<(Option<i64>, Text)> {
-        let shown = |text: &str| if self.capitals { text.to_ascii_uppercase() } else { text.to_owned() };
+        let shown = |text: &str| {
+            let text = if self.capitals { text.to_ascii_uppercase() } else { text.to_owned() };
+            match self.longest.and_then(|most| text.char_indices().nth(most)) {
+                Some((end, _)) => text[..end].trim_end().to_owned(),
+                None => text,
+            }
+        };
         let Some([from, to]) = self.numbers.map(|range| range.map(i64::from)) else {
             return Some((
                 None,
@@ -50,13 +58,15 @@ mod tests {
 
     #[test]
     fn an_alarm_has_the_number_and_the_text_of_the_other_control() {
-        let mill = Alarms { numbers: Some([0, 200]), capitals: true };
-        let other = Alarms { numbers: Some([65_000, 66_999]), capitals: false };
-        let texts = Alarms { numbers: None, capitals: false };
+        let mill = Alarms { numbers: Some([0, 200]), capitals: true, longest: Some(12) };
+        let other = Alarms { numbers: Some([65_000, 66_999]), capitals: false, longest: None };
+        let texts = Alarms { numbers: None, capitals: false, longest: None };
         let of = |alarms: Alarms, number, text| alarms.said(number, text).map(|(n, t)| (n, t.to_string()));
         assert_eq!(of(other, Some(10), "TOO WIDE"), Some((Some(65_010), "TOO WIDE".into())));
         assert_eq!(of(mill, Some(65_010), "too wide"), Some((Some(10), "TOO WIDE".into())));
         assert_eq!(of(mill, Some(101), ""), Some((Some(101), String::new())));
+        assert_eq!(of(mill, Some(5), "twelve signs"), Some((Some(5), "TWELVE SIGNS".into())));
+        assert_eq!(of(mill, Some(5), "the bore is too wide"), Some((Some(5), "THE BORE IS".into())));
         assert_eq!(of(mill, Some(65_201), ""), None);
         assert_eq!(of(mill, None, "no size"), Some((Some(1), "NO SIZE".into())));
         assert_eq!(of(other, None, "no size"), Some((Some(65_000), "no size".into())));

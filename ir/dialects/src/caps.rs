@@ -376,10 +376,11 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 exists: rules.exists.is_some(),
                 equal_within: rules.tolerance(),
                 whole: rules.whole,
-                alarms: rules
-                    .statements
-                    .contains(&Statement::Alarm)
-                    .then_some(Alarms { numbers: rules.alarms, capitals: dialect.comment.upper_ascii }),
+                alarms: rules.statements.contains(&Statement::Alarm).then_some(Alarms {
+                    numbers: rules.alarms,
+                    capitals: dialect.comment.upper_ascii,
+                    longest: (rules.alarm_text > 0).then_some(rules.alarm_text),
+                }),
                 system: systems(dialect),
                 worth: rules.not_behind.is_some(),
                 named_programs: dialect.program.o_words,

@@ -1,5 +1,5 @@
 //! Alarms under the numbers that the target has, or with their number before the text where it has none
-//! ([`crate::alarms`]), and told.
+//! ([`crate::alarms`]), and told; so is a text that ends before its end.
 //!
 //! Not here: alarms whose number is computed, and those that a control gives by itself.
 
@@ -38,7 +38,10 @@ fn body(stmts: &mut [Stmt], alarms: Alarms, told: &mut Vec<(String, Span)>) {
                             |n| n.to_string(),
                         )
                     };
-                    let what = format!("{} is {}", number(alarm), number(&other));
+                    let mut what = format!("{} is {}", number(alarm), number(&other));
+                    if other.number.is_some() && other.text.chars().count() < alarm.text.chars().count() {
+                        what.push_str(&format!(" with the text {:?}", &*other.text));
+                    }
                     if !told.iter().any(|(known, _)| *known == what) {
                         told.push((what, stmt.span));
                     }

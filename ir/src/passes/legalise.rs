@@ -5,7 +5,7 @@
 //! not looked into: a target that has such control can say everything, or it is `computing`.
 
 mod computing;
-mod messages;
+pub(super) mod messages;
 mod tool_data;
 
 use std::collections::{BTreeMap, BTreeSet};
