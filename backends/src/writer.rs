@@ -124,6 +124,17 @@ impl Writer {
         }
     }
 
+    /// Says which modes are in force where stretches of blocks begin, by the places of their first statements, in a
+    /// program that does not compute.
+    pub fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.know_modes(stands),
+            Kind::Siemens(writer) => writer.know_modes(stands),
+            // The text form says what is in force with every word; the other writes no subprograms.
+            Kind::Canon(_) | Kind::Ir(_) => {}
+        }
+    }
+
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         match &mut self.kind {

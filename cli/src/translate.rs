@@ -367,6 +367,7 @@ impl<'j> Line<'j> {
                 return Ok(());
             }
         } else {
+            self.writer.know_modes(as_there::stands(&program, self.legaliser.stands()));
             self.legaliser.run_program(&mut program, &mut found);
         }
         self.numbers = program.procedures.iter().skip(1).filter_map(|p| p.name.parse().ok()).collect();

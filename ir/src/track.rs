@@ -241,11 +241,15 @@ impl Tracker {
                 a.drilled = false;
             }
             (a, b) => {
-                let level = |cycle: &Option<InForce>, doubtful: Option<Nanos>| match cycle {
+                // A level that is not known does not become known where ways meet.
+                let level = |cycle: &Option<InForce>, doubt: bool, initial: Option<Nanos>| match cycle {
                     Some(cycle) => Some(cycle.initial),
-                    None => doubtful.map(Some),
+                    None => doubt.then_some(initial),
                 };
-                let levels = (level(a, self.doubtful_initial), level(b, other.doubtful_initial));
+                let levels = (
+                    level(a, self.cycle_in_doubt, self.doubtful_initial),
+                    level(b, other.cycle_in_doubt, other.doubtful_initial),
+                );
                 self.doubtful_initial = match levels {
                     (Some(one), None) | (None, Some(one)) => one,
                     (Some(a), Some(b)) if a == b => a,

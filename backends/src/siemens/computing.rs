@@ -56,6 +56,11 @@ impl Writer {
         self.main = procedures.first().cloned();
     }
 
+    /// Takes which modes are in force where stretches of blocks begin.
+    pub(crate) fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
+        self.words.know_modes(stands);
+    }
+
     /// A unit begins.
     pub(super) fn no_labels_yet(&mut self) {
         self.computing.written.clear();

@@ -65,6 +65,11 @@ impl Writer {
     /// A program that computes is written with its structure.
     pub(crate) fn is_kept(&mut self, stands: HashMap<u32, Modes>) {
         self.computing.kept = true;
+        self.know_modes(stands);
+    }
+
+    /// Takes which modes are in force where stretches of blocks begin.
+    pub(crate) fn know_modes(&mut self, stands: HashMap<u32, Modes>) {
         self.computing.stands = stands;
     }
 

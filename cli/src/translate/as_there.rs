@@ -1,7 +1,10 @@
 //! A program that computes, said with what the target computes with: forms of control, functions, known facts, and
 //! variables.
 
+use std::collections::HashMap;
+
 use ncc_dialects::Quantity;
+use ncc_ir::canon::Modes;
 use ncc_ir::computes::{Computes, Handed};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::passes::known_facts::{self, Known};
@@ -69,4 +72,16 @@ pub(super) fn say(
     let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch] };
     let renamed = variables::run(program, &computes, there, digits, found);
     (known, renamed)
+}
+
+/// The modes that are in force where stretches of blocks begin in a program with subprograms, where no word counts in
+/// another one than its block's; `at` is what holds where the program begins.
+pub(super) fn stands(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
+    if program.procedures.len() < 2 {
+        return HashMap::new();
+    }
+    let mut entry = at.clone();
+    entry.modes = entry.modes.or(program.assumed);
+    let known = known_facts::run(&mut program.clone(), &entry, false);
+    if own_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
 }

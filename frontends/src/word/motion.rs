@@ -238,7 +238,9 @@ impl Lower {
                 None if without.is_none() => {}
                 // Whether it is a way, the run of the program knows, and execution refuses that.
                 Some(word)
-                    if word.distance == Fact::Entry && without.is_none() && self.computes_anything() =>
+                    if word.distance == Fact::Entry
+                        && without.is_none()
+                        && (out.whole || self.computes_anything()) =>
                 {
                     self.state.level_open = false;
                 }

@@ -3,7 +3,7 @@
 //! What a subprogram takes from its caller (motion or cycle in force, distance mode, plane, units)
 //! becomes what this caller has in force.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::walk::Walk;
 use super::write::Rebuild;
@@ -16,7 +16,7 @@ use crate::kinds::{conduct, flow, miscellaneous, modes, tooling, variables};
 use crate::num::Unit;
 use crate::program::{
     Call, Centre, Coord, Data, FrameStep, Op, Pitch, Point, PoleWords, Procedure, Program, Shape, Slot, Stmt,
-    ToolLength,
+    Text, ToolLength,
 };
 use crate::source::Span;
 use crate::track::Tracker;
@@ -28,25 +28,44 @@ pub fn run(program: &mut Program, _: &Target, entry: &Tracker, diags: &mut Vec<D
 
 /// The same, with a walk that stands before the main procedure.
 pub(super) fn over(program: &mut Program, walk: &mut Walk, diags: &mut Vec<Diagnostic>) {
-    let mut procedures = std::mem::take(&mut program.procedures).into_iter();
-    let Some(mut main) = procedures.next() else { return };
-    let subs: Vec<Procedure> = procedures.collect();
-    let mut inliner = Inliner {
-        subs: subs.iter().map(|p| (&*p.name, p)).collect(),
-        stack: Vec::new(),
-        walk: std::mem::take(walk),
-        diags,
-        full: false,
-    };
-    let mut made = Rebuild::new(main.body.len());
-    inliner.body(&main.body, None, &mut made);
-    *walk = inliner.walk;
-    main.body = made.out;
-    program.procedures = vec![main];
+    let names = program.procedures.iter().skip(1).map(|sub| sub.name.clone()).collect();
+    some(program, walk, &names, diags);
+}
+
+/// Writes out those subprograms that are named, wherever they are called; the others stay.
+pub(super) fn some(
+    program: &mut Program,
+    walk: &mut Walk,
+    names: &BTreeSet<Text>,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let procedures = std::mem::take(&mut program.procedures);
+    for (at, procedure) in procedures.iter().enumerate() {
+        if at > 0 && names.contains(&procedure.name) {
+            continue;
+        }
+        let subs = procedures.iter().skip(1);
+        let mut inliner = Inliner {
+            subs: subs.map(|p| (&*p.name, p)).collect(),
+            kept: procedures.iter().skip(1).map(|p| &*p.name).filter(|name| !names.contains(*name)).collect(),
+            stack: Vec::new(),
+            walk: if at == 0 { std::mem::take(walk) } else { Walk::new(Tracker::unknown()) },
+            diags,
+            full: false,
+        };
+        let mut made = Rebuild::new(procedure.body.len());
+        inliner.body(&procedure.body, None, &mut made);
+        if at == 0 {
+            *walk = inliner.walk;
+        }
+        program.procedures.push(Procedure { body: made.out, ..procedure.clone() });
+    }
 }
 
 struct Inliner<'a> {
     subs: HashMap<&'a str, &'a Procedure>,
+    /// Those that are not written out.
+    kept: HashSet<&'a str>,
     stack: Vec<&'a str>,
     walk: Walk,
     diags: &'a mut Vec<Diagnostic>,
@@ -68,7 +87,7 @@ impl<'a> Inliner<'a> {
             }
             self.walk.enter(stmt.skip);
             match &mut stmt.op {
-                Op::Call(call) => {
+                Op::Call(call) if !self.kept.contains(&*call.name) => {
                     let call = std::mem::replace(
                         &mut **call,
                         Call { name: "".into(), times: 0, arguments: Vec::new(), shared: false },
@@ -115,7 +134,9 @@ impl<'a> Inliner<'a> {
         let input = std::mem::take(body);
         let mut made = Rebuild::new(input.len());
         for stmt in input {
-            if let Op::Call(call) = &stmt.op {
+            if let Op::Call(call) = &stmt.op
+                && !self.kept.contains(&*call.name)
+            {
                 let (call, span, skip) = ((**call).clone(), stmt.span, stmt.skip);
                 self.walk.enter(skip);
                 made.leave_out(stmt);

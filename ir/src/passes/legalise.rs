@@ -6,6 +6,7 @@
 
 mod computing;
 pub(super) mod messages;
+mod subprograms;
 mod tool_data;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -469,100 +470,6 @@ impl Legaliser {
         if written { self.lacks & ARC } else { 0 }
     }
 
-    /// Brings a program that is kept whole within the target's capabilities: the rest of the main
-    /// procedure, and all subprograms. Ends it, as [`Legaliser::finish`] does.
-    pub fn run_program(&mut self, rest: &mut Program, diags: &mut Vec<Diagnostic>) {
-        let assumed = rest.assumed;
-        self.walk.assume(&assumed);
-        let frames = self.lacks & FRAME != 0 && expand_frames::has_frames(rest, &self.target.caps);
-        // Where the frames can be said, subprograms stay what they are.
-        let apart = frames && !expand_frames::shifts_origin_in_calls(rest, &self.target.caps);
-        if apart && rest.procedures.len() > 1 && self.lacks & CALL == 0 {
-            let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
-            own.run_whole(&mut program, Subprograms::Keep, &mut found);
-            let worked_in = |d: &Diagnostic| {
-                d.fault.gravity() == Gravity::Error || matches!(d.fault, Fault::FramesExpanded)
-            };
-            if !found.iter().any(worked_in) {
-                (*self, *rest) = (own, program);
-                return diags.append(&mut found);
-            }
-        }
-        if frames || self.repeats_in_the_way(rest) {
-            expand_repeats::everywhere(rest, diags);
-        }
-        // A subprogram may lack what only its callers know: it is given that, or written out.
-        let ways = [Subprograms::Keep, Subprograms::Specialise, Subprograms::Expand];
-        let first = match self.lacks & CALL != 0 || frames {
-            true => 2,
-            false if !self.calls_under_expanded(rest) => 0,
-            false => {
-                let mut own = rest.clone();
-                let inherits = self.target.caps.inherits_motion;
-                specialise_procedures::over(&mut own, &self.walk, inherits, &mut Vec::new());
-                if self.calls_under_expanded(&own) { 2 } else { 1 }
-            }
-        };
-        if first == 2 {
-            return self.run_whole(rest, Subprograms::Expand, diags);
-        }
-        if self.lacks != 0 && rest.procedures.len() > 1 {
-            for way in ways.into_iter().skip(first) {
-                let (mut own, mut program, mut found) = (self.clone(), rest.clone(), Vec::new());
-                own.run_whole(&mut program, way, &mut found);
-                if !found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
-                    (*self, *rest) = (own, program);
-                    return diags.append(&mut found);
-                }
-            }
-        }
-        self.run_whole(rest, ways[first], diags);
-    }
-
-    /// The same, with subprograms treated in one way.
-    fn run_whole(&mut self, rest: &mut Program, way: Subprograms, diags: &mut Vec<Diagnostic>) {
-        let assumed = rest.assumed;
-        match way {
-            Subprograms::Keep => {}
-            Subprograms::Specialise => {
-                let inherits = self.target.caps.inherits_motion;
-                specialise_procedures::over(rest, &self.walk, inherits, diags);
-            }
-            Subprograms::Expand => {
-                expand_repeats::in_procedures(rest, self.target.caps.repeat_blocks, diags);
-                // The walk is needed again for the other passes.
-                expand_calls::over(rest, &mut self.walk.clone(), diags);
-            }
-        }
-        number_names::over(rest, &self.target, false, diags);
-        let mut procedures = rest.procedures.iter_mut();
-        if let Some(main) = procedures.next() {
-            self.run(&mut main.body, &assumed, diags);
-            self.finish(&mut main.body, diags);
-        }
-        for procedure in procedures {
-            self.walk = Walk::new(Tracker::unknown());
-            self.cycles = expand_cycles::State::default();
-            self.taps = taps::State::default();
-            self.threads = threads::State::default();
-            self.edge.start_over();
-            self.axis.start_over();
-            self.path.start_over();
-            self.one = one_move::State::default();
-            self.polar = polar_words::State::default();
-            self.corners = expand_corners::State::default();
-            self.arcs = arc_form::State::default();
-            self.frames.start_over();
-            self.machine = machine_moves::State::default();
-            self.change.start_over();
-            self.at_once = at_once::State::default();
-            self.run(&mut procedure.body, &Modes::default(), diags);
-            self.change.start_over();
-            self.finish(&mut procedure.body, diags);
-            self.at_once.end_of_sub(&procedure.body, diags);
-        }
-    }
-
     /// The end of the program: further statements, if any were waiting.
     pub fn finish(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
         self.corners.flush(stmts, diags);
@@ -570,56 +477,6 @@ impl Legaliser {
         self.one.flush(stmts);
         self.threads.finish(stmts, diags);
         self.change.finish(diags);
-    }
-
-    /// Whether blocks that are executed again may belong to a cycle that is written out, or lack what
-    /// is known only where they are written out.
-    fn repeats_in_the_way(&self, program: &Program) -> bool {
-        if self.lacks == 0 || !self.target.caps.repeat_blocks || !expand_repeats::repeats_blocks(program) {
-            return false;
-        }
-        let caps = &self.target.caps;
-        let moved = |p: &Procedure| {
-            caps.centres_from_zero && repeat_ends::moves_arcs(&p.body)
-                || (!caps.repeat_by_numbers || repeat_ends::changes_cycle(&p.body))
-                    && repeat_ends::under_another_cycle(&p.body)
-                || !caps.repeat_by_numbers && repeat_ends::is_one_block_of_several(&p.body)
-        };
-        if program.procedures.iter().any(moved) {
-            return true;
-        }
-        let (mut own, mut trial, mut found) = (self.clone(), program.clone(), Vec::new());
-        let way = if self.lacks & CALL != 0 { Subprograms::Expand } else { Subprograms::Keep };
-        own.run_whole(&mut trial, way, &mut found);
-        let written_out = |d: &Diagnostic| {
-            matches!(d.fault, Fault::CycleExpanded { .. }) || d.fault.gravity() == Gravity::Error
-        };
-        found.iter().any(written_out)
-    }
-
-    /// Whether positions in a subprogram may belong to a cycle that the target cannot say.
-    fn calls_under_expanded(&self, program: &Program) -> bool {
-        let calls = |p: &[Stmt]| p.iter().any(|s| matches!(s.op, Op::Call(_)));
-        if self.lacks & CYCLE == 0 || !program.procedures.iter().any(|p| calls(&p.body)) {
-            return false;
-        }
-        let walk = Walk::default();
-        let planes = self.target.caps.return_planes;
-        let bodies = || program.procedures.iter().enumerate();
-        let stands = |at: usize| if at == 0 { self.walk.clone() } else { Walk::new(Tracker::unknown()) };
-        bodies().flat_map(|(at, p)| p.body.iter().map(move |s| (at, s))).any(|(at, stmt)| match &stmt.op {
-            Op::StartCycle(cycle) if planes.is_some_and(|p| p != cycle.return_plane.is_some()) => {
-                let body = program.procedures.get(at).map_or(&[][..], |p| &p.body);
-                !return_plane::mends(body, &stands(at), &self.target)
-            }
-            Op::StartCycle(cycle) => {
-                let other = self.target.caps.approach.is_some_and(|a| a != cycle.approach);
-                let mut nothing = Vec::new();
-                let says = expand_cycles::sayable(&walk, cycle, &self.target, stmt.span, &mut nothing);
-                other || !says || !nothing.is_empty()
-            }
-            _ => false,
-        })
     }
 
     /// Refuses what no pass can mend.
@@ -675,17 +532,6 @@ impl Legaliser {
             messages::drop_messages(stmts, caps.stop_messages, diags);
         }
     }
-}
-
-/// What is done with subprograms.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Subprograms {
-    /// They stay as they are.
-    Keep,
-    /// They get what their callers have in force.
-    Specialise,
-    /// They are written out.
-    Expand,
 }
 
 /// Whether an arc has a word of the third axis that moves it.
