@@ -13,6 +13,7 @@ use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::exec::{Event, Exec, named_tool};
 use ncc_ir::expr::Function;
 use ncc_ir::num::Nanos;
+use ncc_ir::passes::variables::Fineness;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
@@ -77,6 +78,8 @@ pub(crate) struct Verifier {
     given: Given,
     /// What the target computes with.
     functions: Vec<Function>,
+    /// To which digits its lengths are rounded.
+    fineness: Fineness,
     /// Last place of the source that was executed, for differences without an event.
     last: Span,
     /// What was not executed, or with values that were made up.
@@ -115,6 +118,16 @@ pub(crate) fn resolution(settings: &Settings) -> Resolution {
         feed: feed.decimals,
         feed_inch: feed.decimals_inch.unwrap_or(feed.decimals),
         second: numbers(Quantity::Seconds).decimals.max(3),
+    }
+}
+
+/// To which digits the target's lengths are rounded, those that are written and those that are computed.
+fn fineness(job: &Job) -> Fineness {
+    let rules = job.to.dialect.numbers(Quantity::Length);
+    let computed = [rules.increment, rules.increment_inch.unwrap_or(rules.increment)];
+    Fineness {
+        written: [rules.decimals, rules.decimals_inch.unwrap_or(rules.decimals)],
+        computed: job.to.dialect.formula.rounds.then_some(computed),
     }
 }
 
@@ -234,6 +247,7 @@ impl Verifier {
             stood: false,
             own_facts: own_facts(job),
             given: job.given.clone(),
+            fineness: fineness(job),
             functions: job.to.caps().computes.map(|computes| computes.functions).unwrap_or_default(),
             last: Span::default(),
             notes: Vec::new(),

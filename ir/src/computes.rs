@@ -177,6 +177,8 @@ pub struct Computes {
     pub vacant: bool,
     /// Whether words round what is computed for them to their increment.
     pub rounds: bool,
+    /// Whether the angles of an arc sine and an arc tangent lie from 0 to a turn, as the machine may be set.
+    pub turn: bool,
     /// Whether the opposite of a condition can be said.
     pub opposite: bool,
     /// Whether comparisons find real numbers equal that are nearly so.

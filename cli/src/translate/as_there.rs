@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use ncc_dialects::Quantity;
+use ncc_dialects::{CodeRow, Quantity};
 use ncc_ir::canon::Modes;
 use ncc_ir::computes::{Computes, Handed};
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -69,7 +69,9 @@ pub(super) fn say(
     }
     let lengths = to.numbers(Quantity::Length);
     let inch = lengths.increment_inch.unwrap_or(lengths.increment);
-    let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch] };
+    let both = |row: &CodeRow| row.dwell.iter().any(|word| word.quantity == Quantity::Milliseconds);
+    let seconds = to.code.iter().any(both).then(|| to.numbers(Quantity::Seconds).increment);
+    let digits = Digits { decimals: lengths.decimals, increments: [lengths.increment, inch], seconds };
     let renamed = variables::run(program, &computes, there, digits, found);
     (known, renamed)
 }

@@ -46,7 +46,15 @@ const LEFT_THERE: f64 = -791.3;
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
 /// What may be taken for granted of a source's numbers, alone and together.
-const READINGS: [&[Taken]; 3] = [&[Taken::Apart], &[Taken::NotNegative], &[Taken::Apart, Taken::NotNegative]];
+const READINGS: [&[Taken]; 7] = [
+    &[Taken::Apart],
+    &[Taken::NotNegative],
+    &[Taken::Together],
+    &[Taken::Apart, Taken::NotNegative],
+    &[Taken::Apart, Taken::Together],
+    &[Taken::NotNegative, Taken::Together],
+    &[Taken::Apart, Taken::NotNegative, Taken::Together],
+];
 
 /// Values for what a program reads and has not set.
 struct Given<'g> {
@@ -60,7 +68,7 @@ struct Given<'g> {
     /// What the output calls the source's variables.
     renamed: Renamed,
     /// The source of an output that computes, in the other [`READINGS`].
-    other_readings: [Option<Program>; 3],
+    other_readings: [Option<Program>; READINGS.len()],
 }
 
 impl<'g> Given<'g> {
@@ -83,7 +91,7 @@ impl<'g> Given<'g> {
             stated,
             pool,
             renamed: Renamed::default(),
-            other_readings: [const { None }; 3],
+            other_readings: [const { None }; READINGS.len()],
         }
     }
 
@@ -224,7 +232,8 @@ impl Verifier {
             given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
         }
         if computes {
-            given.other_readings = READINGS.map(|taken| otherwise(source, taken, &self.functions));
+            given.other_readings =
+                READINGS.map(|taken| otherwise(source, taken, &self.functions, self.fineness));
         }
         let given = &*given;
         let mut gone = Gone::default();

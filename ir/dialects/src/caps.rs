@@ -387,6 +387,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 prefix: rules.prefix.as_str().into(),
                 vacant: rules.vacant.is_some(),
                 rounds: rules.rounds,
+                // An option of the control says so ([`crate::Settings::caps`]).
+                turn: false,
                 blocks: rules.blocks,
                 opposite: rules.not.is_some() || rules.not_behind.is_some(),
                 near: rules.near,

@@ -122,6 +122,9 @@ impl Settings {
         if self.writes_names() {
             caps.call_digits = 0;
         }
+        if let Some(computes) = &mut caps.computes {
+            computes.turn = self.get(ANGLE_RANGE) == "turn";
+        }
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps
     }

@@ -1,11 +1,12 @@
 //! What a translation takes for granted of the numbers of a program, read the other way: not a pass.
 //!
 //! A target that compares to the least bit takes for granted that no two numbers are only nearly equal; one whose
-//! functions round towards zero, that none is below zero. Where an output differs from its source, and not from the
+//! functions round towards zero, that none is below zero; one whose words have fewer digits, that what it rounds comes to
+//! nothing where it adds up. Where an output differs from its source, and not from the
 //! source in the other reading, the numbers are not as they were taken for; any other difference is a wrong translation.
 
 use super::arithmetic::compared;
-use super::variables::expressions;
+use super::variables::{Fineness, as_rounded, expressions};
 use crate::expr::{Binary, Expr, Function, Node};
 use crate::program::Program;
 
@@ -16,6 +17,8 @@ pub enum Taken {
     Apart,
     /// Numbers that are rounded up or down, or divided for a remainder, are not below zero.
     NotNegative,
+    /// Lengths that the target rounds, each by itself, add up to no more than its last digit.
+    Together,
 }
 
 impl Taken {
@@ -24,15 +27,23 @@ impl Taken {
         match self {
             Taken::Apart => "two numbers that are nearly the same where they are compared",
             Taken::NotNegative => "a number below zero that is rounded, or divided for a remainder",
+            Taken::Together => {
+                "lengths with more digits than the control's, which it rounds one by one, and which add up"
+            }
         }
     }
 }
 
-/// The program with the other reading of what is taken for granted, where a target has these functions; `None` where it
-/// has none.
-pub fn otherwise(program: &Program, taken: &[Taken], functions: &[Function]) -> Option<Program> {
+/// The program with the other reading of what is taken for granted, where a target has these functions and digits;
+/// `None` where it has none.
+pub fn otherwise(
+    program: &Program,
+    taken: &[Taken],
+    functions: &[Function],
+    fineness: Fineness,
+) -> Option<Program> {
     let mut other = program.clone();
-    let mut found = false;
+    let mut found = taken.contains(&Taken::Together) && as_rounded(&mut other, fineness);
     for procedure in &mut other.procedures {
         expressions(&mut procedure.body, &mut |_, expr| over(expr, taken, functions, &mut found));
     }

@@ -25,6 +25,9 @@ use crate::num::Unit;
 use crate::program::{Control, Op, Program, Stmt};
 use crate::types::Types;
 
+pub use words::Fineness;
+pub(super) use words::as_rounded;
+
 /// Variables of the main procedure, and those that all procedures see: what each is called in the target.
 #[derive(Clone, Debug, Default)]
 pub struct Renamed {
@@ -53,6 +56,9 @@ pub struct Digits {
     pub decimals: u8,
     /// To which its words round what is computed, in mm or degrees, and in inches.
     pub increments: [u8; 2],
+    /// To which words of seconds do; none where its dwell has one word alone, of which what is computed may count
+    /// seconds or milliseconds.
+    pub seconds: Option<u8>,
 }
 
 /// Puts the target's variables in.
@@ -62,7 +68,7 @@ pub fn run(
     program: &mut Program,
     from: &Computes,
     computes: &Computes,
-    Digits { decimals, increments }: Digits,
+    Digits { decimals, increments, seconds }: Digits,
     diags: &mut Vec<Diagnostic>,
 ) -> Renamed {
     // A language takes what is said in it as it is.
@@ -94,7 +100,10 @@ pub fn run(
     }
     let pairs = if own { Vec::new() } else { names::put(program, from, computes, diags) };
     if computes.rounds && !from.rounds {
-        words::rounds(program, increments);
+        words::rounds(program, increments, diags);
+    }
+    if let Some(seconds) = seconds.filter(|_| computes.rounds && !own) {
+        words::waits(program, seconds);
     }
     if !computes.rounds {
         let inches = program.assumed.units == Some(Units::Inch)

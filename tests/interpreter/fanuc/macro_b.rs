@@ -394,7 +394,11 @@ impl Control {
         let mut words = Vec::new();
         for (letter, text) in raw.iter().copied() {
             if text.contains(['#', '[']) {
-                let rounding = self.address(letter, other)?;
+                // A dwell by X is in seconds, of which the least is a millisecond.
+                let rounding = match (letter, code(&["4", "04"]) && !self.variables.haas) {
+                    ('X', true) => Rounding::To(3),
+                    _ => self.address(letter, other)?,
+                };
                 let Some(value) = self.computed(text, rounding)? else { continue };
                 let value = match rounding {
                     Rounding::To(digits) => round_to(value, digits),

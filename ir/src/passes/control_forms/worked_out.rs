@@ -3,7 +3,8 @@
 //! it is no number, the base of a power, which is written as a product, and angles by the arc cosine.
 //!
 //! `#1 = MAX[#2, #3]` is `#1 = #2` and `IF [#1 LT #3] THEN #1 = #3`: nothing is computed that the function does not
-//! compute. Angles of sines and tangents are those of cosines where these are as fine as the numbers are, to 13 digits. A value that stands in a word, in a condition or among arguments is worked out in a
+//! compute. An angle that the target gives from 0 to a turn, as `#1 = ATAN[#2]/[#3]`, is taken back by a turn where it is
+//! more than half of one. Angles of sines and tangents are those of cosines where these are as fine as the numbers are, to 13 digits. A value that stands in a word, in a condition or among arguments is worked out in a
 //! variable of its own; what a loop asks before its turns is worked out before the loop and at the end of each turn.
 //!
 //! What stays as it is, and is refused as what it is: functions in blocks that can be skipped, or behind assignments in
@@ -48,6 +49,11 @@ fn call(function: Function, a: Expr) -> Expr {
 /// The angle of a sine, by the cosine that is the same.
 fn beside_cosine(a: Expr) -> Expr {
     binary(Binary::Subtract, Expr::int(90), call(Function::Acos, a))
+}
+
+/// An angle on both sides of zero, from 0 to a turn.
+fn from_zero(angle: Expr) -> Expr {
+    binary(Binary::Modulo, binary(Binary::Add, angle, Expr::int(360)), Expr::int(360))
 }
 
 /// A number, or a variable that the program alone changes.
@@ -265,12 +271,35 @@ impl WorkedOut<'_> {
         match function {
             Function::Min | Function::Max => !self.has(function) && !self.computes.worth,
             Function::RoundUp | Function::Ceiling => !up && self.has(Function::Truncate),
+            Function::Asin | Function::Atan2 if self.turns_round(function) => true,
             Function::Asin => !self.has(function) && self.has(Function::Acos),
             Function::Atan2 => {
                 !self.has(function)
                     && [Function::Acos, Function::Sqrt, Function::Abs].map(|f| self.has(f)) == [true; 3]
             }
             _ => false,
+        }
+    }
+
+    /// Whether a function gives angles from 0 to a turn, of which those below zero are made by a decision.
+    fn turns_round(&self, function: Function) -> bool {
+        self.computes.turn && self.has(function) && matches!(function, Function::Asin | Function::Atan2)
+    }
+
+    /// Angles of which a sine, a cosine or a tangent is asked: a turn more is the same there.
+    fn any_turn(&self, e: &mut Expr) {
+        let Expr::Node(node) = &mut *e else { return };
+        match &mut **node {
+            Node::Unary(Unary::Negate, a) => self.any_turn(a),
+            Node::Binary(Binary::Add | Binary::Subtract, a, b) => {
+                self.any_turn(a);
+                self.any_turn(b);
+            }
+            Node::Call(function, _) if self.turns_round(*function) => {
+                let angle = std::mem::replace(e, Expr::int(0));
+                *e = from_zero(angle);
+            }
+            _ => {}
         }
     }
 
@@ -304,10 +333,16 @@ impl WorkedOut<'_> {
         let Node::Binary(Binary::Modulo, sum, of) = &mut **node else { return false };
         let Expr::Node(inner) = &mut *sum else { return false };
         let Node::Binary(Binary::Add, angle, more) = &mut **inner else { return false };
-        let Expr::Node(asked) = &*angle else { return false };
-        let angles = matches!(&**asked, Node::Call(function @ (Function::Asin | Function::Atan2), _) if self.lacks(*function));
-        if !angles || !turn(of) || !turn(more) {
+        let Expr::Node(asked) = &mut *angle else { return false };
+        let Node::Call(function @ (Function::Asin | Function::Atan2), arguments) = &mut **asked else {
             return false;
+        };
+        if !self.lacks(*function) || !turn(of) || !turn(more) {
+            return false;
+        }
+        if self.turns_round(*function) {
+            arguments.iter_mut().for_each(|part| self.expr(part, false, span, before));
+            return true;
         }
         self.expr(angle, false, span, before);
         let Expr::Node(worked) = &*angle else { return false };
@@ -330,6 +365,9 @@ impl WorkedOut<'_> {
             return;
         }
         let Expr::Node(node) = e else { return };
+        if let Node::Call(Function::Sin | Function::Cos | Function::Tan, arguments) = &mut **node {
+            arguments.iter_mut().for_each(|angle| self.any_turn(angle));
+        }
         match &mut **node {
             Node::Binary(Binary::And | Binary::Or | Binary::Xor, a, b) => {
                 self.expr(a, true, span, before);
@@ -398,6 +436,14 @@ impl WorkedOut<'_> {
         before: &mut Before,
     ) {
         match (function, &arguments[..]) {
+            (Function::Asin | Function::Atan2, _) if self.turns_round(function) => {
+                let angle = Expr::Node(Box::new(Node::Call(function, arguments)));
+                let back = binary(Binary::Subtract, value(to), Expr::int(360));
+                before.stmts.extend([
+                    assign(to, from_zero(angle), span),
+                    when(binary(Binary::Greater, value(to), Expr::int(180)), assign(to, back, span)),
+                ]);
+            }
             (Function::Asin, [a]) => {
                 before.stmts.push(assign(to, beside_cosine(a.clone()), span));
             }

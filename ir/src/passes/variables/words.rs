@@ -1,6 +1,8 @@
 //! What the target's words and functions do by themselves: a rounding that ends below its last digit is taken away, a
 //! remainder and a rounding up that it has no words for are said by others.
 
+use std::cell::Cell;
+
 use super::{each_value, expressions};
 use crate::arguments;
 use crate::canon::{Distance, Units};
@@ -9,6 +11,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Node};
 use crate::num::{Num, Unit};
 use crate::program::{Centre, Coord, Op, Point, Program, Stmt};
+use crate::source::Span;
 use crate::types::Types;
 
 /// A literal that is rounded, as the whole number that it comes to.
@@ -107,25 +110,122 @@ fn rounded(value: &Expr) -> Option<(Expr, u8)> {
     }
 }
 
-/// Says that lengths from zero are rounded, where the target's words do that by themselves and the source's do not:
-/// they are no further off than half of the target's last digit. `increments` are the digits in mm, or degrees, and in
-/// inches. Of frames only those are, which have no more digits than that: what they move is rounded once more. What adds
-/// up, or counts, stays as it is, and so do all where a program goes from one unit to the other.
-pub(super) fn rounds(program: &mut Program, increments: [u8; 2]) {
-    let mut said = (false, false, false);
-    for procedure in &program.procedures {
-        modes(&procedure.body, &mut said);
-    }
-    let (mm, inch, incremental) = said;
-    let inch = inch || program.assumed.units == Some(Units::Inch);
-    if mm && inch {
-        return;
-    }
-    let digits = [increments[usize::from(inch)], increments[0]];
+/// Says that lengths are rounded, where the target's words do that by themselves and the source's do not: those from
+/// zero are no further off than half of the target's last digit. `increments` are the digits in mm, or degrees, and in
+/// inches. What adds up is the same where it has no more digits than that; where it may have more, that the roundings
+/// come to nothing is taken for granted and told: execution tells whether it is so. Of frames only those are, which have
+/// no more digits: what they move is rounded once more. Speeds and what counts must be whole anyway. Lengths stay as they
+/// are where a program goes from one unit to the other.
+pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec<Diagnostic>) {
     let mut decimals = Decimals::of(program);
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);
-        round_in(&mut procedure.body, digits, incremental, &decimals);
+        each_op(&mut procedure.body, &mut |stmt| {
+            if let Op::SetSpindleSpeed(value) | Op::LimitSpindleSpeed(value) = &mut stmt.op
+                && decimals.is_whole(value)
+            {
+                round(value, 0);
+            }
+        });
+    }
+    let Some(inch) = inches(program) else { return };
+    let digits = [increments[usize::from(inch)], increments[0]];
+    let mut said = (false, false, false);
+    program.procedures.iter().for_each(|procedure| modes(&procedure.body, &mut said));
+    let mut adds_up = None;
+    for (at, procedure) in program.procedures.iter_mut().enumerate() {
+        decimals.within(at);
+        round_in(&mut procedure.body, digits, said.2, &decimals, &mut adds_up);
+    }
+    if let Some(at) = adds_up {
+        let parameter = "increments that the control rounds".into();
+        let value = "no further off together than its last digit, as in this program".into();
+        diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
+    }
+}
+
+/// Whether all lengths of a program are in inches; `None` where it goes from one unit to the other.
+pub(in crate::passes) fn inches(program: &Program) -> Option<bool> {
+    let mut said = (false, false, false);
+    program.procedures.iter().for_each(|procedure| modes(&procedure.body, &mut said));
+    let inch = said.1 || program.assumed.units == Some(Units::Inch);
+    (!(said.0 && inch)).then_some(inch)
+}
+
+/// The digits that a target has for lengths.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fineness {
+    /// Of what is written, in mm and in inches.
+    pub written: [u8; 2],
+    /// Of what is computed, in mm and in inches; none where its words do not round.
+    pub computed: Option<[u8; 2]>,
+}
+
+/// Rounds what moves the tool as the target does, each word by itself. Whether anything is.
+pub(in crate::passes) fn as_rounded(program: &mut Program, fineness: Fineness) -> bool {
+    let Some(inch) = inches(program) else { return false };
+    let of = |digits: [u8; 2]| [digits[usize::from(inch)], digits[0]];
+    let (written, computed) = (of(fineness.written), fineness.computed.map(of));
+    let mut any = false;
+    let mut over = |stmt: &mut Stmt| {
+        let (Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) | Op::Hole(to)) =
+            &mut stmt.op
+        else {
+            return;
+        };
+        for (axis, word) in to.to.axes.iter_mut().enumerate() {
+            let Some(word) = word else { continue };
+            let turns = usize::from(axis > 2);
+            match (&mut word.value, computed) {
+                (Expr::Num(n), _) if n.trimmed().scale > written[turns] => {
+                    *n = n.rounded(written[turns]);
+                    any = true;
+                }
+                (value @ Expr::Node(_), Some(digits)) if rounded(value).is_none() => {
+                    round(value, digits[turns]);
+                    any = true;
+                }
+                _ => {}
+            }
+        }
+    };
+    program.procedures.iter_mut().for_each(|procedure| each_op(&mut procedure.body, &mut over));
+    any
+}
+
+/// Says that times are rounded, where the target's words do that by themselves, to so many digits: no wait is further off
+/// than half of the last. What another control's word rounds to milliseconds is the same, divided first.
+pub(super) fn waits(program: &mut Program, digits: u8) {
+    let over = |stmt: &mut Stmt| {
+        let Op::Dwell(value) = &mut stmt.op else { return };
+        if let Expr::Node(node) = &mut *value
+            && let Node::Binary(Binary::Divide, a, by) = &mut **node
+            && digits == 3
+            && *by == Expr::int(1000)
+            && let Some((inner, 0)) = rounded(a)
+        {
+            *a = inner;
+        }
+        round(value, digits);
+    };
+    program.procedures.iter_mut().for_each(|procedure| each_op(&mut procedure.body, &mut |stmt| over(stmt)));
+}
+
+/// Shows every statement of a body and of the bodies in it.
+fn each_op(body: &mut [Stmt], seen: &mut dyn FnMut(&mut Stmt)) {
+    for stmt in body {
+        if let Op::Control(control) = &mut stmt.op {
+            control.bodies_mut().for_each(|body| each_op(body, seen));
+        }
+        seen(stmt);
+    }
+}
+
+/// Says that a computed value is rounded, if nothing says so yet.
+pub(in crate::passes) fn round(value: &mut Expr, digits: u8) {
+    if matches!(value, Expr::Node(_)) && rounded(value).is_none() {
+        let own = std::mem::replace(value, Expr::int(0));
+        *value = Expr::Node(Box::new(Node::Call(Function::RoundTo, vec![own, Expr::int(digits.into())])));
     }
 }
 
@@ -142,22 +242,27 @@ fn modes(body: &[Stmt], said: &mut (bool, bool, bool)) {
     }
 }
 
-fn round_in(body: &mut [Stmt], digits: [u8; 2], incremental: bool, decimals: &Decimals) {
-    let round = |value: &mut Expr, digits: u8| {
-        if matches!(value, Expr::Node(_)) && rounded(value).is_none() {
-            let own = std::mem::replace(value, Expr::int(0));
-            *value = Expr::Node(Box::new(Node::Call(Function::RoundTo, vec![own, Expr::int(digits.into())])));
-        }
-    };
+fn round_in(
+    body: &mut [Stmt],
+    digits: [u8; 2],
+    incremental: bool,
+    decimals: &Decimals,
+    adds_up: &mut Option<Span>,
+) {
     // What the word in force is, nothing in the program makes incremental.
     let from_zero = |word: &Coord| match word.distance.known() {
         Some(distance) => distance == Distance::Absolute,
         None => !incremental,
     };
+    let fine = |word: &Coord, digits: u8| decimals.digits(&word.value).is_none_or(|own| own > digits);
+    let further = Cell::new(false);
     let point = |to: &mut Point| {
         for (axis, word) in to.axes.iter_mut().enumerate() {
-            if let Some(word) = word.as_mut().filter(|word| from_zero(word)) {
-                round(&mut word.value, digits[usize::from(axis > 2)]);
+            let Some(word) = word else { continue };
+            let digits = digits[usize::from(axis > 2)];
+            if matches!(word.value, Expr::Node(_)) && rounded(&word.value).is_none() {
+                further.set(further.get() || !from_zero(word) && fine(word, digits));
+                round(&mut word.value, digits);
             }
         }
     };
@@ -177,7 +282,10 @@ fn round_in(body: &mut [Stmt], digits: [u8; 2], incremental: bool, decimals: &De
             }
             Op::StartCycle(cycle) => {
                 let planes = [Some(&mut cycle.retract), Some(&mut cycle.depth), cycle.return_plane.as_mut()];
-                for plane in planes.into_iter().flatten().filter(|plane| from_zero(plane)) {
+                for plane in planes.into_iter().flatten() {
+                    if !from_zero(plane) && fine(plane, digits[0]) {
+                        continue;
+                    }
                     round(&mut plane.value, digits[0]);
                 }
             }
@@ -196,9 +304,13 @@ fn round_in(body: &mut [Stmt], digits: [u8; 2], incremental: bool, decimals: &De
                 all.unwrap_or_else(|never| match never {});
             }
             Op::Control(control) => {
-                control.bodies_mut().for_each(|body| round_in(body, digits, incremental, decimals));
+                let bodies = control.bodies_mut();
+                bodies.for_each(|body| round_in(body, digits, incremental, decimals, adds_up));
             }
             _ => {}
+        }
+        if further.take() && adds_up.is_none() {
+            *adds_up = Some(stmt.span);
         }
     }
 }
