@@ -181,22 +181,11 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
 }
 
 /// What a dialect was given and cannot give back, and why.
-const NO_WAY_BACK: [(&str, &str); 5] = [
+const NO_WAY_BACK: [(&str, &str); 2] = [
     (
         "fanuc/g74-dwell.nc through siemens",
         "a tap with a chuck that dwells at R as well is written out as blocks with the chuck (G63), of which the \
          way back makes no cycle",
-    ),
-    (
-        "fanuc/plates.nc through siemens",
-        "a stop with a message is a message and a stop in blocks of their own, of which the way back makes none",
-    ),
-    ("fanuc/plates.nc through linuxcnc", "the same"),
-    (
-        "haas/g84.nc through siemens",
-        "a hole left to the initial level follows holes left to R: as a call of its own it has a return plane \
-         above where the tool stands, which only a cycle written out can have there, and a rigid tap is not \
-         written out in words",
     ),
     (
         "linuxcnc/g84-dwell.ngc through siemens",

@@ -6,8 +6,7 @@ use super::term::real;
 use super::{Event, Exec, Kind};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
-use crate::program::{Op, Piece, Text};
-use crate::source::Span;
+use crate::program::{Op, Piece, Stmt, Text};
 use crate::value::Value;
 
 /// A value as it stands in a text.
@@ -46,16 +45,18 @@ fn text(pieces: &[Piece]) -> Option<Text> {
 
 impl Exec {
     /// Makes no events of messages: for a comparison with a control that cannot show them, but for those of a
-    /// program stop if it can show these.
+    /// program stop, in its block or the one before it, if it can show these.
     pub fn mute(&mut self, but_stops: bool) {
         self.muted = true;
         self.stops_speak = but_stops;
     }
 
-    pub(super) fn message(&mut self, op: &Op, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
-        match op {
+    pub(super) fn message(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        match &stmt.op {
             Op::Message(text) if self.muted && self.stops_speak => {
-                self.unspoken = Some(Box::new((text.clone(), span)));
+                let own = || Box::new((text.clone(), span, stmt.skip));
+                self.unspoken = (!text.is_empty()).then(own);
             }
             Op::Message(_) | Op::MessageOf(_) if self.muted => {}
             Op::Message(text) => self.emit(Kind::Message(text.clone()), span, out)?,

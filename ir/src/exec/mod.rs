@@ -119,9 +119,10 @@ pub struct Exec {
     /// Whether messages make no events, but for those of program stops.
     muted: bool,
     stops_speak: bool,
-    /// The message of the statement at hand, and of the one before it, if it makes none but for a program stop.
-    unspoken: Option<Box<(Text, Span)>>,
-    before: Option<Box<(Text, Span)>>,
+    /// The message of the statement at hand, and of the one before it, if it makes none but for a program stop; with
+    /// their levels of block skip.
+    unspoken: Option<Box<(Text, Span, Option<u8>)>>,
+    before: Option<Box<(Text, Span, Option<u8>)>>,
     /// Whether events are counted only.
     quiet: bool,
     /// Whether functions are told that make no events.
@@ -662,7 +663,7 @@ impl Exec {
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
             Op::EndCycle => self.cycle = None,
             Op::ProgramStop => {
-                if let Some(before) = self.before.take().filter(|_| stmt.joined) {
+                if let Some(before) = self.before.take().filter(|before| before.2 == stmt.skip) {
                     self.emit(Kind::Message(before.0), before.1, out)?;
                 }
                 self.emit(Kind::ProgramStop, span, out)?;
@@ -672,7 +673,7 @@ impl Exec {
                 self.emit(Kind::ProgramEnd, span, out)?;
                 self.ended = true;
             }
-            Op::Message(_) | Op::MessageOf(_) | Op::Alarm(_) => self.message(&stmt.op, span, out)?,
+            Op::Message(_) | Op::MessageOf(_) | Op::Alarm(_) => self.message(stmt, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),
             Op::RepeatBlocks(_) => return self.not_executed("a repetition in the midst of a stream", span),

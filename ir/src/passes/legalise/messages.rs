@@ -5,15 +5,17 @@ use crate::computes::Said;
 use crate::diag::{Diagnostic, Fault};
 use crate::program::{Op, Piece, Program, Stmt};
 
-/// Messages become comments; those with which the program stops stay where the target has them.
+/// Messages become comments; those with which the program stops stay where the target has them, in the block of the
+/// stop or in the one before it. One without a text, which takes another back, is none where none stays.
 pub(super) fn drop_messages(stmts: &mut [Stmt], with_stop: bool, diags: &mut Vec<Diagnostic>) {
     for at in 0..stmts.len() {
-        let next = stmts.get(at + 1);
-        let stays = next.is_some_and(|next| next.joined && matches!(next.op, Op::ProgramStop));
-        let stmt = &mut stmts[at];
-        if let Op::Message(text) = &mut stmt.op
-            && !(with_stop && stays)
-        {
+        let (before, behind) = stmts.split_at_mut(at + 1);
+        let Some(stmt) = before.last_mut() else { continue };
+        let Op::Message(text) = &mut stmt.op else { continue };
+        let stops = behind.first().is_some_and(|next| next.op == Op::ProgramStop && next.skip == stmt.skip);
+        if text.is_empty() {
+            stmt.op = Op::Blank;
+        } else if !(with_stop && stops) {
             let text = std::mem::take(text);
             diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
             stmt.op = Op::Comment(text);
