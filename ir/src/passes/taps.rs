@@ -42,6 +42,8 @@ pub(super) struct State {
     pub(super) said: Said,
     /// A tap has been changed and is in force, and relies on feed or speed staying as they are.
     changed: bool,
+    /// The feed that it says on the target.
+    feed: Option<Num>,
     /// What its end has to say.
     owed: Vec<Op>,
     /// A bore is in force that relies on the spindle turning clockwise.
@@ -58,6 +60,13 @@ impl State {
     #[inline]
     pub(super) fn note(&mut self, stmt: &Stmt) {
         self.said.note(stmt);
+    }
+
+    /// Whether a feed is the one that a changed tap says on the target.
+    fn says_the_same(&self, stmt: &Stmt, walk: &Walk) -> bool {
+        let Op::SetFeedRate(feed) = &stmt.op else { return false };
+        let both = [feed.literal(), self.feed].map(|feed| in_unit(feed?, walk).ok());
+        stmt.skip.is_none() && both[0].is_some() && both[0] == both[1]
     }
 }
 
@@ -123,7 +132,12 @@ pub(super) fn over(
                 Op::Position(_) => walk.at.modes.motion != Some(Motion::Cycle),
                 _ => false,
             };
-        let relies = state.changed && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_));
+        let same = state.changed && state.says_the_same(&stmt, walk);
+        if same {
+            // It is in force there already, and stays so behind the tap.
+            state.owed.retain(|op| !matches!(op, Op::SetFeedRate(_)));
+        }
+        let relies = state.changed && !same && matches!(stmt.op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_));
         if ends && state.changed && stmt.skip.is_some() || relies {
             let what = if ends { "the end of a tapping cycle that can be skipped" } else { RELIES };
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
@@ -134,7 +148,7 @@ pub(super) fn over(
         state.clockwise &= !ends;
         let mut after = Vec::new();
         if ends {
-            state.changed = false;
+            (state.changed, state.feed) = (false, None);
             after = std::mem::take(&mut state.owed);
             let again = matches!(&stmt.op, Op::StartCycle(cycle) if matches!(cycle.kind, CycleKind::Tap(_)));
             if again {
@@ -240,6 +254,7 @@ fn fit(
             let feed = feed_of(pitch.literal(), state.said.speed, walk)?;
             tap.pitch = Pitch::Feed;
             cycle.feed = Some(feed.into());
+            state.feed = Some(feed);
             state.owed.extend(state.said.feed.map(|feed| Op::SetFeedRate(feed.into())));
         }
         _ => {}
