@@ -135,6 +135,16 @@ impl Writer {
         }
     }
 
+    /// Says that the program is called by another, before any of it is written: what is in force is its caller's, and
+    /// of that this is taken for granted.
+    pub fn stands_alone(&mut self, taken: &Modes) {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.stands_alone(taken),
+            // The text form states nothing by itself; the others write no such programs.
+            Kind::Siemens(_) | Kind::Canon(_) | Kind::Ir(_) => {}
+        }
+    }
+
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, start: &[Option<Nanos>; AXES]) {
         match &mut self.kind {

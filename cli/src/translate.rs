@@ -4,6 +4,7 @@
 //! kept whole from there. Nothing is released that has an error, a loss that is not allowed, or a
 //! difference; the caller decides where a released output goes.
 
+mod alone;
 mod as_there;
 
 use std::collections::{BTreeSet, HashMap};
@@ -341,9 +342,10 @@ impl<'j> Line<'j> {
             }
             self.take(found, Told::Writer);
         }
-        if let Some(main) = program.procedures.first_mut() {
-            self.state_given(&mut main.body);
+        if self.is_refused_alone(&source) {
+            return Ok(());
         }
+        program.procedures.first_mut().into_iter().for_each(|main| self.state_given(&mut main.body));
         let mut found = Vec::new();
         let start = Tracker { position: self.job.start, modes: assumed, ..Tracker::default() };
         let entry = self.folder.as_ref().map_or(&start, |folder| &folder.entry);

@@ -61,6 +61,8 @@ pub(crate) struct Run {
 /// A verification in progress.
 pub(crate) struct Verifier {
     reader: Reader,
+    /// Whether the program is called by another.
+    as_called: bool,
     batch: Batch,
     runs: Vec<Run>,
     levels: u16,
@@ -237,6 +239,7 @@ impl Verifier {
         }
         Verifier {
             reader: Reader::new(job.to.clone(), false),
+            as_called: false,
             batch: Batch::default(),
             runs,
             levels: 0,
@@ -508,9 +511,20 @@ impl Verifier {
         }
     }
 
+    /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
+    /// source was.
+    pub(crate) fn read_as_called(&mut self) {
+        self.reader.assume();
+        self.as_called = true;
+    }
+
     /// Takes the facts that the output inherits, and refuses what could not be read back.
     fn read_back(&mut self, inherited: &Modes) -> Result<(), Stop> {
         let own = self.batch.assumed;
+        if self.as_called && own.or(*inherited) != *inherited {
+            let what = "what its caller has in force, where this control begins otherwise".into();
+            return Err(Stop::Source(Diagnostic::new(Fault::CannotSay { what }, self.last)));
+        }
         for run in &mut self.runs {
             // What the text itself takes for granted goes before what it inherits.
             run.target.assume(&own);

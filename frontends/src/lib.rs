@@ -189,6 +189,15 @@ impl Reader {
         }
     }
 
+    /// What the text never says is taken for granted from here on, as of a source: of words, whose program is called
+    /// by another and states nothing of what its caller has in force.
+    pub fn assume(&mut self) {
+        match self {
+            Reader::Word(reader) => reader.assume(),
+            Reader::Canon(_) | Reader::Ir(_) | Reader::Siemens(_) => {}
+        }
+    }
+
     /// For somebody who looks at a program without executing all of it: a refused block leaves a
     /// statement without effect ([`REFUSED`]) at its place, a missing feed is left to the execution, and
     /// numbers without a point are noted in [`Batch::bare`]. Of the families of words alone; texts of

@@ -5,6 +5,7 @@
 use crate::alarms::Alarms;
 use crate::arguments;
 use crate::call_of::call_of;
+use crate::code_of::code_of;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use crate::num::Num;
@@ -46,6 +47,8 @@ pub enum Said {
     Stop,
     /// What [`crate::call_of`] finds.
     CallOf,
+    /// What [`crate::code_of`] finds.
+    CodeOf,
     /// [`crate::program::Attribute`] of a procedure.
     Attributes,
 }
@@ -422,6 +425,11 @@ impl Look<'_> {
             && let Some(call) = call_of(control)
         {
             return call.number.into_iter().chain(call.times).try_for_each(|value| self.expr(value, at));
+        }
+        if self.computes.has(Said::CodeOf)
+            && let Some(code) = code_of(control)
+        {
+            return self.expr(code.number, at);
         }
         match control {
             Control::While { condition, body } => {

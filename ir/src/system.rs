@@ -5,7 +5,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::canon::{Axis, Distance, FeedMode, Plane, ReturnLevel, Turn, Units};
+use crate::canon::{Axis, Distance, FeedMode, Motion, Plane, ReturnLevel, Turn, Units};
 use crate::program::ToolValue;
 
 /// A value of the control's own.
@@ -90,6 +90,8 @@ pub enum System {
     FeedMode(FeedMode),
     /// Whether cycles leave the tool there.
     ReturnLevel(ReturnLevel),
+    /// Whether axis words alone do this straight move; what is in force is no arc, and no cycle.
+    Motion(Motion),
     /// Whether the spindle turns so.
     Turning(Turn),
     /// Whether the speed is a surface speed.
@@ -132,6 +134,7 @@ impl System {
             | System::Plane(_)
             | System::FeedMode(_)
             | System::ReturnLevel(_)
+            | System::Motion(_)
             | System::Turning(_)
             | System::SurfaceSpeed
             | System::Flood
@@ -253,7 +256,7 @@ const TOOL_VALUES: [(ToolValue, &str); 2] =
     [(ToolValue::Length, "length"), (ToolValue::LengthWear, "length-wear")];
 
 /// Those that have nothing of their own to say.
-const PLAIN: [(&str, System); 26] = [
+const PLAIN: [(&str, System); 28] = [
     ("offset.first", System::FirstWorkOffset),
     ("length.entry", System::LengthEntry),
     ("offset", System::WorkOffsetNumber),
@@ -275,6 +278,8 @@ const PLAIN: [(&str, System); 26] = [
     ("feed.time", System::FeedMode(FeedMode::InverseTime)),
     ("return.initial", System::ReturnLevel(ReturnLevel::Initial)),
     ("return.retract", System::ReturnLevel(ReturnLevel::Retract)),
+    ("motion.traverse", System::Motion(Motion::Traverse)),
+    ("motion.feed", System::Motion(Motion::Feed)),
     ("spindle.clockwise", System::Turning(Turn::Clockwise)),
     ("spindle.counterclockwise", System::Turning(Turn::Counterclockwise)),
     ("speed.surface", System::SurfaceSpeed),

@@ -508,6 +508,8 @@ impl Tracker {
 
     #[inline]
     fn go(&mut self, to: &Point, motion: Motion) {
+        // A code that may hold for its block alone.
+        let own_code = self.raw || self.probing || self.detour;
         if std::mem::take(&mut self.raw) {
             self.lose(&std::array::from_fn(|axis| to.axes[axis].is_some()));
         } else {
@@ -517,7 +519,7 @@ impl Tracker {
         if std::mem::take(&mut self.probing) {
             self.lose(&std::array::from_fn(|axis| to.axes[axis].is_some()));
         }
-        self.modes.motion = Some(motion);
+        self.modes.motion = Some(motion).filter(|_| !own_code || self.modes.motion == Some(motion));
         self.cycle = None;
         self.cycle_in_doubt = false;
     }

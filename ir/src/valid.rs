@@ -6,6 +6,7 @@ use crate::arguments;
 use crate::computes::Computes;
 use crate::diag::{Diagnostic, Fault};
 use crate::program::{Control, Op, Program, Stmt};
+use crate::source::Span;
 
 /// The first statement that is computed, or decides, when the program runs, and that the target cannot say.
 pub fn computing(program: &Program, computes: Option<&Computes>) -> Option<Diagnostic> {
@@ -49,6 +50,18 @@ fn computes(body: &[Stmt]) -> Option<Diagnostic> {
         };
         Some(Diagnostic::new(Fault::Computes { what: what.into() }, stmt.span))
     })
+}
+
+/// Where the main procedure goes back to a program that is not there: a subprogram that stands alone.
+pub fn returns_alone(program: &Program) -> Option<Span> {
+    fn found(body: &[Stmt]) -> Option<Span> {
+        body.iter().find_map(|stmt| match &stmt.op {
+            Op::Return => Some(stmt.span),
+            Op::Control(control) => control.bodies().find_map(|body| found(body)),
+            _ => None,
+        })
+    }
+    found(&program.procedures.first()?.body)
 }
 
 /// Calls of procedures that the program does not have, in the order of its text.

@@ -412,8 +412,9 @@ impl Control {
             Some(98) => return self.call(&words, called.as_deref(), all),
             _ if called.is_some() => return self.m.halt("a name without a call"),
             Some(99) => {
-                if self.depth == 0 || number(&words, 'P').is_some() || number(&words, 'L').is_some() {
-                    return self.m.halt("M99 in the main program, with P or with L");
+                // In the first program of a text, it goes back to one that is not there.
+                if number(&words, 'P').is_some() || number(&words, 'L').is_some() {
+                    return self.m.halt("M99 with P or with L");
                 }
                 return Ok(Next::Back);
             }

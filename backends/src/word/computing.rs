@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::call_of::call_of;
 use ncc_ir::canon::Modes;
+use ncc_ir::code_of::code_of;
 use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
@@ -295,6 +296,9 @@ impl Writer {
         }
         if let Some(call) = call_of(control).filter(|_| self.dialect.program.macro_b) {
             return self.computed_call(&call, stmt, sink);
+        }
+        if let Some(code) = code_of(control).filter(|_| self.dialect.program.macro_b) {
+            return self.code_of_variable(&code, stmt, sink);
         }
         match control {
             Control::If { condition, then, otherwise } => match (&then[..], &otherwise[..]) {

@@ -9,6 +9,7 @@
 mod alarm;
 pub(crate) mod block;
 mod call_of;
+mod code_of;
 pub(crate) mod codes;
 pub(crate) mod comment;
 mod comparisons;

@@ -42,6 +42,14 @@ impl Preamble {
 }
 
 impl Writer {
+    /// A program that is called by another states nothing before its first event: it would go on in its caller.
+    pub fn stands_alone(&mut self, taken: &Modes) {
+        self.preamble = None;
+        if let Some(units) = taken.units {
+            self.units_stated[units as usize] = true;
+        }
+    }
+
     /// Takes a statement before the first event; `Ok(false)` if it must be written.
     pub(crate) fn absorb(&mut self, stmt: &Stmt, sink: &mut Sink) -> Result<bool, Fault> {
         let Some(held) = self.preamble.as_ref().map(|p| p.held.len()) else { return Ok(false) };

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 
 use ncc_dialects::{CodeRow, Quantity};
 use ncc_ir::canon::Modes;
-use ncc_ir::computes::{Computes, Handed};
+use ncc_ir::code_of;
+use ncc_ir::computes::{Computes, Handed, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
@@ -41,14 +42,18 @@ pub(super) fn say(
         found.push(Diagnostic::new(Fault::Computes { what }, at));
         return (Known::default(), Renamed::default());
     }
+    let mut entry = stands.clone();
+    entry.modes = entry.modes.or(program.assumed);
+    if from.id != to.id && !there.has(Said::CodeOf) {
+        known_facts::put_back(program, &entry, there);
+        program.procedures.iter_mut().for_each(|procedure| code_of::without_alarms(&mut procedure.body));
+    }
     exact_comparisons::run(program, there, found);
     control_forms::run(program, there);
     arithmetic::run(program, there, from.formula.tolerance(), found);
     // Its own words are left as they are, where they say by themselves where they lead.
     let own = to.program.o_words && from.id == to.id;
     let computes = job.from.caps().computes.unwrap_or_default();
-    let mut entry = stands.clone();
-    entry.modes = entry.modes.or(program.assumed);
     if there.restates && !own || computed_frames::behind_control(program) {
         known = known_facts::run(program, &entry, from.id != to.id);
     } else if computes.blocks != there.blocks {

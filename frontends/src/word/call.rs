@@ -85,12 +85,39 @@ impl Lower {
         self.lose_state(out);
     }
 
-    /// A return to the caller.
+    /// The end of the main program's text: what returns does not end by itself as well.
+    pub(super) fn alone_or_main(&mut self, out: &mut Batch) {
+        if let (true, true, Some(at)) = (out.subprogram, self.alone.ends, self.alone.returns) {
+            self.endless(at, "M99".into(), out);
+        }
+    }
+
+    /// Blocks stand behind the return of a text that has no end of its own before: it is a main program.
+    pub(super) fn goes_on_behind_return(&mut self, out: &mut Batch) {
+        if let Some(at) = self.alone.returns.take_if(|_| self.sub.is_none()) {
+            self.endless(at, "M99".into(), out);
+        }
+    }
+
+    fn endless(&mut self, at: Span, code: Box<str>, out: &mut Batch) {
+        let name = "return in the main program: endless repetition".into();
+        self.fault(Fault::NotSupported { code, name }, at, out);
+    }
+
+    /// A return to the caller. A text that ends by it and by nothing else is a subprogram that stands alone; run by
+    /// itself, the control would begin anew (16-C, subprogram control: M99 in a main program).
     pub(super) fn return_from(&mut self, code: &Code, out: &mut Batch) {
         if self.sub.is_none() {
-            let name = "return in the main program: endless repetition".into();
-            let fault = Fault::NotSupported { code: code.row.code.as_str().into(), name };
-            return self.fault(fault, code.span, out);
+            let alone = self.settings.dialect.program.macro_b && self.now.skip.is_none();
+            self.alone.returns.get_or_insert(code.span);
+            if !alone || self.alone.ends {
+                return self.endless(code.span, code.row.code.as_str().into(), out);
+            }
+            if self.assume && !out.subprogram {
+                let parameter = "M99 goes back to a program that calls this one".into();
+                out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, code.span);
+            }
+            (out.subprogram, out.whole) = (true, true);
         }
         if self.in_o_sub() {
             let name = "return of a numbered program in a subprogram of O words".into();

@@ -16,6 +16,7 @@ use ncc_ir::system::System;
 
 use super::Source;
 use super::block::{Block, Value, Word};
+use super::code_of::Saved;
 use super::facts::InForce;
 use super::formula::{Statement, To};
 use super::jump_of::JumpOf;
@@ -47,6 +48,8 @@ pub(super) struct Computes {
     pub(super) calls_of: bool,
     /// The macro that is called behind each block that moves.
     pub(super) at_moves: Option<AtMoves>,
+    /// Modes that are saved and put back.
+    pub(super) saved: Saved,
     pub(super) reach: Reach,
 }
 
@@ -288,6 +291,11 @@ impl Lower {
         out: &mut Batch,
     ) -> Vec<Op> {
         let span = block.span;
+        self.saves(to, value);
+        if value.has(&|part| matches!(part, Node::Var(Var::System(_)))) {
+            // What is in force is asked.
+            self.leave_motion(None, out);
+        }
         let value = self.value(value, span, out);
         if let Target::Var(Var::System(system)) = to {
             return self.control_set(system, value, block, src, out);
@@ -300,7 +308,7 @@ impl Lower {
                 Target::Element(Box::new(Element { of: self.numbered(), at }))
             }
         };
-        self.assigned(span, out);
+        self.assigned(Some(&to), span, out);
         vec![Op::Assign(to, value)]
     }
 
@@ -319,13 +327,17 @@ impl Lower {
         Many::Numbered(scopes.concat().into())
     }
 
-    /// A variable gets another value: what has been computed from variables and is not said yet must not be
-    /// said with it.
-    pub(super) fn assigned(&mut self, span: Span, out: &mut Batch) {
+    /// A variable gets another value, any where it is not said which: what has been computed from it and is not said
+    /// yet must not be said with it.
+    pub(super) fn assigned(&mut self, to: Option<&Target>, span: Span, out: &mut Batch) {
         self.argument_changes(span, out);
+        let reads = |value: &Expr| match to {
+            Some(to) => value.reads(to),
+            None => value.literal().is_none(),
+        };
         if let InForce::Active(active) = &self.state.cycle
-            && ([&active.depth, &active.retract].iter().any(|word| word.value.literal().is_none())
-                || active.peck.as_ref().is_some_and(|peck| peck.literal().is_none()))
+            && ([&active.depth, &active.retract].iter().any(|word| reads(&word.value))
+                || active.peck.as_ref().is_some_and(reads))
         {
             if self.state.cycle_feed.is_some() {
                 let name =

@@ -77,7 +77,7 @@ impl Lower {
     }
 
     /// The row of a variable of the control's own, and which of the row's it is.
-    fn row_of(&self, name: &str) -> Option<(&'static SystemRow, u32)> {
+    pub(super) fn row_of(&self, name: &str) -> Option<(&'static SystemRow, u32)> {
         let number: u32 = name.strip_prefix('#')?.parse().ok()?;
         let row = self.settings.dialect.system.iter();
         let row = row.filter(|row| row.counts(&self.settings)).find(|row| row.numbers().contains(&number))?;

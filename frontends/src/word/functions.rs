@@ -418,6 +418,7 @@ impl Lower {
             Meaning::OptionalProgramStop => Op::OptionalProgramStop,
             Meaning::ProgramEnd => {
                 self.ended |= self.now.skip.is_none();
+                self.alone.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
             Meaning::Call | Meaning::Return if self.level_open() => {

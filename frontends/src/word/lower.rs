@@ -56,6 +56,7 @@ pub(super) struct Lower {
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     pub(super) computes: Computes,
+    pub(super) alone: Alone,
     pub(super) o: ODecides,
     pub(super) unmoved: Unmoved,
     pub(super) cycles: CyclesMet,
@@ -107,6 +108,15 @@ pub(super) struct Reported {
     options: u32,
     /// What is taken for granted of the control's own values.
     pub(super) values: Vec<&'static str>,
+}
+
+/// How the main program ends.
+#[derive(Debug, Default)]
+pub(super) struct Alone {
+    /// Where it first goes back to another.
+    pub(super) returns: Option<Span>,
+    /// Whether it ends by itself.
+    pub(super) ends: bool,
 }
 
 /// State of the block that is being lowered.
@@ -194,6 +204,7 @@ impl Lower {
             sub: None,
             ended: false,
             computes: Computes::default(),
+            alone: Alone::default(),
             o: ODecides::default(),
             unmoved: Unmoved::default(),
             cycles: CyclesMet::default(),
@@ -253,6 +264,7 @@ impl Lower {
             self.o_comment(block, src, out);
             self.settings(block, false, out);
             self.message(block, src, out);
+            self.computed_codes(block, &codes, src, out);
             if let Some(statement) = &block.statement {
                 self.statement(statement, block, src, out);
             } else if let Some(decision) = &block.decision {
@@ -416,6 +428,13 @@ impl Lower {
             self.state.follows_polar = false;
         }
         self.target(out).push(Stmt { span, number, skip, joined, comment: None, op });
+    }
+
+    /// What was pushed is a block of its own, as if what follows stood in another; a label says the number.
+    pub(super) fn stands_alone(&mut self) {
+        self.now.pushed = false;
+        self.now.silent = true;
+        self.now.number = None;
     }
 
     /// From here on, statements stand in a block of their own.

@@ -15,6 +15,7 @@ mod again;
 pub(crate) mod block;
 mod call;
 mod call_of;
+mod code_of;
 mod compensation;
 mod computing;
 mod control_set;
@@ -125,6 +126,12 @@ impl Reader {
         self.lower.watch = true;
     }
 
+    /// What the text never says is taken for granted from here on.
+    pub(crate) fn assume(&mut self) {
+        self.lower.assume = true;
+        self.lower.refresh();
+    }
+
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         if self.frame.is_binary {
@@ -186,9 +193,11 @@ impl Reader {
         if !self.frame.is_binary {
             self.end_of_program(out);
             self.end_of_text(out);
+            self.lower.alone_or_main(out);
             self.lower.computes.give_parameters(&mut out.procedures);
             self.lower.computes.join_jumps(out);
             self.lower.computes.join_calls(out);
+            self.lower.computes.check_saved(out);
             self.lower.computes.no_calls_within(out);
             self.lower.settle_calls(out);
             self.lower.inherited.settle(&self.lower.settings.dialect.power_on, out);

@@ -217,7 +217,7 @@ impl Lower {
             {
                 self.o.given.set(var);
             }
-            self.assigned(set.span, out);
+            self.assigned(None, set.span, out);
             self.push(set.span, Op::Assign(to, value), out);
         }
     }

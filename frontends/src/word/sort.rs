@@ -184,6 +184,9 @@ impl Lower {
     fn code(&mut self, at: usize, word: &Word, codes: &mut Vec<Code>, src: Source, out: &mut Batch) {
         let dialect = self.settings.dialect;
         if let Value::Computed(_) = word.value {
+            if self.may_be_computed(word) {
+                return;
+            }
             self.now.refused = true;
             return self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
         }

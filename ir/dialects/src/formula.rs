@@ -163,6 +163,8 @@ pub enum Statement {
     Stop,
     /// A call of which the number, or how often, is computed.
     CallOf,
+    /// A code of which the number is a variable's, which has it from the codes in force.
+    CodeOf,
     /// What is said of a subprogram as a whole.
     Attributes,
 }
@@ -184,6 +186,7 @@ impl From<Statement> for Said {
             Statement::Alarm => Said::Alarm,
             Statement::Stop => Said::Stop,
             Statement::CallOf => Said::CallOf,
+            Statement::CodeOf => Said::CodeOf,
             Statement::Attributes => Said::Attributes,
         }
     }

@@ -188,6 +188,10 @@ impl Exec {
             System::Plane(plane) => holds(*plane == self.modes.plane),
             System::FeedMode(mode) => holds(*mode == self.state.feed_mode),
             System::ReturnLevel(level) => holds(*level == self.modes.return_level),
+            System::Motion(motion) => match self.modes.motion {
+                own @ (Motion::Traverse | Motion::Feed) => holds(*motion == own),
+                Motion::Arc(_) | Motion::Cycle => None,
+            },
             System::Turning(turn) => holds(
                 self.state.spindle
                     == match turn {

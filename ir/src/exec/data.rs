@@ -62,6 +62,9 @@ impl Exec {
             let what = "a detour of anything but a rapid move in the program's coordinates";
             return self.not_executed(what, span);
         }
+        if self.cycle.is_some() {
+            return self.not_executed("a rapid move by a detour while a cycle is in force", span);
+        }
         let named: [bool; AXES] = std::array::from_fn(|axis| to.axes[axis].is_some());
         match detour {
             Detour::Intermediate => {
@@ -88,7 +91,12 @@ impl Exec {
                     return self.not_executed(what, span);
                 }
                 self.emit_move(false, span, out)?;
-                self.straight(to, false, span, out)
+                let own = self.modes.motion;
+                self.straight(to, false, span, out)?;
+                if own != Motion::Traverse {
+                    self.modes.motion = Motion::Cycle;
+                }
+                Ok(())
             }
             Detour::OneSide => {
                 let before = self.position;
@@ -96,7 +104,10 @@ impl Exec {
                 if before != self.position {
                     self.heading = super::Heading::From(before);
                 }
-                self.modes.motion = Motion::Traverse;
+                if self.modes.motion != Motion::Traverse {
+                    // Its code may hold for its block alone.
+                    self.modes.motion = Motion::Cycle;
+                }
                 self.said |= super::MOTION;
                 self.cycle = None;
                 self.last = self.machine();
@@ -106,6 +117,15 @@ impl Exec {
                 done
             }
         }
+    }
+
+    /// Whether a straight move is one with a code of its own, for which no cycle may be in force.
+    pub(super) fn has_own_code(&self, span: Span) -> Result<bool, Diagnostic> {
+        let own_code = self.raw.is_some() || self.probing.is_some();
+        if own_code && self.cycle.is_some() {
+            self.not_executed("a move of the machine, or a probing one, while a cycle is in force", span)?;
+        }
+        Ok(own_code)
     }
 
     /// A straight move at feed to the present position, which ends where the probe says so.

@@ -522,7 +522,8 @@ impl Exec {
         if self.detour.is_some() {
             return self.go_by_detour(to, feed, span, out);
         }
-        let before = self.position;
+        let (before, own) = (self.position, self.modes.motion);
+        let own_code = self.has_own_code(span)?;
         if let Some(length) = self.raw.take() {
             self.place_in_machine(to, length, span)?;
         } else {
@@ -532,6 +533,10 @@ impl Exec {
             self.heading = Heading::From(before);
         }
         self.modes.motion = if feed { Motion::Feed } else { Motion::Traverse };
+        if own_code && self.modes.motion != own {
+            // Its code may hold for its block alone.
+            self.modes.motion = Motion::Cycle;
+        }
         self.said |= MOTION;
         self.cycle = None;
         if self.probing.is_some() {

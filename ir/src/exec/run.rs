@@ -11,6 +11,7 @@ use super::term::{Asked, Place, Variables, Why, real};
 use super::{Event, Exec};
 use crate::arguments;
 use crate::canon::FeedMode;
+use crate::code_of::is_last;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Var};
 use crate::num::{Num, ONE, Unit};
@@ -159,6 +160,7 @@ impl<'p> Runner<'p> {
         let mut found: Vec<(Span, u8)> = steps
             .filter_map(|(at, (step, taken))| match step {
                 Step::Unless(stmt, ..) if self.is_check(at, stmt.span) => None,
+                Step::Unless(_, _, to) if *taken == 1 && self.is_no_code(*to) => None,
                 Step::Unless(stmt, ..) | Step::UnlessCounted(stmt, ..) if *taken != 3 => {
                     Some((stmt.span, *taken))
                 }
@@ -166,6 +168,8 @@ impl<'p> Runner<'p> {
             })
             .collect();
         found.sort_by_key(|(span, _)| span.start);
+        // Of decisions that are made of one place, one that was not come to says nothing further.
+        found.dedup_by(|next, before| next.0 == before.0 && next.1 == 0);
         found
     }
 
@@ -173,6 +177,11 @@ impl<'p> Runner<'p> {
     pub fn open_ways(&self, all: &[u8]) -> usize {
         let decides = |step: &Step| matches!(step, Step::Unless(..) | Step::UnlessCounted(..));
         self.code.steps.iter().zip(all).filter(|(step, taken)| decides(step) && **taken != 3).count()
+    }
+
+    /// Whether no value comes to a step, behind the last code of a group.
+    fn is_no_code(&self, at: u32) -> bool {
+        matches!(self.code.steps.get(at as usize), Some(Step::Do(stmt)) if is_last(&stmt.op))
     }
 
     /// Whether a decision is an alarm's, of the block that then calls up a cycle.
@@ -196,9 +205,7 @@ impl<'p> Runner<'p> {
         out: &mut Vec<Event>,
     ) -> Result<Progress, Diagnostic> {
         while out.len() < enough {
-            let Some(stmt) = self.next(exec)? else {
-                return Ok(Progress::Done);
-            };
+            let Some(stmt) = self.next(exec)? else { return Ok(Progress::Done) };
             exec.step(stmt, out)?;
         }
         Ok(Progress::More)
@@ -354,9 +361,9 @@ impl<'p> Runner<'p> {
                 }
                 Step::Return(_) => {
                     exec.no_open_corner()?;
+                    // A subprogram that stands alone has been executed.
                     if !self.leave() {
-                        let what = "a return of the main program".into();
-                        return Err(Diagnostic::new(Fault::NotExecuted { what }, span));
+                        return Ok(None);
                     }
                 }
                 Step::Blocks(_, again) => {

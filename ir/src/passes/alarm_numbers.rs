@@ -5,6 +5,7 @@
 
 use crate::alarms::Alarms;
 use crate::call_of::NO_SUCH_PROGRAM;
+use crate::code_of::NO_SUCH_CODE;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::program::{Alarm, NO_SUCH_BLOCK, Op, Program, Stmt};
@@ -56,7 +57,8 @@ fn body(stmts: &mut [Stmt], alarms: Alarms, told: &mut Vec<(String, Span)>) {
 
 /// What an alarm becomes, if that is another one.
 fn other(alarm: &Alarm, alarms: Alarms) -> Option<Alarm> {
-    let own = alarm.number.is_none() && (*alarm.text == *NO_SUCH_BLOCK || *alarm.text == *NO_SUCH_PROGRAM);
+    let own =
+        alarm.number.is_none() && [NO_SUCH_BLOCK, NO_SUCH_PROGRAM, NO_SUCH_CODE].contains(&&*alarm.text);
     let number = match &alarm.number {
         None => None,
         Some(number) => Some(number.literal().and_then(|n| n.whole())?),

@@ -23,6 +23,7 @@ use conditions::{binary, compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::call_of::call_of;
+use crate::code_of::code_of;
 use crate::computes::{Computes, Said, counted};
 use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use crate::num::Num;
@@ -204,6 +205,9 @@ impl Forms<'_> {
     fn control(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Control(mut control) = std::mem::replace(&mut stmt.op, Op::Blank) else { return };
         if self.has(Said::CallOf) && call_of(&control).is_some() {
+            return out.push(Stmt { op: Op::Control(control), ..stmt });
+        }
+        if self.has(Said::CodeOf) && code_of(&control).is_some() {
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
         if self.says_about_one(&control) {

@@ -88,7 +88,10 @@ fn straight(
     let mut inches = walk.at.modes.units == Some(Units::Inch);
     let mut short = [Some(0); AXES];
     loop {
-        let Some(stmt) = runner.next_of(&exec, other.as_ref())? else { return Ok(out) };
+        let Some(stmt) = runner.next_of(&exec, other.as_ref())? else {
+            out.extend(valid::returns_alone(program).map(|at| Stmt::new(at, Op::Return)));
+            return Ok(out);
+        };
         let mut stmt = stmt.clone();
         let before = std::mem::replace(&mut steps, runner.steps());
         // Behind a step that has left nothing a block begins anew.

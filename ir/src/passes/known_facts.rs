@@ -12,8 +12,10 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::expand_calls::{settle, settle_point};
+use super::known_answers::{self, Saved};
 use crate::arguments;
 use crate::canon::{AXES, Modes, Motion};
+use crate::computes::Computes;
 use crate::cycle::Cycle;
 use crate::expr::Target;
 use crate::kinds::flow;
@@ -133,6 +135,25 @@ pub fn run(program: &mut Program, entry: &Tracker, holes: bool) -> Known {
     Known::default()
 }
 
+/// Puts modes back that are known where their codes were saved, and answers what a target of these capabilities cannot be
+/// asked for and is known; nothing else. `entry` is what holds where the program begins.
+pub fn put_back(program: &mut Program, entry: &Tracker, there: &Computes) {
+    let names = program.procedures.iter().map(|p| p.name.clone()).collect();
+    let mut flow = Flow { names, there: Some(there), ..Flow::default() };
+    flow.ways = vec![Ways::default(); program.procedures.len()];
+    if let Some(main) = flow.ways.first_mut() {
+        main.entry = Some(Held { at: entry.clone(), ..Held::default() });
+    }
+    for _ in 0..MOST_ROUNDS {
+        flow.changed = false;
+        flow.over(program);
+        if !flow.changed {
+            flow.settles = true;
+            return flow.over(program);
+        }
+    }
+}
+
 /// What holds at a call.
 #[derive(Clone, Debug)]
 pub(crate) struct At {
@@ -176,6 +197,8 @@ struct Held {
     as_called: bool,
     /// The place of that block, and what holds there.
     called_at: (u32, Modes),
+    /// Variables that have whole numbers, such as saved codes in force.
+    saved: Saved,
 }
 
 impl Held {
@@ -185,6 +208,7 @@ impl Held {
             self.path = None;
         }
         self.as_called &= other.as_called && self.called_at == other.called_at;
+        self.saved.join(&other.saved);
     }
 
     /// The cycle in force, if it is known and as it was called up.
@@ -216,13 +240,17 @@ impl Held {
 
     /// A variable gets another value.
     fn sets(&mut self, to: &Target) {
+        self.saved.set(to, None);
         let Some(in_force) = &self.at.cycle else { return };
         self.as_called &= !arguments::reads(&Op::StartCycle(Box::new(in_force.cycle.clone())), to);
     }
 
     fn apply(&mut self, op: &Op, at: u32) {
-        if let Op::Assign(to, _) = op {
+        if let Op::Assign(to, value) = op {
             self.sets(to);
+            self.saved.set(to, known_answers::worth(value, &self.at.modes));
+        } else if let Op::Declare(_) = op {
+            self.saved.forget();
         } else if matches!(op, Op::StartCycle(_)) {
             (self.as_called, self.called_at) = (true, (at, self.at.modes));
         } else if let Op::SetMotionControlMode(control) = op {
@@ -242,7 +270,6 @@ impl Held {
                 | Op::FloodOn
                 | Op::MistOn
                 | Op::CoolantOff
-                | Op::Declare(_)
         ) {
             self.as_called = false;
         }
@@ -356,8 +383,10 @@ struct Ways {
 }
 
 #[derive(Default)]
-struct Flow {
+struct Flow<'t> {
     names: Vec<Text>,
+    /// What the target can say, where only saved codes and answers are put in.
+    there: Option<&'t Computes>,
     /// Those that give back what their callers had.
     gives: Vec<bool>,
     ways: Vec<Ways>,
@@ -395,7 +424,7 @@ fn meet(state: &mut Option<Held>, other: Option<&Held>) -> bool {
     }
 }
 
-impl Flow {
+impl Flow<'_> {
     fn over(&mut self, program: &mut Program) {
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
             self.at = at;
@@ -461,7 +490,12 @@ impl Flow {
                 let found = self.names.iter().skip(1).position(|name| *name == call.name)?;
                 let called = &mut self.ways[found + 1];
                 // A cycle in force is its caller's, which says it once.
-                let entered = state.clone().map(|held| Held { as_called: false, ..held });
+                let shared = call.shared;
+                let entered = state.clone().map(|held| Held {
+                    as_called: false,
+                    saved: held.saved.entered(shared),
+                    ..held
+                });
                 self.changed |= meet(&mut called.entry, entered.as_ref());
                 // Where it leads is known after it has been gone through.
                 let caller = state?;
@@ -475,18 +509,38 @@ impl Flow {
                     self.calls.insert(stmt.span.start, at);
                 }
                 let gives = self.gives.get(found + 1) == Some(&true);
+                let behind =
+                    behind.map(|behind| Held { saved: behind.saved.left(&caller.saved, shared), ..behind });
                 behind.map(|behind| if gives { behind.given_back(&caller) } else { behind })
             }
             Op::RepeatBlocks(_) => state.map(|mut state| {
                 state.at.forget();
                 state.path = None;
+                state.saved.forget();
                 state
             }),
+            Op::Control(control)
+                if let Some(op) = state.as_ref().and_then(|held| held.saved.code(control)) =>
+            {
+                // The mode that was saved is known: that is what is put back.
+                if self.settles {
+                    stmt.op = op;
+                    return self.stmt(stmt, state);
+                }
+                self.stmt(&mut Stmt { op, ..stmt.clone() }, state)
+            }
             Op::Control(control) => self.control(control, state),
             op => {
                 let reached = state.is_some();
                 let mut state = state.unwrap_or_else(|| self.text.clone());
-                if self.settles {
+                if let Some(there) = self.there {
+                    if let Op::Assign(_, value) = op
+                        && self.settles
+                        && reached
+                    {
+                        known_answers::put_in(value, &state.at.modes, there);
+                    }
+                } else if self.settles {
                     let hole = matches!(op, Op::Hole(_) | Op::Pattern(_)) && self.holes && !self.called;
                     if (hole || matches!(op, Op::Position(_)))
                         && let Some(cycle) = state.cycle().filter(|_| reached)

@@ -36,6 +36,7 @@ pub mod flatten_facts;
 pub mod fold_cycles;
 pub mod fold_patterns;
 mod frame_forms;
+mod known_answers;
 pub mod known_facts;
 mod legalise;
 pub mod machine_moves;

@@ -1,6 +1,6 @@
 //! System variables, from section 7.3 of `reference/fanuc.md`: where the last block ended (#5001), where the skip signal
 //! came (#5061 to #5063: the last one with the length of the tool counted in, on a Haas without), work offsets (#5221 and
-//! on, 20 apart; #7001 and on for G54.1), codes and words in force (#4002, #4003, #4005, #4006, #4010, #4109, #4119,
+//! on, 20 apart; #7001 and on for G54.1), codes and words in force (#4001 to #4003, #4005, #4006, #4010, #4109, #4119,
 //! #4120). Of the tables: #2001 and #2201 are wear and geometry of lengths (memory C), which a Haas has the other way
 //! round; #10001 and #11001 are the same on a Fanuc. Where the axes are (#5021) and the length in force (#5083), the work
 //! offset (#4014, on a Haas #4012), H (#4111), counts of parts, on a Haas those of tools (#5401 to #5799). Any other stops.
@@ -48,6 +48,8 @@ impl Control {
             4014 if !self.haas => (self.m.offset <= 6).then(|| f64::from(53 + self.m.offset)),
             4111 => (self.m.entry > 0).then(|| f64::from(self.m.entry)),
             5061 | 5062 => self.m.touched.map(|at| at[(number - 5061) as usize] / self.unit()),
+            // What is in force of an arc, or of nothing that was said, is not asked here.
+            4001 => (self.motion < 2).then(|| f64::from(self.motion)),
             4002 => n(self.m.plane),
             4003 => n(if self.m.absolute { 90 } else { 91 }),
             4005 => n(match self.m.per {

@@ -1,0 +1,29 @@
+%
+O9170 (POCKET FROM ITS CENTRE, A MACRO THAT STANDS ALONE)
+(A LENGTH, B WIDTH, Z DEPTH, F FEED)
+IF [#1 EQ #0] THEN #1 = 40.
+IF [#2 EQ #0] THEN #2 = 20.
+IF [#26 EQ #0] THEN #26 = -6.
+IF [#9 EQ #0] THEN #9 = 300.
+IF [#1 GE #2] GOTO 10
+#3000 = 21 (B LARGER THAN A)
+N10 G90 G17 G21
+#31 = [#1 - #2] / 2
+G0 Z2.
+#5 = 0
+WHILE [#5 GT #26] DO1
+#5 = #5 - 2.
+IF [#5 GE #26] GOTO 20
+#5 = #26
+N20 G90 G1 Z#5 F[#9 / 2]
+G91 X#31 F#9
+Y[#2 / 2]
+X-[2 * #31]
+Y-#2
+X[2 * #31]
+Y[#2 / 2]
+X-#31
+END1
+G90 G0 Z2.
+M99
+%
