@@ -307,8 +307,7 @@ impl<'j> Line<'j> {
         if self.job.from.dialect.program.macro_b {
             passed_labels::run(&mut program);
         }
-        let mut known = Known::default();
-        let mut renamed = Renamed::default();
+        let (mut known, mut renamed) = (Known::default(), Renamed::default());
         let (mut own_distance, mut stands) = (BTreeSet::new(), HashMap::new());
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
