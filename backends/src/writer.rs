@@ -140,8 +140,9 @@ impl Writer {
     pub fn stands_alone(&mut self, taken: &Modes) {
         match &mut self.kind {
             Kind::Word(writer) => writer.stands_alone(taken),
-            // The text form states nothing by itself; the others write no such programs.
-            Kind::Siemens(_) | Kind::Canon(_) | Kind::Ir(_) => {}
+            Kind::Siemens(writer) => writer.stands_alone(taken),
+            // The text form states nothing by itself; the other writes no such programs.
+            Kind::Canon(_) | Kind::Ir(_) => {}
         }
     }
 

@@ -6,7 +6,7 @@
 //!
 //! Not here: what axis words do where no motion was said.
 
-use ncc_dialects::{PowerOn, PowerOnFact};
+use ncc_dialects::{Dialect, PowerOn, PowerOnFact};
 use ncc_ir::canon::{Distance, FeedMode, Plane, ReturnLevel, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::program::Text;
@@ -83,9 +83,45 @@ pub(crate) fn return_level(know: &mut Know<ReturnLevel>, begins: &PowerOn, at: S
     report(out, at, ModeName::ReturnLevel, value);
 }
 
-/// Modes that a subprogram may rely on.
-const MODES: [ModeName; 5] =
-    [ModeName::Distance, ModeName::Units, ModeName::Plane, ModeName::FeedMode, ModeName::ReturnLevel];
+/// The work offset in force.
+pub(crate) fn work_offset(know: &mut Know<u16>, dialect: &Dialect, at: Span, out: &mut Batch) {
+    let Some(offset) = take(know, &mut out.assumed.work_offset, &dialect.power_on.work_offset) else {
+        return;
+    };
+    if dialect.caps.work_offsets == 0 {
+        out.report(Fault::AssumedWorkOffset { offset }, at);
+    } else {
+        report(out, at, ModeName::WorkOffset, Some(&offset.to_string()));
+    }
+}
+
+/// Whether the origin is not shifted.
+pub(crate) fn no_shift(know: &mut Know<bool>, begins: &PowerOn, at: Span, out: &mut Batch) {
+    let value = take(know, &mut out.assumed.no_origin_shift, &begins.no_origin_shift);
+    report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+}
+
+/// The length offset in force; tells whether the dictionary has one.
+pub(crate) fn length_offset(begins: &PowerOn, at: Span, out: &mut Batch) -> Option<u32> {
+    let row = begins.length_offset.as_ref()?;
+    out.assumed.length_offset = Some(row.value);
+    if !row.always {
+        report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
+    }
+    Some(row.value)
+}
+
+/// What a subprogram may rely on.
+const MODES: [ModeName; 8] = [
+    ModeName::OriginShift,
+    ModeName::WorkOffset,
+    ModeName::LengthOffset,
+    ModeName::Distance,
+    ModeName::Units,
+    ModeName::Plane,
+    ModeName::FeedMode,
+    ModeName::ReturnLevel,
+];
 
 /// Some of [`MODES`], a bit each.
 pub(crate) type ModeSet = u8;
@@ -98,7 +134,10 @@ const fn bit(mode: ModeName) -> ModeSet {
         ModeName::Plane => 4,
         ModeName::FeedMode => 8,
         ModeName::ReturnLevel => 16,
-        ModeName::Motion | ModeName::WorkOffset | ModeName::LengthOffset | ModeName::OriginShift => 0,
+        ModeName::WorkOffset => 32,
+        ModeName::LengthOffset => 64,
+        ModeName::OriginShift => 128,
+        ModeName::Motion => 0,
     }
 }
 
@@ -174,7 +213,8 @@ impl Inherited {
     }
 
     /// The text is over: takes for granted what subprograms find as the program began.
-    pub(crate) fn settle(&self, begins: &PowerOn, out: &mut Batch) {
+    pub(crate) fn settle(&self, dialect: &Dialect, out: &mut Batch) {
+        let begins = &dialect.power_on;
         let mut found = vec![0; self.subs.len()];
         let hand_on = |calls: &[(Option<Text>, ModeSet)], has: ModeSet, found: &mut [ModeSet]| {
             let mut more = false;
@@ -208,6 +248,15 @@ impl Inherited {
             let Some(((_, own), _)) = relied.next() else { continue };
             let Some((_, at)) = own.relied.iter().find(|(other, _)| *other == mode) else { continue };
             match mode {
+                ModeName::WorkOffset if out.assumed.work_offset.is_none() => {
+                    work_offset(&mut Know::Unsaid, dialect, *at, out);
+                }
+                ModeName::OriginShift if out.assumed.no_origin_shift.is_none() => {
+                    no_shift(&mut Know::Unsaid, begins, *at, out);
+                }
+                ModeName::LengthOffset if out.assumed.length_offset.is_none() => {
+                    length_offset(begins, *at, out);
+                }
                 ModeName::Distance if out.assumed.distance.is_none() => {
                     distance(&mut Know::Unsaid, begins, *at, out);
                 }

@@ -182,6 +182,11 @@ impl Writer {
         self.words.stated()
     }
 
+    /// A program that is called by another states nothing before its first event: it would go on in its caller.
+    pub fn stands_alone(&mut self, taken: &Modes) {
+        self.words.stands_alone(taken);
+    }
+
     /// Writes statements of the main procedure, in pieces of whole blocks. `assumed` holds the facts
     /// that the source relies on without having said them; it may grow from piece to piece.
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {

@@ -1,6 +1,6 @@
 //! One statement: which words say it, and where they stand in the block.
 
-use ncc_dialects::Meaning;
+use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
@@ -128,6 +128,10 @@ impl Writer {
             Op::SetFeedRate(feed) => self.feed_rate(feed, span, sink),
             Op::SetSpindleSpeed(speed) => {
                 let letter = codes.speed;
+                let whole = self.dialect.numbers(Quantity::Speed).decimals == 0;
+                if whole && speed.literal().is_some_and(|speed| speed.whole().is_none()) {
+                    return Err(cannot("a spindle speed that is not whole"));
+                }
                 self.number_word(Rank::Speed, letter, speed, "a spindle speed", span, sink)
             }
             Op::SelectTool(tool) => {

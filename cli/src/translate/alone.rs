@@ -14,7 +14,9 @@ impl Line<'_> {
         let Some(at) = returns_alone(source) else { return false };
         let to = self.job.to.dialect;
         // What has been written already has stated modes, which would be the caller's from there on.
-        if !to.program.macro_b && !to.can.everything || self.written > 0 {
+        let named =
+            to.program.macros && source.procedures.first().is_some_and(|main| !main.parameters.is_empty());
+        if !to.program.macro_b && !named && !to.can.everything || self.written > 0 {
             let what = "the return of a subprogram without its main program".into();
             self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
             return true;

@@ -18,7 +18,7 @@ use super::formula::Typed;
 use super::lower::Lower;
 use super::polar::Pole;
 use crate::Batch;
-use crate::begins::{self, Unsaid, report, take};
+use crate::begins::{self, Unsaid, report};
 use crate::word::facts::Know;
 use crate::word::number::unit_of;
 
@@ -154,6 +154,9 @@ impl State {
             distance: Know::Callers,
             plane: Know::Callers,
             feed_mode: Know::Callers,
+            work_offset: Know::Callers,
+            length: Know::Callers,
+            no_shift: Know::Callers,
             ..State::lost(cycle)
         }
     }
@@ -165,6 +168,9 @@ impl State {
             distance: self.distance.lost(),
             plane: self.plane.lost(),
             feed_mode: self.feed_mode.lost(),
+            work_offset: self.work_offset.lost(),
+            length: self.length.lost(),
+            no_shift: self.no_shift.lost(),
             ..State::lost(cycle)
         }
     }
@@ -176,6 +182,9 @@ impl State {
             .with(ModeName::Units, self.units)
             .with(ModeName::Plane, self.plane)
             .with(ModeName::FeedMode, self.feed_mode)
+            .with(ModeName::WorkOffset, self.work_offset)
+            .with(ModeName::LengthOffset, self.length)
+            .with(ModeName::OriginShift, self.no_shift)
     }
 
     /// What is known after a block that may have been skipped.
@@ -352,19 +361,20 @@ impl Lower {
     /// A move relies on the frames between machine and program, and along Z on the tool's length.
     pub(super) fn rely_on_frames(&mut self, with_z: bool, at: Span, out: &mut Batch) {
         self.no_stale_offset(at, out);
+        self.inherited.rely(&self.state.work_offset, ModeName::WorkOffset, at);
+        self.inherited.rely(&self.state.no_shift, ModeName::OriginShift, at);
+        if with_z {
+            self.inherited.rely(&self.state.length, ModeName::LengthOffset, at);
+        }
         if !self.assume {
             return;
         }
-        let power_on = &self.settings.dialect.power_on;
-        if self.state.work_offset == Know::Unsaid {
-            let value =
-                take(&mut self.state.work_offset, &mut out.assumed.work_offset, &power_on.work_offset);
-            report(out, at, ModeName::WorkOffset, value.map(|n| n.to_string()).as_deref());
+        let dialect = self.settings.dialect;
+        if self.state.work_offset.unsaid() {
+            begins::work_offset(&mut self.state.work_offset, dialect, at, out);
         }
-        if self.state.no_shift == Know::Unsaid {
-            let know = &mut self.state.no_shift;
-            let value = take(know, &mut out.assumed.no_origin_shift, &power_on.no_origin_shift);
-            report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+        if self.state.no_shift.unsaid() {
+            begins::no_shift(&mut self.state.no_shift, &dialect.power_on, at, out);
         }
         if !with_z {
             return;
@@ -372,14 +382,10 @@ impl Lower {
         if let Some(change) = self.state.implied_edge.take() {
             self.option("edge_after_change", change, out);
         }
-        if self.state.length == Know::Unsaid
-            && let Some(row) = &power_on.length_offset
+        if self.state.length.unsaid()
+            && let Some(entry) = begins::length_offset(&dialect.power_on, at, out)
         {
-            self.state.length = Know::Taken(row.value != 0);
-            out.assumed.length_offset = Some(row.value);
-            if !row.always {
-                report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
-            }
+            self.state.length.take(entry != 0);
         }
     }
 

@@ -441,6 +441,11 @@ impl Lower {
                 } else if code.name == "RET" && !self.sub_alone {
                     let name = "return in the main program";
                     return self.not_supported(code.name, name, code.span, out);
+                } else if out.heading.as_ref().is_some_and(|heading| !heading.parameters.is_empty()) {
+                    // It has them from the program that calls it, and goes back to that.
+                    (out.subprogram, out.whole) = (true, true);
+                    self.leave_motion(code.span, out);
+                    Op::Return
                 } else {
                     out.subprogram |= self.sub_alone || meaning == Meaning::Return;
                     Op::ProgramEnd

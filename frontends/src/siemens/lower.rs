@@ -234,10 +234,10 @@ impl Lower {
         let open = self.assume
             && (state.distance.unsaid()
                 || state.units.unsaid()
-                || state.work_offset == Know::Unsaid
-                || state.no_shift == Know::Unsaid
+                || state.work_offset.unsaid()
+                || state.no_shift.unsaid()
                 || state.implied_edge.is_some()
-                || state.length == Know::Unsaid);
+                || state.length.unsaid());
         let axes = linear(Axis::X) && linear(Axis::Y) && linear(Axis::Z);
         // The statements of a move say what is in force only after one has been looked at.
         let moved = self.moved == Some(if feed { Motion::Feed } else { Motion::Traverse });

@@ -263,6 +263,9 @@ impl State {
             plane: Know::Callers,
             feed_mode: Know::Callers,
             return_level: Know::Callers,
+            work_offset: Know::Callers,
+            length_offset: Know::Callers,
+            no_shift: Know::Callers,
             ..State::lost()
         }
     }
@@ -275,6 +278,9 @@ impl State {
             .with(ModeName::Plane, self.plane)
             .with(ModeName::FeedMode, self.feed_mode)
             .with(ModeName::ReturnLevel, self.return_level)
+            .with(ModeName::WorkOffset, self.work_offset)
+            .with(ModeName::LengthOffset, self.length_offset)
+            .with(ModeName::OriginShift, self.no_shift)
     }
 
     /// What is known where control may come from elsewhere, too.
@@ -392,34 +398,26 @@ impl Lower {
     /// A move relies on the frames between machine and program, and with the drilling axis on the
     /// length offset.
     pub(super) fn rely_on_frames(&mut self, with_z: bool, at: Span, out: &mut Batch) {
+        self.inherited.rely(&self.state.work_offset, ModeName::WorkOffset, at);
+        self.inherited.rely(&self.state.no_shift, ModeName::OriginShift, at);
+        if with_z {
+            self.inherited.rely(&self.state.length_offset, ModeName::LengthOffset, at);
+        }
         if !self.assume {
             return;
         }
-        let power_on = &self.settings.dialect.power_on;
+        let dialect = self.settings.dialect;
         if self.state.work_offset.unsaid() {
-            let know = &mut self.state.work_offset;
-            if let Some(offset) = take(know, &mut out.assumed.work_offset, &power_on.work_offset) {
-                if self.settings.dialect.caps.work_offsets == 0 {
-                    out.report(Fault::AssumedWorkOffset { offset }, at);
-                } else {
-                    report(out, at, ModeName::WorkOffset, Some(&offset.to_string()));
-                }
-            }
+            begins::work_offset(&mut self.state.work_offset, dialect, at, out);
         }
         if self.state.no_shift == Know::Unsaid {
-            let value =
-                take(&mut self.state.no_shift, &mut out.assumed.no_origin_shift, &power_on.no_origin_shift);
-            report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+            begins::no_shift(&mut self.state.no_shift, &dialect.power_on, at, out);
         }
         if with_z
             && self.state.length_offset.unsaid()
-            && let Some(row) = &power_on.length_offset
+            && begins::length_offset(&dialect.power_on, at, out).is_some()
         {
             self.state.length_offset.take(());
-            out.assumed.length_offset = Some(row.value);
-            if !row.always {
-                report(out, at, ModeName::LengthOffset, Some(&row.value.to_string()));
-            }
         }
     }
 
@@ -427,9 +425,7 @@ impl Lower {
     /// the origin stays so, if it has not said one before.
     pub(super) fn lose(&mut self, at: Span, out: &mut Batch) {
         if self.assume && self.state.no_shift == Know::Unsaid {
-            let none = &self.settings.dialect.power_on.no_origin_shift;
-            let value = take(&mut self.state.no_shift, &mut out.assumed.no_origin_shift, none);
-            report(out, at, ModeName::OriginShift, value.map(|none| if none { "none" } else { "one" }));
+            begins::no_shift(&mut self.state.no_shift, &self.settings.dialect.power_on, at, out);
         }
         self.lose_state(out);
     }

@@ -200,7 +200,7 @@ impl Reader {
             self.lower.computes.check_saved(out);
             self.lower.computes.no_calls_within(out);
             self.lower.settle_calls(out);
-            self.lower.inherited.settle(&self.lower.settings.dialect.power_on, out);
+            self.lower.inherited.settle(self.lower.settings.dialect, out);
         }
     }
 
