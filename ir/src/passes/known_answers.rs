@@ -96,7 +96,10 @@ fn fill(value: &mut Expr, known: &Modes, there: Option<&Computes>) -> bool {
         *value = Expr::int(worth);
         return true;
     }
-    let all = value.parts_mut().fold(true, |all, part| fill(part, known, there) && all);
+    let mut all = true;
+    for part in value.parts_mut() {
+        all &= fill(part, known, there);
+    }
     if let Expr::Node(node) = value
         && let Node::Binary(operator @ (Binary::Add | Binary::Multiply), Expr::Num(a), Expr::Num(b)) = &**node
         && let (Some(a), Some(b)) = (a.whole(), b.whole())
