@@ -293,7 +293,8 @@ impl<'j> Line<'j> {
         body.append(&mut self.batch.stmts);
         let mut procedures = vec![self.batch.main(body)];
         procedures.append(&mut self.batch.procedures);
-        let source = Program { name: self.batch.name.clone(), assumed, procedures };
+        let name = self.batch.name.clone();
+        let source = self.by_itself(Program { name, assumed, procedures });
         let unknown = unknown_calls(&source);
         if !unknown.is_empty() {
             self.take(unknown, Told::Reader);
@@ -307,8 +308,8 @@ impl<'j> Line<'j> {
         if self.job.from.dialect.program.macro_b {
             passed_labels::run(&mut program);
         }
-        let (mut known, mut renamed) = (Known::default(), Renamed::default());
-        let (mut own_distance, mut stands) = (BTreeSet::new(), HashMap::new());
+        let (mut known, mut renamed, mut stands) = (Known::default(), Renamed::default(), HashMap::new());
+        let mut own_distance = BTreeSet::new();
         let computes = anything(&source).is_some() && !self.executes_computed();
         if computes {
             let caps = self.job.to.caps();
@@ -333,8 +334,7 @@ impl<'j> Line<'j> {
                 }
             }
             let refused = |found: &[Diagnostic]| found.iter().any(|d| d.fault.gravity() == Gravity::Error);
-            let fault = computing(&program, there).filter(|_| !refused(&found));
-            found.extend(fault);
+            found.extend(computing(&program, there).filter(|_| !refused(&found)));
             if refused(&found) {
                 self.take(found, Told::Reader);
                 return Ok(());

@@ -143,7 +143,9 @@ fn the_macro_language_is_refused_by_name() {
     };
     refused("G0 X##1\n", "##1");
     refused("X[#1.]\n", "#1.");
-    refused("G#1\n", "G#1");
+    let code = "code whose number may be anything: its variable has not, on every way to it, that of a code in force";
+    let told = format!("NotSupported {{ code: 'G#1', name: '{code}' }} at 'G#1'");
+    assert_eq!(faults("fanuc", "G#1\n"), [told]);
     refused("M[#1+3]\n", "M[#1+3]");
     refused("G51 X0 Y0 Z0 P#1\n", "P#1");
     refused("X[#1 EQ 2]\n", "X[#1 EQ 2]");

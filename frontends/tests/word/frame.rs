@@ -75,9 +75,14 @@ fn subprograms_stand_after_the_main_program() {
     assert_eq!(stmts(&out), ["CALL 12 x1", "ProgramEnd", "(SUBS)"]);
     // The first call's name is the subprogram's.
     assert_eq!(out.procedures[0].body.len(), 2);
+    // A subprogram that stands alone.
+    assert!(errors("fanuc", "O1\nM99\n").is_empty());
     assert_eq!(
-        errors("fanuc", "O1\nM99\n"),
-        ["NotSupported { code: 'M99', name: 'return in the main program: endless repetition' } at 'M99'"]
+        errors("fanuc", "O1\nM99\nM30\n"),
+        [
+            "NotSupported { code: 'M99', name: 'return in the main program: endless repetition' } at 'M99'",
+            "TextAfterEnd at 'M30'"
+        ]
     );
     assert_eq!(errors("fanuc", "O1\nM30\nO2\nM99 P100\n"), ["WordUnused { word: 'P100' } at 'P100'"]);
 }
