@@ -53,6 +53,18 @@ pub enum Said {
     Attributes,
 }
 
+/// Of which numbers a control has a remainder.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Remainders {
+    /// Of any.
+    #[default]
+    OfAny,
+    /// Of those alone that are whole by their types ([`crate::types`]).
+    Typed,
+    /// Of whole ones, which it makes of others first, in a way that is not known for sure.
+    MadeWhole,
+}
+
 /// How arguments come to the variables of what is called.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Handed {
@@ -174,8 +186,8 @@ pub struct Computes {
     pub values: Vec<Expr>,
     /// With what the names of its variables begin; behind it they are numbers.
     pub prefix: Text,
-    /// Whether the remainder is one of numbers alone that are whole by their types ([`crate::types`]).
-    pub whole_remainder: bool,
+    /// Of which numbers it has a remainder.
+    pub remainders: Remainders,
     /// Whether a variable can have no value at all, which is another thing than zero.
     pub vacant: bool,
     /// Whether words round what is computed for them to their increment.

@@ -197,6 +197,7 @@ fn form(of: &str) -> String {
         "ReturnLevelName" => "`initial` `retract`".into(),
         "ApproachName" => "`plane-first` `raise-first` `clear-first`".into(),
         "MotionName" => "`traverse` `feed`".into(),
+        "RemainderRule" => "`of-any` `typed` `made-whole`".into(),
         "T" => "the value".into(),
         of if of.starts_with("BTreeMap<Quantity") => "a table for each kind of quantity".into(),
         of if of.starts_with("BTreeMap") => "table of texts".into(),

@@ -371,7 +371,7 @@ impl Writer {
         for (at, stmt) in before.iter().enumerate() {
             let before = self.open(stmt, sink);
             // What the tool change does itself.
-            let implied = self.dialect.can.change_stops_spindle
+            let implied = self.settings.change_stops_spindle()
                 && matches!(stmt.op, Op::StopSpindleTurning)
                 && at > 0
                 && matches!(stmts[at - 1].op, Op::ChangeTool)

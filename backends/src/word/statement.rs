@@ -1,6 +1,6 @@
 //! One statement: which words say it, and where they stand in the block.
 
-use ncc_dialects::{Meaning, Quantity};
+use ncc_dialects::{COMPUTED_DWELL, Meaning, Quantity};
 use ncc_ir::canon::{PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
@@ -472,7 +472,12 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<Worth, Fault> {
-        if !dwell.milliseconds {
+        let open = seconds.literal().is_none() && !dwell.milliseconds;
+        if open {
+            self.rely(COMPUTED_DWELL, span, sink);
+        }
+        let counted = open && self.settings.get(COMPUTED_DWELL) == "milliseconds";
+        if !dwell.milliseconds && !counted {
             return self.value(&dwell.word, seconds, span, sink);
         }
         let Some(n) = seconds.literal() else {

@@ -1,5 +1,6 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
+use ncc_dialects::SPINDLE_AFTER_CHANGE;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
@@ -188,6 +189,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 "name it in the profile of the machine that it is for: `[[tool]]` with `number` and `name`"
                     .into(),
             ]
+        }
+        Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
+            let mut all = own("stop the spindle before the change, or start it right behind");
+            if at.from.option.iter().any(|option| option.name == SPINDLE_AFTER_CHANGE) {
+                let own = format!(
+                    "if the machine's change stops it: `--from-option {SPINDLE_AFTER_CHANGE}=stopped`"
+                );
+                all.push(own);
+            }
+            all
         }
         Fault::CannotSay { .. } => {
             vec![format!("write it in a way that {to} has words for: `ncc dialects show {to}`")]

@@ -173,3 +173,23 @@ fn an_option_says_by_which_letter_holes_are_counted() {
     let stored = run(by).exits(0).out;
     assert!(stored.contains("G81 ") && !stored.contains('K'), "{stored}");
 }
+
+/// A second tool is changed in with the spindle turning, and positioned before it is started again.
+const TURNING: &str = "%\nO0016\nG21 G90 G17 G54 G40 G49 G80\nT1 M6\nS900 M3\nG0 X0. Y0.\nG43 H1 Z5.\nT2 M6\nX50.\nS700 M3\nG43 H2 Z5.\nM5\nM30\n%\n";
+
+#[test]
+fn an_option_says_what_a_tool_change_leaves_of_the_spindle() {
+    let folder = folder();
+    std::fs::write(folder.path().join("part.nc"), TURNING).unwrap();
+    let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    run("fanuc to linuxcnc part.nc").exits(1).says("--from-option spindle_after_change=stopped");
+    let stopped = "--no-head --from-option spindle_after_change=stopped";
+    let out = run(&format!("fanuc to linuxcnc part.nc {stopped}")).exits(0).out;
+    assert!(out.contains("T2 M6\nX50"), "{out}");
+    // Another machine may let it turn on: there it is stopped by a word.
+    let out = run(&format!("fanuc to fanuc part.nc {stopped}")).exits(0).out;
+    assert!(out.contains("T2 M06\nM05\n"), "{out}");
+    let out = run(&format!("fanuc to fanuc part.nc {stopped} --to-option spindle_after_change=stopped"));
+    assert!(out.exits(0).out.contains("T2 M06\nX50.\n"));
+    run("fanuc to fanuc part.nc --to-option spindle_after_change=stopped").exits(1).says("goes on turning");
+}

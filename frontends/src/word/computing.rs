@@ -5,7 +5,7 @@
 //!
 //! Not here: which expressions there are (`formula`), and what they are worth.
 
-use ncc_dialects::{ANGLE_RANGE, Quantity};
+use ncc_dialects::{ANGLE_RANGE, COMPUTED_DWELL, Operator, Quantity, RemainderRule};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Var};
@@ -375,6 +375,13 @@ impl Lower {
                 None => self.refuse(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out),
             };
         }
+        // Where a point tells what a dwell counts, what is computed has none.
+        let quantity = match quantity {
+            Quantity::Seconds if self.option(COMPUTED_DWELL, word.span, out) == "milliseconds" => {
+                Quantity::Milliseconds
+            }
+            _ => quantity,
+        };
         let digits = self.digits(word, quantity, src, out)?;
         out.whole = true;
         // The control rounds what an address gets to the least increment of it (16-C, custom macro, referencing
@@ -468,6 +475,14 @@ impl Lower {
                 }
             }
             Node::Var(_) | Node::Vacant | Node::Unary(..) | Node::Binary(..) => {
+                if let Node::Binary(Binary::Modulo, a, b) = &**node
+                    && self.settings.dialect.formula.remainders == RemainderRule::MadeWhole
+                    && [a, b].iter().any(|e| e.literal().is_some_and(|n| n.whole().is_none()))
+                {
+                    let code = self.settings.dialect.formula.operators[&Operator::Modulo].as_str().into();
+                    let name = "the remainder of a number that is not whole".into();
+                    self.fault(Fault::NotSupported { code, name }, at, out);
+                }
                 expr.parts_mut().for_each(|part| self.mean(part, round, at, out));
             }
             Node::Element(element) => {

@@ -331,7 +331,7 @@ impl Lower {
                 if self.state.tool == Know::Unsaid {
                     self.fault(Fault::NoToolSelected, code.span, out);
                 }
-                let stops = self.settings.dialect.can.change_stops_spindle && self.state.turning;
+                let stops = self.settings.change_stops_spindle() && self.state.turning;
                 self.push(code.span, Op::ChangeTool, out);
                 if !stops {
                     return;

@@ -360,7 +360,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     let between = rules.between.keys().map(|function| (*function).into());
                     own.chain(between).chain(remainder).chain(given).chain(by_bits).collect()
                 },
-                whole_remainder: rules.whole_remainder,
+                remainders: rules.remainders.into(),
                 values: dialect.named_values().map(|(.., value)| value).collect(),
                 local: rules.local.clone(),
                 common: rules.common.clone(),

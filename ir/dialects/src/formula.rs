@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ncc_ir::computes::{Handed, Named, Said};
+use ncc_ir::computes::{Handed, Named, Remainders, Said};
 use ncc_ir::expr::{Binary, Function, Var};
 use ncc_ir::num::{Num, Unit};
 use serde::Deserialize;
@@ -21,9 +21,10 @@ pub struct FormulaRules {
     /// Functions of two values whose word stands between them, in brackets with them: `(R1 B_AND 7)`. They bind less
     /// tightly than sums and more tightly than `and`.
     pub between: BTreeMap<FunctionName, String>,
-    /// Whether the remainder's operator is one of whole numbers alone, as their types have it; of others it is written
-    /// as what it is.
-    pub whole_remainder: bool,
+    /// Of which numbers the remainder's operator is one: of any; of those that are whole by their types; of whole ones,
+    /// which the control makes of others first, in a way that is not known for sure. Of others it is written as what it
+    /// is.
+    pub remainders: RemainderRule,
     /// Operators in groups that bind alike, the tightest first.
     pub priority: Vec<Vec<Operator>>,
     /// The brackets.
@@ -286,6 +287,27 @@ impl From<FunctionName> for Function {
             FunctionName::BitAnd => Function::BitAnd,
             FunctionName::BitOr => Function::BitOr,
             FunctionName::BitXor => Function::BitXor,
+        }
+    }
+}
+
+/// As [`Remainders`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs)] // As [`Remainders`].
+pub enum RemainderRule {
+    #[default]
+    OfAny,
+    Typed,
+    MadeWhole,
+}
+
+impl From<RemainderRule> for Remainders {
+    fn from(rule: RemainderRule) -> Remainders {
+        match rule {
+            RemainderRule::OfAny => Remainders::OfAny,
+            RemainderRule::Typed => Remainders::Typed,
+            RemainderRule::MadeWhole => Remainders::MadeWhole,
         }
     }
 }

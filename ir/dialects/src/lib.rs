@@ -28,7 +28,7 @@ pub use codes::*;
 pub use corners::{CornerRules, CornerWord};
 pub use cycles::*;
 pub use fault::{DialectError, DialectFault, Place, Text};
-pub use formula::{FormulaRules, FunctionName, Operator, Statement};
+pub use formula::{FormulaRules, FunctionName, Operator, RemainderRule, Statement};
 pub use load::{builtin, builtin_ids, builtin_text, builtins, load, parse, renew};
 pub use meaning::{Meaning, Thread};
 pub use names::*;
@@ -36,6 +36,7 @@ pub use power_on::*;
 pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
 pub use settings::{
-    ANGLE_RANGE, CYCLE_APPROACH, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
+    ANGLE_RANGE, COMPUTED_DWELL, CYCLE_APPROACH, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD,
+    SPINDLE_AFTER_CHANGE, SettingError, Settings, TAPPING,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};

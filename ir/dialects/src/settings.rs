@@ -20,6 +20,13 @@ pub const TAPPING: &str = "tapping";
 /// degrees) or `half` a turn to each side (the sine's -90 to 90).
 pub const ANGLE_RANGE: &str = "angle_range";
 
+/// Option of a dictionary whose dwells count by a point: what a dwell counts that is computed, `seconds` or
+/// `milliseconds`.
+pub const COMPUTED_DWELL: &str = "computed_dwell";
+
+/// Option of a dictionary: what the spindle does after a tool change that says nothing of it, `open` or `stopped`.
+pub const SPINDLE_AFTER_CHANGE: &str = "spindle_after_change";
+
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 
@@ -108,6 +115,11 @@ impl Settings {
         self.dialect.program.names && self.get(PROGRAM_NAMES) == "names"
     }
 
+    /// Whether a tool change leaves the spindle stopped, as the control or this machine has it.
+    pub fn change_stops_spindle(&self) -> bool {
+        self.dialect.can.change_stops_spindle || self.get(SPINDLE_AFTER_CHANGE) == "stopped"
+    }
+
     /// What the dialect can say, as its options are.
     pub fn caps(&self) -> Caps {
         let mut caps = self.dialect.caps.clone();
@@ -125,6 +137,7 @@ impl Settings {
         if let Some(computes) = &mut caps.computes {
             computes.turn = self.get(ANGLE_RANGE) == "turn";
         }
+        caps.change_stops_spindle = self.change_stops_spindle();
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps
     }

@@ -18,6 +18,7 @@ mod frame;
 mod holes;
 mod message;
 mod needed;
+mod nesting;
 mod polar;
 mod rounds;
 mod run;

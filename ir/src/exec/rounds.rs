@@ -6,7 +6,7 @@
 //! Not here: a run whose variables change for ever, which ends at a number of steps.
 
 use super::code::At;
-use super::run::{Blocks, Frame};
+use super::nesting::{Blocks, Frame};
 use super::term::Variables;
 
 /// Where a run was, and what it knew.

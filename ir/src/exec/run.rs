@@ -6,6 +6,7 @@ use std::rc::Rc;
 use super::code::{Again, At, Called, Code, Declared, Step};
 use super::message;
 use super::needed::needed;
+use super::nesting::{Blocks, Frame};
 use super::rounds::Rounds;
 use super::term::{Asked, Place, Variables, Why, real};
 use super::{Event, Exec};
@@ -26,8 +27,9 @@ const DEEPEST: usize = 64;
 /// end.
 const MOST_STEPS: u64 = 200_000_000;
 
-/// Most of them between two statements that are executed by themselves.
-const MOST_IDLE: u64 = 10_000_000;
+/// Most of them between two statements that are executed by themselves, and between two that anything comes of: a
+/// control that executes a thousand blocks a second stands still for half an hour with so many.
+const MOST_IDLE: u64 = 2_000_000;
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +58,8 @@ pub struct Runner<'p> {
     /// Statements with what was computed for them last.
     now: Vec<Stmt>,
     steps: u64,
+    /// Steps at the last event.
+    eventful: u64,
     rounds: Rounds,
     /// Which ways of each decision were taken: 1 where it held, 2 where it did not.
     taken: Vec<u8>,
@@ -65,35 +69,6 @@ pub struct Runner<'p> {
     most_idle: u64,
     /// Parameters of the main procedure that are read, with the place where it begins.
     pub(super) needed: Vec<(Var, Place, Span)>,
-}
-
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Frame {
-    entry: At,
-    back: At,
-    /// Further times after this one.
-    again: u32,
-    /// How many bodies were open, and places of variables in use, where it was called.
-    turns: usize,
-    base: usize,
-    /// Whether it has its caller's locals.
-    shared: bool,
-    parameters: Rc<[Place]>,
-    /// What they are given, each time.
-    given: Rc<[Value]>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Blocks {
-    begin: At,
-    end: At,
-    back: At,
-    again: u32,
-    /// In which call.
-    call: usize,
-    /// How many bodies that are counted were open there, of all and of the procedure's own.
-    turns: usize,
-    counted: u32,
 }
 
 /// No step.
@@ -116,6 +91,7 @@ impl<'p> Runner<'p> {
             variables: Variables::new(&code.names),
             now: code.computed.iter().map(|computed| computed.stmt.clone()).collect(),
             steps: 0,
+            eventful: 0,
             rounds: Rounds::default(),
             taken: vec![0; code.steps.len()],
             most: MOST_STEPS,
@@ -140,8 +116,8 @@ impl<'p> Runner<'p> {
         self.most = most;
     }
 
-    /// Has a run that decides and computes without doing anything be taken for one without an end after so many
-    /// steps.
+    /// Has a run that decides and computes without doing anything, or does only what changes nothing, be taken for one
+    /// without an end after so many steps.
     pub fn limit_idle(&mut self, most: u64) {
         self.most_idle = most;
     }
@@ -206,7 +182,13 @@ impl<'p> Runner<'p> {
     ) -> Result<Progress, Diagnostic> {
         while out.len() < enough {
             let Some(stmt) = self.next(exec)? else { return Ok(Progress::Done) };
+            let (before, span) = (out.len(), stmt.span);
             exec.step(stmt, out)?;
+            if out.len() > before {
+                self.eventful = self.steps;
+            } else if self.steps - self.eventful > self.most_idle {
+                return Err(Diagnostic::new(Fault::NoEnd { steps: self.most_idle }, span));
+            }
         }
         Ok(Progress::More)
     }

@@ -17,22 +17,47 @@ use crate::track::Tracker;
 
 /// By centre, from the start of the arc.
 pub fn by_centre(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_arc(program, entry, diags, |arc, walk| {
-        if matches!(arc.centre, Centre::Point { .. }) {
-            return Ok(());
+    each_arc(program, entry, diags, |arc, walk| centre_of(arc, walk, target));
+}
+
+fn centre_of(arc: &mut Arc, walk: &Walk, target: &Target) -> Result<(), Fault> {
+    if matches!(arc.centre, Centre::Point { .. }) {
+        return Ok(());
+    }
+    let Some((first, second, start, centre)) = round(arc, &walk.at) else {
+        return Err(unknown(arc, &walk.at));
+    };
+    let mut words: [Option<Expr>; 3] = [None, None, None];
+    for (i, axis) in [first, second].into_iter().enumerate() {
+        let unit = unit_of(axis, walk.unit());
+        let word = rounded(centre[i].wrapping_sub(start[i]), target.decimals_in(unit), unit);
+        words[axis as usize] = Some(word.into());
+    }
+    arc.centre = Centre::Point { words, from: CentreFrom::Start };
+    Ok(())
+}
+
+/// Whether an arc by radius may have more digits than a target that writes so many in mm.
+pub(super) fn may_be_too_fine(op: &Op, decimals: u8) -> bool {
+    let Op::ArcFeed(arc) = op else { return false };
+    let finer = |value: &Expr| value.literal().is_some_and(|n| n.trimmed().scale > decimals);
+    let Centre::Radius(radius) = &arc.centre else { return false };
+    finer(radius) || arc.to.axes.iter().flatten().any(|word| finer(&word.value))
+}
+
+/// Gives arcs by radius their centre where the target rounds the radius or the end: their centre would move further
+/// than that, the more the nearer they are to half a turn.
+pub(super) fn too_fine(stmts: &mut [Stmt], walk: &mut Walk, target: &Target, diags: &mut Vec<Diagnostic>) {
+    for stmt in stmts {
+        walk.enter(stmt.skip);
+        if may_be_too_fine(&stmt.op, target.decimals_in(walk.unit()))
+            && let Op::ArcFeed(arc) = &mut stmt.op
+            && centre_of(arc, walk, target).is_ok()
+        {
+            diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
         }
-        let Some((first, second, start, centre)) = round(arc, &walk.at) else {
-            return Err(unknown(arc, &walk.at));
-        };
-        let mut words: [Option<Expr>; 3] = [None, None, None];
-        for (i, axis) in [first, second].into_iter().enumerate() {
-            let unit = unit_of(axis, walk.unit());
-            let word = rounded(centre[i].wrapping_sub(start[i]), target.decimals_in(unit), unit);
-            words[axis as usize] = Some(word.into());
-        }
-        arc.centre = Centre::Point { words, from: CentreFrom::Start };
-        Ok(())
-    });
+        walk.step(stmt);
+    }
 }
 
 /// By radius, where that says the same.

@@ -18,11 +18,11 @@ use super::needs::{
 use super::walk::Walk;
 use super::write::EXACT;
 use super::{
-    Target, absolute_holes, approach, arc_form, at_once, cutter_radius, expand_calls, expand_corners,
-    expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit, flatten_facts,
-    machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
-    polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures, spindle_angle,
-    state_clearance, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
+    Target, absolute_holes, approach, arc_form, at_once, convert_arcs, cutter_radius, expand_calls,
+    expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
+    flatten_facts, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
+    path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures,
+    spindle_angle, state_clearance, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -225,6 +225,10 @@ impl Legaliser {
             found |= interest(stmt);
         }
         let mut needs = found & self.lacks;
+        if found & ARC != 0 && self.follow {
+            let fine = |stmt: &Stmt| convert_arcs::may_be_too_fine(&stmt.op, self.target.decimals);
+            needs |= if stmts.iter().any(fine) { ARC } else { 0 };
+        }
         needs |= if self.length.is_busy() { LENGTH } else { 0 };
         needs |= if self.cycles.is_busy() || self.taps.is_busy() { CYCLE } else { 0 };
         needs |= if self.threads.is_busy() { THREAD } else { 0 };
@@ -376,6 +380,9 @@ impl Legaliser {
             }
         }
         // Every pass walks from the same start: what it walks over does what the piece does.
+        if needs & ARC != 0 {
+            convert_arcs::too_fine(stmts, &mut start.clone(), &self.target, diags);
+        }
         if needs & ARC != 0 && !self.target.caps.arc_forms {
             arc_form::over(stmts, &mut start.clone(), &mut self.arcs, &self.target, diags);
         }

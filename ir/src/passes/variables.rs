@@ -13,6 +13,7 @@ mod look;
 mod names;
 mod put;
 mod references;
+mod remainders;
 mod vacancy;
 mod words;
 
@@ -20,10 +21,9 @@ use crate::arguments::{self, Argument};
 use crate::canon::{Distance, Units};
 use crate::computes::{Computes, Handed};
 use crate::diag::Diagnostic;
-use crate::expr::{Binary, Expr, Function, Node, Target, Var};
+use crate::expr::{Expr, Function, Node, Target, Var};
 use crate::num::Unit;
 use crate::program::{Control, Op, Program, Stmt};
-use crate::types::Types;
 
 pub use words::Fineness;
 pub(super) use words::as_rounded;
@@ -86,13 +86,7 @@ pub fn run(
     if !computes.functions.contains(&Function::RoundUp) && computes.functions.contains(&Function::Ceiling) {
         words::up(program, diags);
     }
-    let whole = computes.whole_remainder;
-    if whole || !computes.operators.contains(&Binary::Modulo) {
-        program.procedures.iter_mut().for_each(|procedure| {
-            let types = whole.then(|| Types::of_procedure(procedure));
-            expressions(&mut procedure.body, &mut |_, value| words::remainder(value, types.as_ref()));
-        });
-    }
+    remainders::run(program, from, computes, diags);
     if !own {
         program.procedures.iter_mut().for_each(|procedure| {
             expressions(&mut procedure.body, &mut |_, value| words::whole(value));

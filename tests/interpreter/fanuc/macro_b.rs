@@ -394,6 +394,9 @@ impl Control {
         let mut words = Vec::new();
         for (letter, text) in raw.iter().copied() {
             if text.contains(['#', '[']) {
+                if letter == 'P' && self.variables.haas && code(&["4", "04", "82", "86", "89"]) {
+                    return Err("a computed dwell, without a point to tell what it counts".into());
+                }
                 // A dwell by X is in seconds, of which the least is a millisecond.
                 let rounding = match (letter, code(&["4", "04"]) && !self.variables.haas) {
                     ('X', true) => Rounding::To(3),

@@ -1,5 +1,5 @@
 //! What the target's words and functions do by themselves: a rounding that ends below its last digit is taken away, a
-//! remainder and a rounding up that it has no words for are said by others.
+//! rounding up that it has no word for is said by another.
 
 use std::cell::Cell;
 
@@ -12,7 +12,6 @@ use crate::expr::{Binary, Expr, Function, Node};
 use crate::num::{Num, Unit};
 use crate::program::{Centre, Coord, Op, Point, Program, Stmt};
 use crate::source::Span;
-use crate::types::Types;
 
 /// A literal that is rounded, as the whole number that it comes to.
 pub(super) fn whole(expr: &mut Expr) {
@@ -22,29 +21,6 @@ pub(super) fn whole(expr: &mut Expr) {
         && let [Expr::Num(n)] = &arguments[..]
     {
         *expr = Expr::int(n.rounded(0).mantissa);
-    }
-}
-
-/// A remainder as what it is: what is divided, less the divisor as often as it goes into it; where there are types,
-/// one of whole numbers stays.
-pub(super) fn remainder(expr: &mut Expr, types: Option<&Types>) {
-    let both_whole = match expr {
-        Expr::Node(node) => match (&**node, types) {
-            (Node::Binary(_, a, b), Some(types)) => types.are_whole(a) && types.are_whole(b),
-            _ => false,
-        },
-        Expr::Num(_) => false,
-    };
-    expr.parts_mut().for_each(|part| remainder(part, types));
-    if let Expr::Node(node) = expr
-        && let Node::Binary(Binary::Modulo, a, b) = &**node
-        && !both_whole
-    {
-        let of =
-            |operator, a: &Expr, b: &Expr| Expr::Node(Box::new(Node::Binary(operator, a.clone(), b.clone())));
-        let quotient = of(Binary::Divide, a, b);
-        let often = Expr::Node(Box::new(Node::Call(Function::Truncate, vec![quotient])));
-        *expr = of(Binary::Subtract, a, &of(Binary::Multiply, &often, b));
     }
 }
 
