@@ -238,6 +238,7 @@ fn arc_form<E>(arc: &mut ArcForm, seen: &mut Seen<'_, E>) -> Result<(), E> {
 fn cycle<E>(of: &mut Cycle, seen: &mut Seen<'_, E>) -> Result<(), E> {
     coord(&mut of.retract, seen)?;
     coord(&mut of.depth, seen)?;
+    seen(Argument::Word(&mut of.reference), Unit::Entry)?;
     seen(Argument::Word(&mut of.return_plane), Unit::Entry)?;
     seen(Argument::Optional(&mut of.feed), Unit::Entry)?;
     match &mut of.kind {

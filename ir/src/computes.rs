@@ -168,6 +168,8 @@ pub struct Computes {
     pub whole: Option<u8>,
     /// Its alarms, if a program can give such.
     pub alarms: Option<Alarms>,
+    /// The alarm with which the control ends a program of which a cycle's planes do not lie one above the other.
+    pub planes_alarm: Option<i64>,
     /// Values of the control's own that a program can ask for.
     pub system: Vec<System>,
     /// Whether a condition is worth 1 or 0 wherever a number can stand.

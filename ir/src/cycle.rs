@@ -17,6 +17,9 @@ pub struct Cycle {
     pub plane: Fact<Plane>,
     /// The retract plane R: absolute, or incremental from the initial level.
     pub retract: Coord,
+    /// The reference plane over which the retract plane was said to lie, if the cycle states it apart. The moves are
+    /// the retract plane's; a target that states both planes gives it back.
+    pub reference: Option<Coord>,
     /// The bottom of the hole: absolute, or incremental from the retract plane.
     pub depth: Coord,
     /// Where the tool goes after each hole.

@@ -155,6 +155,10 @@ pub(super) fn cycle(c: &Cycle, out: &mut Vec<u8>) {
     put(c.plane.known().map_or("entry", plane), out);
     put(", retract ", out);
     coord(&c.retract, out);
+    if let Some(plane) = &c.reference {
+        put(", reference ", out);
+        coord(plane, out);
+    }
     put(", depth ", out);
     coord(&c.depth, out);
     put(", return ", out);

@@ -1,15 +1,15 @@
 //! Canned cycles: called by name, for the blocks that follow or once where the tool stands.
 //!
-//! The reference plane is the retract plane itself, without a safety distance: the control's checks
-//! then see it as the surface, and the moves are the same whatever the surface is. Only a first
-//! peck of its own needs the two apart.
+//! The reference plane is the one that the cycle states. Where it states none it is the retract plane itself,
+//! without a safety distance: the control's checks then see it as the surface, and the moves are the same whatever
+//! the surface is. Only a first peck of its own needs the two apart.
 
 use ncc_dialects::{CallKind, CallRow, NameMeaning, ParameterRole as Role, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Spindle, Turn, Units};
 use ncc_ir::caps::CycleForm;
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Shift, Tap};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
+use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::{Nanos, Num, POW10, Unit};
 use ncc_ir::program::{Coord, Op, Pitch, Point, Stmt};
 use ncc_ir::source::Span;
@@ -321,9 +321,41 @@ impl Writer {
         }
         let depth = self.level(&cycle.depth, planes.depth, axis, to.row, span, sink)?;
         to.put(Role::ReturnPlane, back)?;
-        to.put(Role::ReferencePlane, retract)?;
-        to.put(Role::SafetyDistance, "0".into())?;
+        match self.above_reference(cycle, to.row) {
+            Some((reference, safety)) => {
+                self.argument(to, Role::ReferencePlane, reference, span, sink)?;
+                self.argument(to, Role::SafetyDistance, &Expr::Num(safety), span, sink)?;
+            }
+            None => {
+                to.put(Role::ReferencePlane, retract)?;
+                to.put(Role::SafetyDistance, "0".into())?;
+            }
+        }
         to.put(Role::Depth, depth)
+    }
+
+    /// The reference plane of a cycle that states it, and how far the retract plane is above it, where that is a number
+    /// and both have digits enough here to add up. The first peck counts from there: it must be longer by just that.
+    fn above_reference<'c>(&self, cycle: &'c Cycle, row: &CallRow) -> Option<(&'c Expr, Num)> {
+        let reference = cycle.reference.as_ref()?;
+        let absolute = |word: &Coord| word.distance == Fact::Known(Distance::Absolute);
+        let safety = apart(&cycle.retract.value, &reference.value)?;
+        let first = match &cycle.kind {
+            CycleKind::DrillPeck { peck, first, .. } | CycleKind::DrillBreak { peck, first, .. } => {
+                let more = apart(first.as_ref()?, peck)?;
+                (more.mantissa, more.scale) == (safety.mantissa, safety.scale)
+            }
+            _ => true,
+        };
+        let unit = match self.words.force.units? {
+            Units::Mm => Unit::Mm,
+            Units::Inch => Unit::Inch,
+        };
+        let decimals = self.parameter(row, Role::Depth).format.decimals_for(unit);
+        let whole = |num: Num| num.trimmed().scale <= decimals;
+        let digits = whole(safety) && reference.value.literal().is_none_or(whole);
+        let stated = absolute(reference) && absolute(&cycle.retract) && safety.mantissa > 0;
+        (first && digits && stated).then_some((&reference.value, safety))
     }
 
     /// A level along the drilling axis, in the digits of the program where it is absolute there.
@@ -356,7 +388,8 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        if let Some(first) = first {
+        let stated = self.above_reference(&planes.cycle, to.row).is_some();
+        if let Some(first) = first.filter(|_| !stated) {
             let word = &planes.cycle.retract;
             let distance = word.distance.known().or(self.words.force.distance);
             let more = difference(first, peck);
@@ -479,6 +512,25 @@ fn sense(spindle: Spindle) -> &'static str {
         Spindle::Clockwise => "3",
         Spindle::Counterclockwise => "4",
         Spindle::Stopped => "5",
+    }
+}
+
+/// By how much a length is said to be more than another one, where that is a number.
+fn apart(more: &Expr, than: &Expr) -> Option<Num> {
+    if let Expr::Node(node) = more
+        && let Node::Binary(Binary::Add, of, by) = &**node
+        && same_length(of, than)
+    {
+        return by.literal().map(Num::trimmed);
+    }
+    difference(more, than)
+}
+
+/// Whether an operand is a length: a literal has no unit there.
+fn same_length(operand: &Expr, length: &Expr) -> bool {
+    match (operand.literal(), length.literal()) {
+        (Some(a), Some(b)) => (a.mantissa, a.scale) == (b.mantissa, b.scale),
+        _ => operand == length,
     }
 }
 

@@ -13,6 +13,7 @@ pub(crate) fn cycle(kind: CycleKind) -> Cycle {
         depth: coord("-6."),
         return_level: Fact::Entry,
         return_plane: Some(coord("10.")),
+        reference: None,
         approach: Approach::PlaneFirst,
         feed: None,
     }

@@ -13,6 +13,7 @@ fn cycle(kind: CycleKind, depth: &str, feed: Option<&str>) -> Cycle {
         depth: coord(depth),
         return_level: Fact::Known(ReturnLevel::Retract),
         return_plane: None,
+        reference: None,
         approach: Approach::RaiseFirst,
         feed: feed.map(mm),
     }

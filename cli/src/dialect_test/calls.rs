@@ -48,23 +48,30 @@ fn cycle(kind: &str) -> String {
     format!("START_CYCLE({kind}, XY, retract 3mm, depth -12mm, return entry, return-plane 20mm, plane-first)")
 }
 
+/// The same, with a reference plane of its own below the retract plane.
+fn above(cycle: &str) -> String {
+    cycle.replace("retract 3mm", "retract 3mm, reference 1mm")
+}
+
 /// Statements that need the call, and what of it they show.
 fn said(row: &CallRow) -> Vec<(&'static str, String)> {
     let has = |role| row.place(role).is_some();
     let holes = |kind: &str| format!("{}\nHOLE(X 10mm)\nHOLE(X 20mm)", cycle(kind));
     let one = |say: &str| vec![("", say.to_owned())];
     match row.kind {
-        CallKind::Drill => vec![("", holes("drill"))],
+        CallKind::Drill => vec![("", holes("drill")), ("above", above(&holes("drill")))],
         CallKind::DrillDwell => vec![("", holes("drill-dwell(dwell 0.4s)"))],
         CallKind::DrillPeck => {
+            // All strokes count from the reference plane.
+            let strokes = |kind: &str| above(&holes(kind));
             let mut all = vec![
-                ("clearing", holes("drill-peck(peck 5mm, clearance 0.6mm, first 7mm)")),
-                ("breaking", holes("drill-break(peck 5mm, lift 1mm, at-feed, first 7mm)")),
+                ("clearing", strokes("drill-peck(peck 5mm, clearance 0.6mm, first 7mm)")),
+                ("breaking", strokes("drill-break(peck 5mm, lift 1mm, at-feed, first 7mm)")),
             ];
             if has(ParameterRole::Dwell) {
                 all.push((
                     "dwells",
-                    holes(
+                    strokes(
                         "drill-peck(peck 5mm, clearance 0.6mm, first 7mm, pause 0.5s, settle 1s, dwell 0.5s)",
                     ),
                 ));

@@ -12,7 +12,7 @@ use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, control_forms, exact_comparisons,
-    own_distance, unit_in_force,
+    own_distance, planes_checked, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
@@ -48,6 +48,10 @@ pub(super) fn say(
         known_facts::put_back(program, &entry, there);
         program.procedures.iter_mut().for_each(|procedure| code_of::without_alarms(&mut procedure.body));
     }
+    let lengths = to.numbers(Quantity::Length);
+    if let Some(alarm) = there.planes_alarm {
+        planes_checked::run(program, alarm, lengths.decimals);
+    }
     exact_comparisons::run(program, there, found);
     control_forms::run(program, there);
     arithmetic::run(program, there, from.formula.tolerance(), found);
@@ -72,7 +76,6 @@ pub(super) fn say(
     if computes.calls != there.calls {
         found.extend(there.too_deep(program));
     }
-    let lengths = to.numbers(Quantity::Length);
     let inch = lengths.increment_inch.unwrap_or(lengths.increment);
     let both = |row: &CodeRow| row.dwell.iter().any(|word| word.quantity == Quantity::Milliseconds);
     let seconds = to.code.iter().any(both).then(|| to.numbers(Quantity::Seconds).increment);

@@ -432,6 +432,8 @@ pub(crate) enum Token {
     Radius,
     #[token("turns")]
     Turns,
+    #[token("reference")]
+    Reference,
     #[token("return-plane")]
     ReturnPlane,
     #[token("about")]

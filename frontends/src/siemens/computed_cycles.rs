@@ -128,7 +128,10 @@ impl Lower {
             CallKind::DrillPeck => {
                 let roles = [Role::FirstDepth, Role::RelativeFirstDepth];
                 let first = self.computed_depth(a, roles, &reference, src, out)?;
-                let stroke = reference.with(&first, true);
+                let stroke = match self.is_given(a, Role::RelativeFirstDepth) {
+                    true => self.length(a, Role::RelativeFirstDepth, src, out)?,
+                    false => reference.with(&first, true),
+                };
                 wrong = binary(Binary::Or, wrong, less(&first, &depth));
                 let none = binary(Binary::LessOrEqual, reference.operand.clone(), first.operand);
                 wrong = binary(Binary::Or, wrong, none);
@@ -166,7 +169,8 @@ impl Lower {
         if self.now.failed {
             return None;
         }
-        let alarm = Alarm { number: Some(Expr::int(61_101)), text: "".into() };
+        let number = self.settings.dialect.cycles.planes_alarm;
+        let alarm = Alarm { number: number.map(|number| Expr::int(number.into())), text: "".into() };
         let then = vec![Stmt::new(a.span, Op::Alarm(Box::new(alarm)))];
         let check = Control::If { condition: wrong, then, otherwise: Vec::new() };
         self.push(a.span, Op::Control(Box::new(check)), out);
@@ -175,6 +179,7 @@ impl Lower {
             kind,
             plane,
             retract: level.coord(),
+            reference: safety.map(|_| reference.coord()),
             depth: depth.coord(),
             return_level: Fact::Entry,
             return_plane: Some(return_plane.coord()),

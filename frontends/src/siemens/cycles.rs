@@ -328,6 +328,7 @@ impl Lower {
             kind,
             plane,
             retract: absolute(level),
+            reference: (!safety.is_zero()).then(|| absolute(reference)),
             depth: absolute(depth),
             return_level: Fact::Entry,
             return_plane: Some(absolute(return_plane)),

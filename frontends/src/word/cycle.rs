@@ -288,6 +288,7 @@ impl Lower {
             depth: active.depth.clone(),
             return_level,
             return_plane: None,
+            reference: None,
             approach: self.settings.approach(),
             feed: active.feed.map(Expr::Num),
         };

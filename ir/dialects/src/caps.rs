@@ -381,6 +381,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     capitals: dialect.comment.upper_ascii,
                     longest: (rules.alarm_text > 0).then_some(rules.alarm_text),
                 }),
+                planes_alarm: dialect.cycles.planes_alarm.map(i64::from),
                 system: systems(dialect),
                 worth: rules.not_behind.is_some(),
                 named_programs: dialect.program.o_words,

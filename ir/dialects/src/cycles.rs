@@ -37,6 +37,8 @@ pub struct CycleRules {
     /// Value of the peck cycle's clearance parameter taken for granted, in mm, where an expansion
     /// needs one.
     pub peck_clearance: Option<f64>,
+    /// The alarm with which the control ends a program of which a cycle's planes do not lie one above the other.
+    pub planes_alarm: Option<u32>,
     /// Whether the rows are confirmed for incremental mode.
     pub incremental: bool,
     /// Who says so.

@@ -118,7 +118,9 @@ fn first_leg(
     let depth = level(walk, &cycle.depth, in_force.depth, normal).ok()?;
     // After the rapid both ways must be one: at the retract plane they are.
     let first = cycle.approach.retracts(now, in_force.retract?);
-    other.retract = retract.clone();
+    if other.retract != retract {
+        (other.retract, other.reference) = (retract.clone(), None);
+    }
     // A cycle without a hole makes no move.
     let (at_hole, to) = first_hole(body, i)?;
     match first {

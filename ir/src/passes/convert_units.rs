@@ -280,8 +280,8 @@ impl Converter<'_> {
     }
 
     fn cycle(&self, cycle: &mut Cycle) -> Result<(), Fault> {
-        for word in [Some(&mut cycle.retract), Some(&mut cycle.depth), cycle.return_plane.as_mut()] {
-            let Some(word) = word else { continue };
+        let planes = [&mut cycle.retract, &mut cycle.depth].into_iter();
+        for word in planes.chain(&mut cycle.reference).chain(&mut cycle.return_plane) {
             match word.distance.known().or(self.before.at.modes.distance) {
                 Some(Distance::Absolute) => self.loose(&mut word.value)?,
                 Some(Distance::Incremental) | None => self.whole(&mut word.value)?,

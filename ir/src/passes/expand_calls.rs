@@ -243,7 +243,7 @@ pub(super) fn settle(op: &mut Op, here: &Tracker) {
             settle_fact(&mut cycle.return_level, here.modes.return_level);
             settle_coord(&mut cycle.retract, here);
             settle_coord(&mut cycle.depth, here);
-            cycle.return_plane.iter_mut().for_each(|c| settle_coord(c, here));
+            cycle.reference.iter_mut().chain(&mut cycle.return_plane).for_each(|c| settle_coord(c, here));
             cycle.feed.iter_mut().for_each(|f| settle_expr(f, here));
             match &mut cycle.kind {
                 CycleKind::DrillPeck { peck, first, less, clearance, .. }

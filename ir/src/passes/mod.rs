@@ -52,6 +52,7 @@ pub mod own_distance;
 pub mod passed_labels;
 mod path_control;
 mod pattern_forms;
+pub mod planes_checked;
 mod polar_words;
 mod repeat_ends;
 pub mod return_plane;

@@ -181,7 +181,7 @@ fn behind_first(body: &[Stmt], i: usize, in_force: &InForce, walk: &Walk, target
     let mut new = cycle.clone();
     new.retract = level(walk, &cycle.retract, in_force.retract, normal).ok()?;
     new.depth = level(walk, &cycle.depth, in_force.depth, normal).ok()?;
-    new.return_plane = None;
+    (new.reference, new.return_plane) = (None, None);
     new.return_level = Fact::Known(ReturnLevel::Initial);
     in_force.return_plane?;
     if !level_is_free(&body[i + 1..]) || changes_length(&body[i + 1..]) {

@@ -207,6 +207,7 @@ fn own_tap(
         depth: depth.get(normal)?.clone(),
         return_level: Fact::Known(ReturnLevel::Retract),
         return_plane: None,
+        reference: None,
         approach: target.caps.approach.unwrap_or(cycle.approach),
         feed: None,
     })

@@ -215,6 +215,7 @@ fn cycle_of(stmt: &Stmt, walk: &Walk, target: &Target) -> Option<Cycle> {
         depth: at(end, normal, walk.unit()),
         return_level: Fact::Known(ReturnLevel::Retract),
         return_plane: None,
+        reference: None,
         approach: target.caps.approach.unwrap_or(Approach::PlaneFirst),
         feed: None,
     })

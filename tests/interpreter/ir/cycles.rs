@@ -196,6 +196,7 @@ impl Control {
             };
             match part {
                 [Token::Name(n), rest @ ..] if n == "retract" => retract = level(from, rest),
+                [Token::Name(n), ..] if n == "reference" => {}
                 [Token::Name(n), rest @ ..] if n == "depth" => depth = level(retract, rest),
                 [Token::Name(n), rest @ ..] if n == "return-plane" => back_plane = level(None, rest),
                 [Token::Name(n), Token::Name(v)] if n == "return" => {

@@ -183,6 +183,7 @@ impl Maker {
             depth: Coord { value: self.hundredths(depth).into(), distance },
             return_level: Fact::Known(level),
             return_plane: None,
+            reference: None,
             approach,
             feed,
         })));

@@ -92,6 +92,7 @@ fn cycle() -> impl Strategy<Value = Op> {
                 kind,
                 plane: Fact::Known(plane),
                 retract,
+                reference: None,
                 depth,
                 return_level: Fact::Known(level),
                 return_plane,

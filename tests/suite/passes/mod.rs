@@ -32,7 +32,9 @@ use ncc_ir::exec::{Event, Exec, Progress, Runner};
 use ncc_ir::maps::{Maps, Renaming};
 use ncc_ir::num::{Nanos, Num, ONE, Unit};
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::{Legaliser, PASSES, Target, control_forms, exact_comparisons, passed_labels};
+use ncc_ir::passes::{
+    Legaliser, PASSES, Target, control_forms, exact_comparisons, passed_labels, planes_checked,
+};
 use ncc_ir::program::{Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::verify::{Comparison, Resolution};
@@ -234,7 +236,7 @@ fn refused(diags: &[Diagnostic]) -> bool {
 const NUMBERS: &str = "machine-numbers";
 
 /// Those of the passes that programs go through which compute.
-const COMPUTING: [&str; 3] = ["control-forms", "exact-comparisons", "passed-labels"];
+const COMPUTING: [&str; 4] = ["control-forms", "exact-comparisons", "passed-labels", "planes-checked"];
 
 fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnostic>, String> {
     let mut diags = Vec::new();
@@ -251,6 +253,10 @@ fn apply(pass: &str, program: &mut Program, told: &Told) -> Result<Vec<Diagnosti
         match pass {
             "control-forms" => control_forms::run(program, computes),
             "passed-labels" => passed_labels::run(program),
+            "planes-checked" => {
+                let alarm = computes.planes_alarm.ok_or("a target whose cycles check their planes")?;
+                planes_checked::run(program, alarm, told.target.decimals);
+            }
             _ => exact_comparisons::run(program, computes, &mut diags),
         }
         return Ok(diags);

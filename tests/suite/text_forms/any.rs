@@ -241,16 +241,10 @@ fn cycle() -> BoxedStrategy<Cycle> {
         ),
     ];
     let approach = select(Approach::ALL.to_vec());
-    (kind, fact(planes()), coord(), coord(), fact(levels()), of(coord()), approach, of(expr()))
-        .prop_map(|(kind, plane, retract, depth, return_level, return_plane, approach, feed)| Cycle {
-            kind,
-            plane,
-            retract,
-            depth,
-            return_level,
-            return_plane,
-            approach,
-            feed,
+    let levels_of = (coord(), of(coord()), coord());
+    (kind, fact(planes()), levels_of, fact(levels()), of(coord()), approach, of(expr()))
+        .prop_map(|(kind, plane, (retract, reference, depth), return_level, return_plane, approach, feed)| {
+            Cycle { kind, plane, retract, reference, depth, return_level, return_plane, approach, feed }
         })
         .boxed()
 }

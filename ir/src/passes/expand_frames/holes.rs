@@ -27,6 +27,7 @@ impl Frames<'_> {
         out.plane = Fact::Known(plane);
         out.retract = self.shifted(&cycle.retract, normal)?;
         out.depth = self.shifted(&cycle.depth, normal)?;
+        out.reference = cycle.reference.as_ref().map(|p| self.shifted(p, normal)).transpose()?;
         out.return_plane = cycle.return_plane.as_ref().map(|p| self.shifted(p, normal)).transpose()?;
         Ok(out)
     }

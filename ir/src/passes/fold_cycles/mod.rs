@@ -200,6 +200,7 @@ impl Run {
             retract: first.retract.0.clone(),
             depth: first.depth.0.clone(),
             return_level: Fact::from(level.filter(|_| !states_plane)),
+            reference: None,
             return_plane: states_plane.then(|| first.out.0.clone()),
             approach: target.caps.approach.unwrap_or(Approach::PlaneFirst),
             feed: first.feed.filter(|_| said).map(Into::into),

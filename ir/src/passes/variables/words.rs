@@ -257,8 +257,8 @@ fn round_in(
                 }
             }
             Op::StartCycle(cycle) => {
-                let planes = [Some(&mut cycle.retract), Some(&mut cycle.depth), cycle.return_plane.as_mut()];
-                for plane in planes.into_iter().flatten() {
+                let planes = [&mut cycle.retract, &mut cycle.depth].into_iter();
+                for plane in planes.chain(&mut cycle.reference).chain(&mut cycle.return_plane) {
                     if !from_zero(plane) && fine(plane, digits[0]) {
                         continue;
                     }
