@@ -18,10 +18,8 @@ use ncc_ir::given_back::left_out;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
-use ncc_ir::passes::own_distance;
-use ncc_ir::passes::passed_labels;
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::passes::{Legaliser, Target, leave_out_values};
+use ncc_ir::passes::{Legaliser, Target, leave_out_values, own_distance, passed_labels};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -302,7 +300,8 @@ impl<'j> Line<'j> {
         }
         let mut program = source.clone();
         if !self.job.to.dialect.can.everything {
-            let told = left_out(&program, &self.job.to.caps());
+            let mut told = left_out(&program, &self.job.to.caps());
+            as_there::alarms(self.job, &mut program, &mut told);
             self.take(told, Told::Writer);
         }
         if self.job.from.dialect.program.macro_b {

@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use ncc_dialects::{Dialect, Role};
+use ncc_dialects::{CallRow, Dialect, Role};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::maps::Numbered;
 
@@ -291,6 +291,10 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
     }
     if let Some(name) = key.strip_suffix(AUTOMATIC) {
         return dialect.call.iter().any(|row| row.parameters.iter().any(|p| p.name == name));
+    }
+    let unsure = |row: &CallRow| row.parameters.iter().any(|p| !p.sure && slug(&p.name) == key);
+    if dialect.call.iter().any(unsure) {
+        return true;
     }
     let letter = |key: &str| match key.as_bytes() {
         [letter] | [letter, b'0'] => dialect.address_row(*letter).is_some(),

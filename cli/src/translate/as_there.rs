@@ -20,6 +20,14 @@ use ncc_ir::track::Tracker;
 
 use crate::job::Job;
 
+/// Says the alarms of a program as the target has them.
+pub(super) fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
+    let alarms = job.to.caps().computes.and_then(|there| there.alarms);
+    if let Some(alarms) = alarms.filter(|_| job.from.dialect.id != job.to.dialect.id) {
+        alarm_numbers::run(program, alarms, found);
+    }
+}
+
 /// Says a program so. `stands` is what holds where it begins. What holds in it, and which variables became which,
 /// comes back.
 pub(super) fn say(
@@ -31,9 +39,6 @@ pub(super) fn say(
 ) -> (Known, Renamed) {
     let mut known = Known::default();
     let (from, to) = (job.from.dialect, job.to.dialect);
-    if let Some(alarms) = there.alarms.filter(|_| from.id != to.id) {
-        alarm_numbers::run(program, alarms, found);
-    }
     if there.handed == Handed::Places
         && let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty())
     {

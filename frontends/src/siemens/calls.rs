@@ -37,6 +37,11 @@ pub(super) enum Handing<'h> {
     AfterMove(&'h [Option<Typed>]),
 }
 
+/// Whether what stands behind `MCALL` is a word such as `M9`.
+fn is_word(name: &str) -> bool {
+    matches!(name.as_bytes(), [letter, digit, ..] if *letter != b'L' && letter.is_ascii_alphabetic() && digit.is_ascii_digit())
+}
+
 /// Whether a value is computed from variables of the program at hand alone.
 fn is_own(expr: &Value) -> bool {
     let own = match expr {
@@ -156,6 +161,11 @@ impl Lower {
                 self.state.cycle = InForce::Refused;
             }
             (Some(_), _) => self.not_supported(&name, "pattern after each move", called.span, out),
+            // A name begins with two letters, or an underline and one (PGsl, subprogram names); `L` alone has a number.
+            (None, None) if is_word(&name) => {
+                self.not_supported("MCALL", "another word in its block", called.span, out);
+                self.state.cycle = InForce::Refused;
+            }
             (None, None) => self.call_modal_program(&name, called, src, out),
         }
     }

@@ -84,6 +84,12 @@ impl Lower {
                         let name = format!("{}: {refuse}", parameter.name);
                         self.not_supported(&row.name, &name, *span, out);
                     }
+                    if !parameter.sure && !value.is_zero() && self.first_time(&parameter.name) {
+                        let what = parameter.name.as_str().into();
+                        let value =
+                            value.whole().map_or_else(|| "?".into(), |value| value.to_string().into());
+                        out.report(Fault::AssumedParameter { parameter: what, value }, *span);
+                    }
                     Some(Given { digits: *digits, distance: None, way: None, computed: None, span: *span })
                 }
                 Some(Argument::Text(_)) if parameter.role == Some(ParameterRole::FormText) => None,

@@ -286,6 +286,9 @@ pub struct Parameter {
     /// What another value does.
     #[serde(default)]
     pub refuse: Option<String>,
+    /// Whether it is confirmed what its values mean.
+    #[serde(default = "crate::schema::yes")]
+    pub sure: bool,
 }
 
 /// What an argument is.
