@@ -8,6 +8,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use ncc_backends::Layout;
 use ncc_dialects::Settings;
+use ncc_frontends::Reader;
 use ncc_ir::beside::Rules;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
@@ -83,6 +84,13 @@ impl Job {
             allow: Vec::new(),
             deny: Vec::new(),
         }
+    }
+
+    /// A reader for the source, which is known by its file's name; with `assume` as of [`Reader::new`].
+    pub fn reader(&self, assume: bool) -> Reader {
+        let mut reader = Reader::new(self.from.clone(), assume);
+        reader.named(&self.source_name);
+        reader
     }
 
     /// Whether long-hand text is folded. A list of events is, unless the target is one as well.

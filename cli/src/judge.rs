@@ -5,7 +5,7 @@
 
 use std::io;
 
-use ncc_frontends::{Batch, Reader};
+use ncc_frontends::Batch;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::program::Program;
@@ -30,7 +30,7 @@ impl<'j> Judge<'j> {
     /// As of [`crate::translate::translate`].
     pub fn new(job: &'j Job, source: &[u8]) -> io::Result<Judge<'j>> {
         let (outcome, inherited) = translate_keeping(job, &mut &source[..])?;
-        let mut reader = Reader::new(job.from.clone(), true);
+        let mut reader = job.reader(true);
         let mut batch = Batch::default();
         reader.read(source, 0, &mut batch);
         reader.finish(&mut batch);

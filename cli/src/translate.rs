@@ -166,7 +166,7 @@ impl<'j> Line<'j> {
         writer.set_form(job.machines.form());
         let mut line = Line {
             job,
-            reader: Reader::new(job.from.clone(), true),
+            reader: job.reader(true),
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),

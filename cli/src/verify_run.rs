@@ -515,6 +515,7 @@ impl Verifier {
     /// source was.
     pub(crate) fn read_as_called(&mut self) {
         self.reader.assume();
+        self.reader.goes_back();
         self.as_called = true;
     }
 

@@ -198,6 +198,22 @@ impl Reader {
         }
     }
 
+    /// The text is that of a file of this name, by whose extension some controls know subprograms.
+    pub fn named(&mut self, file: &str) {
+        match self {
+            Reader::Siemens(reader) => reader.named(file),
+            Reader::Word(_) | Reader::Canon(_) | Reader::Ir(_) => {}
+        }
+    }
+
+    /// The text goes back to a program that is not there, and says so by its end alone.
+    pub fn goes_back(&mut self) {
+        match self {
+            Reader::Siemens(reader) => reader.goes_back(),
+            Reader::Word(_) | Reader::Canon(_) | Reader::Ir(_) => {}
+        }
+    }
+
     /// For somebody who looks at a program without executing all of it: a refused block leaves a
     /// statement without effect ([`REFUSED`]) at its place, a missing feed is left to the execution, and
     /// numbers without a point are noted in [`Batch::bare`]. Of the families of words alone; texts of

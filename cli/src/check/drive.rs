@@ -114,7 +114,7 @@ impl<'d> Drive<'d> {
         world.tables = limits.tables.clone();
         let mut exec = Exec::new(&world, skip);
         exec.narrate();
-        let mut reader = Reader::new(job.from.clone(), true);
+        let mut reader = job.reader(true);
         reader.watch();
         Drive {
             dialect: job.from.dialect,

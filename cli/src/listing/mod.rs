@@ -12,7 +12,7 @@ use std::io::{Read, Seek, SeekFrom};
 
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::canon::rs274;
-use ncc_frontends::{Batch, Reader};
+use ncc_frontends::Batch;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
 
@@ -67,7 +67,7 @@ pub(crate) fn run(
     let read = source.file.seek(SeekFrom::Start(0)).and_then(|_| source.file.read_to_end(&mut text));
     read.map_err(|e| cannot_read(&e, &source.shown))?;
     let mut batch = Batch::default();
-    let mut reader = Reader::new(job.from.clone(), true);
+    let mut reader = job.reader(true);
     reader.read(&text, 0, &mut batch);
     reader.finish(&mut batch);
     let mut found = std::mem::take(&mut batch.diagnostics);

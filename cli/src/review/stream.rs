@@ -179,7 +179,7 @@ pub(crate) fn stream_as(
     file.seek(SeekFrom::Start(0))?;
     let mut run = Run {
         job,
-        reader: Reader::new(job.from.clone(), matches!(unsaid, Unsaid::Taken)),
+        reader: job.reader(matches!(unsaid, Unsaid::Taken)),
         unsaid,
         batch: Batch::default(),
         controls: controls.into_iter().map(|exec| Control { exec, events: Vec::new() }).collect(),

@@ -233,7 +233,7 @@ impl<'d> Drive<'d> {
             wants_turns: sink.wants_turns(),
             plan,
             sink,
-            reader: Reader::new(plan.job.from.clone(), true),
+            reader: plan.job.reader(true),
             batch: Batch::default(),
             blocks: Blocks::new(),
             last: exec.machine(),

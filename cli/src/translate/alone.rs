@@ -1,6 +1,7 @@
 //! A subprogram that stands alone: it goes back to a program that is not there. What it takes for granted is what that
 //! one has in force, so that the output states none of it, and is read with the same.
 
+use ncc_dialects::Dialect;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::valid::returns_alone;
@@ -14,8 +15,11 @@ impl Line<'_> {
         let Some(at) = returns_alone(source) else { return false };
         let to = self.job.to.dialect;
         let named = to.program.macros && has_parameters(source);
+        // Where files are known by their names, one that was not has none that its callers would look for.
+        let files = |dialect: &Dialect| dialect.program.sub_extension.is_some();
+        let ends = to.program.macro_b || files(to) && files(self.job.from.dialect);
         // What has been written already has stated modes, which would be the caller's from there on.
-        if !to.program.macro_b && !named && !to.can.everything || self.written > 0 {
+        if !ends && !named && !to.can.everything || self.written > 0 {
             let what = "the return of a subprogram without its main program".into();
             self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
             return true;

@@ -12,7 +12,7 @@ use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, control_forms, exact_comparisons,
-    own_distance, planes_checked, unit_in_force,
+    expand_repeats, own_distance, planes_checked, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
@@ -53,6 +53,7 @@ pub(super) fn say(
         known_facts::put_back(program, &entry, there);
         program.procedures.iter_mut().for_each(|procedure| code_of::without_alarms(&mut procedure.body));
     }
+    expand_repeats::where_it_computes(program, &job.to.caps(), found);
     let lengths = to.numbers(Quantity::Length);
     if let Some(alarm) = there.planes_alarm {
         planes_checked::run(program, alarm, lengths.decimals);

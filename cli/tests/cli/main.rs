@@ -1,5 +1,6 @@
 //! The command line as a process: usage, exit codes, what goes to which stream, which files appear.
 
+mod alone;
 mod arrow;
 mod batch;
 mod called;

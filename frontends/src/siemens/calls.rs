@@ -22,6 +22,7 @@ use super::facts::{AfterMove, InForce, Motion, State};
 use super::formula::Typed;
 use super::lower::{Head, Lower};
 use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Written};
+use super::unit::Kind;
 use crate::Batch;
 use crate::begins::report;
 use crate::word::Source;
@@ -319,7 +320,9 @@ impl Lower {
             let name = "cycle that its subprogram leaves in force or ends";
             return self.not_supported("MCALL", name, at, out);
         }
-        if self.state.feed == Know::Unsaid && !self.entry.own_feed() && !self.watch {
+        // A caller's move that misses the feed of another way of counting is refused where it is executed.
+        let unsaid = self.state.feed == Know::Unsaid && !self.state.spent;
+        if unsaid && !self.entry.own_feed() && !self.watch {
             self.fault(Fault::NoFeed, at, out);
         }
     }
@@ -402,7 +405,10 @@ impl Lower {
                 (None, _) => {}
             }
         }
-        self.sub_alone |= self.sub.is_none();
+        if self.sub.is_none() {
+            self.unit = Some(Kind::Sub);
+            out.whole = true;
+        }
     }
 
     /// The text of a subprogram begins.

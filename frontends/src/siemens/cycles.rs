@@ -278,7 +278,7 @@ impl Lower {
     /// Which feed is in force after a cycle that has its own is not known.
     pub(super) fn hole_made(&mut self, cycle: &Cycle) {
         if cycle.feed.is_some() {
-            self.state.feed = Know::Unsaid;
+            (self.state.feed, self.state.spent) = (Know::Unsaid, false);
         }
     }
 

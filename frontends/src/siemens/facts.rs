@@ -109,6 +109,8 @@ pub(super) struct State {
     pub(super) no_shift: Know<bool>,
     /// Whether a feed was said.
     pub(super) feed: Know<()>,
+    /// Whether the way of counting has left no feed in force: a move without one is refused where it is executed.
+    pub(super) spent: bool,
     /// Whether a tool was selected.
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
@@ -138,6 +140,7 @@ impl State {
             implied_edge: None,
             no_shift: Know::Lost,
             feed: Know::Lost,
+            spent: false,
             tool: Know::Lost,
             cycle,
             pole: Pole::Lost,
@@ -201,6 +204,7 @@ impl State {
         self.implied_edge = self.implied_edge.or(before.implied_edge);
         self.no_shift.join(before.no_shift);
         self.feed.join(before.feed);
+        self.spent &= before.spent;
         self.tool.join(before.tool);
         self.pole.join(before.pole);
         self.tilt.join(before.tilt);
@@ -356,6 +360,8 @@ impl Lower {
         if self.state.feed == Know::Unsaid && !self.watch {
             self.fault(Fault::NoFeed, at, out);
         }
+        // A time counts for one move.
+        self.state.spent |= self.state.feed_mode.value() == Some(FeedMode::InverseTime);
     }
 
     /// A move relies on the frames between machine and program, and along Z on the tool's length.

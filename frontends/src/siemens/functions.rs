@@ -15,6 +15,7 @@ use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::facts::{InForce, Motion};
 use super::lower::{Head, Lower};
 use super::sort::{Code, Words};
+use super::unit::Kind;
 use crate::Batch;
 use crate::word::Source;
 use crate::word::facts::Know;
@@ -198,8 +199,9 @@ impl Lower {
 
     fn count_feed(&mut self, mode: FeedMode) {
         // A feed that was said before does not count any more.
-        if self.state.feed_mode.value().is_some_and(|before| before != mode) {
-            self.state.feed = Know::Unsaid;
+        let other = self.state.feed_mode.value().is_some_and(|before| before != mode);
+        if other || mode == FeedMode::InverseTime {
+            (self.state.feed, self.state.spent) = (Know::Unsaid, true);
         }
         self.state.feed_mode = Know::Said(mode);
     }
@@ -310,7 +312,7 @@ impl Lower {
                     num.unit = Unit::One;
                 }
                 if !feed.literal().is_some_and(ncc_ir::num::Num::is_zero) {
-                    self.state.feed = Know::Said(());
+                    (self.state.feed, self.state.spent) = (Know::Said(()), false);
                 }
                 match &self.state.cycle {
                     InForce::Active(cycle) => self.recall |= cycle.feed.is_some(),
@@ -438,22 +440,44 @@ impl Lower {
                     self.leave_motion(code.span, out);
                     self.leave(code.span, out);
                     Op::Return
-                } else if code.name == "RET" && !self.sub_alone {
-                    let name = "return in the main program";
-                    return self.not_supported(code.name, name, code.span, out);
-                } else if out.heading.as_ref().is_some_and(|heading| !heading.parameters.is_empty()) {
-                    // It has them from the program that calls it, and goes back to that.
+                } else if self.goes_back(code, meaning, out) {
                     (out.subprogram, out.whole) = (true, true);
                     self.leave_motion(code.span, out);
                     Op::Return
                 } else {
-                    out.subprogram |= self.sub_alone || meaning == Meaning::Return;
+                    out.subprogram |= self.unit == Some(Kind::Sub) || meaning == Meaning::Return;
                     Op::ProgramEnd
                 }
             }
             _ => return,
         };
         self.push(code.span, op, out);
+    }
+
+    /// Whether an end of the text's first unit leads back to a program that is not there (PG: M17 and RET end
+    /// subprograms, M2 and M30 the program). What its caller hands over, it has from there.
+    fn goes_back(&mut self, code: &Code, meaning: Meaning, out: &mut Batch) -> bool {
+        let called = out.heading.as_ref().is_some_and(|heading| !heading.parameters.is_empty());
+        let sub = self.unit == Some(Kind::Sub);
+        match meaning {
+            _ if called => true,
+            // There is no other use for it.
+            Meaning::Return if code.name == "RET" => {
+                if !sub && self.assume && self.first_time("RET") {
+                    let parameter = "RET goes back to a program that calls this one".into();
+                    out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, code.span);
+                }
+                true
+            }
+            Meaning::Return => {
+                if self.unit.is_none() && self.assume && self.first_time(code.name) {
+                    let parameter = format!("{} ends a main program", code.name).into();
+                    out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, code.span);
+                }
+                sub
+            }
+            _ => false,
+        }
     }
 
     /// Words that nothing in the block has used.

@@ -27,6 +27,7 @@ use super::parameters::Handed;
 use super::sort::Words;
 use super::speed::Surfaces;
 use super::tree::{Block, BlockNumber, Called, Item, Statement};
+use super::unit::Kind;
 use crate::begins::Inherited;
 use crate::word::Source;
 use crate::word::block::{Value, Word};
@@ -75,8 +76,8 @@ pub(super) struct Lower {
     pub(super) sub: Option<Procedure>,
     /// What `MCALL` had put in force where the subprogram was called.
     pub(super) entry: InForce,
-    /// Whether the main program is a subprogram's text alone.
-    pub(super) sub_alone: bool,
+    /// What the text that begins is, where something says so: its header, its heading, or its file's name.
+    pub(super) unit: Option<Kind>,
     /// Whether the program that is being read has ended.
     pub(super) ended: bool,
     /// What plain moves need; `None` if a block must be looked at.
@@ -171,7 +172,7 @@ impl Lower {
             reported: HashSet::new(),
             sub: None,
             entry: InForce::None,
-            sub_alone: false,
+            unit: None,
             ended: false,
             fast: None,
             now: Now::default(),

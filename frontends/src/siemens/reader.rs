@@ -11,7 +11,7 @@
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::Fault;
-use ncc_ir::program::{Procedure, Text};
+use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::calls::procedure_name;
@@ -98,6 +98,23 @@ impl Reader {
         self.lower.watch = true;
     }
 
+    /// As of [`crate::Reader::named`].
+    pub(crate) fn named(&mut self, file: &str) {
+        let Some((_, extension)) = file.rsplit_once('.') else { return };
+        let dialect = self.lower.settings.dialect;
+        let same = |other: &String| other.eq_ignore_ascii_case(extension);
+        if dialect.program.sub_extension.as_ref().is_some_and(same) {
+            self.lower.unit = Some(Kind::Sub);
+        } else if dialect.extensions.iter().any(same) {
+            self.lower.unit = Some(Kind::Main);
+        }
+    }
+
+    /// As of [`crate::Reader::goes_back`].
+    pub(crate) fn goes_back(&mut self) {
+        self.lower.unit = Some(Kind::Sub);
+    }
+
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         if self.is_binary {
@@ -108,6 +125,8 @@ impl Reader {
             return self.not_text(Span::new(at, at + 1), out);
         }
         self.lower.look_ahead(text, out);
+        // What has been written of it would have stated what is its caller's.
+        out.whole |= self.lower.unit == Some(Kind::Sub);
         if !out.whole {
             self.lower.note_stand(base > 0);
         }
@@ -297,7 +316,9 @@ impl Reader {
                 self.refuse(&src.text(line), "unit that is no program", line, out);
             }
             Kind::Main | Kind::Sub if first => {
-                self.lower.sub_alone = header.kind == Kind::Sub;
+                let sub = header.kind == Kind::Sub;
+                self.lower.unit = Some(if sub { Kind::Sub } else { Kind::Main });
+                out.whole |= sub;
                 out.name.number = name.parse().ok();
                 if out.name.number.is_none() {
                     out.name.title = Some(name.into());
@@ -348,6 +369,10 @@ impl Reader {
             }
             if !self.faulty {
                 out.report(Fault::NoProgramEnd, at);
+            }
+            if !in_sub && self.lower.unit == Some(Kind::Sub) && !self.faulty {
+                out.subprogram = true;
+                self.lower.target(out).push(Stmt::new(at, Op::Return));
             }
         }
         if let Some(procedure) = self.lower.sub.take() {

@@ -165,6 +165,8 @@ pub struct ProgramRules {
     /// Names of the files in which called programs are looked for, without what stands behind the point, in
     /// this order: `{}` is the program's name, `{4}` its number with at least so many digits.
     pub called: Vec<String>,
+    /// The extension of files that hold a subprogram alone, without the dot, where the control knows them by it.
+    pub sub_extension: Option<String>,
     /// Who says so.
     pub source: String,
 }

@@ -579,8 +579,8 @@ impl Exec {
                 self.said |= PLANE;
             }
             Op::SetFeedMode(mode) => {
-                // What a feed said before would count now, nobody knows.
-                if self.state.feed_mode != *mode {
+                // What a feed said before would count now, nobody knows; a time is one block's.
+                if self.state.feed_mode != *mode || *mode == FeedMode::InverseTime {
                     self.state.feed_mode = *mode;
                     self.feed = 0;
                 }

@@ -20,7 +20,7 @@ pub fn by_centre(program: &mut Program, target: &Target, entry: &Tracker, diags:
     each_arc(program, entry, diags, |arc, walk| centre_of(arc, walk, target));
 }
 
-fn centre_of(arc: &mut Arc, walk: &Walk, target: &Target) -> Result<(), Fault> {
+pub(super) fn centre_of(arc: &mut Arc, walk: &Walk, target: &Target) -> Result<(), Fault> {
     if matches!(arc.centre, Centre::Point { .. }) {
         return Ok(());
     }

@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use super::write::{Rebuild, rebuild};
 use super::{MOST_STATEMENTS, Target, repeat_ends};
+use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::again;
 use crate::expr::Expr;
@@ -69,19 +70,65 @@ pub(super) fn everywhere(program: &mut Program, diags: &mut Vec<Diagnostic>) {
     }
 }
 
+/// Writes repetitions of blocks out where a program computes, for a target that has no such words: those of blocks that
+/// no jump leads out of, or into. Others are left to be refused.
+pub fn where_it_computes(program: &mut Program, target: &Caps, diags: &mut Vec<Diagnostic>) {
+    if target.repeat_blocks {
+        return;
+    }
+    for procedure in &mut program.procedures {
+        let body = &mut procedure.body;
+        if has_blocks(body) && are_straight(body) {
+            blocks(body, target.repeats, diags);
+        }
+    }
+}
+
+/// Whether no jump leads out of the blocks that are repeated, or into them.
+fn are_straight(body: &[Stmt]) -> bool {
+    let jumps = jumps(body);
+    let crossed = |op: &Op| match op {
+        Op::Goto(_) => true,
+        Op::Label(name) => jumps.contains(name),
+        _ => false,
+    };
+    body.iter().enumerate().all(|(at, stmt)| match &stmt.op {
+        Op::RepeatBlocks(repeat) => {
+            let found = again(body, at, &repeat.from, repeat.to.as_deref());
+            found.is_some_and(|found| !found.iter().any(|stmt| says(stmt, &crossed)))
+        }
+        _ => !says(stmt, &|op| matches!(op, Op::RepeatBlocks(_))),
+    })
+}
+
+/// Whether a statement, or one within its structure, is such a one.
+fn says(stmt: &Stmt, such: &dyn Fn(&Op) -> bool) -> bool {
+    such(&stmt.op)
+        || matches!(&stmt.op, Op::Control(control) if control.bodies().flatten().any(|stmt| says(stmt, such)))
+}
+
+/// Labels that jumps of a body name, those within its structures too.
+fn jumps(body: &[Stmt]) -> BTreeSet<Text> {
+    let mut found = BTreeSet::new();
+    for stmt in body {
+        match &stmt.op {
+            Op::Goto(label) => {
+                found.insert(label.clone());
+            }
+            Op::Control(control) => control.bodies().for_each(|body| found.append(&mut jumps(body))),
+            _ => {}
+        }
+    }
+    found
+}
+
 fn has_blocks(body: &[Stmt]) -> bool {
     body.iter().any(|s| matches!(s.op, Op::RepeatBlocks(_)))
 }
 
 /// Writes repetitions of blocks out; `as_body` puts a repetition of a body in their place.
 fn blocks(body: &mut Vec<Stmt>, as_body: bool, diags: &mut Vec<Diagnostic>) {
-    let jumps: BTreeSet<Text> = body
-        .iter()
-        .filter_map(|s| match &s.op {
-            Op::Goto(label) => Some(label.clone()),
-            _ => None,
-        })
-        .collect();
+    let jumps = jumps(body);
     let input = std::mem::take(body);
     let mut made = Rebuild::new(input.len());
     let mut full = false;

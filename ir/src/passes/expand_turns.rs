@@ -60,9 +60,10 @@ fn split(arc: &Arc, walk: &Walk, target: &Target) -> Result<Vec<Arc>, Fault> {
     if Axis::ALL.into_iter().any(|a| !words.contains(&a) && arc.to.get(a).is_some()) {
         return Err(Fault::CannotSay { what: "an arc of several turns with a rotary axis".into() });
     }
-    if matches!(arc.centre, Centre::Radius(_)) {
-        return Err(Fault::ArcRadiusNoWay);
-    }
+    // A whole turn has no radius that says it.
+    let mut by_centre = arc.clone();
+    super::convert_arcs::centre_of(&mut by_centre, walk, target)?;
+    let arc = &by_centre;
     let mut turn = arc.clone();
     turn.turns = 0;
     turn.to = Point::default();

@@ -165,7 +165,7 @@ fn level_of(body: &[Stmt], i: usize, cycle: &Cycle, walk: &Walk, target: &Target
     }
     let not_below = in_force.initial.zip(in_force.retract).is_some_and(|(initial, r)| initial >= r);
     // By which length a level is measured that is found before another one is taken up, is left open.
-    if same(in_force.initial) && not_below && !walk.waiting && !changes_length(&body[i + 1..]) {
+    if same(in_force.initial) && not_below && !walk.waiting && !changes_level(&body[i + 1..]) {
         return Level::Is(ReturnLevel::Initial);
     }
     match behind_first(body, i, in_force, walk, target) {
@@ -184,7 +184,7 @@ fn behind_first(body: &[Stmt], i: usize, in_force: &InForce, walk: &Walk, target
     (new.reference, new.return_plane) = (None, None);
     new.return_level = Fact::Known(ReturnLevel::Initial);
     in_force.return_plane?;
-    if !level_is_free(&body[i + 1..]) || changes_length(&body[i + 1..]) {
+    if !level_is_free(&body[i + 1..]) || changes_level(&body[i + 1..]) {
         return None;
     }
     let hole = first_hole(body, i, cycle.feed.is_some())?;
@@ -252,11 +252,14 @@ fn ends(stmt: &Stmt) -> bool {
     matches!(stmt.op.unwrapped(), Op::EndCycle | Op::ProgramEnd | moves!())
 }
 
-/// Whether another length comes before the cycle that has just been called up surely ends.
-fn changes_length(after: &[Stmt]) -> bool {
+/// Whether another length or work offset comes before the cycle that has just been called up surely ends: by which
+/// of them a level is measured that was found before, no source tells.
+fn changes_level(after: &[Stmt]) -> bool {
     let over = |s: &&Stmt| ends(s) && s.skip.is_none();
-    let length = |s: &&Stmt| matches!(s.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. });
-    after.iter().find(|s| length(s) || over(s)).is_some_and(|s| length(&s))
+    let other = |s: &&Stmt| {
+        matches!(s.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } | Op::SetOriginOffsets(_))
+    };
+    after.iter().find(|s| other(s) || over(s)).is_some_and(|s| other(&s))
 }
 
 /// Whether no further cycle, called up before this one is ended, counts from the level at which the

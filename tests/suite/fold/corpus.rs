@@ -25,7 +25,7 @@ const TILTED: &str = "nothing is folded in a tilted plane";
 const DECREASING: &str = "pecks are folded where all but the first and the last are of one depth";
 
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 20] = [
+const LOST: [(&str, &str, &str); 21] = [
     ("haas/decreasing-pecks.nc", "cycle drill-peck of 1", DECREASING),
     ("haas/decreasing-pecks.nc", "cycle drill-peck of 2", DECREASING),
     ("haas/decreasing-pecks.nc", "cycle drill-break of 2", DECREASING),
@@ -52,6 +52,11 @@ const LOST: [(&str, &str, &str); 20] = [
     ("siemens/holes1.mpf", "pattern line of 2", "two positions are no pattern"),
     ("siemens/holes2.mpf", "pattern circle of 1", "one position is no pattern"),
     ("siemens/nested.mpf", "cycle drill-dwell of 4", "a feed in a block of its own follows its first hole"),
+    (
+        "siemens/offsets-under-a-cycle.mpf",
+        "cycle drill-dwell of 4",
+        "its work offset changes between the holes",
+    ),
     ("siemens/points.mpf", "pattern list of 2", "two positions are no pattern"),
     ("siemens/points.mpf", "pattern list of 9", "eight of them lie in a grid"),
 ];

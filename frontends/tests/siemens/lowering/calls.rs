@@ -35,13 +35,35 @@ fn subprograms_by_number_and_name() {
 
 #[test]
 fn ends_of_programs() {
-    assert_eq!(stmts(&read("G0\nM17\n")), ["Blank", "ProgramEnd"]);
+    let goes_back = ["SetDistanceMode(Absolute)", "Return"];
+    let ends = ["SetDistanceMode(Absolute)", "ProgramEnd"];
+    // What a text is, its header says, its heading, or its file's name; RET by itself.
+    assert_eq!(stmts(&read("PROC A_A\nG90\nRET\n")), goes_back);
+    assert_eq!(stmts(&read("PROC A_A\nG90\nM17\n")), goes_back);
+    assert_eq!(stmts(&read("%_N_A_SPF\nG90\nRET\n")), goes_back);
+    assert_eq!(stmts(&read("%_N_A_SPF\nG90\n")), goes_back);
+    assert_eq!(stmts(&read("%_N_A_SPF\nG90\nM30\n")), ends);
+    assert_eq!(stmts(&read("%_N_A_MPF\nG90\nM17\n")), ends);
+    let of_file = |file: &str, text: &str| {
+        let mut reader = Reader::new(settings(), true);
+        reader.named(file);
+        let mut out = Batch::default();
+        reader.read(text.as_bytes(), 0, &mut out);
+        reader.finish(&mut out);
+        (stmts(&out), diagnostics(&out, text.as_bytes()))
+    };
+    let (sub, none) = (goes_back.map(str::to_owned).to_vec(), Vec::<String>::new());
+    let main = ends.map(str::to_owned).to_vec();
+    assert_eq!(of_file("SLOT.spf", "G90\nM17\n"), (sub.clone(), none.clone()));
+    assert_eq!(of_file("SLOT.MPF", "G90\nM17\n"), (main.clone(), none.clone()));
+    let taken = |what: &str| {
+        vec![format!("AssumedParameter {{ parameter: '{what}', value: 'yes' }} at '{}'", &what[..3])]
+    };
+    assert_eq!(of_file("SLOT.TXT", "G90\nM17\n"), (main, taken("M17 ends a main program")));
     assert_eq!(
-        units("G90\nRET\n").1,
-        ["NotSupported { code: 'RET', name: 'return in the main program' } at 'RET'"]
+        of_file("SLOT.MPF", "G90\nRET\n"),
+        (sub, taken("RET goes back to a program that calls this one"))
     );
-    assert_eq!(stmts(&read("PROC A_A\nG90\nRET\n")), ["SetDistanceMode(Absolute)", "ProgramEnd"]);
-    assert_eq!(stmts(&read("%_N_A_SPF\nG90\nRET\n")), ["SetDistanceMode(Absolute)", "ProgramEnd"]);
     let (subs, errors) = with_subs("B_B\n", "%_N_B_B_SPF\nM8\nM30\n");
     assert_eq!((subs, errors), (vec!["B_B: FloodOn | Return".to_owned()], vec![]));
     assert_eq!(units("G90\n").1, ["NoProgramEnd at 'G90'"]);
@@ -253,4 +275,17 @@ fn repeated_blocks_find_what_they_found_the_first_time() {
     assert_eq!(units("AA: G0 X1\nREPEAT AA\nM30\n").1, [] as [&str; 0]);
     // Behind it, the modes of either end.
     assert_eq!(after_head("AA: G91 X1\nBB: X2\nG90\nREPEAT AA BB\nX3\n").pop(), Some("TRAVERSE X?3".into()));
+}
+
+#[test]
+fn ways_in_which_feeds_count_leave_their_subprogram() {
+    let errors = |main: &str, sub: &str| with_subs(main, &format!("%_N_L1_SPF\n{sub}\nM17\n")).1;
+    let none = Vec::<String>::new();
+    // A time is one move's; what a feed said before does not count any more.
+    assert_eq!(errors("G94 F9\nL1\nG1 X1 F2\n", "G93"), none);
+    assert_eq!(errors("G94 F9\nL1\nG1 X1 F2\n", "G93\nG1 X2 F3\nG94"), none);
+    // Which feed is in force after a cycle that has its own is not known; nor one that is said for no move.
+    let last = ["NoFeed at 'M17'"];
+    assert_eq!(errors("L1\nG1 X1 F2\n", "G93\nG94\nF5\nCYCLE85(5,0,2,-3,,,9,9)"), last);
+    assert_eq!(errors("L1\nG1 X1 F2\n", "G93 F5\nM8"), last);
 }
