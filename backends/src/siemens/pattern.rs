@@ -128,7 +128,10 @@ impl Writer {
         };
         self.argument(to, Role::Radius, radius, span, sink)?;
         self.argument(to, Role::Angle, angle, span, sink)?;
-        let n = step.literal().ok_or_else(|| cannot("a computed value"))?;
+        let Some(n) = step.literal() else {
+            self.argument(to, Role::Step, step, span, sink)?;
+            return self.argument(to, Role::Count, &Expr::int(count.into()), span, sink);
+        };
         if n.is_zero() && count > 1 {
             return Err(cannot("a bolt circle whose holes are in one place"));
         }

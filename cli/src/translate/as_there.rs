@@ -11,8 +11,8 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
-    alarm_numbers, arithmetic, centres_from_start, computed_frames, control_forms, exact_comparisons,
-    expand_repeats, own_distance, planes_checked, unit_in_force,
+    alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
+    exact_comparisons, expand_repeats, own_distance, planes_checked, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::source::Span;
@@ -58,6 +58,7 @@ pub(super) fn say(
     if let Some(alarm) = there.planes_alarm {
         planes_checked::run(program, alarm, lengths.decimals);
     }
+    computed_holes::run(program, &job.to.caps(), found);
     exact_comparisons::run(program, there, found);
     control_forms::run(program, there);
     arithmetic::run(program, there, from.formula.tolerance(), found);

@@ -36,6 +36,10 @@ const SETS: u32 = 200;
 /// Events of a run with such a set, and steps that it may do nothing.
 const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 
+/// Sets of which one must come to the program's end; if none does, one of them is run as far as a program without
+/// variables of others is.
+const FEW_SETS: u32 = 8;
+
 /// Decisions that are told; of more, the first ones.
 const MOST_TOLD: usize = 20;
 
@@ -139,11 +143,39 @@ impl Given<'_> {
     }
 }
 
+/// One of the sets of values, and how far a program is run with it: events, and steps that nothing comes of.
+#[derive(Clone, Copy)]
+struct Set {
+    number: u32,
+    most: u64,
+    idle: Option<u64>,
+}
+
+impl Set {
+    /// A set of which the run may be cut short: another one comes to the end.
+    fn short(number: u32) -> Set {
+        Set { number, most: MOST_OF_SET.0, idle: Some(MOST_OF_SET.1) }
+    }
+
+    /// A set with which the program is run as far as any is.
+    fn long(number: u32) -> Set {
+        Set { number, most: MOST_EVENTS, idle: None }
+    }
+}
+
 /// Ways that were gone, of both programs.
 #[derive(Default)]
 struct Gone {
     source: Vec<u8>,
     target: Vec<u8>,
+}
+
+/// How far a program came with any of the sets.
+struct Came {
+    /// To its end.
+    through: bool,
+    /// The first set with which it is longer than the run of a set may be.
+    goes_on: Option<u32>,
 }
 
 /// Bits well mixed (splitmix64).
@@ -242,7 +274,7 @@ impl Verifier {
         let mut runs = std::mem::take(&mut self.runs);
         for run in &mut runs {
             let start = (!given.open.is_empty() && run.skip == 0).then(|| run.clone());
-            let ended = self.run_against(run, [source, &target], given, 0, &mut gone, pairs);
+            let ended = self.run_against(run, [source, &target], given, Set::long(0), &mut gone, pairs);
             match ended {
                 Ok(()) => {}
                 // With other values it may be executed.
@@ -257,31 +289,61 @@ impl Verifier {
             starts.extend(start);
         }
         self.runs = runs;
-        let mut executed = failed.is_none();
-        let (a, b) = (Runner::new(source), Runner::new(&target));
-        for set in 1..=SETS {
-            let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
-            if starts.is_empty() || set > 2 && executed && all() {
-                break;
-            }
-            for start in &starts {
-                let mut run = start.clone();
-                run.comparison.keep_pairs(false);
-                match self.run_against(&mut run, [source, &target], given, set, &mut gone, &mut |_| {}) {
-                    Ok(()) | Err(Ended::Enough) => executed = true,
-                    Err(Ended::Source(_)) => {}
-                    Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
-                    Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+        let sides = [source, &target];
+        let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
+        if let (false, Some(start), Some(set)) = (came.through, starts.first(), came.goes_on) {
+            // Only a run that comes to its end shows that the program has one.
+            let mut run = start.clone();
+            run.comparison.keep_pairs(false);
+            match self.run_against(&mut run, sides, given, Set::long(set), &mut gone, &mut |_| {}) {
+                Ok(()) => failed = None,
+                Err(Ended::Enough) => {
+                    let fault = Fault::NoEnd { steps: MOST_EVENTS };
+                    return Err(Stop::Source(Diagnostic::new(fault, self.last)));
                 }
+                Err(Ended::Source(fault) | Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
+                Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
             }
         }
-        if let Some(fault) = failed.filter(|_| !executed) {
+        if let Some(fault) = failed.filter(|_| !came.through) {
             return Err(Stop::Source(fault));
         }
         if computes {
             self.tell(source, &target, given, &gone);
         }
         Ok(())
+    }
+
+    /// Runs both programs with sets of values, until every way of both was gone.
+    fn with_sets(
+        &self,
+        starts: &[Run],
+        sides: [&Program; 2],
+        given: &Given,
+        through: bool,
+        gone: &mut Gone,
+    ) -> Result<Came, Stop> {
+        let mut came = Came { through, goes_on: None };
+        let [a, b] = sides.map(Runner::new);
+        for set in 1..=SETS {
+            let all = || a.untaken(&gone.source).is_empty() && b.untaken(&gone.target).is_empty();
+            let endless = set > FEW_SETS && !came.through && came.goes_on.is_some();
+            if starts.is_empty() || endless || set > 2 && came.through && all() {
+                break;
+            }
+            for start in starts {
+                let mut run = start.clone();
+                run.comparison.keep_pairs(false);
+                match self.run_against(&mut run, sides, given, Set::short(set), gone, &mut |_| {}) {
+                    Ok(()) => came.through = true,
+                    Err(Ended::Enough) => came.goes_on = came.goes_on.or(Some(set)),
+                    Err(Ended::Source(_)) => {}
+                    Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
+                    Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
+                }
+            }
+        }
+        Ok(came)
     }
 
     /// Runs both programs from where they begin, with one set of values. A difference that is none where what was
@@ -292,7 +354,7 @@ impl Verifier {
         run: &mut Run,
         [source, target]: [&Program; 2],
         given: &Given,
-        set: u32,
+        set: Set,
         gone: &mut Gone,
         pairs: &mut dyn FnMut(&[Pair]),
     ) -> Result<(), Ended> {
@@ -326,19 +388,18 @@ impl Verifier {
         run: &mut Run,
         [source, target]: [&Program; 2],
         given: &Given,
-        set: u32,
+        set: Set,
         gone: &mut Gone,
         pairs: &mut dyn FnMut(&[Pair]),
     ) -> Result<(), Ended> {
         let (mut a, mut b) = (Runner::new(source), Runner::new(target));
-        a.give(&mut |var| given.value(var, run.seed, set));
-        b.give(&mut |var| given.value_there(var, run.seed, set));
+        a.give(&mut |var| given.value(var, run.seed, set.number));
+        b.give(&mut |var| given.value_there(var, run.seed, set.number));
         for runner in [&mut a, &mut b] {
-            if set > 0 {
-                runner.limit_idle(MOST_OF_SET.1);
+            if let Some(most) = set.idle {
+                runner.limit_idle(most);
             }
         }
-        let most = if set == 0 { MOST_EVENTS } else { MOST_OF_SET.0 };
         let first = run.comparison.events;
         let ended = loop {
             let more_a = match a.run(&mut run.source, PIECE, &mut run.source_events) {
@@ -350,7 +411,7 @@ impl Verifier {
                 Err(fault) => break Err(Ended::target(unreadable(&fault, self.last))),
             };
             let over = more_a == Progress::Done && more_b == Progress::Done;
-            if run.comparison.events - first > most {
+            if run.comparison.events - first > set.most {
                 break Err(Ended::Enough);
             }
             if over {
@@ -362,7 +423,7 @@ impl Verifier {
             }
             // Where one side is done and the other goes on, that must be going nowhere.
             let advanced = self.advance(run, over);
-            if self.watched && set == 0 {
+            if self.watched && set.number == 0 {
                 pairs(&run.comparison.take_pairs());
             }
             let ahead = run.source_events.len().max(run.target_events.len()) >= PIECE;

@@ -8,10 +8,10 @@ use ncc_dialects::{CallKind, CallRow, ParameterRole};
 use ncc_ir::canon::{Axis, Plane};
 use ncc_ir::cycle::{Along, First, Pattern, Row, absolute};
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
+use ncc_ir::expr::{Binary, Expr, Node, Unary};
 use ncc_ir::geometry::polar;
 use ncc_ir::num::{Num, ONE, Unit};
-use ncc_ir::program::{Op, Point};
+use ncc_ir::program::{Coord, Op, Point};
 
 use super::again::CYCLE;
 use super::cycles::{Arguments, sum};
@@ -21,6 +21,7 @@ use super::sort::Given;
 use super::tree::Called;
 use crate::Batch;
 use crate::word::Source;
+use crate::word::number::unit_of;
 
 /// Most holes of a pattern, along one direction.
 const MOST_HOLES: i64 = 9999;
@@ -89,74 +90,138 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Option<(Pattern, Option<[Num; 2]>)> {
-        use ParameterRole as Role;
-        if a.row.kind == CallKind::List {
-            return Some((Pattern::List(self.points(a, plane, src, out)?), None));
-        }
-        let x = self.needed(a, Role::First, src, out)?;
-        let y = self.needed(a, Role::Second, src, out)?;
-        let start = [absolute(x), absolute(y)];
-        let angle = self.argument(a, Role::Angle, src, out).unwrap_or(Num::int(0, Unit::Degree));
-        Some(match a.row.kind {
-            CallKind::Circle => {
-                let radius = self.needed(a, Role::Radius, src, out)?;
-                if radius.mantissa <= 0 {
-                    return self.out_of_range(a, Role::Radius, out);
-                }
-                let count = self.count(a, Role::Count, src, out)?;
-                let step = match self.argument(a, Role::Step, src, out).filter(|step| !step.is_zero()) {
-                    Some(step) => step,
-                    None => share(count),
-                };
-                let first = First::Polar { radius: Expr::Num(radius), angle: Expr::Num(angle) };
-                let pattern = Pattern::Circle { centre: Some(start), first, step: Expr::Num(step), count };
-                (pattern, None)
-            }
-            CallKind::Line => {
-                let zero = Num::int(0, x.unit);
-                let count = self.count(a, Role::Count, src, out)?;
-                let offset = self.argument(a, Role::Offset, src, out).unwrap_or(zero);
-                let pitch = self.pitch(a, Role::Pitch, count, zero, src, out)?;
-                let first = if offset.is_zero() { Some([x, y]) } else { shifted([x, y], offset, angle) };
-                let [angle, offset, pitch] = [angle, offset, pitch].map(Expr::Num);
-                let pattern = Pattern::Line { start: Some(start), angle, offset, pitch, count };
-                // Without a known first hole the tool stands elsewhere.
-                let nowhere = [Num { unit: Unit::One, ..zero }; 2];
-                (pattern, (count > 1).then_some(first.unwrap_or(nowhere)))
-            }
-            CallKind::Grid => {
-                let zero = Num::int(0, x.unit);
-                let columns = self.count(a, Role::Columns, src, out)?;
-                let rows = self.count(a, Role::Rows, src, out)?;
-                let across = self.pitch(a, Role::ColumnPitch, columns, zero, src, out)?;
-                let up = self.pitch(a, Role::RowPitch, rows, zero, src, out)?;
-                let right = self.sum(a, angle, Num::int(90, Unit::Degree), out)?;
-                let (first, second, _) = plane.axes();
-                let row = |axis: Axis, turned: Num, pitch: Num, count: u32| Row {
-                    along: if angle.is_zero() { Along::Axis(axis) } else { Along::Angle(Expr::Num(turned)) },
-                    pitch: Expr::Num(pitch),
-                    count,
-                };
-                let pattern = Pattern::Grid {
-                    start: Some(start),
-                    columns: row(first, angle, across, columns),
-                    rows: row(second, right, up, rows),
-                    serpentine: true,
-                };
-                (pattern, (columns * rows > 1).then_some([x, y]))
-            }
-            CallKind::List
-            | CallKind::Drill
+        match a.row.kind {
+            CallKind::List => Some((Pattern::List(self.points(a, plane, src, out)?), None)),
+            CallKind::Grid => self.grid(a, plane, src, out),
+            CallKind::Circle => Some((self.circle(a, src, out)?, None)),
+            CallKind::Line => self.line(a, src, out),
+            CallKind::Drill
             | CallKind::DrillDwell
             | CallKind::DrillPeck
             | CallKind::Bore
             | CallKind::Tap
             | CallKind::TapRigid
             | CallKind::BoreFine
-            | CallKind::BoreStop => {
-                return None;
+            | CallKind::BoreStop => None,
+        }
+    }
+
+    /// Centre of a circle, or the beginning of a line.
+    fn start(&mut self, a: &Arguments, src: Source, out: &mut Batch) -> Option<[Coord; 2]> {
+        let x = self.needed_value(a, ParameterRole::First, src, out)?;
+        let y = self.needed_value(a, ParameterRole::Second, src, out)?;
+        Some([absolute(x), absolute(y)])
+    }
+
+    /// Holes on a circle.
+    fn circle(&mut self, a: &Arguments, src: Source, out: &mut Batch) -> Option<Pattern> {
+        use ParameterRole as Role;
+        let centre = self.start(a, src, out)?;
+        let angle = self.value(a, Role::Angle, src, out).unwrap_or(Num::int(0, Unit::Degree).into());
+        let radius = self.needed_value(a, Role::Radius, src, out)?;
+        if radius.literal().is_some_and(|radius| radius.mantissa <= 0) {
+            return self.out_of_range(a, Role::Radius, out);
+        }
+        let count = self.count(a, Role::Count, src, out)?;
+        let step = self.step(a, count, src, out)?;
+        Some(Pattern::Circle { centre: Some(centre), first: First::Polar { radius, angle }, step, count })
+    }
+
+    /// Holes on a line.
+    fn line(&mut self, a: &Arguments, src: Source, out: &mut Batch) -> Option<(Pattern, Option<[Num; 2]>)> {
+        use ParameterRole as Role;
+        let zero = Num::int(0, unit_of(self.units(a.span, out)));
+        let start = self.start(a, src, out)?;
+        let angle = self.value(a, Role::Angle, src, out).unwrap_or(Num::int(0, Unit::Degree).into());
+        let count = self.count(a, Role::Count, src, out)?;
+        let offset = self.value(a, Role::Offset, src, out).unwrap_or(zero.into());
+        let pitch = match count {
+            1 => self.value(a, Role::Pitch, src, out).unwrap_or(zero.into()),
+            _ => self.needed_value(a, Role::Pitch, src, out)?,
+        };
+        let first = match [&start[0].value, &start[1].value, &offset, &angle].map(Expr::literal) {
+            [Some(x), Some(y), Some(offset), _] if offset.is_zero() => Some([x, y]),
+            [Some(x), Some(y), Some(offset), Some(angle)] => shifted([x, y], offset, angle),
+            _ => None,
+        };
+        // Without a known first hole the tool stands elsewhere.
+        let nowhere = [Num { unit: Unit::One, ..zero }; 2];
+        let first = (count > 1).then_some(first.unwrap_or(nowhere));
+        Some((Pattern::Line { start: Some(start), angle, offset, pitch, count }, first))
+    }
+
+    /// From hole to hole on a circle: the angle that is written, or the circle shared out.
+    fn step(&mut self, a: &Arguments, count: u32, src: Source, out: &mut Batch) -> Option<Expr> {
+        let role = ParameterRole::Step;
+        if a.get(role).is_none() {
+            return Some(Expr::Num(share(count)));
+        }
+        let step = self.value(a, role, src, out)?;
+        match step.literal() {
+            Some(step) if step.is_zero() => Some(Expr::Num(share(count))),
+            None if !is_never_zero(&step) => {
+                // The control shares the circle out where it is 0.
+                let name = format!("{}: an angle that is computed and may be 0", a.name(role));
+                self.not_supported(&a.row.name, &name, a.at(role), out);
+                None
             }
-        })
+            Some(_) | None => Some(step),
+        }
+    }
+
+    /// The value with a role, written or computed; nothing for an empty argument, or one that is refused.
+    fn value(&mut self, a: &Arguments, role: ParameterRole, src: Source, out: &mut Batch) -> Option<Expr> {
+        let (given, quantity) = a.get(role)?;
+        self.amount(given, quantity, src, out)
+    }
+
+    /// The value with a role, that must be there.
+    fn needed_value(
+        &mut self,
+        a: &Arguments,
+        role: ParameterRole,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        if a.get(role).is_none() {
+            // Reported as missing.
+            self.needed(a, role, src, out)?;
+        }
+        self.value(a, role, src, out)
+    }
+
+    /// Rows of holes.
+    fn grid(
+        &mut self,
+        a: &Arguments,
+        plane: Plane,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<(Pattern, Option<[Num; 2]>)> {
+        use ParameterRole as Role;
+        let x = self.needed(a, Role::First, src, out)?;
+        let y = self.needed(a, Role::Second, src, out)?;
+        let start = Some([absolute(x), absolute(y)]);
+        let angle = self.argument(a, Role::Angle, src, out).unwrap_or(Num::int(0, Unit::Degree));
+        let zero = Num::int(0, x.unit);
+        let columns = self.count(a, Role::Columns, src, out)?;
+        let rows = self.count(a, Role::Rows, src, out)?;
+        let across = self.pitch(a, Role::ColumnPitch, columns, zero, src, out)?;
+        let up = self.pitch(a, Role::RowPitch, rows, zero, src, out)?;
+        let right = self.sum(a, angle, Num::int(90, Unit::Degree), out)?;
+        let (first, second, _) = plane.axes();
+        let row = |axis: Axis, turned: Num, pitch: Num, count: u32| Row {
+            along: if angle.is_zero() { Along::Axis(axis) } else { Along::Angle(Expr::Num(turned)) },
+            pitch: Expr::Num(pitch),
+            count,
+        };
+        let pattern = Pattern::Grid {
+            start,
+            columns: row(first, angle, across, columns),
+            rows: row(second, right, up, rows),
+            serpentine: true,
+        };
+        Some((pattern, (columns * rows > 1).then_some([x, y])))
     }
 
     /// A distance that counts only where there is more than one hole.
@@ -231,6 +296,16 @@ impl Lower {
 /// A full circle shared out among holes.
 fn share(count: u32) -> Num {
     Num::from_nanos(360 * ONE / i64::from(count.max(1)), 9, Unit::Degree)
+}
+
+/// Whether a value is none that may come to 0, whatever its variables hold.
+fn is_never_zero(value: &Expr) -> bool {
+    let Expr::Node(node) = value else { return value.literal().is_some_and(|n| !n.is_zero()) };
+    match &**node {
+        Node::Binary(Binary::Divide, share, _) => share.literal().is_some_and(|n| !n.is_zero()),
+        Node::Unary(Unary::Negate, of) => is_never_zero(of),
+        _ => false,
+    }
 }
 
 /// A place at a distance and an angle from another, if it is exact along an axis.

@@ -13,6 +13,7 @@ pub mod arithmetic;
 mod at_once;
 pub mod centres_from_start;
 pub mod computed_frames;
+pub mod computed_holes;
 pub mod control_forms;
 pub mod convert_arcs;
 pub mod convert_circles;

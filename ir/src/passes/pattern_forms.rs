@@ -16,6 +16,7 @@ use crate::expr::Expr;
 use crate::num::{Nanos, Num, ONE, POW10, Unit};
 use crate::places::{Places, Step};
 use crate::program::{Coord, Point};
+use crate::track::Tracker;
 
 /// Degrees of a quarter turn, in nanos.
 const QUARTER: Nanos = 90 * ONE;
@@ -46,6 +47,13 @@ pub(super) fn fit(walk: &Walk, pattern: &Pattern, plane: Plane, target: &Target)
     let places = places.filter(|p| p.count() <= MOST_HOLES)?;
     let same = |form: &Pattern| here.says(form) && here.same_holes(form, &places);
     here.forms(pattern, &places).into_iter().find(same).map(|form| vec![form])
+}
+
+/// Whether the target has words for a pattern that is computed when the program runs, wherever it stands.
+pub(super) fn says_computed(pattern: &Pattern, plane: Plane, caps: &Caps) -> bool {
+    let (first, second, _) = plane.axes();
+    let walk = Walk::new(Tracker::unknown());
+    Here { walk: &walk, caps, axes: [first, second], decimals: 9, unit: walk.unit() }.says(pattern)
 }
 
 impl Here<'_> {
@@ -80,7 +88,8 @@ impl Here<'_> {
                     _ if caps.pattern_here => true,
                     First::At(_) => *count <= 1 || !self.is_zero(step),
                     First::Polar { radius, .. } => {
-                        (*count <= 1 || !self.is_zero(step)) && self.is_positive(radius)
+                        let positive = radius.literal().is_none_or(|n| n.mantissa > 0);
+                        (*count <= 1 || !self.is_zero(step)) && positive
                     }
                 };
                 (centre.is_some() || caps.pattern_here) && has_way

@@ -64,6 +64,16 @@ fn patterns_that_are_none() {
     assert_eq!(one("HOLES2(0,0,0,0,0,8)"), "OutOfRange { word: 'RAD' } at '0'");
     assert_eq!(one("HOLES2(0,0,5,0,0,2.5)"), "PointNotAllowed { word: '2.5' } at '2.5'");
     assert_eq!(one("HOLES1(0,0,0,0,5,0)"), "OutOfRange { word: 'NUM' } at '0'");
+    // It is shared out where that is 0, which is known for what is never 0.
+    assert_eq!(
+        one("HOLES2(0,0,5,0,R1,2)"),
+        "NotSupported { code: 'HOLES2', name: 'INDA: an angle that is computed and may be 0' } at 'R1'"
+    );
+    assert_eq!(faults(&format!("{DRILL}HOLES2(R1,R2,R3,R4,-(360/R5),4)\n")), [] as [&str; 0]);
+    let counted =
+        |at: &str| format!("NotSupported {{ code: '{at}', name: 'computed value of this word' }} at '{at}'");
+    assert_eq!(one("HOLES2(0,0,5,0,0,R1)"), counted("R1"));
+    assert_eq!(one("CYCLE801(R1,0,0,5,5,2,2)"), counted("R1"));
     assert_eq!(
         one("CYCLE801(0,0,0,5,5,2,2,1)"),
         "NotSupported { code: 'CYCLE801', name: '_VARI: a frame of positions' } at '1'"
