@@ -377,4 +377,6 @@ faults! {
     NotTaken { holds: bool, fails: bool } = 605, Warning;
     /// A value was stated for a variable, and the program does not rely on it.
     ValueNotRead { name: Box<str> } = 606, Warning;
+    /// Nothing in the program calls a subprogram of it, which was therefore not run against the output.
+    NotCalled { name: Box<str> } = 607, Warning;
 }

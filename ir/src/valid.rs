@@ -73,6 +73,32 @@ pub fn unknown_calls(program: &Program) -> Vec<Diagnostic> {
     found
 }
 
+/// Procedures that nothing leads to from where the program begins, by their places: other programs may call them.
+pub fn not_called(program: &Program) -> Vec<usize> {
+    fn called<'p>(body: &'p [Stmt], names: &mut Vec<&'p str>) {
+        for stmt in body {
+            match &stmt.op {
+                Op::Call(call) => names.push(&call.name),
+                Op::Control(control) => control.bodies().for_each(|body| called(body, names)),
+                _ => {}
+            }
+        }
+    }
+    let all = &program.procedures;
+    let mut reached = vec![false; all.len()];
+    let mut ahead = if all.is_empty() { Vec::new() } else { vec![0] };
+    while let Some(at) = ahead.pop() {
+        if std::mem::replace(&mut reached[at], true) {
+            continue;
+        }
+        let mut names = Vec::new();
+        called(&all[at].body, &mut names);
+        let places = all.iter().enumerate().skip(1);
+        ahead.extend(places.filter(|(_, p)| names.contains(&&*p.name)).map(|(at, _)| at));
+    }
+    (0..all.len()).filter(|at| !reached[*at]).collect()
+}
+
 fn within(program: &Program, body: &[Stmt], found: &mut Vec<Diagnostic>) {
     for stmt in body {
         if let Op::Call(call) = &stmt.op

@@ -226,7 +226,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "this is a fault of ncc, not of your program; nothing is released".to_owned(),
             "please report it with the program, or the lines around this place".to_owned(),
         ],
-        Fault::NotTaken { .. } => own("look at what is written for it yourself"),
+        Fault::NotTaken { .. } | Fault::NotCalled { .. } => own("look at what is written for it yourself"),
         Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } | Fault::ValueNotRead { .. } => {
             Vec::new()
         }

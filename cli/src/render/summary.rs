@@ -311,6 +311,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::VariableGiven { .. }
         | Fault::ValueNotRead { .. }
         | Fault::NotTaken { .. }
+        | Fault::NotCalled { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
     }
 }

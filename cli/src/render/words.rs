@@ -395,6 +395,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("a value is stated for the variable {name}, and the program does not rely on it"),
             "it is read nowhere before the program sets it".into(),
         ),
+        Fault::NotCalled { name } => (
+            format!("nothing in the program calls the subprogram {name}"),
+            "it was written, and not executed when the program was verified".into(),
+        ),
         Fault::NotTaken { holds, fails } => (
             "not all of the program was executed when it was verified".into(),
             match (holds, fails) {

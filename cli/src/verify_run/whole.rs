@@ -13,7 +13,7 @@ use ncc_ir::passes::otherwise::{Taken, otherwise};
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
-use ncc_ir::valid::anything;
+use ncc_ir::valid::{anything, not_called};
 use ncc_ir::value::Value;
 use ncc_ir::verify::Pair;
 
@@ -307,6 +307,11 @@ impl Verifier {
         }
         if let Some(fault) = failed.filter(|_| !came.through) {
             return Err(Stop::Source(fault));
+        }
+        for procedure in not_called(source).into_iter().filter_map(|at| source.procedures.get(at)) {
+            let at = procedure.body.first().map_or(self.last, |stmt| stmt.span);
+            let name = procedure.name.as_ref().into();
+            self.notes.push(Diagnostic::new(Fault::NotCalled { name }, at));
         }
         if computes {
             self.tell(source, &target, given, &gone);

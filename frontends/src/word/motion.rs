@@ -104,6 +104,12 @@ impl Lower {
             }
             return self.probe(code, block, words, src, out);
         }
+        if let Some((code, motion)) = motion
+            && let Some(word) = self.needed_with(code, motion, words)
+        {
+            let fault = Fault::WordMissing { code: src.text(code.span), word: word.into() };
+            return self.fault(fault, code.span, out);
+        }
         match (cycle, pattern) {
             (Some(code), _) => self.start_cycle(code, dwell, block, words, src, out),
             (None, Some(code)) => self.pattern(code, block, words, src, out),
@@ -113,6 +119,20 @@ impl Lower {
                 InForce::Lost => self.position(block, words, src, out),
                 InForce::None => self.plain_motion(motion.is_some(), block, words, src, out),
             },
+        }
+    }
+
+    /// What a control with O words stops for want of, in a block with such a code alone: there it is no mode for the
+    /// blocks that follow (LinuxCNC's `convert_arc`: R I J K words all missing for arc; `enhance_block`: all axes
+    /// missing with motion code, but for G0 to G3).
+    fn needed_with(&self, code: &Code, motion: Motion, words: &Words) -> Option<&'static str> {
+        if !self.settings.dialect.program.o_words || self.has_axis_word(words) {
+            return None;
+        }
+        match motion {
+            _ if matches!(code.meaning, Meaning::SynchronisedFeed(_)) => Some("Z"),
+            Motion::Arc(_) if !self.has_arc_word(words) => Some("I, J, K or R"),
+            Motion::Arc(_) | Motion::Traverse | Motion::Feed | Motion::Cycle => None,
         }
     }
 

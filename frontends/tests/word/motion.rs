@@ -140,6 +140,17 @@ fn arcs_that_are_none() {
     assert_eq!(faults("mach9", "G2X1.R5.\n"), ["ArcWithoutCentre at 'G2X1.R5.'"]);
 }
 
+/// LinuxCNC stops at such a block; elsewhere the code is in force for the next one.
+#[test]
+fn a_code_of_motion_that_no_block_can_have_alone() {
+    let lacks = |code: &str| [format!("WordMissing {{ code: '{code}', word: 'I, J, K or R' }} at '{code}'")];
+    assert_eq!(faults("linuxcnc", "G3\nX1 I1\n"), lacks("G3"));
+    assert_eq!(faults("linuxcnc", "G2 F5\n"), lacks("G2"));
+    assert_eq!(faults("linuxcnc", "G33.1\n"), ["WordMissing { code: 'G33.1', word: 'Z' } at 'G33.1'"]);
+    assert_eq!(faults("linuxcnc", "G1\nG0\nF5 G2 I1\n"), [""; 0]);
+    assert_eq!(faults("fanuc", "F5. G3\nX2. I1.\n"), [""; 0]);
+}
+
 #[test]
 fn dwell_in_seconds_or_milliseconds() {
     assert_eq!(after_head("mach9", "G4D5.\n"), ["DWELL 5.s"]);

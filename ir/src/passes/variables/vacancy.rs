@@ -17,6 +17,7 @@ use crate::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Target, Un
 use crate::open::open_variables;
 use crate::program::{Call, Control, Op, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
+use crate::valid::not_called;
 use crate::value;
 
 /// Most calls one within another that are looked into with their caller's variables.
@@ -85,7 +86,12 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
     let open = if given { open_variables(program) } else { Vec::new() };
     let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
     let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
-    let mut ways = Ways::over(&before.procedures, Known { vars, lost: false });
+    let mut entries = BTreeMap::from([(0, Known { vars, lost: false })]);
+    if given {
+        // What no call of this program leads to, other programs call, with values or without.
+        entries.extend(not_called(program).into_iter().map(|at| (at, from_elsewhere(&program.procedures[at]))));
+    }
+    let mut ways = Ways::over(&before.procedures, entries);
     let facts = std::mem::take(&mut ways.facts);
     let entries = std::mem::take(&mut ways.entries);
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
@@ -123,6 +129,15 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
         }
     }
     Ok(())
+}
+
+/// What a procedure begins with that another program calls.
+fn from_elsewhere(procedure: &Procedure) -> Known {
+    let by_itself = Program { procedures: vec![procedure.clone()], ..Program::default() };
+    let open = open_variables(&by_itself).into_iter().map(|(var, _)| var);
+    let open = open.filter(|var| matches!(var, Var::Local(_)));
+    let may = |var: &Var| if procedure.parameters.contains(var) { May::Number } else { May::Either };
+    Known { vars: open.map(|var| (Text::from(&*var.name()), may(&var))).collect(), lost: false }
 }
 
 pub(super) fn is_nothing(e: &Expr) -> bool {
@@ -170,11 +185,12 @@ struct Ways<'p> {
 }
 
 impl<'p> Ways<'p> {
-    fn over(procedures: &'p [Procedure], entry: Known) -> Ways<'p> {
+    /// Begins where `entries` tell what procedures begin with.
+    fn over(procedures: &'p [Procedure], entries: BTreeMap<usize, Known>) -> Ways<'p> {
         let mut ways = Ways {
             procedures,
             facts: Facts::new(),
-            entries: BTreeMap::from([(0, entry)]),
+            entries,
             here: None,
             labels: BTreeMap::new(),
             leaves: Vec::new(),
