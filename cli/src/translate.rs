@@ -293,6 +293,7 @@ impl<'j> Line<'j> {
         procedures.append(&mut self.batch.procedures);
         let name = self.batch.name.clone();
         let source = self.by_itself(Program { name, assumed, procedures });
+        let source = self.with_parameters(source);
         let unknown = unknown_calls(&source);
         if !unknown.is_empty() {
             self.take(unknown, Told::Reader);

@@ -514,8 +514,7 @@ impl Verifier {
     /// The program is called by another, and states nothing of what was taken for granted: its text is read as the
     /// source was.
     pub(crate) fn read_as_called(&mut self) {
-        self.reader.assume();
-        self.reader.goes_back();
+        self.reader.called();
         self.as_called = true;
     }
 

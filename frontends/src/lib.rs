@@ -189,12 +189,13 @@ impl Reader {
         }
     }
 
-    /// What the text never says is taken for granted from here on, as of a source: of words, whose program is called
-    /// by another and states nothing of what its caller has in force.
-    pub fn assume(&mut self) {
+    /// The program of the text is called by another, states nothing of what its caller has in force, and goes back to
+    /// it: what the text never says is taken for granted from here on, as of a source.
+    pub fn called(&mut self) {
         match self {
             Reader::Word(reader) => reader.assume(),
-            Reader::Canon(_) | Reader::Ir(_) | Reader::Siemens(_) => {}
+            Reader::Siemens(reader) => reader.called(),
+            Reader::Canon(_) | Reader::Ir(_) => {}
         }
     }
 
@@ -202,14 +203,6 @@ impl Reader {
     pub fn named(&mut self, file: &str) {
         match self {
             Reader::Siemens(reader) => reader.named(file),
-            Reader::Word(_) | Reader::Canon(_) | Reader::Ir(_) => {}
-        }
-    }
-
-    /// The text goes back to a program that is not there, and says so by its end alone.
-    pub fn goes_back(&mut self) {
-        match self {
-            Reader::Siemens(reader) => reader.goes_back(),
             Reader::Word(_) | Reader::Canon(_) | Reader::Ir(_) => {}
         }
     }

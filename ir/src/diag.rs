@@ -379,4 +379,6 @@ faults! {
     ValueNotRead { name: Box<str> } = 606, Warning;
     /// Nothing in the program calls a subprogram of it, which was therefore not run against the output.
     NotCalled { name: Box<str> } = 607, Warning;
+    /// A macro stands alone, and every call must give it an argument that its own control lets a call leave out.
+    ArgumentNeeded { name: Box<str> } = 608, Warning;
 }

@@ -227,6 +227,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "please report it with the program, or the lines around this place".to_owned(),
         ],
         Fault::NotTaken { .. } | Fault::NotCalled { .. } => own("look at what is written for it yourself"),
+        Fault::ArgumentNeeded { .. } => own("look at the calls of this macro: each must give it"),
         Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } | Fault::ValueNotRead { .. } => {
             Vec::new()
         }

@@ -312,6 +312,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::ValueNotRead { .. }
         | Fault::NotTaken { .. }
         | Fault::NotCalled { .. }
+        | Fault::ArgumentNeeded { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
     }
 }

@@ -399,6 +399,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("nothing in the program calls the subprogram {name}"),
             "it was written, and not executed when the program was verified".into(),
         ),
+        Fault::ArgumentNeeded { name } => (
+            format!("every call must give the argument {name}"),
+            "in the output it is a parameter, which is zero where a call leaves it out".into(),
+        ),
         Fault::NotTaken { holds, fails } => (
             "not all of the program was executed when it was verified".into(),
             match (holds, fails) {

@@ -2,7 +2,10 @@
 //! one has in force, so that the output states none of it, and is read with the same.
 
 use ncc_dialects::Dialect;
+use ncc_ir::computes::{Handed, LETTERS};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::expr::Var;
+use ncc_ir::open::open_variables;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::valid::returns_alone;
 use ncc_machines::reading::Told;
@@ -14,8 +17,8 @@ impl Line<'_> {
     pub(super) fn is_refused_alone(&mut self, source: &Program) -> bool {
         let Some(at) = returns_alone(source) else { return false };
         let to = self.job.to.dialect;
-        let named = to.program.macros && has_parameters(source);
-        // Where files are known by their names, one that was not has none that its callers would look for.
+        // One text of one subprogram, which a caller finds by the name of its file.
+        let named = self.hands_by_names() && (has_parameters(source) || source.procedures.len() == 1);
         let files = |dialect: &Dialect| dialect.program.sub_extension.is_some();
         let ends = to.program.macro_b || files(to) && files(self.job.from.dialect);
         // What has been written already has stated modes, which would be the caller's from there on.
@@ -29,6 +32,43 @@ impl Line<'_> {
         }
         self.writer.stands_alone(&self.renumbering.modes(&source.assumed));
         false
+    }
+
+    /// Whether the target's subprograms have their parameters by name.
+    fn hands_by_names(&self) -> bool {
+        let there = self.job.to.caps().computes;
+        self.job.to.dialect.program.macros && there.is_some_and(|there| there.handed == Handed::Names)
+    }
+
+    /// A macro's arguments, which are variables of its calls by their letters, become parameters for a target that has
+    /// them by name, and knows none without a value: each call must give them, which is told.
+    pub(super) fn with_parameters(&mut self, mut source: Program) -> Program {
+        let from = self.job.from.dialect.program.macro_b;
+        if !from || !self.hands_by_names() || self.executes_computed() || source.procedures.len() != 1 {
+            return source;
+        }
+        if returns_alone(&source).is_none() || has_parameters(&source) {
+            return source;
+        }
+        let place = |var: &Var| match var {
+            Var::Local(name) => name.parse().ok().filter(|n| LETTERS.iter().any(|(_, number)| number == n)),
+            Var::Common(_) | Var::Retentive(_) | Var::System(_) => None,
+        };
+        let open = open_variables(&source).into_iter();
+        let mut own: Vec<(u32, _, _)> = open.filter_map(|(var, at)| Some((place(&var)?, var, at))).collect();
+        own.sort_by_key(|(number, ..)| *number);
+        let number = source.name.number;
+        if let Some(main) = source.procedures.first_mut() {
+            main.parameters = own.iter().map(|(_, var, _)| var.clone()).collect();
+            if let (true, Some(number)) = (main.name.is_empty(), number) {
+                main.name = number.to_string().into();
+            }
+        }
+        let told = own.into_iter().map(|(_, var, at)| {
+            Diagnostic::new(Fault::ArgumentNeeded { name: format!("#{}", var.name()).into() }, at)
+        });
+        self.take(told.collect(), Told::Writer);
+        source
     }
 
     /// One that is executed to be written as straight blocks has values for its parameters, and is a program by itself.

@@ -111,3 +111,71 @@ fn a_subprogram_by_itself_is_given_its_parameters() {
     }
     run("time passes.spf --from siemens --args one.toml").exits(0);
 }
+
+/// A macro that stands alone: its arguments are parameters in the output, which is called as the macro is.
+#[test]
+fn a_macro_by_itself_has_its_arguments_as_parameters() {
+    let folder = folder();
+    let head = "%\nO9012 (ROW)\n#30=0\nWHILE [#30 LT #11] DO1\nG90 G0 X[#24+#30*#18]\n";
+    let text = format!("{head}G1 Z-#26 F#9\nG0 Z#7\n#30=#30+1\nEND1\nM99\n%\n");
+    write(&folder, "row.nc", &text);
+    let run = |arguments: &str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        ncc(folder.path(), &arguments)
+    };
+    let kept = run("fanuc to siemens row.nc").exits(0);
+    let written = "\nPROC L9012(REAL V_D, REAL V_F, REAL V_H, REAL V_R, REAL V_X, REAL V_Z)\nR30=0\n";
+    assert!(kept.out.contains(written), "{}", kept.out);
+    assert!(kept.out.contains("\nM17\n") && !kept.out.contains("M30"), "{}", kept.out);
+    assert!(!kept.out.contains("G54\n") && !kept.out.contains("G71"), "{}", kept.out);
+    assert_eq!(kept.err.matches("warning[NC0608]").count(), 6, "{}", kept.err);
+    run("haas to siemens row.nc").exits(0);
+    run("fanuc to linuxcnc row.nc").exits(1).says("NC0233");
+    // It is read again as what it is.
+    std::fs::write(folder.path().join("row.spf"), &kept.out).unwrap();
+    run("siemens to fanuc row.spf").exits(0);
+    // Whether an argument is there, a parameter does not tell, nor does what it was put into.
+    for ask in
+        ["IF [#7 EQ #0] THEN #7=5.", "#31=#7\nIF [#0 NE #31] GOTO 8\n#7=5.\nN8", "IF [-#7 EQ #0] GOTO 8\nN8"]
+    {
+        write(&folder, "asks.nc", &text.replace("#30=0\n", &format!("#30=0\n{ask}\n")));
+        run("fanuc to siemens asks.nc").exits(1).says("the question whether a call gives the argument");
+        run("fanuc to fanuc asks.nc").exits(0);
+    }
+    // What no letter gives is no argument.
+    write(&folder, "rest.nc", &text.replace("#26", "#27"));
+    run("fanuc to siemens rest.nc").exits(1).says("the variable 27, which may have no value");
+}
+
+/// A subprogram that only moves goes back to its caller, and states nothing of what that has in force.
+#[test]
+fn a_subprogram_by_itself_goes_back() {
+    let folder = folder();
+    write(&folder, "sub.nc", "%\nO1000\nG90 G0 X10. Y10.\nG1 Z-5. F100.\nG0 Z5.\nM99\n%\n");
+    let run = |to: &str| ncc(folder.path(), &["fanuc", "to", to, "sub.nc"]);
+    let kept = run("siemens").exits(0);
+    assert!(kept.out.ends_with("\nG90 G0 X10 Y10\nG1 Z-5 F100\nG0 Z5\nM17\n"), "{}", kept.out);
+    run("linuxcnc").exits(1);
+    run("mach9").exits(1);
+}
+
+/// What nothing in a program calls is not executed, and that is told; what it is given, nobody knows.
+#[test]
+fn what_nothing_calls_is_told() {
+    let folder = folder();
+    let main = "%\nO0001\nG21 G90 G54 G17 G94 G0 X0 Y0\nM30\nO0500\n";
+    write(&folder, "plain.nc", &format!("{main}G1 Z-1. F100.\nG0 Z5.\nM99\n%\n"));
+    write(&folder, "macro.nc", &format!("{main}G1 Z-1. F#9\nG0 Z#7\nM99\n%\n"));
+    let run = |arguments: &str| {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        ncc(folder.path(), &arguments)
+    };
+    for to in ["fanuc", "haas", "siemens", "linuxcnc"] {
+        let told = run(&format!("fanuc to {to} plain.nc")).exits(0).err;
+        assert!(told.contains("NC0607"), "{to}: {told}");
+    }
+    run("fanuc to fanuc macro.nc").exits(0);
+    for to in ["siemens", "linuxcnc"] {
+        run(&format!("fanuc to {to} macro.nc")).exits(1).says("the variable 9, which may have no value");
+    }
+}

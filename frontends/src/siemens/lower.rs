@@ -46,6 +46,8 @@ pub(super) struct Lower {
     pub(super) assume: bool,
     /// What subprograms find in force.
     pub(super) inherited: Inherited,
+    /// Whether the program is another's that is not in the text, and goes back to it.
+    pub(super) called: bool,
     /// Whether refused blocks are noted.
     pub(super) watch: bool,
     pub(super) state: State,
@@ -156,6 +158,7 @@ impl Lower {
         Lower {
             settings,
             assume,
+            called: false,
             inherited: Inherited::default(),
             watch: false,
             state: State::default(),

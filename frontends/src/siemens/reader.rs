@@ -110,9 +110,11 @@ impl Reader {
         }
     }
 
-    /// As of [`crate::Reader::goes_back`].
-    pub(crate) fn goes_back(&mut self) {
+    /// As of [`crate::Reader::called`].
+    pub(crate) fn called(&mut self) {
         self.lower.unit = Some(Kind::Sub);
+        (self.lower.called, self.lower.assume) = (true, true);
+        self.lower.refresh();
     }
 
     /// Reads further whole lines; `base` is the place of their first byte in the source.

@@ -20,6 +20,8 @@ use crate::source::Span;
 use crate::valid::not_called;
 use crate::value;
 
+mod elsewhere;
+
 /// Most calls one within another that are looked into with their caller's variables.
 const DEEPEST: u32 = 10;
 
@@ -89,7 +91,10 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
     let mut entries = BTreeMap::from([(0, Known { vars, lost: false })]);
     if given {
         // What no call of this program leads to, other programs call, with values or without.
-        entries.extend(not_called(program).into_iter().map(|at| (at, from_elsewhere(&program.procedures[at]))));
+        entries.extend(
+            not_called(program).into_iter().map(|at| (at, elsewhere::begins(&program.procedures[at]))),
+        );
+        elsewhere::parameters(&before, &mut entries)?;
     }
     let mut ways = Ways::over(&before.procedures, entries);
     let facts = std::mem::take(&mut ways.facts);
@@ -129,15 +134,6 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
         }
     }
     Ok(())
-}
-
-/// What a procedure begins with that another program calls.
-fn from_elsewhere(procedure: &Procedure) -> Known {
-    let by_itself = Program { procedures: vec![procedure.clone()], ..Program::default() };
-    let open = open_variables(&by_itself).into_iter().map(|(var, _)| var);
-    let open = open.filter(|var| matches!(var, Var::Local(_)));
-    let may = |var: &Var| if procedure.parameters.contains(var) { May::Number } else { May::Either };
-    Known { vars: open.map(|var| (Text::from(&*var.name()), may(&var))).collect(), lost: false }
 }
 
 pub(super) fn is_nothing(e: &Expr) -> bool {

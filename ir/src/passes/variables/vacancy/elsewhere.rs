@@ -1,0 +1,105 @@
+//! Procedures that programs call which are not in the text: what they begin with.
+
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+
+use super::{Facts, Known, May, Ways, is_nothing, may, place};
+use crate::arguments;
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::{Binary, Expr, Node, Var};
+use crate::open::open_variables;
+use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
+
+/// What a procedure begins with: its arguments have values or not.
+pub(super) fn begins(procedure: &Procedure) -> Known {
+    let by_itself = Program { procedures: vec![procedure.clone()], ..Program::default() };
+    let open = open_variables(&by_itself).into_iter().map(|(var, _)| var);
+    let open = open.filter(|var| matches!(var, Var::Local(_)));
+    let may = |var: &Var| if procedure.parameters.contains(var) { May::Number } else { May::Either };
+    Known { vars: open.map(|var| (Text::from(&*var.name()), may(&var))).collect(), lost: false }
+}
+
+/// Parameters that the main procedure has for its arguments, each of which is given.
+///
+/// # Errors
+/// The program asks by itself whether one is given.
+pub(super) fn parameters(program: &Program, entries: &mut BTreeMap<usize, Known>) -> Result<(), Diagnostic> {
+    let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty()) else {
+        return Ok(());
+    };
+    let ways = Ways::over(&program.procedures, entries.clone());
+    program.procedures.iter().try_for_each(|procedure| asks(&procedure.body, &ways.facts))?;
+    let Some(known) = entries.get_mut(&0) else { return Ok(()) };
+    for parameter in &main.parameters {
+        known.vars.insert(Text::from(&*parameter.name()), May::Number);
+    }
+    Ok(())
+}
+
+/// Whether anything is compared with nothing that may be it or not.
+fn asks(body: &[Stmt], facts: &Facts) -> Result<(), Diagnostic> {
+    for stmt in body {
+        let known = facts.get(&place(stmt)).into_iter();
+        let known: Vec<&Known> = match &stmt.op {
+            Op::Control(control) => known.chain(facts.get(&place(&**control))).collect(),
+            _ => known.collect(),
+        };
+        let mut found = None;
+        each(&stmt.op, &mut |e| found = found.take().or_else(|| asked(e, &known)));
+        if let Some(name) = found {
+            let what = format!("the question whether a call gives the argument {name}").into();
+            return Err(Diagnostic::new(Fault::Computes { what }, stmt.span));
+        }
+        if let Op::Control(control) = &stmt.op {
+            control.bodies().try_for_each(|body| asks(body, facts))?;
+        }
+    }
+    Ok(())
+}
+
+/// The name of what is compared so.
+fn asked(e: &Expr, known: &[&Known]) -> Option<Text> {
+    let Expr::Node(node) = e else { return None };
+    if let Node::Binary(Binary::Equal | Binary::NotEqual, a, b) = &**node {
+        let other = if is_nothing(a) { b } else { a };
+        let either = known.iter().any(|known| may(other, known) == May::Either);
+        if (is_nothing(a) || is_nothing(b)) && either {
+            return Some(name(other));
+        }
+    }
+    e.parts().find_map(|part| asked(part, known))
+}
+
+fn name(e: &Expr) -> Text {
+    match e {
+        Expr::Node(node) => match &**node {
+            Node::Var(var) => var.name().as_ref().into(),
+            _ => e.parts().next().map(name).unwrap_or_default(),
+        },
+        _ => Text::default(),
+    }
+}
+
+/// Shows what a statement computes by itself.
+fn each(op: &Op, seen: &mut dyn FnMut(&Expr)) {
+    match op {
+        Op::Assign(_, value) => seen(value),
+        Op::Call(call) => call.arguments.iter().for_each(seen),
+        Op::Control(control) => match &**control {
+            Control::If { condition: value, .. }
+            | Control::While { condition: value, .. }
+            | Control::Until { condition: value, .. }
+            | Control::Repeat { times: value, .. } => seen(value),
+            Control::For { from, to, step, .. } => [from, to, step].into_iter().for_each(seen),
+            Control::Loop { .. } => {}
+        },
+        op if arguments::computed(op) => {
+            let all = arguments::each(&mut op.clone(), &mut |argument, _| {
+                argument.expr().into_iter().for_each(|e| seen(e));
+                Ok::<(), Infallible>(())
+            });
+            all.unwrap_or_else(|never| match never {});
+        }
+        _ => {}
+    }
+}

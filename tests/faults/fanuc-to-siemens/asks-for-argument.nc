@@ -1,0 +1,7 @@
+%
+O9010 (BOLT HOLES)
+IF [#7 EQ #0] THEN #7=5.
+G90 G0 X#24
+G0 Z#7
+M99
+%
