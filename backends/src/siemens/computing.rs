@@ -87,6 +87,15 @@ impl Writer {
 
     /// A subprogram of a program that computes ends with no cycle in force: its callers call theirs up again.
     pub(super) fn before_return(&mut self, sink: &mut Sink) -> Result<(), Fault> {
+        let left = match self.standing.modal {
+            super::Modal::Off => self.owed.is_some(),
+            super::Modal::On => true,
+            super::Modal::Doubtful => self.cycled,
+        };
+        if self.alone && left {
+            // There, whether a caller goes on with it is not said in any manual that could be read.
+            return Err(cannot("a cycle that is left in force for a caller that is not in the text"));
+        }
         let left = self.computing.program && self.standing.modal == super::Modal::On;
         self.without_cycle(left, sink)
     }

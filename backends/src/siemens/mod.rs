@@ -114,6 +114,8 @@ pub struct Writer {
     under_cycle: BTreeSet<Box<str>>,
     /// Labels made for repetitions.
     repeats: u32,
+    /// Whether the program goes back to one that is not in the text.
+    alone: bool,
     /// Whether a subprogram has been written, so that every unit needs its header.
     units: bool,
     computing: Computing,
@@ -143,6 +145,7 @@ impl Writer {
             names: Names::default(),
             under_cycle: BTreeSet::new(),
             repeats: 0,
+            alone: false,
             units: false,
             computing: Computing::default(),
             variables: Variables::default(),
@@ -183,7 +186,12 @@ impl Writer {
     }
 
     /// A program that is called by another states nothing before its first event: it would go on in its caller.
-    pub fn stands_alone(&mut self, taken: &Modes) {
+    /// Where the source's codes of motion end a cycle, that of the caller is ended before all that is executed.
+    pub fn stands_alone(&mut self, taken: &Modes, moves_end_cycles: bool) {
+        self.alone = true;
+        if moves_end_cycles {
+            self.standing.modal = Modal::Doubtful;
+        }
         self.words.stands_alone(taken);
     }
 
@@ -241,6 +249,13 @@ impl Writer {
     fn source_block(&mut self, stmts: &[Stmt], sink: &mut Sink) {
         let Some(first) = stmts.first() else { return };
         self.words.open_block(first);
+        if self.alone && self.standing.modal == Modal::Doubtful && !self.cycled && executed(&first.op) {
+            if let Err(fault) = self.end_modal(sink) {
+                sink.report(fault, first.span);
+            }
+            self.words.flush(false, sink);
+            self.words.split = true;
+        }
         let mut at = 0;
         while at < stmts.len() {
             at += self.one(&stmts[at..], sink);
@@ -430,6 +445,11 @@ impl Writer {
             sink.report(Fault::AssumedRow { code, meaning: meaning.into() }, span);
         }
     }
+}
+
+/// Whether a statement is one of a block that is executed.
+fn executed(op: &Op) -> bool {
+    !matches!(op, Op::Comment(_) | Op::Blank | Op::NoEffect(_) | Op::Declare(_))
 }
 
 /// A number as text.

@@ -30,7 +30,15 @@ impl Line<'_> {
         if let Some(verifier) = &mut self.verifier {
             verifier.read_as_called();
         }
-        self.writer.stands_alone(&self.renumbering.modes(&source.assumed));
+        let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
+        let moves_end_cycles = named && self.job.from.dialect.program.macro_b && moves(main);
+        if moves_end_cycles && !begins_by_a_move(main) {
+            // A way without a move would leave it in force.
+            let parameter = "a cycle of the caller's, where a subprogram that may not move begins".into();
+            let fault = Fault::AssumedParameter { parameter, value: "none".into() };
+            self.take(vec![Diagnostic::new(fault, at)], Told::Writer);
+        }
+        self.writer.stands_alone(&self.renumbering.modes(&source.assumed), moves_end_cycles);
         false
     }
 
@@ -83,6 +91,34 @@ impl Line<'_> {
 
 fn has_parameters(source: &Program) -> bool {
     source.procedures.first().is_some_and(|main| !main.parameters.is_empty())
+}
+
+/// A statement whose code of motion ends a cycle.
+fn is_move(stmt: &Stmt) -> bool {
+    matches!(
+        stmt.op.unwrapped(),
+        Op::StraightTraverse(_)
+            | Op::StraightFeed(_)
+            | Op::SynchronisedFeed(_)
+            | Op::ArcFeed(_)
+            | Op::ArcForm(_)
+            | Op::Polar(_)
+            | Op::StartCycle(_)
+    )
+}
+
+/// Whether a body moves anywhere.
+fn moves(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Control(control) => control.bodies().any(|body| moves(body)),
+        _ => is_move(stmt),
+    })
+}
+
+/// Whether every way through a body goes over a move that it begins with.
+fn begins_by_a_move(body: &[Stmt]) -> bool {
+    let plain = |stmt: &&Stmt| !matches!(stmt.op, Op::Control(_) | Op::Goto(_) | Op::Return | Op::Alarm(_));
+    body.iter().take_while(plain).any(|stmt| is_move(stmt) && stmt.skip.is_none())
 }
 
 /// Ends a program where it goes back.

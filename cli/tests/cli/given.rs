@@ -124,7 +124,7 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
         ncc(folder.path(), &arguments)
     };
     let kept = run("fanuc to siemens row.nc").exits(0);
-    let written = "\nPROC L9012(REAL V_D, REAL V_F, REAL V_H, REAL V_R, REAL V_X, REAL V_Z)\nR30=0\n";
+    let written = "\nPROC L9012(REAL V_D, REAL V_F, REAL V_H, REAL V_R, REAL V_X, REAL V_Z)\nMCALL\nR30=0\n";
     assert!(kept.out.contains(written), "{}", kept.out);
     assert!(kept.out.contains("\nM17\n") && !kept.out.contains("M30"), "{}", kept.out);
     assert!(!kept.out.contains("G54\n") && !kept.out.contains("G71"), "{}", kept.out);
@@ -141,6 +141,13 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
         run("fanuc to siemens asks.nc").exits(1).says("the question whether a call gives the argument");
         run("fanuc to fanuc asks.nc").exits(0);
     }
+    // A number that is computed may be that of an argument.
+    write(&folder, "number.nc", &text.replace("Z-#26", "Z-#[#30+26]"));
+    run("fanuc to siemens number.nc").exits(1).says("a variable whose number is computed");
+    // Ways that meet again have what the caller has in force.
+    let ways = "%\nO9044\nIF [#11 EQ 1] GOTO 10\nG90 G0 Y#25\nGOTO 99\nN10 G90 G0 X#24\nN99 M99\n%\n";
+    write(&folder, "ways.nc", ways);
+    run("fanuc to siemens ways.nc").exits(0);
     // What no letter gives is no argument.
     write(&folder, "rest.nc", &text.replace("#26", "#27"));
     run("fanuc to siemens rest.nc").exits(1).says("the variable 27, which may have no value");
@@ -153,9 +160,16 @@ fn a_subprogram_by_itself_goes_back() {
     write(&folder, "sub.nc", "%\nO1000\nG90 G0 X10. Y10.\nG1 Z-5. F100.\nG0 Z5.\nM99\n%\n");
     let run = |to: &str| ncc(folder.path(), &["fanuc", "to", to, "sub.nc"]);
     let kept = run("siemens").exits(0);
-    assert!(kept.out.ends_with("\nG90 G0 X10 Y10\nG1 Z-5 F100\nG0 Z5\nM17\n"), "{}", kept.out);
+    assert!(kept.out.ends_with("\nMCALL\nG90 G0 X10 Y10\nG1 Z-5 F100\nG0 Z5\nM17\n"), "{}", kept.out);
     run("linuxcnc").exits(1);
     run("mach9").exits(1);
+    // Whether its caller goes on with a cycle depends on the control.
+    for (z, end) in [("-5.", ""), ("-#26", ""), ("-5.", "G80\n")] {
+        let text = format!("%\nO1000\nG90 G99 G81 X10. Z{z} R2. F100.\n{end}M99\n%\n");
+        write(&folder, "sub.nc", &text);
+        run("siemens").exits(u8::from(end.is_empty()).into());
+        run("fanuc").exits(0);
+    }
 }
 
 /// What nothing in a program calls is not executed, and that is told; what it is given, nobody knows.

@@ -187,14 +187,14 @@ impl Lower {
             return;
         }
         self.units(at, out);
-        self.rely_on_frames(true, at, out);
-        self.rely_on_feed_mode(at, out);
         if self.called {
-            // Of these it has what its caller has in force.
+            // Of all else it has what its caller has in force.
             return;
         }
         self.distance(at, out);
         self.plane(at, out);
+        self.rely_on_frames(true, at, out);
+        self.rely_on_feed_mode(at, out);
         let _ = self.motion(at, out);
     }
 

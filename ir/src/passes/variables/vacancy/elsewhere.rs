@@ -6,7 +6,7 @@ use std::convert::Infallible;
 use super::{Facts, Known, May, Ways, is_nothing, may, place};
 use crate::arguments;
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Binary, Expr, Node, Var};
+use crate::expr::{Binary, Expr, Many, Node, Scope, Target, Var};
 use crate::open::open_variables;
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
 
@@ -29,9 +29,29 @@ pub(super) fn parameters(program: &Program, entries: &mut BTreeMap<usize, Known>
     };
     let ways = Ways::over(&program.procedures, entries.clone());
     program.procedures.iter().try_for_each(|procedure| asks(&procedure.body, &ways.facts))?;
+    by_number(&main.body)?;
     let Some(known) = entries.get_mut(&0) else { return Ok(()) };
     for parameter in &main.parameters {
         known.vars.insert(Text::from(&*parameter.name()), May::Number);
+    }
+    Ok(())
+}
+
+/// Whether a variable has a computed number, which may be that of an argument.
+fn by_number(body: &[Stmt]) -> Result<(), Diagnostic> {
+    let local =
+        |of: &Many| matches!(of, Many::Numbered(rows) if rows.iter().any(|row| row.scope == Scope::Local));
+    for stmt in body {
+        let mut found = matches!(&stmt.op, Op::Assign(Target::Element(element), _) if local(&element.of));
+        let is = |node: &Node| matches!(node, Node::Element(element) if local(&element.of));
+        each(&stmt.op, &mut |e| found |= e.has(&is));
+        if found {
+            let what = "a variable whose number is computed, among the arguments of a macro".into();
+            return Err(Diagnostic::new(Fault::Computes { what }, stmt.span));
+        }
+        if let Op::Control(control) = &stmt.op {
+            control.bodies().try_for_each(|body| by_number(body))?;
+        }
     }
     Ok(())
 }
