@@ -115,7 +115,9 @@ fn each(op: &Op, seen: &mut dyn FnMut(&Expr)) {
         },
         op if arguments::computed(op) => {
             let all = arguments::each(&mut op.clone(), &mut |argument, _| {
-                argument.expr().into_iter().for_each(|e| seen(e));
+                if let Some(e) = argument.expr() {
+                    seen(e);
+                }
                 Ok::<(), Infallible>(())
             });
             all.unwrap_or_else(|never| match never {});
