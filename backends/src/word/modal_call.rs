@@ -37,8 +37,12 @@ enum Kind<'s> {
     Other,
 }
 
+/// A code of motion without words moves nothing, and the control calls nothing behind it.
 fn is_move(op: &Op) -> bool {
-    matches!(op, Op::StraightTraverse(_) | Op::StraightFeed(_) | Op::ArcFeed(_) | Op::Position(_))
+    match op {
+        Op::StraightTraverse(words) | Op::StraightFeed(words) | Op::Position(words) => !words.to.is_empty(),
+        op => matches!(op, Op::ArcFeed(_)),
+    }
 }
 
 /// What neither moves nor leads away.

@@ -124,7 +124,7 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
         ncc(folder.path(), &arguments)
     };
     let kept = run("fanuc to siemens row.nc").exits(0);
-    let written = "\nPROC L9012(REAL V_D, REAL V_F, REAL V_H, REAL V_R, REAL V_X, REAL V_Z)\nMCALL\nR30=0\n";
+    let written = "\nPROC L9012(REAL V_D, REAL V_F, REAL V_H, REAL V_R, REAL V_X, REAL V_Z)\nDEF REAL V_30\nMCALL\nV_30=0\n";
     assert!(kept.out.contains(written), "{}", kept.out);
     assert!(kept.out.contains("\nM17\n") && !kept.out.contains("M30"), "{}", kept.out);
     assert!(!kept.out.contains("G54\n") && !kept.out.contains("G71"), "{}", kept.out);

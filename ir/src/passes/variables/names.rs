@@ -174,7 +174,10 @@ impl<'c> Plan<'c> {
                     Var::Common(_) | Var::Retentive(_) => true,
                     Var::Local(_) => match self.homes[at] {
                         Home::Common => true,
-                        Home::Own if at == 0 => !self.stays_with_main(seen, own_numbers),
+                        // One with parameters has a caller, whose variables are not its own.
+                        Home::Own if at == 0 && program.procedures[0].parameters.is_empty() => {
+                            !self.stays_with_main(seen, own_numbers)
+                        }
                         Home::Own | Home::None => false,
                     },
                     Var::System(_) => false,
