@@ -174,8 +174,8 @@ struct Gone {
 struct Came {
     /// To its end.
     through: bool,
-    /// The first set with which it is longer than the run of a set may be.
-    goes_on: Option<u32>,
+    /// Which start, and the first set with it, with which it is longer than the run of a set may be.
+    goes_on: Option<(usize, u32)>,
 }
 
 /// Bits well mixed (splitmix64).
@@ -291,9 +291,9 @@ impl Verifier {
         self.runs = runs;
         let sides = [source, &target];
         let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
-        if let (false, Some(start), Some(set)) = (came.through, starts.first(), came.goes_on) {
+        if let (false, Some((start, set))) = (came.through, came.goes_on) {
             // Only a run that comes to its end shows that the program has one.
-            let mut run = start.clone();
+            let mut run = starts[start].clone();
             run.comparison.keep_pairs(false);
             match self.run_against(&mut run, sides, given, Set::long(set), &mut gone, &mut |_| {}) {
                 Ok(()) => failed = None,
@@ -336,12 +336,12 @@ impl Verifier {
             if starts.is_empty() || endless || set > 2 && came.through && all() {
                 break;
             }
-            for start in starts {
+            for (at, start) in starts.iter().enumerate() {
                 let mut run = start.clone();
                 run.comparison.keep_pairs(false);
                 match self.run_against(&mut run, sides, given, Set::short(set), gone, &mut |_| {}) {
                     Ok(()) => came.through = true,
-                    Err(Ended::Enough) => came.goes_on = came.goes_on.or(Some(set)),
+                    Err(Ended::Enough) => came.goes_on = came.goes_on.or(Some((at, set))),
                     Err(Ended::Source(_)) => {}
                     Err(Ended::NotSo(fault)) => return Err(Stop::Source(fault)),
                     Err(Ended::Target(fault)) => return Err(Stop::Target(fault)),
