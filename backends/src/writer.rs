@@ -6,7 +6,7 @@ use ncc_dialects::{Family, Settings};
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::diag::Diagnostic;
 use ncc_ir::num::Nanos;
-use ncc_ir::program::{Procedure, Stmt};
+use ncc_ir::program::{Procedure, Program, Stmt};
 
 use crate::characters::encode;
 use crate::origin::Trace;
@@ -107,18 +107,13 @@ impl Writer {
         }
     }
 
-    /// Says which procedures a program has that computes, before any of it is written, and the places of statements
+    /// Says what program it is, of those that compute, before any of it is written, and the places of statements
     /// whose words say their own distance mode, where others rely on the one in force. `stands` are modes that are in
     /// force where stretches of blocks begin, by the places of their first statements.
-    pub fn know(
-        &mut self,
-        procedures: &[Procedure],
-        own_distance: &BTreeSet<u32>,
-        stands: HashMap<u32, Modes>,
-    ) {
+    pub fn know(&mut self, program: &Program, own_distance: &BTreeSet<u32>, stands: HashMap<u32, Modes>) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.know(procedures, stands),
-            Kind::Siemens(writer) => writer.know(procedures, own_distance, stands),
+            Kind::Word(writer) => writer.know(program, stands),
+            Kind::Siemens(writer) => writer.know(&program.procedures, own_distance, stands),
             // The text form says them all by itself; the other writes no such programs.
             Kind::Canon(_) | Kind::Ir(_) => {}
         }

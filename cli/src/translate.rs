@@ -362,7 +362,7 @@ impl<'j> Line<'j> {
         self.renumbering.run(&mut program, &mut found);
         if computes {
             self.legaliser.run_computing(&mut program, &known, &mut found);
-            self.writer.know(&program.procedures, &own_distance, stands);
+            self.writer.know(&program, &own_distance, stands);
             if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
                 self.take(found, Told::Writer);
                 return Ok(());

@@ -9,12 +9,12 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use ncc_dialects::{ANGLE_RANGE, SystemRow};
 use ncc_ir::call_of::call_of;
-use ncc_ir::canon::Modes;
+use ncc_ir::canon::{Modes, Units};
 use ncc_ir::code_of::code_of;
 use ncc_ir::computes::LETTERS;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
-use ncc_ir::program::{Call, Control, Op, Procedure, Stmt, Text};
+use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -33,6 +33,8 @@ pub(crate) struct Computing {
     variables: bool,
     /// Whether a program that computes is written with its structure, here or by whom these words are for.
     pub(super) kept: bool,
+    /// Whether lengths count mm wherever the text does not say what they count.
+    pub(super) metric: bool,
     /// Parameters of procedures, by name.
     parameters: BTreeMap<Text, Vec<Var>>,
     /// Numbers of the blocks of the procedure at hand that are jumped to.
@@ -47,9 +49,13 @@ pub(crate) struct Computing {
 
 impl Writer {
     /// Takes what calls need to know of the procedures of a program that computes.
-    pub(crate) fn know(&mut self, procedures: &[Procedure], stands: HashMap<u32, Modes>) {
+    pub(crate) fn know(&mut self, program: &Program, stands: HashMap<u32, Modes>) {
+        let procedures = program.procedures.as_slice();
         self.is_kept(stands);
         self.computing.variables = true;
+        let mut units = (program.assumed.units == Some(Units::Mm), false);
+        procedures.iter().for_each(|procedure| units_of(&procedure.body, &mut units));
+        self.computing.metric = units == (true, false);
         self.computing.own = self
             .dialect
             .named_values()
@@ -519,6 +525,18 @@ impl Jumps {
             } else if let Op::Control(control) = &stmt.op {
                 control.bodies().for_each(|body| self.body(body));
             }
+        }
+    }
+}
+
+/// Whether a body says mm, and inches.
+fn units_of(body: &[Stmt], said: &mut (bool, bool)) {
+    for stmt in body {
+        match &stmt.op {
+            Op::UseLengthUnits(Units::Mm) => said.0 = true,
+            Op::UseLengthUnits(Units::Inch) => said.1 = true,
+            Op::Control(control) => control.bodies().for_each(|body| units_of(body, said)),
+            _ => {}
         }
     }
 }

@@ -221,6 +221,8 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<Shaped, Fault> {
         let at = axis as usize;
+        let metric = self.computing.metric && n.unit == Unit::Entry;
+        let n = if metric { Num { unit: Unit::Mm, ..n } } else { n };
         let fault = |why| unwritable(why, letter.letter, n);
         let distance = distance.known().or(self.force.distance);
         let before = match distance {
