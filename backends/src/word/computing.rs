@@ -532,11 +532,14 @@ impl Jumps {
 /// Whether a body says mm, and inches.
 fn units_of(body: &[Stmt], said: &mut (bool, bool)) {
     for stmt in body {
-        match &stmt.op {
-            Op::UseLengthUnits(Units::Mm) => said.0 = true,
-            Op::UseLengthUnits(Units::Inch) => said.1 = true,
-            Op::Control(control) => control.bodies().for_each(|body| units_of(body, said)),
-            _ => {}
+        if let Op::UseLengthUnits(units) = &stmt.op {
+            match units {
+                Units::Mm => said.0 = true,
+                Units::Inch => said.1 = true,
+            }
+        }
+        if let Op::Control(control) = &stmt.op {
+            control.bodies().for_each(|body| units_of(body, said));
         }
     }
 }
