@@ -223,6 +223,31 @@ impl Expr {
         Expr::Num(Num::int(value, Unit::One))
     }
 
+    /// An operator between two operands.
+    pub fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
+        Expr::Node(Box::new(Node::Binary(operator, a, b)))
+    }
+
+    /// The sum of two, exact where both are numbers of one unit; else it is said as it stands.
+    pub fn plus(&self, other: &Expr) -> Expr {
+        let exact = self.literal().zip(other.literal()).and_then(|(a, b)| a.plus(b));
+        exact.map_or_else(|| Expr::binary(Binary::Add, self.operand(), other.operand()), Expr::from)
+    }
+
+    /// The difference of two, as [`Expr::plus`].
+    pub fn minus(&self, other: &Expr) -> Expr {
+        let exact = self.literal().zip(other.literal()).and_then(|(a, b)| a.minus(b));
+        exact.map_or_else(|| Expr::binary(Binary::Subtract, self.operand(), other.operand()), Expr::from)
+    }
+
+    /// It as an operand of another expression: there a number has no unit, and counts in the one in force.
+    pub fn operand(&self) -> Expr {
+        match self {
+            Expr::Num(n) => Expr::Num(Num { unit: Unit::One, ..*n }),
+            Expr::Node(_) => self.clone(),
+        }
+    }
+
     /// Whether it follows from what is given a value; of variables whose number is computed, any may be one.
     pub fn reads(&self, to: &Target) -> bool {
         let Expr::Node(node) = self else { return false };

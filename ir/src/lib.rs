@@ -36,6 +36,7 @@ pub mod source;
 pub mod system;
 pub mod track;
 pub mod types;
+pub mod units;
 pub mod valid;
 pub mod value;
 pub mod verify;

@@ -85,6 +85,39 @@ impl Num {
         self
     }
 
+    /// The exact sum of two numbers of one unit, with no more digits than needed; `None` if it is out of range, or the
+    /// units differ. Nothing has any unit.
+    pub fn plus(self, other: Num) -> Option<Num> {
+        if other.is_zero() {
+            return Some(self);
+        }
+        if self.is_zero() {
+            return Some(other);
+        }
+        if self.unit != other.unit {
+            return None;
+        }
+        let scale = self.scale.max(other.scale);
+        let wide = |n: Num| n.mantissa.checked_mul(*POW10.get(usize::from(scale - n.scale))?);
+        let mantissa = wide(self)?.checked_add(wide(other)?)?;
+        let sum = Num { mantissa, scale, point: self.point || other.point, unit: self.unit };
+        // A sum of two numbers in range may not be.
+        sum.nanos(true)?;
+        Some(sum)
+    }
+
+    /// The exact difference of two numbers of one unit, as [`Num::plus`].
+    pub fn minus(self, other: Num) -> Option<Num> {
+        self.plus(Num { mantissa: other.mantissa.checked_neg()?, ..other })
+    }
+
+    /// So many of it; `None` if that is out of range.
+    pub fn times(self, count: i64) -> Option<Num> {
+        let product = Num { mantissa: self.mantissa.checked_mul(count)?, ..self };
+        product.nanos(true)?;
+        Some(product)
+    }
+
     /// Whether the value is zero.
     pub fn is_zero(self) -> bool {
         self.mantissa == 0
@@ -136,6 +169,17 @@ mod tests {
         assert_eq!(fine.nanos(false), Some(254));
         let finer = Num { mantissa: 1, scale: 10, point: true, unit: Unit::Inch };
         assert_eq!(finer.nanos(false), None);
+    }
+
+    #[test]
+    fn sums_stay_in_their_unit() {
+        let inch = |mantissa, scale| Num { mantissa, scale, point: true, unit: Unit::Inch };
+        assert_eq!(inch(25, 2).plus(inch(5, 1)), Some(inch(75, 2)));
+        assert_eq!(inch(25, 2).minus(inch(5, 1)), Some(inch(-25, 2)));
+        assert_eq!(inch(5, 1).times(3), Some(inch(15, 1)));
+        assert_eq!(inch(5, 1).plus(Num::int(1, Unit::Mm)), None);
+        assert_eq!(Num::int(0, Unit::One).plus(inch(5, 1)), Some(inch(5, 1)));
+        assert_eq!(inch(i64::MAX, 0).times(2), None);
     }
 
     #[test]

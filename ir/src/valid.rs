@@ -5,6 +5,7 @@
 use crate::arguments;
 use crate::computes::Computes;
 use crate::diag::{Diagnostic, Fault};
+use crate::kinds::moves;
 use crate::program::{Control, Op, Program, Stmt};
 use crate::source::Span;
 
@@ -62,6 +63,24 @@ pub fn returns_alone(program: &Program) -> Option<Span> {
         })
     }
     found(&program.procedures.first()?.body)
+}
+
+/// Whether a body moves anywhere, or calls a cycle up: what ends a cycle that was in force before it.
+pub fn moves(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::Control(control) => control.bodies().any(|body| moves(body)),
+        _ => is_move(stmt),
+    })
+}
+
+/// Whether every way through a body goes over such a statement that it begins with.
+pub fn begins_by_a_move(body: &[Stmt]) -> bool {
+    let plain = |stmt: &&Stmt| !matches!(stmt.op, Op::Control(_) | Op::Goto(_) | Op::Return | Op::Alarm(_));
+    body.iter().take_while(plain).any(|stmt| is_move(stmt) && stmt.skip.is_none())
+}
+
+fn is_move(stmt: &Stmt) -> bool {
+    matches!(stmt.op.unwrapped(), moves!() | Op::StartCycle(_))
 }
 
 /// Calls of procedures that the program does not have, in the order of its text.

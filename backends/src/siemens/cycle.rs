@@ -10,7 +10,7 @@ use ncc_ir::caps::CycleForm;
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
-use ncc_ir::num::{Nanos, Num, POW10, Unit};
+use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Coord, Op, Pitch, Point, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::InForce;
@@ -536,12 +536,5 @@ fn same_length(operand: &Expr, length: &Expr) -> bool {
 
 /// The exact difference of two literals in one unit.
 fn difference(a: &Expr, b: &Expr) -> Option<Num> {
-    let (a, b) = (a.literal()?, b.literal()?);
-    if a.unit != b.unit && !a.is_zero() && !b.is_zero() {
-        return None;
-    }
-    let scale = a.scale.max(b.scale);
-    let up = |n: Num| n.mantissa.checked_mul(*POW10.get(usize::from(scale - n.scale))?);
-    let unit = if a.is_zero() { b.unit } else { a.unit };
-    Some(Num { mantissa: up(a)?.checked_sub(up(b)?)?, scale, point: scale > 0, unit }.trimmed())
+    a.literal()?.minus(b.literal()?).map(Num::trimmed)
 }

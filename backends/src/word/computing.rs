@@ -16,6 +16,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Var};
 use ncc_ir::program::{Call, Control, Op, Program, Stmt, Text};
 use ncc_ir::source::Span;
+use ncc_ir::units::Said;
 
 use super::block::{Need, Part, Rank};
 use super::formula::{arcs, cannot_compute, literal, number_of};
@@ -53,9 +54,7 @@ impl Writer {
         let procedures = program.procedures.as_slice();
         self.is_kept(stands);
         self.computing.variables = true;
-        let mut units = (program.assumed.units == Some(Units::Mm), false);
-        procedures.iter().for_each(|procedure| units_of(&procedure.body, &mut units));
-        self.computing.metric = units == (true, false);
+        self.computing.metric = Said::by(program).only() == Some(Units::Mm);
         self.computing.own = self
             .dialect
             .named_values()
@@ -525,21 +524,6 @@ impl Jumps {
             } else if let Op::Control(control) = &stmt.op {
                 control.bodies().for_each(|body| self.body(body));
             }
-        }
-    }
-}
-
-/// Whether a body says mm, and inches.
-fn units_of(body: &[Stmt], said: &mut (bool, bool)) {
-    for stmt in body {
-        if let Op::UseLengthUnits(units) = &stmt.op {
-            match units {
-                Units::Mm => said.0 = true,
-                Units::Inch => said.1 = true,
-            }
-        }
-        if let Op::Control(control) = &stmt.op {
-            control.bodies().for_each(|body| units_of(body, said));
         }
     }
 }

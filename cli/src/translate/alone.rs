@@ -7,7 +7,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Var;
 use ncc_ir::open::open_variables;
 use ncc_ir::program::{Op, Program, Stmt};
-use ncc_ir::valid::returns_alone;
+use ncc_ir::valid::{begins_by_a_move, moves, returns_alone};
 use ncc_machines::reading::Told;
 
 use super::{FLATTEN, Line};
@@ -19,6 +19,7 @@ impl Line<'_> {
         let to = self.job.to.dialect;
         // One text of one subprogram, which a caller finds by the name of its file.
         let named = self.hands_by_names() && (has_parameters(source) || source.procedures.len() == 1);
+        // What is a file of its own for a control that finds subprograms by their files stays one for another such.
         let files = |dialect: &Dialect| dialect.program.sub_extension.is_some();
         let ends = to.program.macro_b || files(to) && files(self.job.from.dialect);
         // What has been written already has stated modes, which would be the caller's from there on.
@@ -91,34 +92,6 @@ impl Line<'_> {
 
 fn has_parameters(source: &Program) -> bool {
     source.procedures.first().is_some_and(|main| !main.parameters.is_empty())
-}
-
-/// A statement whose code of motion ends a cycle.
-fn is_move(stmt: &Stmt) -> bool {
-    matches!(
-        stmt.op.unwrapped(),
-        Op::StraightTraverse(_)
-            | Op::StraightFeed(_)
-            | Op::SynchronisedFeed(_)
-            | Op::ArcFeed(_)
-            | Op::ArcForm(_)
-            | Op::Polar(_)
-            | Op::StartCycle(_)
-    )
-}
-
-/// Whether a body moves anywhere.
-fn moves(body: &[Stmt]) -> bool {
-    body.iter().any(|stmt| match &stmt.op {
-        Op::Control(control) => control.bodies().any(|body| moves(body)),
-        _ => is_move(stmt),
-    })
-}
-
-/// Whether every way through a body goes over a move that it begins with.
-fn begins_by_a_move(body: &[Stmt]) -> bool {
-    let plain = |stmt: &&Stmt| !matches!(stmt.op, Op::Control(_) | Op::Goto(_) | Op::Return | Op::Alarm(_));
-    body.iter().take_while(plain).any(|stmt| is_move(stmt) && stmt.skip.is_none())
 }
 
 /// Ends a program where it goes back.

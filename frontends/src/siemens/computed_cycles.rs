@@ -5,118 +5,67 @@
 //!
 //! Refused by name: other arguments than planes and depths.
 
-use ncc_dialects::{CallKind, ParameterRole as Role, Quantity};
-use ncc_ir::canon::Distance;
+use ncc_dialects::{CallKind, ParameterRole as Role};
 use ncc_ir::canon::Fact;
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Alarm, Control, Coord, Op, Stmt};
+use ncc_ir::program::{Alarm, Control, Op, Stmt};
 
-use super::cycles::{Arguments, sum};
-use super::formula::binary;
+use super::cycles::Arguments;
 use super::lower::Lower;
 use crate::Batch;
 use crate::word::Source;
 use crate::word::number::unit_of;
 
-/// A length, as it counts by itself and as an operand.
-#[derive(Clone)]
-struct Length {
-    /// With its unit, where it is written.
-    own: Expr,
-    operand: Expr,
-}
-
-impl Length {
-    fn coord(self) -> Coord {
-        Coord { value: self.own, distance: Fact::Known(Distance::Absolute) }
-    }
-
-    /// The sum, or the difference, of two lengths.
-    fn with(&self, other: &Length, less: bool) -> Length {
-        if let (Expr::Num(a), Expr::Num(b)) = (&self.own, &other.own) {
-            let signed = Num { mantissa: if less { -b.mantissa } else { b.mantissa }, ..*b };
-            if let Some(sum) = sum(*a, signed) {
-                return Length { own: Expr::Num(sum), operand: Expr::Num(Num { unit: Unit::One, ..sum }) };
-            }
-        }
-        let operator = if less { Binary::Subtract } else { Binary::Add };
-        let value = binary(operator, self.operand.clone(), other.operand.clone());
-        Length { own: value.clone(), operand: value }
-    }
-}
-
 impl Lower {
-    /// The length with a role; nothing for an empty argument, or one that is refused.
-    fn length(&mut self, a: &Arguments, role: Role, src: Source, out: &mut Batch) -> Option<Length> {
-        let (given, _) = a.get(role)?;
-        let own = self.amount(given, Quantity::Length, src, out)?;
-        let operand = match &own {
-            Expr::Num(num) => Expr::Num(Num { unit: Unit::One, ..*num }),
-            computed @ Expr::Node(_) => computed.clone(),
-        };
-        Some(Length { own, operand })
-    }
-
-    fn needed_length(&mut self, a: &Arguments, role: Role, src: Source, out: &mut Batch) -> Option<Length> {
-        if a.get(role).is_none() {
-            // Reported as missing.
-            self.needed(a, role, src, out)?;
-        }
-        self.length(a, role, src, out)
-    }
-
     /// A depth: absolute, or below the reference plane.
     fn computed_depth(
         &mut self,
         a: &Arguments,
         [to, by]: [Role; 2],
-        reference: &Length,
+        reference: &Expr,
         src: Source,
         out: &mut Batch,
-    ) -> Option<Length> {
+    ) -> Option<Expr> {
         if !self.is_given(a, by) {
-            return self.needed_length(a, to, src, out);
+            return self.needed_value(a, to, src, out);
         }
         if a.get(to).is_some() {
             let name = format!("{} beside {} where one is computed", a.name(to), a.name(by));
             self.not_supported(&a.row.name, &name, a.at(by), out);
             return None;
         }
-        let down = self.length(a, by, src, out)?;
-        Some(reference.with(&down, true))
+        let down = self.value(a, by, src, out)?;
+        Some(reference.minus(&down))
     }
 
     /// A cycle of which planes or depths are computed; `None` if it is refused (reported).
     pub(super) fn computed_cycle(&mut self, a: &Arguments, src: Source, out: &mut Batch) -> Option<Cycle> {
         let plane = self.plane(a.span, out);
-        let nothing = Expr::int(0);
-        let zero = Length { own: nothing.clone(), operand: nothing };
-        let return_plane = self.needed_length(a, Role::ReturnPlane, src, out)?;
+        let return_plane = self.needed_value(a, Role::ReturnPlane, src, out)?;
         let reference = match a.get(Role::ReferencePlane) {
-            Some(_) => self.length(a, Role::ReferencePlane, src, out)?,
-            None => zero.clone(),
+            Some(_) => self.value(a, Role::ReferencePlane, src, out)?,
+            None => Expr::int(0),
         };
         // Its sign is not known where it is computed.
         let safety = match self.argument(a, Role::SafetyDistance, src, out) {
             Some(safety) if safety.mantissa < 0 => return self.out_of_range(a, Role::SafetyDistance, out),
             Some(safety) if safety.is_zero() => None,
-            Some(safety) => {
-                Some(Length { own: Expr::Num(safety), operand: Expr::Num(Num { unit: Unit::One, ..safety }) })
-            }
+            Some(safety) => Some(Expr::Num(safety)),
             None if a.get(Role::SafetyDistance).is_some() => return None,
             None => None,
         };
-        let level = safety.as_ref().map_or_else(|| reference.clone(), |safety| reference.with(safety, false));
+        let level = safety.as_ref().map_or_else(|| reference.clone(), |safety| reference.plus(safety));
         let depth = self.computed_depth(a, [Role::Depth, Role::RelativeDepth], &reference, src, out)?;
         let dwell = self.time(a, Role::Dwell, src, out);
-        let less = |x: &Length, y: &Length| binary(Binary::Less, x.operand.clone(), y.operand.clone());
-        let mut wrong = binary(Binary::Or, less(&return_plane, &reference), less(&reference, &depth));
+        let binary = |operator, x: &Expr, y: &Expr| Expr::binary(operator, x.operand(), y.operand());
+        let less = |x: &Expr, y: &Expr| binary(Binary::Less, x, y);
+        let mut wrong = Expr::binary(Binary::Or, less(&return_plane, &reference), less(&reference, &depth));
         if self.is_given(a, Role::RelativeDepth) {
             let higher = less(&reference, &return_plane);
             let level = Expr::Node(Box::new(Node::Unary(Unary::Not, higher)));
-            wrong = binary(Binary::Or, wrong, level);
+            wrong = Expr::binary(Binary::Or, wrong, level);
         }
         let (mut feed, mut speed) = (None, None);
         let kind = match a.row.kind {
@@ -129,14 +78,14 @@ impl Lower {
                 let roles = [Role::FirstDepth, Role::RelativeFirstDepth];
                 let first = self.computed_depth(a, roles, &reference, src, out)?;
                 let stroke = match self.is_given(a, Role::RelativeFirstDepth) {
-                    true => self.length(a, Role::RelativeFirstDepth, src, out)?,
-                    false => reference.with(&first, true),
+                    true => self.value(a, Role::RelativeFirstDepth, src, out)?,
+                    false => reference.minus(&first),
                 };
-                wrong = binary(Binary::Or, wrong, less(&first, &depth));
-                let none = binary(Binary::LessOrEqual, reference.operand.clone(), first.operand);
-                wrong = binary(Binary::Or, wrong, none);
-                let first = safety.as_ref().map(|safety| stroke.with(safety, false).own);
-                self.computed_pecks(a, stroke.own, first, dwell, src, out)?
+                wrong = Expr::binary(Binary::Or, wrong, less(&first, &depth));
+                let none = binary(Binary::LessOrEqual, &reference, &first);
+                wrong = Expr::binary(Binary::Or, wrong, none);
+                let first = safety.as_ref().map(|safety| stroke.plus(safety));
+                self.computed_pecks(a, stroke, first, dwell, src, out)?
             }
             CallKind::Tap => {
                 self.planes_alone(a, out)?;
@@ -178,11 +127,11 @@ impl Lower {
         Some(Cycle {
             kind,
             plane,
-            retract: level.coord(),
-            reference: safety.map(|_| reference.coord()),
-            depth: depth.coord(),
+            retract: absolute(level),
+            reference: safety.map(|_| absolute(reference)),
+            depth: absolute(depth),
             return_level: Fact::Entry,
-            return_plane: Some(return_plane.coord()),
+            return_plane: Some(absolute(return_plane)),
             approach: self.settings.approach(),
             feed,
         })

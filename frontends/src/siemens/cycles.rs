@@ -10,7 +10,7 @@ use ncc_ir::canon::{Fact, Plane, Units};
 use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, ONE, POW10, Unit};
+use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::program::{Move, Op};
 use ncc_ir::source::Span;
 
@@ -174,6 +174,33 @@ impl Lower {
             return self.refuse(Fault::WordMissing { code, word }, arguments.span, out);
         }
         self.argument(arguments, role, src, out)
+    }
+
+    /// The value with a role, written or computed; nothing for an empty argument, or one that is refused.
+    pub(super) fn value(
+        &mut self,
+        a: &Arguments,
+        role: ParameterRole,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        let (given, quantity) = a.get(role)?;
+        self.amount(given, quantity, src, out)
+    }
+
+    /// The value with a role, that must be there.
+    pub(super) fn needed_value(
+        &mut self,
+        a: &Arguments,
+        role: ParameterRole,
+        src: Source,
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        if a.get(role).is_none() {
+            // Reported as missing.
+            self.needed(a, role, src, out)?;
+        }
+        self.value(a, role, src, out)
     }
 
     pub(super) fn out_of_range<T>(
@@ -495,7 +522,7 @@ impl Lower {
 
     /// The exact sum of two numbers of one unit.
     pub(super) fn sum(&mut self, a: &Arguments, x: Num, y: Num, out: &mut Batch) -> Option<Num> {
-        match sum(x, y) {
+        match x.plus(y) {
             Some(sum) => Some(sum),
             None => self.refuse(Fault::OutOfRange { word: a.row.name.as_str().into() }, a.span, out),
         }
@@ -505,23 +532,6 @@ impl Lower {
 /// Whether a kind of call is a cycle; else it is a pattern.
 pub(super) fn is_cycle(kind: CallKind) -> bool {
     !kind.cycles().is_empty()
-}
-
-/// The exact sum of two numbers of one unit; with no more digits than needed.
-pub(super) fn sum(x: Num, y: Num) -> Option<Num> {
-    if y.is_zero() {
-        return Some(x);
-    }
-    if x.is_zero() {
-        return Some(y);
-    }
-    let scale = x.scale.max(y.scale);
-    let wide = |n: Num| n.mantissa.checked_mul(*POW10.get(usize::from(scale - n.scale))?);
-    let mantissa = wide(x)?.checked_add(wide(y)?)?;
-    let sum = Num { mantissa, scale, point: x.point || y.point, unit: x.unit };
-    // A sum of two numbers in range may not be.
-    sum.nanos(true)?;
-    Some(sum)
 }
 
 /// Whether one number is less than another of the same unit.

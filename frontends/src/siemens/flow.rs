@@ -19,7 +19,7 @@ use ncc_ir::program::{Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::facts::{Motion, State};
-use super::formula::{Kind, Typed, binary, may_be_one, reads, several};
+use super::formula::{Kind, Typed, may_be_one, reads, several};
 use super::labels::{InPlace, Label, Pending, marked, resolve};
 use super::lower::{Head, Lower};
 use super::tree::{self, Expr as Tree, Jump, Place, Target};
@@ -332,7 +332,7 @@ impl Lower {
                 let arguments = vec![value.expr.clone(), constant.expr, Expr::Num(near)];
                 Expr::Node(Box::new(Node::Call(Function::NearRatio, arguments)))
             } else {
-                binary(Binary::Equal, value.expr.clone(), constant.expr)
+                Expr::binary(Binary::Equal, value.expr.clone(), constant.expr)
             };
             let then = vec![Stmt::new(jump.span, op)];
             let control = Control::If { condition, then, otherwise };

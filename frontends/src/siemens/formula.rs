@@ -64,11 +64,6 @@ pub(super) fn of(function: Function, a: Expr) -> Expr {
     Expr::Node(Box::new(Node::Call(function, vec![a])))
 }
 
-/// Two operands.
-pub(super) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
-    Expr::Node(Box::new(Node::Binary(operator, a, b)))
-}
-
 fn not(a: Expr) -> Expr {
     Expr::Node(Box::new(Node::Unary(Unary::Not, a)))
 }
@@ -174,7 +169,7 @@ impl Lower {
             Operator::Subtract => plain(Binary::Subtract, number, a, b),
             Operator::Divide => plain(Binary::Divide, Kind::Real, a, b),
             Operator::IntegerDivide => {
-                let quotient = binary(Binary::Divide, a.expr, b.expr);
+                let quotient = Expr::binary(Binary::Divide, a.expr, b.expr);
                 Typed { expr: of(Function::Truncate, quotient), kind: Kind::Int }
             }
             Operator::Modulo => plain(Binary::Modulo, number, a, b),
@@ -229,9 +224,9 @@ impl Lower {
             Operator::Equal => near,
             Operator::NotEqual => not(near),
             Operator::Less | Operator::Greater => {
-                binary(Binary::And, binary(plain, a.expr, b.expr), not(near))
+                Expr::binary(Binary::And, Expr::binary(plain, a.expr, b.expr), not(near))
             }
-            _ => binary(Binary::Or, binary(plain, a.expr, b.expr), near),
+            _ => Expr::binary(Binary::Or, Expr::binary(plain, a.expr, b.expr), near),
         };
         Typed { expr, kind: Kind::Bool }
     }
@@ -281,7 +276,7 @@ impl Lower {
             "LN" => real(Function::Ln),
             "EXP" => real(Function::Exp),
             "ABS" => Some(Typed { expr: of(Function::Abs, a.expr), kind }),
-            "POT" => Some(Typed { expr: binary(Binary::Multiply, a.expr.clone(), a.expr), kind }),
+            "POT" => Some(Typed { expr: Expr::binary(Binary::Multiply, a.expr.clone(), a.expr), kind }),
             "TRUNC" => Some(Typed { expr: of(Function::Truncate, a.expr), kind: Kind::Int }),
             "ROUND" => Some(Typed { expr: self.whole_number(a, span, out), kind: Kind::Int }),
             "ROUNDUP" => {
@@ -327,7 +322,7 @@ impl Lower {
             Kind::Real => value.expr,
             Kind::Int => self.whole_number(value, at, out),
             Kind::Bool if value.kind == Kind::Bool => value.expr,
-            Kind::Bool => binary(Binary::NotEqual, value.expr, Expr::int(0)),
+            Kind::Bool => Expr::binary(Binary::NotEqual, value.expr, Expr::int(0)),
             Kind::Text => return None,
         })
     }

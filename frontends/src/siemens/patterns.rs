@@ -14,7 +14,7 @@ use ncc_ir::num::{Num, ONE, Unit};
 use ncc_ir::program::{Coord, Op, Point};
 
 use super::again::CYCLE;
-use super::cycles::{Arguments, sum};
+use super::cycles::Arguments;
 use super::facts::InForce;
 use super::lower::Lower;
 use super::sort::Given;
@@ -119,8 +119,17 @@ impl Lower {
         let centre = self.start(a, src, out)?;
         let angle = self.value(a, Role::Angle, src, out).unwrap_or(Num::int(0, Unit::Degree).into());
         let radius = self.needed_value(a, Role::Radius, src, out)?;
-        if radius.literal().is_some_and(|radius| radius.mantissa <= 0) {
-            return self.out_of_range(a, Role::Radius, out);
+        match radius.literal() {
+            Some(radius) if radius.mantissa <= 0 => return self.out_of_range(a, Role::Radius, out),
+            Some(_) => {}
+            None => {
+                // The cycle ends the program by an alarm where it is not (reference, 9).
+                let parameter = format!("{}, computed", a.name(Role::Radius)).into();
+                out.report(
+                    Fault::AssumedParameter { parameter, value: "more than 0".into() },
+                    a.at(Role::Radius),
+                );
+            }
         }
         let count = self.count(a, Role::Count, src, out)?;
         let step = self.step(a, count, src, out)?;
@@ -167,27 +176,6 @@ impl Lower {
             }
             Some(_) | None => Some(step),
         }
-    }
-
-    /// The value with a role, written or computed; nothing for an empty argument, or one that is refused.
-    fn value(&mut self, a: &Arguments, role: ParameterRole, src: Source, out: &mut Batch) -> Option<Expr> {
-        let (given, quantity) = a.get(role)?;
-        self.amount(given, quantity, src, out)
-    }
-
-    /// The value with a role, that must be there.
-    fn needed_value(
-        &mut self,
-        a: &Arguments,
-        role: ParameterRole,
-        src: Source,
-        out: &mut Batch,
-    ) -> Option<Expr> {
-        if a.get(role).is_none() {
-            // Reported as missing.
-            self.needed(a, role, src, out)?;
-        }
-        self.value(a, role, src, out)
     }
 
     /// Rows of holes.
@@ -310,7 +298,8 @@ fn is_never_zero(value: &Expr) -> bool {
 
 /// A place at a distance and an angle from another, if it is exact along an axis.
 fn shifted(from: [Num; 2], by: Num, angle: Num) -> Option<[Num; 2]> {
-    let [x, y] = polar(by.nanos(false)?, angle.nanos(false)?);
+    // In its own unit, whatever that is.
+    let [x, y] = polar(Num { unit: Unit::One, ..by }.nanos(false)?, angle.nanos(false)?);
     let along = |n: i64| Num::from_nanos(n, 9, by.unit);
-    Some([sum(from[0], along(x))?, sum(from[1], along(y))?])
+    Some([from[0].plus(along(x))?, from[1].plus(along(y))?])
 }

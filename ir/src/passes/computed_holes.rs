@@ -10,7 +10,7 @@ use crate::caps::Caps;
 use crate::cycle::{First, Pattern, absolute};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Node, Unary};
-use crate::num::{Nanos, Num, ONE, Unit};
+use crate::num::{Nanos, Num, ONE};
 use crate::program::{Coord, Move, Op, Point, Program, Stmt};
 
 use super::pattern_forms;
@@ -97,14 +97,6 @@ fn coord(from: &Coord, way: Expr) -> Coord {
     absolute(sum(&from.value, way))
 }
 
-/// A number without a unit, as an operand counts.
-fn operand(value: &Expr) -> Expr {
-    match value {
-        Expr::Num(n) => Expr::Num(Num { unit: Unit::One, ..*n }),
-        Expr::Node(_) => value.clone(),
-    }
-}
-
 fn nanos(value: &Expr) -> Option<Nanos> {
     value.literal()?.nanos(false)
 }
@@ -113,36 +105,24 @@ fn sum(a: &Expr, b: Expr) -> Expr {
     match (nanos(a), nanos(&b)) {
         (_, Some(0)) => return a.clone(),
         (Some(0), _) => return b,
-        (Some(one), Some(two)) => {
-            let unit = a.literal().map_or(Unit::One, |n| n.unit);
-            if let Some(sum) = one.checked_add(two) {
-                return Num::from_nanos(sum, 9, unit).into();
-            }
-        }
         _ => {}
     }
-    if let Expr::Num(n) = b
-        && n.mantissa < 0
-    {
-        return binary(Binary::Subtract, operand(a), operand(&Num { mantissa: -n.mantissa, ..n }.into()));
+    match &b {
+        Expr::Num(n) if n.mantissa < 0 => a.minus(&Num { mantissa: -n.mantissa, ..*n }.into()),
+        Expr::Num(_) => a.plus(&b),
+        Expr::Node(node) => match &**node {
+            Node::Unary(Unary::Negate, less) => a.minus(less),
+            _ => a.plus(&b),
+        },
     }
-    if let Expr::Node(node) = &b
-        && let Node::Unary(Unary::Negate, less) = &**node
-    {
-        return binary(Binary::Subtract, operand(a), less.clone());
-    }
-    binary(Binary::Add, operand(a), operand(&b))
 }
 
 fn times(step: &Expr, k: u32) -> Expr {
-    match (nanos(step), k) {
+    match (step.literal().and_then(|n| n.times(k.into())), k) {
         (_, 0) => Expr::int(0),
         (_, 1) => step.clone(),
-        (Some(n), _) if n.checked_mul(k.into()).is_some() => {
-            let unit = step.literal().map_or(Unit::One, |n| n.unit);
-            Num::from_nanos(n * i64::from(k), 9, unit).into()
-        }
-        (_, _) => binary(Binary::Multiply, Expr::int(k.into()), operand(step)),
+        (Some(n), _) => n.trimmed().into(),
+        (None, _) => Expr::binary(Binary::Multiply, Expr::int(k.into()), step.operand()),
     }
 }
 
@@ -153,7 +133,7 @@ fn along(way: &Expr, angle: &Expr, function: Function) -> Expr {
         Function::Sin => quarters.map(|q| (q + 3) % 4),
         _ => quarters,
     };
-    let way = operand(way);
+    let way = way.operand();
     if nanos(&way) == Some(0) {
         return way;
     }
@@ -165,12 +145,8 @@ fn along(way: &Expr, angle: &Expr, function: Function) -> Expr {
         },
         Some(_) => Expr::int(0),
         None => {
-            let turned = Expr::Node(Box::new(Node::Call(function, vec![operand(angle)])));
-            binary(Binary::Multiply, way, turned)
+            let turned = Expr::Node(Box::new(Node::Call(function, vec![angle.operand()])));
+            Expr::binary(Binary::Multiply, way, turned)
         }
     }
-}
-
-fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
-    Expr::Node(Box::new(Node::Binary(operator, a, b)))
 }

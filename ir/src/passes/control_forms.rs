@@ -19,7 +19,7 @@ mod worked_out;
 
 use std::collections::HashSet;
 
-use conditions::{binary, compared, is_condition, opposite};
+use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::call_of::call_of;
@@ -401,26 +401,26 @@ impl Forms<'_> {
         let to = keep(to, "END", out);
         let step = keep(step, "STEP", out);
         let value = |var: &Var| Expr::Node(Box::new(Node::Var(var.clone())));
-        let within = |operator| binary(operator, value(&variable), to.clone());
+        let within = |operator| Expr::binary(operator, value(&variable), to.clone());
         let head = match sign(&step) {
             Some(true) => within(Binary::LessOrEqual),
             Some(false) => within(Binary::GreaterOrEqual),
             // Which way it goes is known when it runs.
             None => {
-                let goes = |operator| binary(operator, step.clone(), Expr::int(0));
-                binary(
+                let goes = |operator| Expr::binary(operator, step.clone(), Expr::int(0));
+                Expr::binary(
                     Binary::Or,
-                    binary(Binary::And, goes(Binary::GreaterOrEqual), within(Binary::LessOrEqual)),
-                    binary(Binary::And, goes(Binary::Less), within(Binary::GreaterOrEqual)),
+                    Expr::binary(Binary::And, goes(Binary::GreaterOrEqual), within(Binary::LessOrEqual)),
+                    Expr::binary(Binary::And, goes(Binary::Less), within(Binary::GreaterOrEqual)),
                 )
             }
         };
         let further = match step {
             Expr::Num(n) if n.mantissa < 0 => {
                 let less = Expr::Num(Num { mantissa: -n.mantissa, ..n });
-                binary(Binary::Subtract, value(&variable), less)
+                Expr::binary(Binary::Subtract, value(&variable), less)
             }
-            step => binary(Binary::Add, value(&variable), step),
+            step => Expr::binary(Binary::Add, value(&variable), step),
         };
         let tail = vec![assign(&variable, further)];
         self.turns(Loop { span, head: Some(head), body, tail, until: None }, out);

@@ -6,7 +6,7 @@
 
 use crate::cycle::{Cycle, CycleKind};
 use crate::expr::{Binary, Expr, Node};
-use crate::num::{Num, Unit};
+use crate::num::Num;
 use crate::program::{Control, Coord, Op, Program, Stmt};
 
 /// Takes checks away that the target's cycles make. `alarm` is theirs; `decimals` are the digits with which it states
@@ -55,16 +55,17 @@ fn is_made_by(check: &Stmt, rest: &[Stmt], alarm: i64, decimals: u8) -> bool {
 fn asks(cycle: &Cycle, condition: &Expr, decimals: u8) -> bool {
     let Some(back) = &cycle.return_plane else { return false };
     let apart = cycle.reference.as_ref().is_none_or(|plane| sum_of(&cycle.retract, plane, decimals));
-    let reference = operand(&cycle.reference.as_ref().unwrap_or(&cycle.retract).value);
-    let [back, depth] = [back, &cycle.depth].map(|plane| operand(&plane.value));
+    let reference = cycle.reference.as_ref().unwrap_or(&cycle.retract).value.operand();
+    let [back, depth] = [back, &cycle.depth].map(|plane| plane.value.operand());
+    let binary = |op, a: &Expr, b: &Expr| Expr::binary(op, a.clone(), b.clone());
     let less = |a: &Expr, b: &Expr| binary(Binary::Less, a, b);
     let planes = binary(Binary::Or, &less(&back, &reference), &less(&reference, &depth));
     let asked = match &cycle.kind {
         CycleKind::DrillPeck { peck, .. } | CycleKind::DrillBreak { peck, .. } => {
             let Some(first) = first_depth(condition) else { return false };
             // The peck is said by the depth of the first one, or that by the peck.
-            let peck = operand(peck);
-            let by = |a: &Expr, b: &Expr| same(&difference(&reference, a), b);
+            let peck = peck.operand();
+            let by = |a: &Expr, b: &Expr| same(&reference.minus(a), b);
             if !by(first, &peck) && !by(&peck, first) {
                 return false;
             }
@@ -93,7 +94,7 @@ fn sum_of(plane: &Coord, reference: &Coord, decimals: u8) -> bool {
         (Expr::Num(a), Expr::Num(b)) => few(*a) && few(*b),
         (Expr::Node(node), reference) => matches!(
             &**node,
-            Node::Binary(Binary::Add, of, Expr::Num(by)) if few(*by) && *of == operand(reference)
+            Node::Binary(Binary::Add, of, Expr::Num(by)) if few(*by) && *of == reference.operand()
         ),
         (Expr::Num(_), Expr::Node(_)) => false,
     }
@@ -106,27 +107,4 @@ fn same(a: &Expr, b: &Expr) -> bool {
         (Some(a), Some(b)) => digits(a) == digits(b),
         _ => a == b,
     }
-}
-
-/// A plane as it stands in an expression: its number has no unit there.
-fn operand(value: &Expr) -> Expr {
-    match value {
-        Expr::Num(num) => Expr::Num(Num { unit: Unit::One, ..*num }),
-        computed @ Expr::Node(_) => computed.clone(),
-    }
-}
-
-fn difference(a: &Expr, b: &Expr) -> Expr {
-    if let (Expr::Num(a), Expr::Num(b)) = (a, b) {
-        let scale = a.scale.max(b.scale);
-        let up = |n: &Num| n.mantissa.checked_mul(10_i64.checked_pow(u32::from(scale - n.scale))?);
-        if let Some(mantissa) = up(a).zip(up(b)).and_then(|(a, b)| a.checked_sub(b)) {
-            return Expr::Num(Num { mantissa, scale, ..*a });
-        }
-    }
-    binary(Binary::Subtract, a, b)
-}
-
-fn binary(operator: Binary, a: &Expr, b: &Expr) -> Expr {
-    Expr::Node(Box::new(Node::Binary(operator, a.clone(), b.clone())))
 }

@@ -6,6 +6,7 @@ use crate::expr::{Expr, Node, Var};
 use crate::kinds::flow;
 use crate::program::{Op, Program, Stmt};
 use crate::system::System;
+use crate::units::Said;
 
 use super::variables::expressions;
 
@@ -27,20 +28,12 @@ fn only(program: &Program) -> Option<Units> {
         _ => None,
     });
     let unit = program.assumed.units.or(first)?;
-    let same = program.procedures.iter().all(|procedure| says_no_other(&procedure.body, unit));
+    let same = Said::by(program).only() == Some(unit);
     // Before the first word of units nothing is asked that is not asked behind it, too: a unit that was taken for
     // granted is that of the whole head.
     let early = program.assumed.units.is_none()
         && main.iter().take_while(|stmt| !matches!(stmt.op, Op::UseLengthUnits(_))).any(asks);
     (same && !early).then_some(unit)
-}
-
-fn says_no_other(body: &[Stmt], unit: Units) -> bool {
-    body.iter().all(|stmt| match &stmt.op {
-        Op::UseLengthUnits(other) => *other == unit,
-        Op::Control(control) => control.bodies().all(|body| says_no_other(body, unit)),
-        _ => true,
-    })
 }
 
 fn asks(stmt: &Stmt) -> bool {

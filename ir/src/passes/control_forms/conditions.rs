@@ -3,11 +3,6 @@
 use crate::expr::{Binary, Expr, Node, Unary};
 use crate::num::{Num, Unit};
 
-/// An expression of two operands.
-pub(super) fn binary(operator: Binary, a: Expr, b: Expr) -> Expr {
-    Expr::Node(Box::new(Node::Binary(operator, a, b)))
-}
-
 /// The comparison that holds where another one does not.
 const fn other(operator: Binary) -> Option<Binary> {
     Some(match operator {
@@ -66,11 +61,11 @@ pub(super) fn opposite(condition: &Expr, word: bool) -> Expr {
     match node {
         Node::Unary(Unary::Not, a) => compared(a, word),
         Node::Binary(operator, a, b) => match (other(*operator), operator) {
-            (Some(other), _) => binary(other, a.clone(), b.clone()),
+            (Some(other), _) => Expr::binary(other, a.clone(), b.clone()),
             // De Morgan.
-            (None, Binary::And) => binary(Binary::Or, opposite(a, word), opposite(b, word)),
-            (None, Binary::Or) => binary(Binary::And, opposite(a, word), opposite(b, word)),
-            (None, Binary::Xor) => binary(Binary::Xor, opposite(a, word), compared(b, word)),
+            (None, Binary::And) => Expr::binary(Binary::Or, opposite(a, word), opposite(b, word)),
+            (None, Binary::Or) => Expr::binary(Binary::And, opposite(a, word), opposite(b, word)),
+            (None, Binary::Xor) => Expr::binary(Binary::Xor, opposite(a, word), compared(b, word)),
             (None, _) => not(condition, word),
         },
         Node::Var(_) | Node::Element(_) | Node::Vacant | Node::Unary(Unary::Negate, _) | Node::Call(..) => {
@@ -83,7 +78,7 @@ pub(super) fn opposite(condition: &Expr, word: bool) -> Expr {
 fn not(number: &Expr, word: bool) -> Expr {
     match word {
         true => Expr::Node(Box::new(Node::Unary(Unary::Not, number.clone()))),
-        false => binary(Binary::Equal, number.clone(), Expr::int(0)),
+        false => Expr::binary(Binary::Equal, number.clone(), Expr::int(0)),
     }
 }
 
@@ -108,13 +103,13 @@ pub(super) fn compared(condition: &Expr, numbers: bool) -> Expr {
         Node::Unary(Unary::Not, a) => opposite(a, false),
         Node::Binary(operator, ..) if other(*operator).is_some() => condition.clone(),
         Node::Binary(operator @ (Binary::And | Binary::Or | Binary::Xor), a, b) => {
-            binary(*operator, compared(a, false), compared(b, false))
+            Expr::binary(*operator, compared(a, false), compared(b, false))
         }
         Node::Binary(..)
         | Node::Var(_)
         | Node::Element(_)
         | Node::Vacant
         | Node::Unary(Unary::Negate, _)
-        | Node::Call(..) => binary(Binary::NotEqual, condition.clone(), Expr::int(0)),
+        | Node::Call(..) => Expr::binary(Binary::NotEqual, condition.clone(), Expr::int(0)),
     }
 }

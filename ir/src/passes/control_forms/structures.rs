@@ -7,7 +7,7 @@
 
 use std::collections::BTreeSet;
 
-use super::conditions::{binary, opposite};
+use super::conditions::opposite;
 use super::ends_elsewhere;
 use super::names::Names;
 use crate::expr::{Binary, Expr, Node, Target, Var};
@@ -573,7 +573,7 @@ fn assign(span: Span, to: &Var, value: i64) -> Stmt {
 /// A jump that is made if a variable says so.
 fn when_set(span: Span, flag: &Var, number: i64, label: Text) -> Stmt {
     let value = Expr::Node(Box::new(Node::Var(flag.clone())));
-    let condition = binary(Binary::Equal, value, Expr::int(number));
+    let condition = Expr::binary(Binary::Equal, value, Expr::int(number));
     let then = vec![Stmt::new(span, Op::Goto(label))];
     Stmt::new(span, Op::Control(Box::new(Control::If { condition, then, otherwise: Vec::new() })))
 }

@@ -12,7 +12,7 @@
 
 use std::collections::BTreeMap;
 
-use super::conditions::{binary, is_condition};
+use super::conditions::is_condition;
 use super::names::Names;
 use crate::call_of::call_of;
 use crate::computes::{Computes, counted};
@@ -48,12 +48,12 @@ fn call(function: Function, a: Expr) -> Expr {
 
 /// The angle of a sine, by the cosine that is the same.
 fn beside_cosine(a: Expr) -> Expr {
-    binary(Binary::Subtract, Expr::int(90), call(Function::Acos, a))
+    Expr::binary(Binary::Subtract, Expr::int(90), call(Function::Acos, a))
 }
 
 /// An angle on both sides of zero, from 0 to a turn.
 fn from_zero(angle: Expr) -> Expr {
-    binary(Binary::Modulo, binary(Binary::Add, angle, Expr::int(360)), Expr::int(360))
+    Expr::binary(Binary::Modulo, Expr::binary(Binary::Add, angle, Expr::int(360)), Expr::int(360))
 }
 
 /// A number, or a variable that the program alone changes.
@@ -348,12 +348,13 @@ impl WorkedOut<'_> {
         let Expr::Node(worked) = &*angle else { return false };
         let Node::Var(own) = &**worked else { return false };
         let own = own.clone();
-        let by = |operator| assign(&own, binary(operator, value(&own), Expr::int(360)), span);
-        before.stmts.push(when(binary(Binary::Less, value(&own), Expr::int(0)), by(Binary::Add)));
+        let by = |operator| assign(&own, Expr::binary(operator, value(&own), Expr::int(360)), span);
+        before.stmts.push(when(Expr::binary(Binary::Less, value(&own), Expr::int(0)), by(Binary::Add)));
         // One that is nothing but the least bit below zero.
-        before
-            .stmts
-            .push(when(binary(Binary::GreaterOrEqual, value(&own), Expr::int(360)), by(Binary::Subtract)));
+        before.stmts.push(when(
+            Expr::binary(Binary::GreaterOrEqual, value(&own), Expr::int(360)),
+            by(Binary::Subtract),
+        ));
         *e = value(&own);
         true
     }
@@ -438,10 +439,10 @@ impl WorkedOut<'_> {
         match (function, &arguments[..]) {
             (Function::Asin | Function::Atan2, _) if self.turns_round(function) => {
                 let angle = Expr::Node(Box::new(Node::Call(function, arguments)));
-                let back = binary(Binary::Subtract, value(to), Expr::int(360));
+                let back = Expr::binary(Binary::Subtract, value(to), Expr::int(360));
                 before.stmts.extend([
                     assign(to, from_zero(angle), span),
-                    when(binary(Binary::Greater, value(to), Expr::int(180)), assign(to, back, span)),
+                    when(Expr::binary(Binary::Greater, value(to), Expr::int(180)), assign(to, back, span)),
                 ]);
             }
             (Function::Asin, [a]) => {
@@ -450,15 +451,16 @@ impl WorkedOut<'_> {
             (Function::Atan2, [y, x]) => {
                 let [y, x] = [y, x].map(|a| self.simple(a, before, span));
                 let far = self.room((None, false), before);
-                let square = |a: &Expr| binary(Binary::Multiply, a.clone(), a.clone());
-                let squares = binary(Binary::Add, square(&x), square(&y));
+                let square = |a: &Expr| Expr::binary(Binary::Multiply, a.clone(), a.clone());
+                let squares = Expr::binary(Binary::Add, square(&x), square(&y));
                 before.stmts.push(assign(&far, call(Function::Sqrt, squares), span));
-                let part = |a: &Expr| binary(Binary::Divide, call(Function::Abs, a.clone()), value(&far));
+                let part =
+                    |a: &Expr| Expr::binary(Binary::Divide, call(Function::Abs, a.clone()), value(&far));
                 let steep = |operator| {
-                    binary(operator, call(Function::Abs, y.clone()), call(Function::Abs, x.clone()))
+                    Expr::binary(operator, call(Function::Abs, y.clone()), call(Function::Abs, x.clone()))
                 };
-                let less = |e: &Expr| binary(Binary::Less, e.clone(), Expr::int(0));
-                let from = |n: i64| assign(to, binary(Binary::Subtract, Expr::int(n), value(to)), span);
+                let less = |e: &Expr| Expr::binary(Binary::Less, e.clone(), Expr::int(0));
+                let from = |n: i64| assign(to, Expr::binary(Binary::Subtract, Expr::int(n), value(to)), span);
                 before.stmts.extend([
                     // Each where it is as fine as the numbers are.
                     when(steep(Binary::LessOrEqual), assign(to, beside_cosine(part(&y)), span)),
@@ -471,7 +473,7 @@ impl WorkedOut<'_> {
                 let (first, second) = if is_simple(a) && !is_simple(b) { (b, a) } else { (a, b) };
                 let other = if function == Function::Min { Binary::Greater } else { Binary::Less };
                 before.stmts.push(assign(to, first.clone(), span));
-                let further = binary(other, value(to), second.clone());
+                let further = Expr::binary(other, value(to), second.clone());
                 before.stmts.push(when(further, assign(to, second.clone(), span)));
             }
             (Function::RoundUp | Function::Ceiling, [a]) => {
@@ -489,8 +491,8 @@ impl WorkedOut<'_> {
                 // What has been counted up is compared no more.
                 let whole = if below { cut.clone() } else { value(to) };
                 let mut one_more = |beyond: Binary, step: Binary| {
-                    let further = assign(to, binary(step, whole.clone(), Expr::int(1)), span);
-                    before.stmts.push(when(binary(beyond, a.clone(), whole.clone()), further));
+                    let further = assign(to, Expr::binary(step, whole.clone(), Expr::int(1)), span);
+                    before.stmts.push(when(Expr::binary(beyond, a.clone(), whole.clone()), further));
                 };
                 one_more(Binary::Greater, Binary::Add);
                 if below {

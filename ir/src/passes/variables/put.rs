@@ -167,14 +167,14 @@ impl Put<'_, '_> {
                         Some(match place {
                             None => at,
                             Some(place) => {
-                                let row = of_two(Binary::Multiply, place, Expr::int(i64::from(*size)));
-                                of_two(Binary::Add, row, at)
+                                let row = Expr::binary(Binary::Multiply, place, Expr::int(i64::from(*size)));
+                                Expr::binary(Binary::Add, row, at)
                             }
                         })
                     },
                 );
                 let base = Expr::int(i64::from(first));
-                element.at = vec![of_two(Binary::Add, base, place.unwrap_or(Expr::int(0)))];
+                element.at = vec![Expr::binary(Binary::Add, base, place.unwrap_or(Expr::int(0)))];
                 let scope = match new {
                     Var::Local(_) => Scope::Local,
                     Var::Retentive(_) => Scope::Retentive,
@@ -210,7 +210,7 @@ impl Put<'_, '_> {
                     for index in &mut element.at {
                         let own = std::mem::replace(index, Expr::int(0));
                         let by = Expr::int(i64::from(self.plan.further));
-                        *index = of_two(Binary::Add, own, by);
+                        *index = Expr::binary(Binary::Add, own, by);
                     }
                 }
             }
@@ -235,10 +235,6 @@ impl Put<'_, '_> {
             Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {}
         }
     }
-}
-
-fn of_two(operator: Binary, a: Expr, b: Expr) -> Expr {
-    Expr::Node(Box::new(Node::Binary(operator, a, b)))
 }
 
 /// Another number for as long as a variable lives.

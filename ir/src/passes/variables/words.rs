@@ -5,13 +5,14 @@ use std::cell::Cell;
 
 use super::{each_value, expressions};
 use crate::arguments;
-use crate::canon::{Distance, Units};
+use crate::canon::Distance;
 use crate::decimals::Decimals;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Function, Node};
 use crate::num::{Num, Unit};
 use crate::program::{Centre, Coord, Op, Point, Program, Stmt};
 use crate::source::Span;
+use crate::units::Said;
 
 /// A literal that is rounded, as the whole number that it comes to.
 pub(super) fn whole(expr: &mut Expr) {
@@ -106,12 +107,11 @@ pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec
     }
     let Some(inch) = inches(program) else { return };
     let digits = [increments[usize::from(inch)], increments[0]];
-    let mut said = (false, false, false);
-    program.procedures.iter().for_each(|procedure| modes(&procedure.body, &mut said));
+    let incremental = program.procedures.iter().any(|procedure| says_incremental(&procedure.body));
     let mut adds_up = None;
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);
-        round_in(&mut procedure.body, digits, said.2, &decimals, &mut adds_up);
+        round_in(&mut procedure.body, digits, incremental, &decimals, &mut adds_up);
     }
     if let Some(at) = adds_up {
         let parameter = "increments that the control rounds".into();
@@ -122,10 +122,8 @@ pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec
 
 /// Whether all lengths of a program are in inches; `None` where it goes from one unit to the other.
 pub(in crate::passes) fn inches(program: &Program) -> Option<bool> {
-    let mut said = (false, false, false);
-    program.procedures.iter().for_each(|procedure| modes(&procedure.body, &mut said));
-    let inch = said.1 || program.assumed.units == Some(Units::Inch);
-    (!(said.0 && inch)).then_some(inch)
+    let said = Said::by(program);
+    (!(said.mm && said.inch)).then_some(said.inch)
 }
 
 /// The digits that a target has for lengths.
@@ -205,17 +203,13 @@ pub(in crate::passes) fn round(value: &mut Expr, digits: u8) {
     }
 }
 
-/// Whether a body says mm, inches, and incremental words.
-fn modes(body: &[Stmt], said: &mut (bool, bool, bool)) {
-    for stmt in body {
-        match &stmt.op {
-            Op::UseLengthUnits(Units::Mm) => said.0 = true,
-            Op::UseLengthUnits(Units::Inch) => said.1 = true,
-            Op::SetDistanceMode(Distance::Incremental) => said.2 = true,
-            Op::Control(control) => control.bodies().for_each(|body| modes(body, said)),
-            _ => {}
-        }
-    }
+/// Whether a body says that words are incremental.
+fn says_incremental(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::SetDistanceMode(distance) => *distance == Distance::Incremental,
+        Op::Control(control) => control.bodies().any(|body| says_incremental(body)),
+        _ => false,
+    })
 }
 
 fn round_in(
