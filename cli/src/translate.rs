@@ -23,7 +23,7 @@ use ncc_ir::passes::{Legaliser, Target, leave_out_values, own_distance, passed_l
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::{anything, computing, unknown_calls};
+use ncc_ir::valid::{anything, computing, leads_nowhere};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
@@ -294,7 +294,7 @@ impl<'j> Line<'j> {
         let name = self.batch.name.clone();
         let source = self.by_itself(Program { name, assumed, procedures });
         let source = self.with_parameters(source);
-        let unknown = unknown_calls(&source);
+        let unknown = leads_nowhere(&source);
         if !unknown.is_empty() {
             self.take(unknown, Told::Reader);
             return Ok(());

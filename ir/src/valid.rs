@@ -2,6 +2,8 @@
 //!
 //! Not here: what only execution can find, such as calls without an end.
 
+use std::collections::HashSet;
+
 use crate::arguments;
 use crate::computes::Computes;
 use crate::diag::{Diagnostic, Fault};
@@ -83,11 +85,14 @@ fn is_move(stmt: &Stmt) -> bool {
     matches!(stmt.op.unwrapped(), moves!() | Op::StartCycle(_))
 }
 
-/// Calls of procedures that the program does not have, in the order of its text.
-pub fn unknown_calls(program: &Program) -> Vec<Diagnostic> {
+/// Calls of procedures and jumps to labels that the program does not have, in the order of its text. A jump finds
+/// labels of its own procedure.
+pub fn leads_nowhere(program: &Program) -> Vec<Diagnostic> {
     let mut found = Vec::new();
     for procedure in &program.procedures {
-        within(program, &procedure.body, &mut found);
+        let mut labels = HashSet::new();
+        labels_of(&procedure.body, &mut labels);
+        within(program, &procedure.body, &labels, &mut found);
     }
     found
 }
@@ -118,15 +123,29 @@ pub fn not_called(program: &Program) -> Vec<usize> {
     (0..all.len()).filter(|at| !reached[*at]).collect()
 }
 
-fn within(program: &Program, body: &[Stmt], found: &mut Vec<Diagnostic>) {
+fn labels_of<'p>(body: &'p [Stmt], labels: &mut HashSet<&'p str>) {
     for stmt in body {
-        if let Op::Call(call) = &stmt.op
-            && !program.procedures.iter().skip(1).any(|p| p.name == call.name)
-        {
-            found.push(Diagnostic::new(Fault::CallUnknown { name: call.name.clone() }, stmt.span));
+        match &stmt.op {
+            Op::Label(name) => _ = labels.insert(name),
+            Op::Control(control) => control.bodies().for_each(|body| labels_of(body, labels)),
+            _ => {}
         }
-        if let Op::Control(control) = &stmt.op {
-            control.bodies().for_each(|body| within(program, body, found));
-        }
+    }
+}
+
+fn within(program: &Program, body: &[Stmt], labels: &HashSet<&str>, found: &mut Vec<Diagnostic>) {
+    for stmt in body {
+        let missing = match &stmt.op {
+            Op::Call(call) if !program.procedures.iter().skip(1).any(|p| p.name == call.name) => {
+                Fault::CallUnknown { name: call.name.clone() }
+            }
+            Op::Goto(label) if !labels.contains(&**label) => Fault::LabelUnknown { name: label.clone() },
+            Op::Control(control) => {
+                control.bodies().for_each(|body| within(program, body, labels, found));
+                continue;
+            }
+            _ => continue,
+        };
+        found.push(Diagnostic::new(missing, stmt.span));
     }
 }

@@ -15,7 +15,7 @@ use ncc_ir::exec::{Exec, Runner};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::ONE;
 use ncc_ir::program::{Op, Point, Procedure, Program, Stmt};
-use ncc_ir::valid::unknown_calls;
+use ncc_ir::valid::leads_nowhere;
 use ncc_ir::world::World;
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::settings;
@@ -127,7 +127,7 @@ fn read(text: &[u8]) -> Result<Program, String> {
     let main = Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() };
     let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
     let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
-    match unknown_calls(&program).first() {
+    match leads_nowhere(&program).first() {
         Some(fault) => Err(format!("{:?}", fault.fault)),
         None => Ok(program),
     }

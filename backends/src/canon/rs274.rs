@@ -30,7 +30,7 @@ use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten};
 use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::unknown_calls;
+use ncc_ir::valid::leads_nowhere;
 use ncc_ir::world::World;
 
 /// Least radius of an arc: 0.00005 inch.
@@ -64,7 +64,7 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
         return_level: Some(ReturnLevel::Initial),
         ..Modes::default()
     };
-    if let Some(unknown) = unknown_calls(program).into_iter().next() {
+    if let Some(unknown) = leads_nowhere(program).into_iter().next() {
         return Err(unknown);
     }
     let start = Tracker { position: [Some(0); AXES], ..Tracker::new(entry) };

@@ -491,12 +491,12 @@ impl Flow<'_> {
                 let called = &mut self.ways[found + 1];
                 // A cycle in force is its caller's, which says it once.
                 let shared = call.shared;
-                let entered = state.clone().map(|held| Held {
-                    as_called: false,
-                    saved: held.saved.entered(shared),
-                    ..held
-                });
+                let enters = |held: Held| Held { as_called: false, saved: held.saved.entered(shared), ..held };
+                let entered = state.clone().map(enters);
                 self.changed |= meet(&mut called.entry, entered.as_ref());
+                // What is called more than once begins again with what it has left.
+                let again = called.exit.clone().filter(|_| call.times > 1 && state.is_some()).map(enters);
+                self.changed |= meet(&mut called.entry, again.as_ref());
                 // Where it leads is known after it has been gone through.
                 let caller = state?;
                 let behind = called.exit.clone();
