@@ -16,7 +16,7 @@ use crate::cycle::{Cycle, CycleKind, Pattern};
 use crate::expr::Expr;
 use crate::geometry;
 use crate::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
-use crate::num::Nanos;
+use crate::num::{Nanos, Num};
 use crate::places::Places;
 use crate::polar::{self, Pole};
 use crate::program::{
@@ -45,6 +45,10 @@ pub struct Tracker {
     pub framed: bool,
     /// What the spindle does, if it is known.
     pub spindle: Option<Spindle>,
+    /// The feed in force, if it is a number that is known.
+    pub feed: Option<Num>,
+    /// The spindle speed in force, if it is a number that is known.
+    pub speed: Option<Num>,
     /// Whether that is one of the chain of frames.
     pub chained: bool,
     /// Whether a slot may turn, scale or mirror.
@@ -263,6 +267,8 @@ impl Tracker {
         both(&mut self.selected, &other.selected);
         both(&mut self.tool, &other.tool);
         both(&mut self.spindle, &other.spindle);
+        both(&mut self.feed, &other.feed);
+        both(&mut self.speed, &other.speed);
         self.framed |= other.framed;
         self.chained |= other.chained;
         self.turned |= other.turned;
@@ -335,10 +341,16 @@ impl Tracker {
                     self.modes.motion = None;
                 }
             }
-            Op::UseLengthUnits(u) => self.modes.units = Some(*u),
+            Op::UseLengthUnits(u) => {
+                self.modes.units = Some(*u);
+                self.feed = None;
+            }
             Op::SetDistanceMode(d) => self.modes.distance = Some(*d),
             Op::SelectPlane(p) => self.modes.plane = Some(*p),
-            Op::SetFeedMode(f) => self.modes.feed_mode = Some(*f),
+            Op::SetFeedMode(f) => {
+                self.modes.feed_mode = Some(*f);
+                self.feed = None;
+            }
             Op::SetReturnLevel(r) => self.modes.return_level = Some(*r),
             Op::SetOriginOffsets(n) => {
                 if self.modes.work_offset != Some(*n) {
@@ -444,6 +456,8 @@ impl Tracker {
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
             flow!() => self.forget(),
             miscellaneous!() => match op {
+                Op::SetSpindleSpeed(speed) => self.speed = speed.literal(),
+                Op::SetSpindleMode(_) => self.speed = None,
                 Op::StartSpindleClockwise => self.spindle = Some(Spindle::Clockwise),
                 Op::StartSpindleCounterclockwise => self.spindle = Some(Spindle::Counterclockwise),
                 Op::StopSpindleTurning | Op::OrientSpindle(_) => self.spindle = Some(Spindle::Stopped),
@@ -451,7 +465,8 @@ impl Tracker {
                 Op::StopCutterRadiusCompensation => self.compensated = false,
                 _ => {}
             },
-            Op::SetFeedRate(_) | Op::ProgramEnd | variables!() | conduct!() => {}
+            Op::SetFeedRate(feed) => self.feed = feed.literal(),
+            Op::ProgramEnd | variables!() | conduct!() => {}
         }
     }
 
@@ -564,6 +579,12 @@ impl Tracker {
     }
 
     fn start_cycle(&mut self, cycle: &Cycle) {
+        if let Some(feed) = &cycle.feed {
+            self.feed = feed.literal();
+        }
+        if matches!(cycle.kind, CycleKind::Bore { feed_out: Some(_), .. }) {
+            self.feed = None;
+        }
         let normal = self.plane(cycle.plane).map(|p| p.axes().2);
         let initial = match &self.cycle {
             Some(before) => before.initial,

@@ -9,6 +9,7 @@
 
 use super::known_facts::Known;
 use super::write::{Rebuild, is_absolute, rebuild};
+use crate::arguments;
 use crate::canon::{AXES, Axis, Distance, Fact, Plane};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
@@ -20,13 +21,13 @@ use crate::program::{Coord, Frame, FrameSlot, FrameStep, Op, Program, Slot, Stmt
 /// What becomes of a program's frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Found {
-    /// There are none but before its first decision, loop or call: they are those of straight blocks.
+    /// There are none but before its first decision, loop or call, with written words: they are those of straight blocks.
     Straight,
     /// Every statement says its frame as the target has it.
     Said,
 }
 
-/// Whether a program has frames behind its first statement of control, so that every block has to say by itself from
+/// Whether a program has frames behind its first statement of control, or computed ones, so that every block has to say by itself from
 /// where its words are measured.
 pub fn behind_control(program: &Program) -> bool {
     let mut used = Used::default();
@@ -72,7 +73,7 @@ fn is_frame(op: &Op) -> bool {
 /// The frames of a whole program.
 #[derive(Clone, Debug, Default)]
 struct Used {
-    /// Whether there are any behind the first statement of control.
+    /// Whether there are any behind the first statement of control, or computed ones before it.
     behind: bool,
     /// Whether there is one that the target does not say as it stands.
     unsaid: bool,
@@ -97,7 +98,7 @@ impl Used {
             if !is_frame(&stmt.op) {
                 continue;
             }
-            self.behind |= !straight;
+            self.behind |= !straight || arguments::computed(&stmt.op);
             self.unsaid |= !caps.says_frame(&stmt.op);
             match &stmt.op {
                 Op::SetSlot(slot) => {

@@ -491,7 +491,8 @@ impl Flow<'_> {
                 let called = &mut self.ways[found + 1];
                 // A cycle in force is its caller's, which says it once.
                 let shared = call.shared;
-                let enters = |held: Held| Held { as_called: false, saved: held.saved.entered(shared), ..held };
+                let enters =
+                    |held: Held| Held { as_called: false, saved: held.saved.entered(shared), ..held };
                 let entered = state.clone().map(enters);
                 self.changed |= meet(&mut called.entry, entered.as_ref());
                 // What is called more than once begins again with what it has left.

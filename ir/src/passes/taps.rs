@@ -48,9 +48,38 @@ pub(super) struct State {
     owed: Vec<Op>,
     /// A bore is in force that relies on the spindle turning clockwise.
     clockwise: bool,
+    /// Whether what is not said here may have been said where control comes from.
+    entered: bool,
+    /// A tap has put its feed in the place of one that is not known.
+    lost: bool,
 }
 
 impl State {
+    /// The state of a stretch of blocks to which control may come from several places: `known` is what holds there.
+    pub(super) fn entered(known: &Tracker) -> State {
+        let said = Said { feed: known.feed, speed: known.speed };
+        State { said, entered: true, ..State::default() }
+    }
+
+    /// Whether the feed that a stretch leaves in force is another than the program's, which is not known.
+    pub(super) fn has_lost_feed(&self) -> bool {
+        self.lost
+    }
+
+    /// Whether a statement goes at a feed that a tap has put in the place of one that is not known.
+    fn goes_lost(&mut self, stmt: &Stmt) -> bool {
+        match stmt.op.unwrapped() {
+            Op::SetFeedRate(_) | Op::ProgramEnd => {
+                self.lost &= stmt.skip.is_some();
+                false
+            }
+            Op::StartCycle(cycle) => self.lost && cycle.feed.is_none(),
+            Op::StraightFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => self.lost,
+            Op::Position(_) => self.lost && !self.changed,
+            _ => false,
+        }
+    }
+
     /// Whether the end of a cycle that was changed is to come.
     pub(super) fn is_busy(&self) -> bool {
         self.changed || self.clockwise
@@ -145,6 +174,9 @@ pub(super) fn over(
         if let Some(what) = turned(&stmt, state) {
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
         }
+        if state.goes_lost(&stmt) {
+            diags.push(Diagnostic::new(Fault::CannotSay { what: LOST.into() }, stmt.span));
+        }
         state.clockwise &= !ends;
         let mut after = Vec::new();
         if ends {
@@ -216,6 +248,10 @@ fn turned(stmt: &Stmt, state: &State) -> Option<&'static str> {
         .then_some("a spindle that is switched while a tapping cycle is in force")
 }
 
+/// What is said of a move at the feed before a tap, which only the run knows.
+pub(super) const LOST: &str =
+    "a tapping cycle for which a feed must be said in the place of one that only the run knows";
+
 const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
 
 /// Makes a tap one that the target says. Gives the feed that must be said before it, if it was changed.
@@ -256,6 +292,7 @@ fn fit(
             cycle.feed = Some(feed.into());
             state.feed = Some(feed);
             state.owed.extend(state.said.feed.map(|feed| Op::SetFeedRate(feed.into())));
+            state.lost |= state.entered && state.said.feed.is_none();
         }
         _ => {}
     }

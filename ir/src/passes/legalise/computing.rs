@@ -6,14 +6,14 @@
 
 use super::super::computed_frames;
 use super::super::known_facts::{self, Known};
-use super::super::{number_names, origin_shift};
+use super::super::{number_names, origin_shift, taps};
 use super::{Legaliser, Target};
 use crate::arguments;
 use crate::canon::Modes;
-use crate::cycle::Cycle;
+use crate::cycle::{Cycle, CycleKind};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::{drilling, flow};
-use crate::program::{Coord, Move, Op, Program, Stmt};
+use crate::program::{Coord, Op, Point, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -80,6 +80,7 @@ impl Legaliser {
         own.target.clone_from(&self.target);
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
+        own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
         own
     }
@@ -111,16 +112,18 @@ fn levels_with_cycles(body: &[Stmt], bare: bool) -> bool {
     })
 }
 
-/// The same statement. A hole may be written out with the same computed words, on the way over it. A cycle may go to its holes in the target's way, where both ways were found to be one, and
-/// may state a parameter's value; with `levels`, it may say its plane of return, which no position changes, or the
-/// level that this plane is.
+/// The same statement. A hole may be written out with the same computed words, on the way over it. A cycle may go to its
+/// holes in the target's way, where both ways were found to be one, and may state a parameter's value; with `levels`,
+/// it may say its plane of return, which no position changes, or the level that this plane is.
 fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
     let (was, is) = match (was, is) {
         (Op::StartCycle(was), Op::StartCycle(is)) => (was, is),
-        (Op::Hole(was), Op::StraightTraverse(is)) => return computed_words(was).eq(computed_words(is)),
+        (Op::Hole(was), Op::StraightTraverse(is)) => {
+            return computed_words(&was.to).eq(computed_words(&is.to));
+        }
         (was, is) => return was == is,
     };
-    let mut same = Cycle { approach: is.approach, ..(**was).clone() };
+    let mut same = driven_as(was, is, levels);
     if levels && was.return_plane.is_some() != is.return_plane.is_some() {
         same.return_plane.clone_from(&is.return_plane);
         same.return_level = is.return_level;
@@ -129,9 +132,47 @@ fn as_before(was: &Op, is: &Op, levels: bool) -> bool {
     same == **is
 }
 
+/// A cycle with the other's way to its holes, and, with `levels`, with a tap driven as there: the same thread, said by
+/// a feed or a pitch, after which the spindle turns as the cycle leaves it or as the next block says.
+fn driven_as(was: &Cycle, is: &Cycle, levels: bool) -> Cycle {
+    let mut same = Cycle { approach: is.approach, ..was.clone() };
+    if let (CycleKind::Tap(tap), CycleKind::Tap(other)) = (&mut same.kind, &is.kind)
+        && levels
+        && !arguments::computed(&Op::StartCycle(Box::new(Cycle { depth: is.retract.clone(), ..is.clone() })))
+    {
+        (tap.pitch, tap.after) = (other.pitch.clone(), other.after);
+        same.feed.clone_from(&is.feed);
+    }
+    same
+}
+
+/// Whether a statement is of a cycle of which holes are written out: it moves by computed words that are all the
+/// cycle's, says its feed, or, with `levels`, calls it up for a hole of which the rest is written out, or for those
+/// behind it.
+fn is_of(cycle: &Cycle, op: &Op, levels: bool) -> bool {
+    let to = match op {
+        Op::StraightTraverse(to) | Op::StraightFeed(to) => &to.to,
+        Op::SynchronisedFeed(thread) => &thread.to,
+        Op::SetFeedRate(feed) => return cycle.feed.as_ref() == Some(feed),
+        Op::StartCycle(is) if levels => {
+            let same = Cycle {
+                reference: is.reference.clone(),
+                return_plane: None,
+                return_level: is.return_level,
+                ..driven_as(cycle, is, levels)
+            };
+            return same == **is;
+        }
+        _ => return false,
+    };
+    let planes = || [&cycle.retract, &cycle.depth].into_iter().chain(&cycle.return_plane);
+    let mut words = computed_words(to).peekable();
+    words.peek().is_some() && words.all(|(_, word)| planes().any(|plane| plane.value == word.value))
+}
+
 /// The words of a move that are computed.
-fn computed_words(words: &Move) -> impl Iterator<Item = (usize, &Coord)> {
-    let words = words.to.axes.iter().enumerate();
+fn computed_words(words: &Point) -> impl Iterator<Item = (usize, &Coord)> {
+    let words = words.axes.iter().enumerate();
     words.filter_map(|(axis, word)| Some((axis, word.as_ref().filter(|w| w.value.literal().is_none())?)))
 }
 
@@ -195,6 +236,11 @@ impl Region<'_> {
             let what = "a frame that is worked into coordinates, where a program computes".into();
             found.push(Diagnostic::new(Fault::Computes { what }, last.span));
         }
+        if own.taps.has_lost_feed()
+            && let Some(last) = before.last()
+        {
+            found.push(Diagnostic::new(Fault::CannotSay { what: taps::LOST.into() }, last.span));
+        }
         own.finish(stmts, &mut found);
         // It may stand in the block of what came before it.
         if let (Some(first), Some(was)) = (stmts.first_mut(), before.first()) {
@@ -220,10 +266,22 @@ impl Region<'_> {
                 || matches!(stmt.op, Op::Assign(..))
                 || self.inherits && cycle
         };
-        let (mut was, mut is) = (before.iter().filter(relies), after.iter().filter(relies));
+        let mut was = before.iter().filter(relies).peekable();
+        let mut is = after.iter().filter(relies).peekable();
+        // The cycle of which holes are written out.
+        let mut out: Option<&Cycle> = None;
         loop {
-            match (was.next(), is.next()) {
-                (Some(a), Some(b)) if as_before(&a.op, &b.op, self.levels) && a.skip == b.skip => {}
+            match (was.peek(), is.peek()) {
+                (_, Some(b)) if out.is_some_and(|cycle| is_of(cycle, &b.op, self.levels)) => _ = is.next(),
+                (Some(a), Some(b)) if as_before(&a.op, &b.op, self.levels) && a.skip == b.skip => {
+                    out = out.filter(|_| !matches!(b.op, Op::StartCycle(_)));
+                    (was.next(), is.next());
+                }
+                (Some(a), _) if !self.inherits && a.skip.is_none() && out.is_none() => {
+                    let Op::StartCycle(cycle) = &a.op else { return Some(a.span) };
+                    out = Some(cycle);
+                    was.next();
+                }
                 (None, None) => return None,
                 (a, b) => return a.or(b).map(|stmt| stmt.span),
             }
