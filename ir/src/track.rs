@@ -47,6 +47,8 @@ pub struct Tracker {
     pub spindle: Option<Spindle>,
     /// The feed in force, if it is a number that is known.
     pub feed: Option<Num>,
+    /// Whether any may have been said.
+    pub fed: bool,
     /// The spindle speed in force, if it is a number that is known.
     pub speed: Option<Num>,
     /// Whether that is one of the chain of frames.
@@ -110,6 +112,7 @@ impl Tracker {
     /// The start of a subprogram: whatever its caller has done.
     pub fn unknown() -> Tracker {
         Tracker {
+            fed: true,
             framed: true,
             chained: true,
             turned: true,
@@ -269,6 +272,7 @@ impl Tracker {
         both(&mut self.spindle, &other.spindle);
         both(&mut self.feed, &other.feed);
         both(&mut self.speed, &other.speed);
+        self.fed |= other.fed;
         self.framed |= other.framed;
         self.chained |= other.chained;
         self.turned |= other.turned;
@@ -465,7 +469,7 @@ impl Tracker {
                 Op::StopCutterRadiusCompensation => self.compensated = false,
                 _ => {}
             },
-            Op::SetFeedRate(feed) => self.feed = feed.literal(),
+            Op::SetFeedRate(feed) => self.feed_is(feed),
             Op::ProgramEnd | variables!() | conduct!() => {}
         }
     }
@@ -578,9 +582,13 @@ impl Tracker {
         Some(found.end)
     }
 
+    fn feed_is(&mut self, feed: &Expr) {
+        (self.feed, self.fed) = (feed.literal(), true);
+    }
+
     fn start_cycle(&mut self, cycle: &Cycle) {
         if let Some(feed) = &cycle.feed {
-            self.feed = feed.literal();
+            self.feed_is(feed);
         }
         if matches!(cycle.kind, CycleKind::Bore { feed_out: Some(_), .. }) {
             self.feed = None;

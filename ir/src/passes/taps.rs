@@ -48,7 +48,7 @@ pub(super) struct State {
     owed: Vec<Op>,
     /// A bore is in force that relies on the spindle turning clockwise.
     clockwise: bool,
-    /// Whether what is not said here may have been said where control comes from.
+    /// Whether a feed that is not said here has been said where control comes from.
     entered: bool,
     /// A tap has put its feed in the place of one that is not known.
     lost: bool,
@@ -58,7 +58,7 @@ impl State {
     /// The state of a stretch of blocks to which control may come from several places: `known` is what holds there.
     pub(super) fn entered(known: &Tracker) -> State {
         let said = Said { feed: known.feed, speed: known.speed };
-        State { said, entered: true, ..State::default() }
+        State { said, entered: known.fed, ..State::default() }
     }
 
     /// Whether the feed that a stretch leaves in force is another than the program's, which is not known.

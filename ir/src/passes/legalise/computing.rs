@@ -13,7 +13,7 @@ use crate::canon::Modes;
 use crate::cycle::{Cycle, CycleKind};
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::{drilling, flow};
-use crate::program::{Coord, Op, Point, Program, Stmt};
+use crate::program::{Coord, Op, Pitch, Point, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 
@@ -138,12 +138,20 @@ fn driven_as(was: &Cycle, is: &Cycle, levels: bool) -> Cycle {
     let mut same = Cycle { approach: is.approach, ..was.clone() };
     if let (CycleKind::Tap(tap), CycleKind::Tap(other)) = (&mut same.kind, &is.kind)
         && levels
-        && !arguments::computed(&Op::StartCycle(Box::new(Cycle { depth: is.retract.clone(), ..is.clone() })))
+        && [&tap.pitch, &other.pitch].into_iter().all(is_written)
+        && [&was.feed, &is.feed].into_iter().flatten().all(|feed| feed.literal().is_some())
     {
         (tap.pitch, tap.after) = (other.pitch.clone(), other.after);
         same.feed.clone_from(&is.feed);
     }
     same
+}
+
+fn is_written(pitch: &Pitch) -> bool {
+    match pitch {
+        Pitch::Stated(pitch) => pitch.literal().is_some(),
+        Pitch::Feed => true,
+    }
 }
 
 /// Whether a statement is of a cycle of which holes are written out: it moves by computed words that are all the
