@@ -140,6 +140,12 @@ impl Given {
         self.0.contains_key(&plain(name))
     }
 
+    /// Whether a variable is said to have no value, always or in some runs.
+    pub fn may_be_vacant(&self, name: &str) -> bool {
+        let nothing = |kind: &Kind| matches!(kind, Kind::Among(values) if values.is_empty());
+        self.0.get(&plain(name)).is_some_and(|values| values.vacant || nothing(&values.kind))
+    }
+
     /// The names of which something is said.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.keys().map(String::as_str)

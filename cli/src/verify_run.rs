@@ -63,6 +63,8 @@ pub(crate) struct Verifier {
     reader: Reader,
     /// Whether the program is called by another.
     as_called: bool,
+    /// Decisions of the source that have been told to go one way alone.
+    answered: Vec<Span>,
     batch: Batch,
     runs: Vec<Run>,
     levels: u16,
@@ -240,6 +242,7 @@ impl Verifier {
         Verifier {
             reader: Reader::new(job.to.clone(), false),
             as_called: false,
+            answered: Vec::new(),
             batch: Batch::default(),
             runs,
             levels: 0,
@@ -518,11 +521,20 @@ impl Verifier {
         self.as_called = true;
     }
 
+    /// Decisions that go one way alone, which has been told where they stand.
+    pub(crate) fn answered(&mut self, decisions: Vec<Span>) {
+        self.answered = decisions;
+    }
+
     /// Takes the facts that the output inherits, and refuses what could not be read back.
     fn read_back(&mut self, inherited: &Modes) -> Result<(), Stop> {
         let own = self.batch.assumed;
         if self.as_called && own.or(*inherited) != *inherited {
-            let what = "what its caller has in force, where this control begins otherwise".into();
+            let what = match (own.units, inherited.units) {
+                (Some(_), None) => "units that a subprogram says behind its first label alone",
+                _ => "what its caller has in force, where this control begins otherwise",
+            };
+            let what = what.into();
             return Err(Stop::Source(Diagnostic::new(Fault::CannotSay { what }, self.last)));
         }
         for run in &mut self.runs {

@@ -5,6 +5,7 @@
 
 use crate::beside::Unreachable;
 use crate::maps::Numbered;
+use crate::num::Num;
 use crate::source::Span;
 
 /// What was found, and where.
@@ -23,6 +24,17 @@ impl Diagnostic {
     pub fn new(fault: Fault, span: Span) -> Diagnostic {
         Diagnostic { fault, span, related: Vec::new() }
     }
+}
+
+/// What becomes of the question of a macro whether it is given an argument, where every call gives it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArgumentCheck {
+    /// It does not ask.
+    NotAsked,
+    /// The question is left out, with what is done where the answer is no.
+    LeftOut,
+    /// That is the value which the argument has then.
+    Default(Num),
 }
 
 /// How well a construct came through. The order is from harmless to loss; everything from
@@ -379,6 +391,7 @@ faults! {
     ValueNotRead { name: Box<str> } = 606, Warning;
     /// Nothing in the program calls a subprogram of it, which was therefore not run against the output.
     NotCalled { name: Box<str> } = 607, Warning;
-    /// A macro stands alone, and every call must give it an argument that its own control lets a call leave out.
-    ArgumentNeeded { name: Box<str> } = 608, Warning;
+    /// A macro stands alone, and every call must give it an argument that its own control lets a call leave out; where
+    /// calls give their arguments one after the other, in which place (from 1; else 0).
+    ArgumentNeeded { name: Box<str>, place: u32, check: ArgumentCheck } = 608, Warning;
 }

@@ -165,6 +165,37 @@ fn what_is_not_set_is_the_same_under_another_name() {
     failures.finish();
 }
 
+/// Subprograms and macros that are texts of their own, each as every target has it: verified, with what its calls must
+/// give; or why there is none.
+#[test]
+fn subprograms_by_themselves() {
+    let mut failures = Failures::default();
+    let folder = corpus::root().join("tests/computing/alone");
+    for (name, text) in programs("alone") {
+        let extension = name.rsplit_once('.').map(|(_, extension)| extension);
+        let from = match extension {
+            Some("nc") => "fanuc",
+            Some("ngc") => "linuxcnc",
+            _ => "siemens",
+        };
+        for to in KEEPING {
+            let job = Job { head: false, ..job(from, to, &name) };
+            let (outcome, mut written) = translate(&job, &text);
+            match outcome.release {
+                Ok(()) => assert!(outcome.verified.is_some_and(|v| v.events > 0), "{name} to {to}"),
+                Err(_) => written.clear(),
+            }
+            let asked = |code: u16| code == 608 || outcome.release.is_err();
+            let told: Vec<_> =
+                outcome.diagnostics.iter().filter(|d| asked(d.fault.code())).cloned().collect();
+            written.extend_from_slice(rendered(&job, &name, &text, &told).as_bytes());
+            let stem = name.rsplit_once('.').map_or(&*name, |(stem, _)| stem);
+            failures.check(&name, expect::file(&folder.join(format!("{stem}.{to}")), &written));
+        }
+    }
+    failures.finish();
+}
+
 #[test]
 fn what_cannot_be_executed_is_refused_at_its_place() {
     let mut failures = Failures::default();

@@ -2,10 +2,11 @@
 
 use ncc_dialects::SPINDLE_AFTER_CHANGE;
 use ncc_ir::canon::PathMode;
-use ncc_ir::diag::{Fault, ModeName, Verdict};
+use ncc_ir::diag::{ArgumentCheck, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 
 use super::words::{Context, mode, plain_upto};
+use crate::review::words::decimal;
 
 /// What to do. Empty where the message says it already.
 pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
@@ -227,7 +228,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "please report it with the program, or the lines around this place".to_owned(),
         ],
         Fault::NotTaken { .. } | Fault::NotCalled { .. } => own("look at what is written for it yourself"),
-        Fault::ArgumentNeeded { .. } => own("look at the calls of this macro: each must give it"),
+        Fault::ArgumentNeeded { check, .. } => match check {
+            ArgumentCheck::NotAsked => own("look at the calls of this macro: each must give it"),
+            ArgumentCheck::LeftOut => {
+                own("look at the calls of this macro: one that leaves it out is not translated")
+            }
+            ArgumentCheck::Default(value) => vec![format!(
+                "look at the calls of this macro: one that counted on this default must give {}",
+                decimal(value.trimmed())
+            )],
+        },
         Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } | Fault::ValueNotRead { .. } => {
             Vec::new()
         }

@@ -5,7 +5,7 @@
 
 use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::canon::PathMode;
-use ncc_ir::diag::{Fault, ModeName};
+use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
 use ncc_ir::maps::Numbered;
 use ncc_ir::num::ONE;
 
@@ -399,9 +399,20 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("nothing in the program calls the subprogram {name}"),
             "it was written, and not executed when the program was verified".into(),
         ),
-        Fault::ArgumentNeeded { name } => (
-            format!("every call must give the argument {name}"),
-            "in the output it is a parameter, which is zero where a call leaves it out".into(),
+        Fault::ArgumentNeeded { name, place, check } => (
+            match place {
+                0 => format!("every call must give the argument {name}"),
+                place => format!("every call must give the argument {name} in place {place}"),
+            },
+            match check {
+                ArgumentCheck::NotAsked => {
+                    "in the output it is a parameter, which is zero where a call leaves it out"
+                }
+                ArgumentCheck::LeftOut | ArgumentCheck::Default(_) => {
+                    "this check is left out: in the output it is a parameter, which is zero where a call leaves it out"
+                }
+            }
+            .into(),
         ),
         Fault::NotTaken { holds, fails } => (
             "not all of the program was executed when it was verified".into(),

@@ -15,7 +15,11 @@ pub(crate) fn number(nanos: Nanos) -> String {
 
 /// With so many digits after the point at most.
 pub(crate) fn rounded(nanos: Nanos, digits: u8) -> String {
-    let n = Num::from_nanos(nanos, digits, Unit::One);
+    decimal(Num::from_nanos(nanos, digits, Unit::One))
+}
+
+/// A number with its own digits.
+pub(crate) fn decimal(n: Num) -> String {
     let (sign, digits) = (if n.mantissa < 0 { "-" } else { "" }, n.mantissa.unsigned_abs().to_string());
     let scale = n.scale as usize;
     let digits = format!("{digits:0>width$}", width = scale + 1);

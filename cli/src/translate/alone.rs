@@ -3,9 +3,10 @@
 
 use ncc_dialects::Dialect;
 use ncc_ir::computes::{Handed, LETTERS};
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::Var;
 use ncc_ir::open::open_variables;
+use ncc_ir::passes::variables::questions;
 use ncc_ir::program::{Op, Program, Stmt};
 use ncc_ir::valid::{begins_by_a_move, moves, returns_alone};
 use ncc_machines::reading::Told;
@@ -73,10 +74,34 @@ impl Line<'_> {
                 main.name = number.to_string().into();
             }
         }
-        let told = own.into_iter().map(|(_, var, at)| {
-            Diagnostic::new(Fault::ArgumentNeeded { name: format!("#{}", var.name()).into() }, at)
-        });
-        self.take(told.collect(), Told::Writer);
+        let asked = questions(&source);
+        let mut told = Vec::new();
+        for (place, (_, var, at)) in (1..).zip(own) {
+            if self.job.given.may_be_vacant(&var.name()) {
+                let what = format!("the argument {}, which --args leaves without a value", var.name());
+                told.push(Diagnostic::new(Fault::Computes { what: what.into() }, at));
+                continue;
+            }
+            let needed = |check| {
+                let place = if self.hands_by_names() { 0 } else { place };
+                Fault::ArgumentNeeded { name: format!("#{}", var.name()).into(), place, check }
+            };
+            let checks = asked.iter().filter(|asked| *asked.name == *var.name());
+            let checks: Vec<Diagnostic> = checks
+                .map(|asked| {
+                    let check = asked.default.map_or(ArgumentCheck::LeftOut, ArgumentCheck::Default);
+                    Diagnostic::new(needed(check), asked.at)
+                })
+                .collect();
+            if checks.is_empty() {
+                told.push(Diagnostic::new(needed(ArgumentCheck::NotAsked), at));
+            }
+            told.extend(checks);
+        }
+        self.take(told, Told::Writer);
+        if let Some(verifier) = &mut self.verifier {
+            verifier.answered(asked.into_iter().map(|asked| asked.at).collect());
+        }
         source
     }
 

@@ -135,12 +135,28 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
     // It is read again as what it is.
     std::fs::write(folder.path().join("row.spf"), &kept.out).unwrap();
     run("siemens to fanuc row.spf").exits(0);
-    // Whether an argument is there, a parameter does not tell, nor does what it was put into.
-    for ask in ["IF [#7 EQ #0] THEN #7=5.", "#31=#7\nIF [#0 NE #31] GOTO 8\n#7=5.\nN8"] {
+    // Whether an argument is there is answered by what is told; by what it was put into, nobody is told.
+    let asking = |ask: &str| {
         write(&folder, "asks.nc", &text.replace("#30=0\n", &format!("#30=0\n{ask}\n")));
-        run("fanuc to siemens asks.nc").exits(1).says("the question whether a call gives the argument");
         run("fanuc to fanuc asks.nc").exits(0);
+        run("fanuc to siemens asks.nc")
+    };
+    for (ask, told) in [
+        ("IF [#7 EQ #0] THEN #7=5.", "one that counted on this default must give 5\n"),
+        ("IF [#7 NE #0] GOTO 8\n#7=-2.50\nN8", "one that counted on this default must give -2.5\n"),
+        ("IF [#7 EQ #0] THEN #3000=1(NEED D)", "one that leaves it out is not translated"),
+        ("IF [#7 EQ #0] GOTO 8\n#29=1\nN8", "one that leaves it out is not translated"),
+    ] {
+        let kept = asking(ask).exits(0).says("this check is left out").says(told);
+        assert!(!kept.out.contains("IF ") && !kept.out.contains("SETAL"), "{ask}: {}", kept.out);
+        assert_eq!(kept.err.matches("warning[NC0608]").count(), 6, "{}", kept.err);
+        assert!(!kept.err.contains("NC0605"), "{}", kept.err);
     }
+    asking("#31=#7\nIF [#0 NE #31] GOTO 8\n#7=5.\nN8").exits(1).says("whether a call gives the argument 31");
+    asking("IF [#27 EQ #0] THEN #27=5.").exits(1).says("whether a call gives the argument 27");
+    write(&folder, "none.toml", "[variables]\n\"#7\" = { among = [1], vacant = true }\n");
+    asking("IF [#7 EQ #0] THEN #7=5.").exits(0);
+    run("fanuc to siemens asks.nc --args none.toml").exits(1).says("--args leaves without a value");
     // A number that is computed may be that of an argument.
     write(&folder, "number.nc", &text.replace("Z-#26", "Z-#[#30+26]"));
     run("fanuc to siemens number.nc").exits(1).says("a variable whose number is computed");

@@ -25,6 +25,7 @@ use crate::expr::{Expr, Function, Node, Target, Var};
 use crate::num::Unit;
 use crate::program::{Control, Op, Program, Stmt};
 
+pub use vacancy::{Question, questions};
 pub use words::Fineness;
 pub(super) use words::as_rounded;
 

@@ -1,7 +1,9 @@
 %
 O9010 (BOLT HOLES)
-IF [#7 EQ #0] THEN #7=5.
+#31=#7
+IF [#31 EQ #0] THEN #31=5.
 G90 G0 X#24
-G0 Z#7
+IF [#9 EQ #0] THEN #9=200.
+G0 Z#31 F#9
 M99
 %

@@ -81,36 +81,46 @@ impl Default {
         };
         let from = begin
             + body.get(begin..)?.iter().position(|stmt| !idle(stmt) && refusal(stmt, body).is_none())?;
-        let first = &body[from];
-        let Op::Control(control) = &first.op else { return None };
-        let Control::If { condition: Expr::Node(condition), then, otherwise } = &**control else {
-            return None;
-        };
-        let Node::Binary(operator, Expr::Node(a), b) = &**condition else { return None };
-        let Node::Var(Var::Local(name)) = &**a else { return None };
-        if !is_nothing(b) || !otherwise.is_empty() || first.skip.is_some() {
-            return None;
-        }
+        let (name, value, count) = given(&body[from..])?;
         // There the argument that is refused for is looked at, and no other.
         let own = Target::Var(Var::Local(name.clone()));
         if body[..from].iter().filter_map(|stmt| refusal(stmt, body)).any(|asks| asks.reads(&own)) {
             return None;
         }
-        let assigned = |stmt: &Stmt| match &stmt.op {
-            Op::Assign(Target::Var(Var::Local(own)), Expr::Num(n)) if own == name => {
-                (stmt.skip.is_none()).then_some(*n)
-            }
-            _ => None,
-        };
-        let (value, count) = match (operator, &then[..]) {
-            (Binary::Equal, [only]) => (assigned(only)?, 1),
-            (Binary::NotEqual, [Stmt { op: Op::Goto(label), .. }]) => {
-                let behind = matches!(&body.get(from + 2)?.op, Op::Label(own) if own == label);
-                (assigned(body.get(from + 1)?).filter(|_| behind)?, 2)
-            }
-            _ => return None,
-        };
         Some(Default { name: name.clone(), value, from, count })
+    }
+}
+
+/// The local variable that the first statements give a literal where it has no value.
+pub(super) fn given_at(stmts: &[Stmt]) -> Option<(&Text, Num)> {
+    given(stmts).map(|(name, value, _)| (name, value))
+}
+
+/// The same, and how many statements say so.
+fn given(stmts: &[Stmt]) -> Option<(&Text, Num, usize)> {
+    let first = stmts.first()?;
+    let Op::Control(control) = &first.op else { return None };
+    let Control::If { condition: Expr::Node(condition), then, otherwise } = &**control else {
+        return None;
+    };
+    let Node::Binary(operator, Expr::Node(a), b) = &**condition else { return None };
+    let Node::Var(Var::Local(name)) = &**a else { return None };
+    if !is_nothing(b) || !otherwise.is_empty() || first.skip.is_some() {
+        return None;
+    }
+    let assigned = |stmt: &Stmt| match &stmt.op {
+        Op::Assign(Target::Var(Var::Local(own)), Expr::Num(n)) if own == name => {
+            (stmt.skip.is_none()).then_some(*n)
+        }
+        _ => None,
+    };
+    match (operator, &then[..]) {
+        (Binary::Equal, [only]) => Some((name, assigned(only)?, 1)),
+        (Binary::NotEqual, [Stmt { op: Op::Goto(label), .. }]) => {
+            let behind = matches!(&stmts.get(2)?.op, Op::Label(own) if own == label);
+            Some((name, assigned(stmts.get(1)?).filter(|_| behind)?, 2))
+        }
+        _ => None,
     }
 }
 

@@ -22,6 +22,8 @@ use crate::value;
 
 mod elsewhere;
 
+pub use elsewhere::{Question, questions};
+
 /// Most calls one within another that are looked into with their caller's variables.
 const DEEPEST: u32 = 10;
 

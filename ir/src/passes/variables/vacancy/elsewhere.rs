@@ -3,12 +3,15 @@
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 
+use super::super::defaults;
 use super::{Facts, Known, May, Ways, is_nothing, may, place};
 use crate::arguments;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Expr, Many, Node, Scope, Target, Var};
+use crate::num::Num;
 use crate::open::open_variables;
 use crate::program::{Control, Op, Procedure, Program, Stmt, Text};
+use crate::source::Span;
 
 /// What a procedure begins with: its arguments have values or not.
 pub(super) fn begins(procedure: &Procedure) -> Known {
@@ -19,16 +22,46 @@ pub(super) fn begins(procedure: &Procedure) -> Known {
     Known { vars: open.map(|var| (Text::from(&*var.name()), may(&var))).collect(), lost: false }
 }
 
-/// Parameters that the main procedure has for its arguments, each of which is given.
+/// Whether a macro's call gives an argument, as the macro itself asks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// The argument, or what it was put into.
+    pub name: Text,
+    /// Where.
+    pub at: Span,
+    /// What it is given there if it is not.
+    pub default: Option<Num>,
+}
+
+/// The questions of a main procedure with parameters whether its call gives them, in the order of the text.
+pub fn questions(program: &Program) -> Vec<Question> {
+    let own = open_variables(program).into_iter().filter(|(var, _)| matches!(var, Var::Local(_)));
+    let vars = own.map(|(var, _)| (Text::from(&*var.name()), May::Either)).collect();
+    asked_in(program, BTreeMap::from([(0, Known { vars, lost: false })]))
+}
+
+fn asked_in(program: &Program, entries: BTreeMap<usize, Known>) -> Vec<Question> {
+    let ways = Ways::over(&program.procedures, entries);
+    let mut found = Vec::new();
+    program.procedures.iter().for_each(|procedure| asks(&procedure.body, &ways.facts, &mut found));
+    found
+}
+
+/// Parameters that the main procedure has for its arguments, each of which is given: questions whether one is are
+/// answered by that, which is told where they stand ([`questions`]).
 ///
 /// # Errors
-/// The program asks by itself whether one is given.
+/// The program asks whether something has a value that is no parameter.
 pub(super) fn parameters(program: &Program, entries: &mut BTreeMap<usize, Known>) -> Result<(), Diagnostic> {
     let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty()) else {
         return Ok(());
     };
-    let ways = Ways::over(&program.procedures, entries.clone());
-    program.procedures.iter().try_for_each(|procedure| asks(&procedure.body, &ways.facts))?;
+    let is_parameter = |name: &str| main.parameters.iter().any(|own| *own.name() == *name);
+    let asked = asked_in(program, entries.clone());
+    if let Some(other) = asked.iter().find(|asked| !is_parameter(&asked.name)) {
+        let what = format!("the question whether a call gives the argument {}", other.name).into();
+        return Err(Diagnostic::new(Fault::Computes { what }, other.at));
+    }
     by_number(&main.body)?;
     let Some(known) = entries.get_mut(&0) else { return Ok(()) };
     for parameter in &main.parameters {
@@ -56,38 +89,39 @@ fn by_number(body: &[Stmt]) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// Whether anything is compared with nothing that may be it or not.
-fn asks(body: &[Stmt], facts: &Facts) -> Result<(), Diagnostic> {
-    for stmt in body {
+/// What is compared with nothing, and may be it or not.
+fn asks(body: &[Stmt], facts: &Facts, found: &mut Vec<Question>) {
+    for (at, stmt) in body.iter().enumerate() {
         let known = facts.get(&place(stmt)).into_iter();
         let known: Vec<&Known> = match &stmt.op {
             Op::Control(control) => known.chain(facts.get(&place(&**control))).collect(),
             _ => known.collect(),
         };
-        let mut found = None;
-        each(&stmt.op, &mut |e| found = found.take().or_else(|| asked(e, &known)));
-        if let Some(name) = found {
-            let what = format!("the question whether a call gives the argument {name}").into();
-            return Err(Diagnostic::new(Fault::Computes { what }, stmt.span));
-        }
+        let mut names = Vec::new();
+        each(&stmt.op, &mut |e| asked(e, &known, &mut names));
+        names.dedup();
+        let default = defaults::given_at(&body[at..]);
+        found.extend(names.into_iter().map(|name| {
+            let default = default.filter(|(own, _)| **own == name).map(|(_, value)| value);
+            Question { name, at: stmt.span, default }
+        }));
         if let Op::Control(control) = &stmt.op {
-            control.bodies().try_for_each(|body| asks(body, facts))?;
+            control.bodies().for_each(|body| asks(body, facts, found));
         }
     }
-    Ok(())
 }
 
-/// The name of what is compared so.
-fn asked(e: &Expr, known: &[&Known]) -> Option<Text> {
-    let Expr::Node(node) = e else { return None };
+/// The names of what is compared so.
+fn asked(e: &Expr, known: &[&Known], found: &mut Vec<Text>) {
+    let Expr::Node(node) = e else { return };
     if let Node::Binary(Binary::Equal | Binary::NotEqual, a, b) = &**node {
         let other = if is_nothing(a) { b } else { a };
         let either = known.iter().any(|known| may(other, known) == May::Either);
         if (is_nothing(a) || is_nothing(b)) && either {
-            return Some(name(other));
+            found.push(name(other));
         }
     }
-    e.parts().find_map(|part| asked(part, known))
+    e.parts().for_each(|part| asked(part, known, found));
 }
 
 fn name(e: &Expr) -> Text {
