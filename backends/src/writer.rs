@@ -131,10 +131,15 @@ impl Writer {
     }
 
     /// Says that the program is called by another, before any of it is written: what is in force is its caller's, and
-    /// of that this is taken for granted.
-    pub fn stands_alone(&mut self, taken: &Modes, moves_end_cycles: bool) {
+    /// of that this is taken for granted. By `name` it is called.
+    pub fn stands_alone(&mut self, taken: &Modes, moves_end_cycles: bool, name: &str) {
         match &mut self.kind {
-            Kind::Word(writer) => writer.stands_alone(taken),
+            Kind::Word(writer) => {
+                writer.stands_alone(taken);
+                if writer.has_o_words() {
+                    writer.o_alone(name);
+                }
+            }
             Kind::Siemens(writer) => writer.stands_alone(taken, moves_end_cycles),
             // The text form states nothing by itself; the other writes no such programs.
             Kind::Canon(_) | Kind::Ir(_) => {}

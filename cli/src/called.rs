@@ -181,6 +181,38 @@ fn stem(form: &str, name: &str) -> Option<String> {
     Some(format!("{before}{name}{behind}"))
 }
 
+/// Whether a control finds the programs that another calls by the names of their files.
+pub(crate) fn by_files(dialect: &Dialect) -> bool {
+    dialect.program.sub_extension.is_some() || dialect.program.o_words
+}
+
+/// The file in which such a control looks for a program by itself. A LinuxCNC's is the name of the call, in small
+/// letters (2.9, gcode/o-code.html, Calling Files).
+pub(crate) fn file_of(dialect: &Dialect, name: &str) -> Option<String> {
+    if dialect.program.o_words {
+        return Some(format!("{}.{}", name.to_ascii_lowercase(), dialect.extensions.first()?));
+    }
+    let extension = dialect.program.sub_extension.as_ref()?;
+    let stem = dialect.program.called.iter().find_map(|form| stem(form, name))?;
+    Some(format!("{}.{extension}", stem.to_ascii_uppercase()))
+}
+
+/// The name of the program in a file, by which others call it: `L300` is 300.
+pub(crate) fn program_in(dialect: &Dialect, file: &str) -> Text {
+    let number = dialect.program.called.iter().find_map(|form| {
+        let (before, rest) = form.split_once('{')?;
+        let (digits, behind) = rest.split_once('}')?;
+        let named =
+            |from: usize, with: &str| file.get(from..).is_some_and(|own| own.eq_ignore_ascii_case(with));
+        let end = file.len().checked_sub(behind.len())?;
+        let own = file.get(before.len()..end).filter(|_| named(end, behind) && !digits.is_empty())?;
+        let fits =
+            file[..before.len()].eq_ignore_ascii_case(before) && own.bytes().all(|b| b.is_ascii_digit());
+        own.parse::<u32>().ok().filter(|_| fits)
+    });
+    number.map_or_else(|| file.into(), |number| number.to_string().into())
+}
+
 /// Puts a file's program behind a text.
 fn read(path: &Path, name: &str, dialect: &Dialect, whole: &mut Vec<u8>) -> Result<CalledFile, Problem> {
     let shown = path.display().to_string();

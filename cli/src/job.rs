@@ -206,6 +206,8 @@ pub enum Failure {
 /// An output: its head, which can be written only when all the rest is known, and the rest.
 #[derive(Debug)]
 pub struct Output {
+    /// What it is called by, where it is a subprogram that stands alone.
+    called: Option<Text>,
     head: Vec<u8>,
     body: SpooledTempFile,
     body_bytes: u64,
@@ -217,7 +219,17 @@ const IN_MEMORY: usize = 1 << 20;
 impl Output {
     /// An output without anything in it.
     pub fn new() -> Output {
-        Output { head: Vec::new(), body: SpooledTempFile::new(IN_MEMORY), body_bytes: 0 }
+        Output { called: None, head: Vec::new(), body: SpooledTempFile::new(IN_MEMORY), body_bytes: 0 }
+    }
+
+    /// Says that it is a subprogram by itself, and what it is called by.
+    pub fn set_called(&mut self, name: Text) {
+        self.called = Some(name);
+    }
+
+    /// What it is called by, where it is a subprogram that stands alone.
+    pub fn called(&self) -> Option<&str> {
+        self.called.as_deref()
     }
 
     /// Adds to the body.

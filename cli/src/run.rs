@@ -227,7 +227,7 @@ fn translated(
     if let Destination::File(folder) = &destination
         && folder.is_dir()
     {
-        let name = job.machines.file_name(job.to.dialect, &source.name, outcome.program_number);
+        let name = job.machines.output_name(job.to.dialect, &source.name, &outcome);
         let name = folder.join(name);
         source.guard(Some(&name))?;
         destination = Destination::File(name);

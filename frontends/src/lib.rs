@@ -193,17 +193,18 @@ impl Reader {
     /// it: what the text never says is taken for granted from here on, as of a source.
     pub fn called(&mut self) {
         match self {
-            Reader::Word(reader) => reader.assume(),
+            Reader::Word(reader) => reader.called(),
             Reader::Siemens(reader) => reader.called(),
             Reader::Canon(_) | Reader::Ir(_) => {}
         }
     }
 
-    /// The text is that of a file of this name, by whose extension some controls know subprograms.
+    /// The text is that of a file of this name, by which or by whose extension some controls know subprograms.
     pub fn named(&mut self, file: &str) {
         match self {
             Reader::Siemens(reader) => reader.named(file),
-            Reader::Word(_) | Reader::Canon(_) | Reader::Ir(_) => {}
+            Reader::Word(reader) => reader.named(file),
+            Reader::Canon(_) | Reader::Ir(_) => {}
         }
     }
 

@@ -31,6 +31,8 @@ impl Diagnostic {
 pub enum ArgumentCheck {
     /// It does not ask.
     NotAsked,
+    /// Nor needs it to, since one that is left out is zero there, and nothing at all in the output.
+    Nothing,
     /// The question is left out, with what is done where the answer is no.
     LeftOut,
     /// That is the value which the argument has then.

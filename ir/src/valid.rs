@@ -81,6 +81,45 @@ pub fn begins_by_a_move(body: &[Stmt]) -> bool {
     body.iter().take_while(plain).any(|stmt| is_move(stmt) && stmt.skip.is_none())
 }
 
+/// Where a body may go back while a cycle is in force that it has called up: its caller would go on with it.
+pub fn leaves_a_cycle(body: &[Stmt]) -> Option<Span> {
+    fn over(body: &[Stmt], held: &mut bool, at: &mut Option<Span>) {
+        for stmt in body {
+            match stmt.op.unwrapped() {
+                Op::StartCycle(_) => *held = true,
+                Op::EndCycle if stmt.skip.is_none() => *held = false,
+                // What was in force where it is jumped from, is.
+                Op::Label(_) => *held = true,
+                Op::Return if *held => *at = at.or(Some(stmt.span)),
+                Op::Control(control) => {
+                    let before = *held;
+                    let mut behind = before;
+                    for body in control.bodies() {
+                        // Its turns begin with what the last one leaves.
+                        let mut inside = before;
+                        over(body, &mut inside, at);
+                        over(body, &mut inside, at);
+                        behind |= inside;
+                    }
+                    *held = behind;
+                }
+                _ => {}
+            }
+        }
+    }
+    fn calls_up(body: &[Stmt]) -> bool {
+        body.iter().any(|stmt| match stmt.op.unwrapped() {
+            Op::Control(control) => control.bodies().any(|body| calls_up(body)),
+            op => matches!(op, Op::StartCycle(_)),
+        })
+    }
+    let (mut held, mut at) = (false, None);
+    if calls_up(body) {
+        over(body, &mut held, &mut at);
+    }
+    at
+}
+
 fn is_move(stmt: &Stmt) -> bool {
     matches!(stmt.op.unwrapped(), moves!() | Op::StartCycle(_))
 }

@@ -38,6 +38,10 @@ fn what_is_kept_makes_the_moves_of_its_source() {
             let start = world.start.map(|n| n as f64 / 1e9);
             for skip in [0, 0x7fe] {
                 let run = |dialect: &str, text: &[u8]| {
+                    // Its own file ends behind a subprogram that stands alone.
+                    if dialect == "linuxcnc" && text.ends_with(b" endsub\nM2\n%\n") {
+                        return Err("a subprogram that nothing calls".to_owned());
+                    }
                     let machine = plain::second(dialect, text, plain::setup(&world, skip))?;
                     Ok::<_, String>(plain::of_machine(&machine, start))
                 };

@@ -111,6 +111,7 @@ impl Writer {
     /// Writes the end marks. A program that does not say its own end is left so.
     pub fn finish(&mut self, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let mut sink = Sink { out, diags };
+        self.o_alone_ends(&mut sink);
         self.no_event(&mut sink);
         if self.stop_text.take().is_some() {
             // No stop has come behind it that could say it.

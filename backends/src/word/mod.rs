@@ -260,8 +260,7 @@ impl Writer {
         self.number_labels(stmts);
         self.number_jumps(stmts);
         self.look_ahead(stmts);
-        let lead = self.o_subs(stmts, &mut sink);
-        self.body(&stmts[lead..], &mut sink);
+        self.o_main(stmts, &mut sink);
     }
 
     /// Takes a shop's choices for the form of the text.

@@ -15,6 +15,7 @@ use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
 use ncc_ir::program::{Alarm, Call, Control, Op, Piece, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
+use super::block::Rank;
 use super::formula::{cannot_compute, number_of};
 use super::modes::cannot;
 use super::{Sink, Writer};
@@ -42,6 +43,8 @@ pub(crate) struct OWords {
     taken: BTreeSet<u32>,
     /// The subprogram at hand.
     sub: Option<Text>,
+    /// The program is that one, which is called from elsewhere; what it is called.
+    alone: Option<Text>,
     /// Loops that are open in it.
     open: Vec<Open>,
     /// A result that the next return or end says.
@@ -132,14 +135,57 @@ impl Writer {
         lead
     }
 
+    /// The program is a subprogram that is called from elsewhere, by this name: the text is that subprogram.
+    pub(crate) fn o_alone(&mut self, name: &str) {
+        self.o_words.taken.extend(name.parse::<u32>().ok());
+        self.o_words.subs.insert(name.into());
+        self.o_words.alone = Some(name.into());
+    }
+
+    /// Writes statements of the main program; of one that is called from elsewhere, as that subprogram.
+    pub(crate) fn o_main(&mut self, main: &[Stmt], sink: &mut Sink) {
+        let alone = self.o_words.alone.clone().filter(|_| self.o_words.sub.is_none());
+        let Some(name) = alone else {
+            let lead = self.o_subs(main, sink);
+            return self.body(&main[lead..], sink);
+        };
+        let lead = main.iter().take_while(|s| matches!(s.op, Op::Comment(_) | Op::Blank)).count();
+        self.body(&main[..lead], sink);
+        let span = main.first().map_or(Span::default(), |s| s.span);
+        match self.o_name(&name) {
+            Ok(()) => self.o_begin(&name, None, sink),
+            Err(fault) => return sink.report(fault, span),
+        }
+        self.o_body(&main[lead..], sink);
+    }
+
+    /// The end of a text that is such a subprogram.
+    pub(crate) fn o_alone_ends(&mut self, sink: &mut Sink) {
+        if let Some(name) = self.o_words.alone.take().filter(|_| self.o_words.sub.is_some()) {
+            self.o_end(&name, Span::default(), sink);
+            // Its caller goes on before; the file by itself ends (O Codes, Calling Files).
+            if let Err(fault) = self.m_code(Rank::Stop, self.codes.end, "the program's end", sink) {
+                sink.report(fault, Span::default());
+            }
+            self.flush(false, sink);
+        }
+    }
+
     fn o_sub(&mut self, procedure: &Procedure, sink: &mut Sink) {
         let span = procedure.body.first().map_or(Span::default(), |s| s.span);
         if let Err(fault) = self.o_name(&procedure.name) {
             return sink.report(fault, span);
         }
-        let name = spelt(&procedure.name);
-        sink.out.extend_from_slice(format!("{name} sub").as_bytes());
-        match &procedure.title {
+        self.o_begin(&procedure.name, procedure.title.as_deref(), sink);
+        self.forget();
+        self.tracker = Tracker::default();
+        self.o_body(&procedure.body, sink);
+        self.o_end(&procedure.name, procedure.body.last().map_or(span, |s| s.span), sink);
+    }
+
+    fn o_begin(&mut self, name: &Text, title: Option<&str>, sink: &mut Sink) {
+        sink.out.extend_from_slice(format!("{} sub", spelt(name)).as_bytes());
+        match title {
             Some(title) => {
                 sink.out.push(b' ');
                 self.comment_line(title, sink.out);
@@ -149,25 +195,30 @@ impl Writer {
         if let Some(trace) = &mut self.trace {
             trace.frame(sink.out);
         }
-        self.forget();
-        self.tracker = Tracker::default();
-        self.o_words.sub = Some(procedure.name.clone());
+        self.o_words.sub = Some(name.clone());
         self.o_words.open.clear();
+    }
+
+    /// The blocks of a subprogram.
+    fn o_body(&mut self, body: &[Stmt], sink: &mut Sink) {
         let silent = |s: &&Stmt| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_));
-        let end = procedure.body.iter().rposition(|s| silent(&s));
+        let end = body.iter().rposition(|s| silent(&s));
         let end = end.filter(|at| {
-            let last = &procedure.body[*at];
+            let last = &body[*at];
             matches!(last.op, Op::Return) && last.skip.is_none() && last.comment.is_none()
         });
         match end {
             // Its end says the same.
             Some(at) => {
-                self.body(&procedure.body[..at], sink);
-                self.body(&procedure.body[at + 1..], sink);
+                self.body(&body[..at], sink);
+                self.body(&body[at + 1..], sink);
             }
-            None => self.body(&procedure.body, sink),
+            None => self.body(body, sink),
         }
-        let last = procedure.body.last().map_or(span, |s| s.span);
+    }
+
+    fn o_end(&mut self, name: &Text, last: Span, sink: &mut Sink) {
+        let name = spelt(name);
         self.open_block(&Stmt::new(last, Op::Blank));
         let written = self.o_result_text(last, sink).and_then(|result| {
             self.call_up_now(&Stmt::new(last, Op::Blank), sink)?;
@@ -185,6 +236,9 @@ impl Writer {
 
     /// Whether a subprogram can be called so.
     fn o_name(&self, name: &str) -> Result<(), Fault> {
+        if name.is_empty() {
+            return Err(cannot("a subprogram without a name"));
+        }
         let fits = |b: u8| b.is_ascii_alphanumeric() || b"_-+.".contains(&b);
         let number = name.bytes().all(|b| b.is_ascii_digit());
         let alike = self.o_words.subs.iter().filter(|other| other.eq_ignore_ascii_case(name)).count();

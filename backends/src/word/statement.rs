@@ -270,7 +270,13 @@ impl Writer {
         if changed { Err(cannot("a message with these characters")) } else { Ok(()) }
     }
 
-    fn m_code(&mut self, rank: Rank, code: Option<Code>, what: &str, sink: &mut Sink) -> Result<(), Fault> {
+    pub(crate) fn m_code(
+        &mut self,
+        rank: Rank,
+        code: Option<Code>,
+        what: &str,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
         let code = code.ok_or_else(|| cannot(what))?;
         self.admit(&Need::new(rank).code(Some(code)), sink)?;
         self.block.code(Part::Tail, &code);

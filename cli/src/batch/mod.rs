@@ -34,10 +34,10 @@ use self::progress::Progress;
 use self::summary::{Result as Came, Row, Summary};
 use self::work::{Bench, Done, Held, Store, make_folder};
 use crate::args::{Format, Translate};
-use crate::files;
 use crate::known::Known;
 use crate::order::Order;
 use crate::problem::{Exit, Problem, as_write};
+use crate::{called, files};
 
 /// Whether a command is about several programs, or about a folder of outputs.
 pub(crate) fn is_meant(args: &Translate) -> bool {
@@ -82,7 +82,7 @@ pub(crate) fn run(
     }
     let split = !args.no_split && (args.split || split::usual(to));
     // Names that follow from what is in the programs are known at the end.
-    let late = split || order.machines.names_by_number();
+    let late = split || order.machines.names_by_number() || called::by_files(to);
     let sources: BTreeSet<_> = found.items.iter().filter_map(|item| identity(&item.path)).collect();
     let shown = |at: usize| found.items[at].path.display().to_string();
     let refused = match late {
@@ -105,7 +105,7 @@ pub(crate) fn run(
         store: store.as_ref(),
         colour: err.supports_color(),
     };
-    let (mut rows, held) = translate_all(&bench, err)?;
+    let (mut rows, mut held) = translate_all(&bench, err)?;
     for (path, problem) in &found.unread {
         let mut row = Row::new(path.display().to_string());
         row.fails(Came::NotTranslated, problem);
@@ -114,6 +114,7 @@ pub(crate) fn run(
     }
     if let Some(store) = &store {
         let mut store = store.lock().unwrap_or_else(PoisonError::into_inner);
+        give_way(&mut held, &mut rows);
         write_all(args, &mut store, &held, &sources, &mut rows, err);
     }
     let summary = Summary {
@@ -220,6 +221,24 @@ fn translate_all(bench: &Bench, err: &mut dyn WriteColor) -> Result<(Vec<Row>, V
 }
 
 /// Writes what has waited for its name.
+/// Subprograms that stand alone have the names of their sources where a program of this command has them itself, under
+/// the names by which they are called: it was verified with its own.
+fn give_way(held: &mut [Vec<Held>], rows: &mut [Row]) {
+    let keys = |all: &[Held]| all.iter().map(|held| names::key(&held.path)).collect::<Vec<_>>();
+    let claimed: Vec<Vec<String>> = held.iter().map(|all| keys(all)).collect();
+    for (at, all) in held.iter_mut().enumerate() {
+        let [only] = &mut all[..] else { continue };
+        let own = names::key(&only.path);
+        let others = claimed.iter().enumerate().filter(|(other, _)| *other != at);
+        if others.flat_map(|(_, keys)| keys).any(|key| *key == own)
+            && let Some(otherwise) = only.otherwise.take()
+        {
+            rows[at].outputs = vec![otherwise.display().to_string()];
+            only.path = otherwise;
+        }
+    }
+}
+
 fn write_all(
     args: &Translate,
     store: &mut Store,

@@ -100,7 +100,7 @@ fn usage(message: String, help: &str) -> Problem {
     Problem { exit: Exit::Usage, message, help: vec![help.to_owned()] }
 }
 
-fn key(path: &Path) -> String {
+pub(super) fn key(path: &Path) -> String {
     path.to_string_lossy().to_lowercase()
 }
 

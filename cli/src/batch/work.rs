@@ -64,6 +64,8 @@ impl Store {
 #[derive(Debug)]
 pub(super) struct Held {
     pub(super) path: PathBuf,
+    /// The name that it has if another program has that one: of a subprogram that stands alone.
+    pub(super) otherwise: Option<PathBuf>,
     pub(super) range: Range<u64>,
     /// The hash of a subprogram, which several programs may have.
     pub(super) shared: Option<[u8; 32]>,
@@ -221,8 +223,10 @@ impl Bench<'_> {
         row: &mut Row,
     ) -> Result<Vec<Held>, Problem> {
         let to = job.to.dialect;
-        let name = job.machines.file_name(to, &source.name, outcome.program_number);
-        let main = self.folder.join(&item.below).join(name);
+        let below = self.folder.join(&item.below);
+        let plain = below.join(job.machines.file_name(to, &source.name, outcome.program_number));
+        let main = below.join(job.machines.output_name(to, &source.name, outcome));
+        let otherwise = (plain != main).then_some(plain);
         let cannot = |path: &Path, e: &io::Error| Problem::file("write", &path.display().to_string(), e);
         let Some(store) = self.store else {
             make_folder(&main)?;
@@ -236,14 +240,16 @@ impl Bench<'_> {
             let range = store.lock().unwrap_or_else(PoisonError::into_inner).put(write);
             let range = range.map_err(|e| cannot(&path, &e))?;
             row.outputs.push(path.display().to_string());
-            Ok(Held { path, range, shared })
+            Ok(Held { path, otherwise: None, range, shared })
         };
         if !self.split || !split::can(to) {
-            return Ok(vec![hold(main, None, &mut |out| outcome.output.write_to(out))?]);
+            let held = hold(main, None, &mut |out| outcome.output.write_to(out))?;
+            return Ok(vec![Held { otherwise, ..held }]);
         }
         let whole = outcome.output.to_vec().map_err(|e| cannot(&main, &e))?;
         let Some(parts) = split::apart(to, &whole) else {
-            return Ok(vec![hold(main, None, &mut |out| out.write_all(&whole))?]);
+            let held = hold(main, None, &mut |out| out.write_all(&whole))?;
+            return Ok(vec![Held { otherwise, ..held }]);
         };
         if split::join(to, &parts) != whole {
             let message = format!("{}: its programs joined again are not what was verified", source.shown);

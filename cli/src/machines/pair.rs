@@ -15,6 +15,8 @@ use ncc_machines::schema::{BlockNumbers, Characters as Set, FileName, LineEnds, 
 use ncc_machines::{Layout, Profile};
 
 use crate::args::Eol;
+use crate::called;
+use crate::job::Outcome;
 use crate::known::Known;
 use crate::problem::Problem;
 
@@ -173,6 +175,13 @@ impl Machines {
             }
             None => self.with_extension(to, stem(source)),
         }
+    }
+
+    /// The same; a subprogram that stands alone, for a control that finds them by their files, has the name by which
+    /// its callers look for it.
+    pub(crate) fn output_name(&self, to: &Dialect, source: &str, outcome: &Outcome) -> String {
+        let called = outcome.output.called().and_then(|name| called::file_of(to, name));
+        called.unwrap_or_else(|| self.file_name(to, source, outcome.program_number))
     }
 
     /// The name of a file with the extension that the shop or the dialect has.

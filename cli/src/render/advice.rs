@@ -230,6 +230,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NotTaken { .. } | Fault::NotCalled { .. } => own("look at what is written for it yourself"),
         Fault::ArgumentNeeded { check, .. } => match check {
             ArgumentCheck::NotAsked => own("look at the calls of this macro: each must give it"),
+            ArgumentCheck::Nothing => own("look at the calls: each must give it, also where it is zero"),
             ArgumentCheck::LeftOut => {
                 own("look at the calls of this macro: one that leaves it out is not translated")
             }

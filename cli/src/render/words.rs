@@ -408,6 +408,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
                 ArgumentCheck::NotAsked => {
                     "in the output it is a parameter, which is zero where a call leaves it out"
                 }
+                ArgumentCheck::Nothing => {
+                    "in the output it is a variable of the call, which has no value where a call leaves it out"
+                }
                 ArgumentCheck::LeftOut | ArgumentCheck::Default(_) => {
                     "this check is left out: in the output it is a parameter, which is zero where a call leaves it out"
                 }

@@ -2,16 +2,19 @@
 //! one has in force, so that the output states none of it, and is read with the same.
 
 use ncc_dialects::Dialect;
+use ncc_ir::caps::Caps;
 use ncc_ir::computes::{Handed, LETTERS};
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
 use ncc_ir::expr::Var;
 use ncc_ir::open::open_variables;
 use ncc_ir::passes::variables::questions;
-use ncc_ir::program::{Op, Program, Stmt};
-use ncc_ir::valid::{begins_by_a_move, moves, returns_alone};
+use ncc_ir::program::{Op, Program, Stmt, Text};
+use ncc_ir::source::Span;
+use ncc_ir::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_machines::reading::Told;
 
 use super::{FLATTEN, Line};
+use crate::called;
 
 impl Line<'_> {
     /// Prepares for such a program; `true` where the target cannot say it (reported).
@@ -19,7 +22,11 @@ impl Line<'_> {
         let Some(at) = returns_alone(source) else { return false };
         let to = self.job.to.dialect;
         // One text of one subprogram, which a caller finds by the name of its file.
-        let named = self.hands_by_names() && (has_parameters(source) || source.procedures.len() == 1);
+        let named = match self.handed() {
+            Some(Handed::Names) => has_parameters(source) || source.procedures.len() == 1,
+            Some(Handed::Places) => source.procedures.len() == 1,
+            _ => false,
+        };
         // What is a file of its own for a control that finds subprograms by their files stays one for another such.
         let files = |dialect: &Dialect| dialect.program.sub_extension.is_some();
         let ends = to.program.macro_b || files(to) && files(self.job.from.dialect);
@@ -33,28 +40,53 @@ impl Line<'_> {
             verifier.read_as_called();
         }
         let main = source.procedures.first().map(|main| main.body.as_slice()).unwrap_or_default();
-        let moves_end_cycles = named && self.job.from.dialect.program.macro_b && moves(main);
+        if let (Some(Handed::Places), Some(at)) = (self.handed(), leaves_a_cycle(main)) {
+            let what = "a cycle that is left in force for a caller that is not in the text".into();
+            self.take(vec![Diagnostic::new(Fault::CannotSay { what }, at)], Told::Writer);
+            return true;
+        }
+        let moves_end_cycles = self.handed() == Some(Handed::Names)
+            && named
+            && self.job.from.dialect.program.macro_b
+            && moves(main);
         if moves_end_cycles && !begins_by_a_move(main) {
             // A way without a move would leave it in force.
             let parameter = "a cycle of the caller's, where a subprogram that may not move begins".into();
             let fault = Fault::AssumedParameter { parameter, value: "none".into() };
             self.take(vec![Diagnostic::new(fault, at)], Told::Writer);
         }
-        self.writer.stands_alone(&self.renumbering.modes(&source.assumed), moves_end_cycles);
+        self.legaliser.stands_alone();
+        let name = self.called_by(source);
+        self.output.set_called(name.clone());
+        if let (Ok(number), Some(_)) = (name.parse(), self.job.to.dialect.program.main_number()) {
+            self.batch.name.number.get_or_insert(number);
+        }
+        self.writer.stands_alone(&self.renumbering.modes(&source.assumed), moves_end_cycles, &name);
         false
     }
 
-    /// Whether the target's subprograms have their parameters by name.
-    fn hands_by_names(&self) -> bool {
-        let there = self.job.to.caps().computes;
-        self.job.to.dialect.program.macros && there.is_some_and(|there| there.handed == Handed::Names)
+    /// How the target's subprograms have their parameters, where they have any.
+    fn handed(&self) -> Option<Handed> {
+        let there = self.job.to.caps().computes.filter(|_| self.job.to.dialect.program.macros);
+        there.map(|there| there.handed)
+    }
+
+    /// The name by which others call it: its own, its number, or that of its file.
+    fn called_by(&self, source: &Program) -> Text {
+        let own = source.procedures.first().map(|main| main.name.clone()).filter(|name| !name.is_empty());
+        let number = || source.name.number.map(|number| number.to_string().into());
+        let file = self.job.source_name.trim_start_matches('-');
+        let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+        own.or_else(number).unwrap_or_else(|| called::program_in(self.job.from.dialect, stem))
     }
 
     /// A macro's arguments, which are variables of its calls by their letters, become parameters for a target that has
     /// them by name, and knows none without a value: each call must give them, which is told.
     pub(super) fn with_parameters(&mut self, mut source: Program) -> Program {
+        self.by_letters(&source);
         let from = self.job.from.dialect.program.macro_b;
-        if !from || !self.hands_by_names() || self.executes_computed() || source.procedures.len() != 1 {
+        let takes = matches!(self.handed(), Some(Handed::Names | Handed::Places));
+        if !from || !takes || self.executes_computed() || source.procedures.len() != 1 {
             return source;
         }
         if returns_alone(&source).is_none() || has_parameters(&source) {
@@ -83,7 +115,7 @@ impl Line<'_> {
                 continue;
             }
             let needed = |check| {
-                let place = if self.hands_by_names() { 0 } else { place };
+                let place = if self.handed() == Some(Handed::Places) { place } else { 0 };
                 Fault::ArgumentNeeded { name: format!("#{}", var.name()).into(), place, check }
             };
             let checks = asked.iter().filter(|asked| *asked.name == *var.name());
@@ -103,6 +135,36 @@ impl Line<'_> {
             verifier.answered(asked.into_iter().map(|asked| asked.at).collect());
         }
         source
+    }
+
+    /// Arguments by letters have no value where a call leaves them out, where those of the source are zero: each call must
+    /// give them, which is told; a number that no letter gives is refused.
+    fn by_letters(&mut self, source: &Program) {
+        let vacant = |caps: Caps| caps.computes.is_some_and(|own| own.vacant);
+        let Some(main) = source.procedures.first().filter(|_| returns_alone(source).is_some()) else {
+            return;
+        };
+        if self.handed() != Some(Handed::Letters) || vacant(self.job.from.caps()) || self.executes_computed()
+        {
+            return;
+        }
+        let at = main.body.first().map_or(Span::default(), |stmt| stmt.span);
+        let told = main.parameters.iter().map(|own| {
+            let number = own.name().parse::<u32>();
+            let fault = match number {
+                Ok(number) if LETTERS.iter().all(|(_, own)| *own != number) => {
+                    let what = format!("the argument {number}, which no letter gives").into();
+                    Fault::Computes { what }
+                }
+                _ => {
+                    let name = if number.is_ok() { format!("#{}", own.name()) } else { own.name().into() };
+                    Fault::ArgumentNeeded { name: name.into(), place: 0, check: ArgumentCheck::Nothing }
+                }
+            };
+            Diagnostic::new(fault, at)
+        });
+        let told = told.collect();
+        self.take(told, Told::Writer);
     }
 
     /// One that is executed to be written as straight blocks has values for its parameters, and is a program by itself.

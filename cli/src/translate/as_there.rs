@@ -6,8 +6,8 @@ use std::collections::HashMap;
 use ncc_dialects::{CodeRow, Quantity};
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
-use ncc_ir::computes::{Computes, Handed, Said};
-use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::computes::{Computes, Said};
+use ncc_ir::diag::Diagnostic;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
@@ -15,7 +15,6 @@ use ncc_ir::passes::{
     exact_comparisons, expand_repeats, own_distance, planes_checked, unit_in_force,
 };
 use ncc_ir::program::Program;
-use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 use crate::job::Job;
@@ -39,14 +38,6 @@ pub(super) fn say(
 ) -> (Known, Renamed) {
     let mut known = Known::default();
     let (from, to) = (job.from.dialect, job.to.dialect);
-    if there.handed == Handed::Places
-        && let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty())
-    {
-        let what = "a subprogram with parameters without its main program".into();
-        let at = main.body.first().map_or(Span::default(), |stmt| stmt.span);
-        found.push(Diagnostic::new(Fault::Computes { what }, at));
-        return (Known::default(), Renamed::default());
-    }
     let mut entry = stands.clone();
     entry.modes = entry.modes.or(program.assumed);
     if from.id != to.id && !there.has(Said::CodeOf) {

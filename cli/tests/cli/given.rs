@@ -102,7 +102,9 @@ fn a_subprogram_by_itself_is_given_its_parameters() {
     assert!(run("siemens to siemens passes.spf").exits(0).err.contains("NC0604"));
     let macro_b = run("siemens to fanuc passes.spf --args some.toml").exits(0);
     assert!(macro_b.out.contains("G01 X#1 F500."), "{}", macro_b.out);
-    assert!(run("siemens to linuxcnc passes.spf --args some.toml").exits(1).err.contains("NC0233"));
+    let placed = run("siemens to linuxcnc passes.spf --args some.toml").exits(0);
+    let head = "\no<passes> sub\n#<dry> = #3\n#<times> = #2\n#<length> = #1\n";
+    assert!(placed.out.contains(head) && !placed.err.contains("NC0604"), "{}", placed.out);
     let straight = run("siemens to linuxcnc passes.spf --pass flatten --args one.toml").exits(0);
     assert_eq!(straight.out.matches("G1 X20").count(), 2, "{}", straight.out);
     for verb in ["siemens to fanuc passes.spf --pass flatten", "time passes.spf --from siemens"] {
@@ -131,7 +133,8 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
     assert_eq!(kept.err.matches("warning[NC0608]").count(), 6, "{}", kept.err);
     // Its caller has inches there, if nobody says otherwise.
     run("haas to siemens row.nc").exits(1).says("what its caller has in force");
-    run("fanuc to linuxcnc row.nc").exits(1).says("NC0233");
+    let placed = run("fanuc to linuxcnc row.nc").exits(0).says("the argument #24 in place 5");
+    assert!(placed.out.contains("\no9012 sub\n#26 = #6\n#24 = #5\n"), "{}", placed.out);
     // It is read again as what it is.
     std::fs::write(folder.path().join("row.spf"), &kept.out).unwrap();
     run("siemens to fanuc row.spf").exits(0);
@@ -177,15 +180,22 @@ fn a_subprogram_by_itself_goes_back() {
     let run = |to: &str| ncc(folder.path(), &["fanuc", "to", to, "sub.nc"]);
     let kept = run("siemens").exits(0);
     assert!(kept.out.ends_with("\nMCALL\nG90 G0 X10 Y10\nG1 Z-5 F100\nG0 Z5\nM17\n"), "{}", kept.out);
-    run("linuxcnc").exits(1);
+    let named = run("linuxcnc").exits(0).out;
+    let whole = "\no1000 sub\nG90 G0 X10 Y10\nG1 Z-5 F100\nG0 Z5\no1000 endsub\nM2\n%\n";
+    assert!(named.ends_with(whole), "{named}");
     run("mach9").exits(1);
     // Whether its caller goes on with a cycle depends on the control.
     for (z, end) in [("-5.", ""), ("-#26", ""), ("-5.", "G80\n")] {
         let text = format!("%\nO1000\nG90 G99 G81 X10. Z{z} R2. F100.\n{end}M99\n%\n");
         write(&folder, "sub.nc", &text);
         run("siemens").exits(u8::from(end.is_empty()).into());
+        run("linuxcnc").exits(u8::from(end.is_empty()).into());
         run("fanuc").exits(0);
     }
+    // On one of two ways it does.
+    let either = "IF [#1 EQ 1] GOTO 5\nG80\nGOTO 6\nN5 G4 P10\nN6";
+    write(&folder, "sub.nc", &format!("%\nO1000\nG90 G99 G81 X10. Z-5. R2. F100.\n{either}\nM99\n%\n"));
+    run("linuxcnc").exits(1).says("a cycle that is left in force");
 }
 
 /// What nothing in a program calls is not executed, and that is told; what it is given, nobody knows.

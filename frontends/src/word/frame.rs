@@ -155,6 +155,9 @@ impl Reader {
         if self.block.words.is_empty() && self.block.faults.is_empty() && self.block.skip == 0 {
             return self.lower.block(&self.block, src, out);
         }
+        if self.ends_the_file(src) {
+            return;
+        }
         self.lower.goes_on_behind_return(out);
         self.text_after_end(self.block.span, out);
     }

@@ -37,6 +37,7 @@ mod macro_call;
 mod modal_call;
 mod motion;
 pub(crate) mod number;
+mod o_alone;
 mod o_subs;
 mod o_words;
 mod parameters;
@@ -65,6 +66,7 @@ use crate::{Batch, refused};
 use block::Block;
 use frame::Frame;
 use lower::Lower;
+use o_alone::Alone;
 use token::Signs;
 
 /// A piece of the source with the place of its first byte.
@@ -132,6 +134,14 @@ impl Reader {
         self.lower.refresh();
     }
 
+    /// As of [`crate::Reader::called`].
+    pub(crate) fn called(&mut self) {
+        self.assume();
+        if self.lower.settings.dialect.program.o_words {
+            self.lower.o.alone = Alone::Looked;
+        }
+    }
+
     /// Reads further whole lines; `base` is the place of their first byte in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
         if self.frame.is_binary {
@@ -140,6 +150,9 @@ impl Reader {
         if let Some(at) = memchr::memchr(0, text) {
             let at = base + at as u32;
             return self.not_text(Span::new(at, at + 1), out);
+        }
+        if base == 0 {
+            self.looks_alone(text);
         }
         self.keep(text, base);
         self.lower.look_ahead(text, out);

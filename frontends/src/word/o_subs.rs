@@ -60,7 +60,7 @@ impl Subs {
 /// Within what the number of a program is whole (interp_read.cc, `read_integer_value`).
 const WHOLE: Num = Num { mantissa: 1, scale: 4, point: true, unit: Unit::One };
 
-fn refused(label: &str, word: FlowWord, name: &str) -> Fault {
+pub(super) fn refused(label: &str, word: FlowWord, name: &str) -> Fault {
     Fault::NotSupported { code: format!("O{label} {}", spelled(word)).into(), name: name.into() }
 }
 
@@ -102,12 +102,15 @@ impl Reader {
         true
     }
 
-    fn sub_fault(&mut self, fault: Fault, at: Span, out: &mut Batch) {
+    pub(super) fn sub_fault(&mut self, fault: Fault, at: Span, out: &mut Batch) {
         out.report(fault, at);
         self.frame.faulty = true;
     }
 
     fn begin_sub(&mut self, name: Text, span: Span, out: &mut Batch) {
+        if self.begins_alone(&name, out) {
+            return;
+        }
         if self.lower.sub.is_some() && self.lower.ended && self.lower.o.open.is_empty() {
             // Behind a numbered program that is over.
             self.end_of_program(out);
@@ -151,6 +154,9 @@ impl Reader {
 
     fn end_sub(&mut self, name: &str, src: Source, out: &mut Batch) {
         let span = self.block.span;
+        if self.ends_alone(name, out) {
+            return;
+        }
         let lower = &mut self.lower;
         let values = match self.block.decision.as_deref() {
             Some(decision) => decision.values.clone(),
@@ -238,7 +244,7 @@ impl Lower {
     /// A return from a subprogram.
     pub(super) fn o_return(&mut self, label: &str, values: Vec<Expr>, span: Span, out: &mut Batch) {
         let own = self.sub.as_ref().filter(|_| matches!(self.kinds().last(), Some(Kind::Sub(_))));
-        if own.is_none_or(|sub| *sub.name != *label) {
+        if own.is_none_or(|sub| *sub.name != *label) && !self.o.alone.is(label) {
             let told = "return of no subprogram that is open";
             return self.fault(refused(label, FlowWord::Return, told), span, out);
         }
@@ -251,7 +257,7 @@ impl Lower {
     }
 
     /// What a call gives: a value, or none, which is zero.
-    fn results(&mut self, value: Option<&Expr>, span: Span, out: &mut Batch) {
+    pub(super) fn results(&mut self, value: Option<&Expr>, span: Span, out: &mut Batch) {
         if value.is_none() && !self.o.subs.results {
             self.o.subs.plain_return.get_or_insert(span);
             return;

@@ -51,6 +51,7 @@ pub(super) struct ODecides {
     /// Whether the program at hand ends with M99.
     pub(super) numbered_program: bool,
     pub(super) subs: super::o_subs::Subs,
+    pub(super) alone: super::o_alone::Alone,
     /// Where a loop of `while` is left by a break, and where one of `do` begins.
     left: Option<Span>,
     does: Option<Span>,

@@ -161,6 +161,11 @@ impl Legaliser {
         self.follow |= self.measures;
     }
 
+    /// The program is called by another: the target's first blocks are not in front of it.
+    pub fn stands_alone(&mut self) {
+        self.at_once = at_once::State::default();
+    }
+
     /// Says where the axes stand before the program starts, in its own frame.
     pub fn stand_at(&mut self, position: &[Option<Nanos>; AXES]) {
         self.walk.at.position = *position;

@@ -28,6 +28,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node, Numbers, Scope, Var};
 use crate::program::{Declare, Op, Procedure, Program, Stmt, Text, Type};
 use crate::source::Span;
+use crate::valid::returns_alone;
 
 /// By how much a number moves that the target does not have.
 const FURTHER: u32 = 100;
@@ -65,7 +66,16 @@ pub(super) fn put(
         plan.head(at, procedure);
     }
     plan.tell(program, diags);
-    plan.common.iter().chain(plan.locals_of(0)).map(|(old, new)| (old.clone(), new.clone())).collect()
+    let mut all: Vec<(Var, Var)> = Vec::new();
+    if computes.handed == Handed::Places {
+        // A call gives them one after the other, and the head puts them where they are.
+        let places = (1..).map(|place: u32| Var::Local(place.to_string().into()));
+        all.extend(plan.parameters[0].iter().cloned().zip(places));
+    }
+    let others = plan.common.iter().chain(plan.locals_of(0));
+    let given = |old: &Var| computes.handed == Handed::Places && plan.parameters[0].contains(old);
+    all.extend(others.filter(|(old, _)| !given(old)).map(|(old, new)| (old.clone(), new.clone())));
+    all
 }
 
 /// Variables, and what they are in the target.
@@ -174,8 +184,7 @@ impl<'c> Plan<'c> {
                     Var::Common(_) | Var::Retentive(_) => true,
                     Var::Local(_) => match self.homes[at] {
                         Home::Common => true,
-                        // One with parameters has a caller, whose variables are not its own.
-                        Home::Own if at == 0 && program.procedures[0].parameters.is_empty() => {
+                        Home::Own if at == 0 && !self.main_is_called(program) => {
                             !self.stays_with_main(seen, own_numbers)
                         }
                         Home::Own | Home::None => false,
@@ -196,6 +205,12 @@ impl<'c> Plan<'c> {
             }
         }
         Ok(())
+    }
+
+    /// Whether the main procedure has a caller, whose variables are not its own.
+    fn main_is_called(&self, program: &Program) -> bool {
+        let alone = self.computes.handed == Handed::Places && returns_alone(program).is_some();
+        alone || !program.procedures[0].parameters.is_empty()
     }
 
     /// Whether a variable of the main procedure is one in the target too; else all programs see it.

@@ -93,10 +93,13 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
     let mut entries = BTreeMap::from([(0, Known { vars, lost: false })]);
     if given {
         // What no call of this program leads to, other programs call, with values or without.
-        entries.extend(
-            not_called(program).into_iter().map(|at| (at, elsewhere::begins(&program.procedures[at]))),
-        );
-        elsewhere::parameters(&before, &mut entries)?;
+        let theirs = not_called(program).into_iter();
+        entries.extend(theirs.map(|at| (at, elsewhere::begins(&program.procedures[at]))));
+        elsewhere::parameters(&before, &entries)?;
+    }
+    if let (Some(known), Some(main)) = (entries.get_mut(&0), before.procedures.first()) {
+        let parameters = main.parameters.iter().map(|own| (Text::from(&*own.name()), May::Number));
+        known.vars.extend(parameters);
     }
     let mut ways = Ways::over(&before.procedures, entries);
     let facts = std::mem::take(&mut ways.facts);

@@ -52,7 +52,7 @@ fn asked_in(program: &Program, entries: BTreeMap<usize, Known>) -> Vec<Question>
 ///
 /// # Errors
 /// The program asks whether something has a value that is no parameter.
-pub(super) fn parameters(program: &Program, entries: &mut BTreeMap<usize, Known>) -> Result<(), Diagnostic> {
+pub(super) fn parameters(program: &Program, entries: &BTreeMap<usize, Known>) -> Result<(), Diagnostic> {
     let Some(main) = program.procedures.first().filter(|main| !main.parameters.is_empty()) else {
         return Ok(());
     };
@@ -62,12 +62,7 @@ pub(super) fn parameters(program: &Program, entries: &mut BTreeMap<usize, Known>
         let what = format!("the question whether a call gives the argument {}", other.name).into();
         return Err(Diagnostic::new(Fault::Computes { what }, other.at));
     }
-    by_number(&main.body)?;
-    let Some(known) = entries.get_mut(&0) else { return Ok(()) };
-    for parameter in &main.parameters {
-        known.vars.insert(Text::from(&*parameter.name()), May::Number);
-    }
-    Ok(())
+    by_number(&main.body)
 }
 
 /// Whether a variable has a computed number, which may be that of an argument.
