@@ -67,6 +67,12 @@ struct Open {
     calls: u32,
 }
 
+/// Whether a text has a word that jumps, or the two letters of it that are enough behind a condition.
+fn has_jumps(text: &[u8]) -> bool {
+    let has = |word: &[u8]| text.windows(word.len()).any(|part| part.eq_ignore_ascii_case(word));
+    has(b"GOTO") || has(b"]GO") || has(b"] GO")
+}
+
 /// The name by which jumps know the block of a number.
 pub(super) fn label(number: u32) -> Text {
     format!("N{number}").into()
@@ -104,7 +110,7 @@ impl Lower {
         if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
             self.found_variables(out);
         }
-        if !self.computes.jumps && text.windows(4).any(|word| word.eq_ignore_ascii_case(b"GOTO")) {
+        if !self.computes.jumps && has_jumps(text) {
             self.computes.jumps = true;
             out.whole = true;
             self.refresh();

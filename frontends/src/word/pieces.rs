@@ -69,6 +69,7 @@ fn block(tokens: &mut Tokens, dialect: &Dialect, into: &mut Vec<Piece>) -> bool 
             | Token::End
             | Token::Function(_)
             | Token::Atan
+            | Token::Pow
             | Token::Compare(_)
             | Token::Or(_)
             | Token::And(_)

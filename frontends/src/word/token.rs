@@ -108,6 +108,8 @@ pub(crate) enum Token {
     Function(Option<Function>),
     /// The function of two arguments with a division sign between them.
     Atan,
+    /// A power, of two arguments.
+    Pow,
     Compare(Binary),
     /// OR and XOR.
     Or(Binary),
@@ -164,9 +166,13 @@ const STATEMENTS: &[(&[u8], Token)] = &[
     (b"DPRNT", Token::Print),
     (b"BPRNT", Token::Print),
     (b"SETVN", Token::Print),
-    (b"WH", Token::While),
     (b"IF", Token::If),
     (b"END", Token::End),
+    // Two letters are enough.
+    (b"WH", Token::While),
+    (b"TH", Token::Then),
+    (b"GO", Token::Goto),
+    (b"EN", Token::End),
     (b"DO", Token::Do),
 ];
 
@@ -185,7 +191,7 @@ const OPERATORS: &[(&[u8], Token)] = &[
     (b"FUP", Token::Function(Some(Function::RoundUp))),
     (b"EXISTS", Token::Function(None)),
     (b"EXP", Token::Function(Some(Function::Exp))),
-    (b"POW", Token::Function(None)),
+    (b"POW", Token::Pow),
     (b"BIN", Token::Function(None)),
     (b"BCD", Token::Function(None)),
     (b"ADP", Token::Function(None)),
@@ -274,10 +280,10 @@ pub(crate) struct Tokens<'t> {
     depth: u32,
     /// Whether an expression runs without brackets: after `=`.
     assigned: bool,
-    /// Whether nothing but a skip mark has been met; whether a value comes next; whether the letter of programs has
-    /// been met. Of a control with O words.
+    /// Whether nothing but a skip mark has been met; whether a value comes next. Of a control with O words.
     begins: bool,
     value_next: bool,
+    /// Whether `IF` has been met, or the letter of programs of a control with O words.
     decides: bool,
     /// Where the block has ended: at its end sign, or at the end of the text.
     ended: Option<usize>,
@@ -396,9 +402,13 @@ impl<'t> Tokens<'t> {
         let &(word, token) = statements.iter().chain(operators).find(|(word, token)| {
             // `DO1`, `END1`: without its number the letters are words of their own.
             let numbered = matches!(token, Token::Do | Token::End);
+            // Elsewhere than behind a condition, `GO` is a G and a letter that is meant as a zero.
+            let behind = [b"GO".as_slice(), b"TH"].contains(word);
             fits(word)
                 && (!numbered || rest.get(word.len()).is_some_and(|b| b.is_ascii_digit() || *b == b' '))
+                && (!behind || self.decides)
         })?;
+        self.decides |= token == Token::If;
         let all = match token {
             Token::Print => self.rest_of_block(rest),
             _ => word.len(),

@@ -182,8 +182,8 @@ impl Over<'_> {
             }
             (Binary::Power, _) if !self.computes.operators.contains(&operator) => {
                 let times = b.literal()?.whole().filter(|n| (2..=4).contains(n))?;
-                let simple = matches!(a, Expr::Node(node) if matches!(**node, Node::Var(_)));
-                if !simple {
+                let simple = |node: &Node| matches!(node, Node::Var(_));
+                if matches!(a, Expr::Node(node) if !simple(node)) {
                     return None;
                 }
                 Some((1..times).fold(a.clone(), |all, _| of(Binary::Multiply, all, a.clone())))

@@ -283,7 +283,8 @@ impl Region<'_> {
                 (_, Some(b)) if out.is_some_and(|cycle| is_of(cycle, &b.op, self.levels)) => _ = is.next(),
                 (Some(a), Some(b)) if as_before(&a.op, &b.op, self.levels) && a.skip == b.skip => {
                     out = out.filter(|_| !matches!(b.op, Op::StartCycle(_)));
-                    _ = (was.next(), is.next());
+                    was.next();
+                    is.next();
                 }
                 (Some(a), _) if !self.inherits && a.skip.is_none() && out.is_none() => {
                     let Op::StartCycle(cycle) = &a.op else { return Some(a.span) };
