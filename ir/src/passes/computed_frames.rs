@@ -4,10 +4,12 @@
 //! coordinates, and none is said by what has changed since the one before.
 //!
 //! Refused by name: a frame that the target has no form of its own for, a shift that leaves an axis as it is, a rotation
-//! about the place where the tool stands, steps that add up, shifts and rotations together where the target chains
-//! frames, and a move behind a rotation that does not name both axes of its plane (controls do not agree about it).
+//! about the place where the tool stands, steps that add up but for translations of one stretch of blocks, shifts and
+//! rotations together where the target chains frames, and a move behind a rotation that does not name both axes of its
+//! plane (controls do not agree about it).
 
 use super::known_facts::Known;
+use super::variables::{round, rounded};
 use super::write::{Rebuild, is_absolute, rebuild};
 use crate::arguments;
 use crate::canon::{AXES, Axis, Distance, Fact, Plane};
@@ -187,11 +189,18 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps) -> Result<(), Diagnostic
     let mut refused = None;
     // Whether the frame before is a translation that has begun the chain anew, with nothing behind it.
     let mut anew = false;
-    rebuild(body, |stmt, made: &mut Rebuild| {
+    // The translation that this stretch has said anew, while it is the whole chain and worth what it was.
+    let mut shift: Option<Shift> = None;
+    rebuild(body, |mut stmt, made: &mut Rebuild| {
         if !is_frame(&stmt.op) {
             anew &= matches!(stmt.op, Op::Comment(_) | Op::Blank);
+            shift = shift.take().filter(|axes| stays(axes, &stmt.op));
             return made.push(stmt);
         }
+        if let (Some(axes), false) = (&shift, caps.frames) {
+            add_to(axes, &mut stmt.op);
+        }
+        shift = translation(&stmt.op).filter(|_| stmt.skip.is_none());
         let said = match stmt.skip {
             Some(_) => Err("that can be skipped"),
             None if caps.frames => as_chain(&stmt.op, used),
@@ -211,6 +220,62 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps) -> Result<(), Diagnostic
         None if caps.frames => Ok(()),
         None => placed(body),
     }
+}
+
+/// By how much a chain of translations moves each axis.
+type Shift = [Option<Expr>; AXES];
+
+/// Whether a translation is the same behind a statement.
+fn stays(axes: &Shift, op: &Op) -> bool {
+    match op {
+        flow!() | Op::Declare(_) => false,
+        Op::Assign(to, _) => !axes.iter().flatten().any(|by| by.reads(to)),
+        _ => true,
+    }
+}
+
+/// A translation that begins the chain anew, or none at all.
+fn translation(op: &Op) -> Option<Shift> {
+    match op {
+        Op::ClearFrame(FrameSlot::Chain) => Some([const { None }; AXES]),
+        Op::SetFrame(frame) if !frame.added => match &frame.step {
+            FrameStep::Translate(axes) => Some((**axes).clone()),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// Has a translation that adds to another one begin the chain anew, with the sum of both.
+fn add_to(before: &Shift, op: &mut Op) {
+    if let Op::SetFrame(frame) = op
+        && let FrameStep::Translate(axes) = &mut frame.step
+        && frame.added
+    {
+        for (axis, before) in axes.iter_mut().zip(before) {
+            let sum = match (&*axis, before) {
+                (Some(by), Some(before)) => Some(sum(before, by)),
+                (by, before) => by.as_ref().or(before.as_ref()).cloned(),
+            };
+            *axis = sum;
+        }
+        frame.added = false;
+    }
+}
+
+/// A sum. Frames say that they are rounded where that changes nothing: so does the sum of two of which neither has more
+/// digits.
+fn sum(a: &Expr, b: &Expr) -> Expr {
+    let own = |e: &Expr| match rounded(e) {
+        Some((inner, digits)) => (inner, Some(digits)),
+        None => (e.clone(), e.literal().map(|n| n.trimmed().scale)),
+    };
+    let ((a, of_a), (b, of_b)) = (own(a), own(b));
+    let mut sum = a.plus(&b);
+    if let (Some(a), Some(b)) = (of_a, of_b) {
+        round(&mut sum, a.max(b));
+    }
+    sum
 }
 
 fn is_translation(step: &FrameStep) -> bool {

@@ -27,7 +27,7 @@ use crate::program::{Control, Op, Program, Stmt};
 
 pub use vacancy::{Question, questions};
 pub use words::Fineness;
-pub(super) use words::as_rounded;
+pub(super) use words::{as_rounded, round, rounded};
 
 /// Variables of the main procedure, and those that all procedures see: what each is called in the target.
 #[derive(Clone, Debug, Default)]

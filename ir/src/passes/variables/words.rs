@@ -62,21 +62,35 @@ pub(super) fn unrounded(body: &mut [Stmt], decimals: u8) {
             continue;
         }
         each_value(&mut stmt.op, &mut |value, from_zero| {
+            value.parts_mut().for_each(in_whole_steps);
             let Some((inner, digits)) = rounded(value) else { return };
             if from_zero && digits >= decimals {
                 *value = inner;
             } else if digits > 0 {
-                let by = || Expr::Num(Num::int(10i64.pow(u32::from(digits.min(9))), Unit::One));
-                let up = Expr::Node(Box::new(Node::Binary(Binary::Multiply, inner, by())));
-                let whole = Expr::Node(Box::new(Node::Call(Function::Round, vec![up])));
-                *value = Expr::Node(Box::new(Node::Binary(Binary::Divide, whole, by())));
+                *value = in_steps(inner, digits);
             }
         });
     }
 }
 
+/// Rounding to some digits within an expression, by rounding to whole numbers.
+fn in_whole_steps(e: &mut Expr) {
+    e.parts_mut().for_each(in_whole_steps);
+    if let Some((inner, digits @ 1..)) = rounded(e) {
+        *e = in_steps(inner, digits);
+    }
+}
+
+/// A value rounded to some digits, as so many steps of the last of them.
+fn in_steps(value: Expr, digits: u8) -> Expr {
+    let by = || Expr::Num(Num::int(10i64.pow(u32::from(digits.min(9))), Unit::One));
+    let up = Expr::binary(Binary::Multiply, value, by());
+    let whole = Expr::Node(Box::new(Node::Call(Function::Round, vec![up])));
+    Expr::binary(Binary::Divide, whole, by())
+}
+
 /// What is rounded to some digits, and to how many.
-fn rounded(value: &Expr) -> Option<(Expr, u8)> {
+pub(in crate::passes) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
     let Expr::Node(node) = value else { return None };
     match &**node {
         Node::Call(Function::RoundTo, arguments) => match &arguments[..] {
