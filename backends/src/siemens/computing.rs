@@ -10,6 +10,7 @@ use std::collections::{BTreeSet, HashMap};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
+use ncc_ir::passes::known_facts::has_bare_holes;
 use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -29,7 +30,7 @@ pub(super) struct Computing {
     targets: BTreeSet<Text>,
     /// Those of the unit at hand that stand in the text already.
     written: BTreeSet<Text>,
-    /// Whether there are cycles in it.
+    /// Whether there are cycles in it, each of which is called up in the stretch of blocks that makes its holes.
     cycles: bool,
     /// Statements whose words say their own distance mode, where others rely on the one in force, by their places.
     pub(super) own_distance: BTreeSet<u32>,
@@ -52,6 +53,8 @@ impl Writer {
         self.computing.own_distance.clone_from(own_distance);
         self.words.is_kept(stands);
         procedures.iter().for_each(|procedure| self.computing.look(&procedure.body));
+        // Holes that rely on a cycle called up elsewhere: it stays in force over jumps and labels, as in the source.
+        self.computing.cycles &= !procedures.iter().any(|procedure| has_bare_holes(&procedure.body));
         self.know_parameters(procedures);
         self.main = procedures.first().cloned();
     }

@@ -326,7 +326,7 @@ fn call_up(body: &mut Vec<Stmt>, from: Calls, bare: bool) -> bool {
 }
 
 /// Whether holes stand in a stretch before any cycle has been called up there.
-pub(super) fn has_bare_holes(body: &[Stmt]) -> bool {
+pub fn has_bare_holes(body: &[Stmt]) -> bool {
     let mut called = false;
     body.iter().any(|stmt| {
         called &= !matches!(stmt.op, flow!());
