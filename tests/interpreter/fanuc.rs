@@ -44,6 +44,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         initial_known: false,
         return_initial: modes.return_initial,
         depth: 0,
+        on: None,
         rigid: false,
         polar: None,
         radius: None,
@@ -84,6 +85,8 @@ struct Control {
     initial_known: bool,
     return_initial: bool,
     depth: u32,
+    /// The block at which the caller goes on, where M99 names one.
+    on: Option<u32>,
     /// M29 was said.
     rigid: bool,
     /// G16 is on: the last point in polar words, if nothing else has moved the plane since.
@@ -123,7 +126,10 @@ impl Control {
             self.look(block);
             at = match self.statement(block)? {
                 Go::Not => match self.block_and_macro(block, all)? {
-                    Next::Block => at + 1,
+                    Next::Block => match self.on.take() {
+                        Some(number) => jump(blocks, &loops, at, number).or_else(|why| self.m.halt(why))?,
+                        None => at + 1,
+                    },
                     Next::Back => return Ok(false),
                     Next::End => return Ok(true),
                 },
@@ -413,8 +419,9 @@ impl Control {
             _ if called.is_some() => return self.m.halt("a name without a call"),
             Some(99) => {
                 // In the first program of a text, it goes back to one that is not there.
-                if number(&words, 'P').is_some() || number(&words, 'L').is_some() {
-                    return self.m.halt("M99 with P or with L");
+                self.on = number(&words, 'P').map(|(p, _)| p as u32);
+                if number(&words, 'L').is_some() || self.on.is_some() && self.depth == 0 {
+                    return self.m.halt("M99 with L, or with P in the first program");
                 }
                 return Ok(Next::Back);
             }

@@ -24,6 +24,7 @@ use super::lower::Lower;
 use super::macro_call::parameters;
 use super::modal_call::{AtMoves, Reach};
 use super::number::{spell, unit_of};
+use super::return_to::{ReturnTo, has_returns_to};
 use super::sort::Words;
 use crate::Batch;
 
@@ -44,6 +45,8 @@ pub(super) struct Computes {
     called: Vec<(Text, usize)>,
     /// Jumps to blocks whose number is computed.
     pub(super) jumps_of: Vec<JumpOf>,
+    /// Returns of the subprograms.
+    pub(super) returns: Vec<ReturnTo>,
     /// Whether programs are called whose number is computed.
     pub(super) calls_of: bool,
     /// The macro that is called behind each block that moves.
@@ -110,7 +113,7 @@ impl Lower {
         if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
             self.found_variables(out);
         }
-        if !self.computes.jumps && has_jumps(text) {
+        if !self.computes.jumps && (has_jumps(text) || has_returns_to(text)) {
             self.computes.jumps = true;
             out.whole = true;
             self.refresh();

@@ -427,7 +427,12 @@ impl Lower {
             }
             Meaning::Call => return self.call(code, words, src, out),
             Meaning::EndCallsAtMoves => return self.end_calls_at_moves(code, words, out),
-            Meaning::Return => return self.return_from(code, out),
+            Meaning::Return => {
+                if self.notes_return(code, words, src, out) {
+                    self.return_from(code, out);
+                }
+                return;
+            }
             _ => return,
         };
         self.push(code.span, op, out);

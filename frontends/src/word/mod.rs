@@ -46,6 +46,7 @@ pub(crate) mod pieces;
 pub(crate) mod plain;
 mod polar;
 mod probe;
+mod return_to;
 mod shown;
 pub(crate) mod sort;
 mod spindle;
@@ -208,6 +209,7 @@ impl Reader {
             self.end_of_text(out);
             self.lower.alone_or_main(out);
             self.lower.computes.give_parameters(&mut out.procedures);
+            self.lower.computes.join_returns(out);
             self.lower.computes.join_jumps(out);
             self.lower.computes.join_calls(out);
             self.lower.computes.check_saved(out);

@@ -102,6 +102,9 @@ impl Control {
             if let Next::End = self.run(&name, all)? {
                 return Ok(Next::End);
             }
+            if times > 1 && self.on.is_some() {
+                return self.m.halt("M99 with P in a program that is called several times");
+            }
         }
         Ok(Next::Block)
     }

@@ -62,7 +62,10 @@ pub(super) fn unrounded(body: &mut [Stmt], decimals: u8) {
             continue;
         }
         each_value(&mut stmt.op, &mut |value, from_zero| {
-            value.parts_mut().for_each(in_whole_steps);
+            match rounded(value) {
+                Some(_) => value.parts_mut().for_each(in_whole_steps),
+                None => return in_whole_steps(value),
+            }
             let Some((inner, digits)) = rounded(value) else { return };
             if from_zero && digits >= decimals {
                 *value = inner;
@@ -73,8 +76,11 @@ pub(super) fn unrounded(body: &mut [Stmt], decimals: u8) {
     }
 }
 
-/// Rounding to some digits within an expression, by rounding to whole numbers.
+/// Rounding to some digits within an expression, by rounding to whole numbers; what names a variable is whole anyway.
 fn in_whole_steps(e: &mut Expr) {
+    if matches!(e, Expr::Node(node) if matches!(**node, Node::Element(_))) {
+        return;
+    }
     e.parts_mut().for_each(in_whole_steps);
     if let Some((inner, digits @ 1..)) = rounded(e) {
         *e = in_steps(inner, digits);

@@ -85,6 +85,14 @@ impl<'t> Formula<'t> {
     }
 
     fn bracket(&mut self) -> Result<Worth, String> {
+        match self.brackets()? {
+            (worth, None) => Ok(worth),
+            (_, Some(_)) => Err("a comma in a bracket".into()),
+        }
+    }
+
+    /// What a bracket comes to, and what stands behind a comma in it.
+    fn brackets(&mut self) -> Result<(Worth, Option<Worth>), String> {
         if !self.take("[") {
             return Err(format!("a bracket is missing before {}", self.rest));
         }
@@ -93,19 +101,23 @@ impl<'t> Formula<'t> {
             return Err("brackets six deep".into());
         }
         let worth = self.condition()?;
+        let second = if self.take(",") { Some(self.condition()?) } else { None };
         self.depth -= 1;
         if !self.take("]") {
             return Err(format!("a bracket is not closed before {}", self.rest));
         }
-        Ok(worth)
+        Ok((worth, second))
     }
 
     /// A bracket with a number in it.
     fn argument(&mut self) -> Result<f64, String> {
-        match self.bracket()? {
-            Worth::Number(n) => Ok(n.unwrap_or(0.0)),
-            Worth::Truth(_) => Err("a function of a condition".into()),
-        }
+        worth_of(self.bracket()?)
+    }
+
+    /// A bracket with one number in it, or two.
+    fn arguments(&mut self) -> Result<(f64, Option<f64>), String> {
+        let (first, second) = self.brackets()?;
+        Ok((worth_of(first)?, second.map(worth_of).transpose()?))
     }
 
     /// A variable by its number, or by an expression that is rounded to it.
@@ -149,17 +161,22 @@ impl<'t> Formula<'t> {
         let end = self.rest.find(|c: char| !c.is_ascii_uppercase()).unwrap_or(self.rest.len());
         let (name, rest) = self.rest.split_at(end);
         self.rest = rest;
-        let full =
-            ["SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "ROUND", "FIX", "FUP", "LN", "EXP"];
+        let full = [
+            "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SQRT", "ABS", "ROUND", "FIX", "FUP", "LN", "EXP",
+            "POW",
+        ];
         let full = full.iter().find(|full| name == **full || name.len() == 2 && full.starts_with(name));
         let Some(name) = full.copied().or((name == "SQR").then_some("SQRT")) else {
             return Err(format!("the function {name}"));
         };
         // The others are in no list of its functions, and of these two the range or the arguments are open.
-        if self.variables.haas && matches!(name, "FUP" | "LN" | "EXP" | "ASIN" | "ATAN") {
+        if self.variables.haas && matches!(name, "FUP" | "LN" | "EXP" | "ASIN" | "ATAN" | "POW") {
             return Err(format!("{name} on a Haas"));
         }
-        let a = self.argument()?;
+        let (a, second) = self.arguments()?;
+        if second.is_some() != (name == "POW") && name != "ATAN" {
+            return Err(format!("{name} of another number of arguments"));
+        }
         let n = match name {
             "SIN" => a.to_radians().sin(),
             "COS" => a.to_radians().cos(),
@@ -168,10 +185,11 @@ impl<'t> Formula<'t> {
             "ASIN" if a.abs() <= 1.0 => from_zero(a.asin().to_degrees()),
             "ACOS" if a.abs() <= 1.0 => a.acos().to_degrees(),
             "ATAN" => {
-                if !self.take("/") {
-                    return Err("ATAN of one number".into());
-                }
-                let b = self.argument()?;
+                let b = match second {
+                    Some(b) => b,
+                    None if self.take("/") => self.argument()?,
+                    None => return Err("ATAN of one number".into()),
+                };
                 if a == 0.0 && b == 0.0 {
                     return Err("ATAN of no direction".into());
                 }
@@ -189,9 +207,17 @@ impl<'t> Formula<'t> {
             "FUP" => a.signum() * a.abs().ceil(),
             "LN" if a > 0.0 => a.ln(),
             "EXP" => a.exp(),
+            "POW" => a.powf(second.unwrap_or(f64::NAN)),
             _ => return Err(format!("{name} of {a}")),
         };
         if n.is_finite() { Ok(n) } else { Err(format!("{name} of {a}")) }
+    }
+}
+
+fn worth_of(argument: Worth) -> Result<f64, String> {
+    match argument {
+        Worth::Number(n) => Ok(n.unwrap_or(0.0)),
+        Worth::Truth(_) => Err("a function of a condition".into()),
     }
 }
 
