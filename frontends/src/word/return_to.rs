@@ -2,8 +2,8 @@
 //! block of that number): a jump behind each call.
 //!
 //! They are made when the text has been read. Refused by name: a subprogram that goes back in more than one way, one
-//! that is called several times by one word, such a return that can be skipped, and one beside calls of a computed
-//! number.
+//! that is called several times by one word or not in this text, such a return that can be skipped, and one beside calls
+//! of a computed number.
 
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
@@ -69,6 +69,8 @@ const SEVERAL: &str = "return to a block of the caller, of a subprogram that may
 
 const COMPUTED: &str = "return to a block of the caller, beside calls of a number that is computed";
 
+const ELSEWHERE: &str = "return to a block of a caller that is not in the text";
+
 impl Computes {
     /// The text is over: what calls a subprogram that goes back to a block goes on there.
     pub(super) fn join_returns(&self, out: &mut Batch) {
@@ -76,9 +78,13 @@ impl Computes {
         for return_to in &self.returns {
             let Some(block) = return_to.block else { continue };
             let mut all = self.returns.iter().filter(|other| other.own == return_to.own);
-            let several = all.any(|other| other.block != Some(block));
-            if several || self.calls_of {
-                let name = if several { SEVERAL } else { COMPUTED };
+            let why = match () {
+                () if all.any(|other| other.block != Some(block)) => Some(SEVERAL),
+                () if self.calls_of => Some(COMPUTED),
+                () if !is_called(out, &return_to.own) => Some(ELSEWHERE),
+                () => None,
+            };
+            if let Some(name) = why {
                 out.report(Fault::NotSupported { code: "M99".into(), name: name.into() }, return_to.at);
             } else if !to.contains(&(&return_to.own, block)) {
                 to.push((&return_to.own, block));
@@ -96,6 +102,17 @@ impl Computes {
             out.report(Fault::NotSupported { code: "L".into(), name }, at);
         }
     }
+}
+
+fn is_called(out: &Batch, name: &Text) -> bool {
+    fn calls(body: &[Stmt], name: &Text) -> bool {
+        body.iter().any(|stmt| match &stmt.op {
+            Op::Call(call) => call.name == *name,
+            Op::Control(control) => control.bodies().any(|body| calls(body, name)),
+            _ => false,
+        })
+    }
+    calls(&out.stmts, name) || out.procedures.iter().any(|procedure| calls(&procedure.body, name))
 }
 
 fn join(body: &mut Vec<Stmt>, to: &[(&Text, u32)], several: &mut Vec<Span>) {

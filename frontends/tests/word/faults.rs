@@ -153,7 +153,7 @@ fn the_macro_language_is_refused_by_name() {
     refused("DPRNT[X#100[53]*Y]\n", "DPRNT[X#100[53]*Y]");
     refused("#0=5\n", "#0=5");
     refused("#1=#[_DATE]\n", "_DATE");
-    refused("#1=POW[2,3]\n", "POW[2,3]");
+    refused("#1=BCD[2]\n", "BCD[2]");
     refused("#1=2*ATAN[3]\n", "ATAN[3]");
     refused("#1=BIN[#2]+1\n", "BIN[#2]");
     refused("#1=#[#2 EQ 1]\n", "#[#2 EQ 1]");

@@ -84,7 +84,12 @@ fn subprograms_stand_after_the_main_program() {
             "TextAfterEnd at 'M30'"
         ]
     );
-    assert_eq!(errors("fanuc", "O1\nM30\nO2\nM99 P100\n"), ["WordUnused { word: 'P100' } at 'P100'"]);
+    // One that says where its caller goes on.
+    assert!(errors("fanuc", "O1\nM98 P2\nN100 M30\nO2\nM99 P100\n").is_empty());
+    let name = "return to a block of a caller that is not in the text";
+    let told = format!("NotSupported {{ code: 'M99', name: '{name}' }} at 'M99'");
+    assert_eq!(errors("fanuc", "O1\nM30\nO2\nM99 P100\n"), [told]);
+    assert_eq!(errors("fanuc", "O1\nM99 P100\n"), ["WordUnused { word: 'P100' } at 'P100'"]);
 }
 
 #[test]
