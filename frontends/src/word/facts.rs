@@ -422,8 +422,9 @@ impl Lower {
     }
 
     /// A place that can be come to from elsewhere: no fact is known there. That the program began without a shift of
-    /// the origin stays so, if it has not said one before.
+    /// the origin stays so, if it has not said one before; in a subprogram, if its callers have not.
     pub(super) fn lose(&mut self, at: Span, out: &mut Batch) {
+        self.inherited.rely(&self.state.no_shift, ModeName::OriginShift, at);
         if self.assume && self.state.no_shift == Know::Unsaid {
             begins::no_shift(&mut self.state.no_shift, &self.settings.dialect.power_on, at, out);
         }
