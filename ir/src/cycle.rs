@@ -3,9 +3,9 @@
 //! A cycle is called up by a statement, then made at each following hole position until it is
 //! ended. `passes::expand_cycles` is the definition of its moves.
 
-use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn};
-use crate::expr::Expr;
-use crate::num::Nanos;
+use crate::canon::{Axis, Distance, Fact, Plane, ReturnLevel, Spindle, Turn, Units};
+use crate::expr::{Binary, Expr, Function, Node};
+use crate::num::{Nanos, Num, Unit};
 use crate::program::{Coord, Pitch, Point};
 
 /// A hole-making cycle, complete: a back-end needs no earlier block to write it.
@@ -189,6 +189,22 @@ pub enum Clearance {
     Stated(Expr),
     /// The control's own parameter; its value belongs to the world.
     Parameter,
+}
+
+/// A clearance that grows with the hole: a fiftieth of its depth, but no less than 0.6 mm and no more than 7 mm. The
+/// depth is in the unit in force.
+pub fn clearance_by_depth(hole: &Expr, units: Units) -> Expr {
+    let length = |tenths: i64| {
+        let mm = Num { mantissa: tenths, scale: 1, unit: Unit::One, point: true }.trimmed();
+        let inch = Num { mantissa: 254, scale: 1, unit: Unit::One, point: true };
+        match units {
+            Units::Mm => Expr::Num(mm),
+            Units::Inch => Expr::binary(Binary::Divide, Expr::Num(mm), Expr::Num(inch)),
+        }
+    };
+    let of = |function, a, b| Expr::Node(Box::new(Node::Call(function, vec![a, b])));
+    let part = Expr::binary(Binary::Divide, hole.operand(), Expr::int(50));
+    of(Function::Min, of(Function::Max, length(6), part), length(70))
 }
 
 /// The way to a hole, from where the tool stands to the retract plane over it.

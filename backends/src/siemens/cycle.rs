@@ -7,7 +7,7 @@
 use ncc_dialects::{CallKind, CallRow, NameMeaning, ParameterRole as Role, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, ReturnLevel, Spindle, Turn, Units};
 use ncc_ir::caps::CycleForm;
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Shift, Tap};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, Shift, Tap, clearance_by_depth};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::num::{Nanos, Num, Unit};
@@ -232,7 +232,9 @@ impl Writer {
                     self.argument(&mut to, Role::Settle, settle, span, sink)?;
                 }
                 to.put(Role::Way, "1".into())?;
-                self.distance(Role::Clearance, clearance, &mut to, span, sink)?;
+                if !self.is_own_clearance(&planes.cycle, row) {
+                    self.distance(Role::Clearance, clearance, &mut to, span, sink)?;
+                }
             }
             CycleKind::DrillBreak { peck, first, less: None, lift, lift_at_feed, pause, dwell } => {
                 if !lift_at_feed {
@@ -428,6 +430,23 @@ impl Writer {
         }
     }
 
+    /// Whether a clearance is the one that the control takes for the depth of the hole where none is said.
+    fn is_own_clearance(&self, cycle: &Cycle, row: &CallRow) -> bool {
+        let CycleKind::DrillPeck { first, clearance: Clearance::Stated(said), .. } = &cycle.kind else {
+            return false;
+        };
+        let reference = match self.above_reference(cycle, row) {
+            Some((reference, _)) => reference,
+            // For a first peck of its own another plane is said.
+            None if first.is_some() => return false,
+            None => &cycle.retract.value,
+        };
+        let absolute = |word: &Coord| word.distance == Fact::Known(Distance::Absolute);
+        let own = |units| clearance_by_depth(&reference.minus(&cycle.depth.value), units);
+        let stated = absolute(&cycle.retract) && absolute(&cycle.depth);
+        stated && self.words.force.units.is_some_and(|units| *said == own(units))
+    }
+
     /// A clearance or a lift, which cannot be zero: that stands for the control's own.
     fn distance(
         &mut self,
@@ -441,7 +460,8 @@ impl Writer {
             Clearance::Stated(value) if value.literal().is_some_and(|n| n.mantissa > 0) => {
                 self.argument(to, role, value, span, sink)
             }
-            Clearance::Stated(_) => Err(cannot("a peck without clearance")),
+            Clearance::Stated(Expr::Node(_)) => Err(cannot("a clearance of pecks that is computed")),
+            Clearance::Stated(Expr::Num(_)) => Err(cannot("a peck without clearance")),
             Clearance::Parameter => Err(cannot("the clearance of a peck as a parameter of the machine")),
         }
     }

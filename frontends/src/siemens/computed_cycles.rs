@@ -7,7 +7,8 @@
 
 use ncc_dialects::{CallKind, ParameterRole as Role};
 use ncc_ir::canon::Fact;
-use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute};
+use ncc_ir::cycle::{Clearance, Cycle, CycleKind, absolute, clearance_by_depth};
+use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node, Unary};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::program::{Alarm, Control, Op, Stmt};
@@ -85,7 +86,8 @@ impl Lower {
                 let none = binary(Binary::LessOrEqual, &reference, &first);
                 wrong = Expr::binary(Binary::Or, wrong, none);
                 let first = safety.as_ref().map(|safety| stroke.plus(safety));
-                self.computed_pecks(a, stroke, first, dwell, src, out)?
+                let planes = [&reference, &depth];
+                self.computed_pecks(a, planes, (stroke, first), dwell, src, out)?
             }
             CallKind::Tap => {
                 self.planes_alone(a, out)?;
@@ -153,12 +155,12 @@ impl Lower {
         Some(())
     }
 
-    /// Deep-hole drilling with a stroke that is computed.
+    /// Deep-hole drilling with a stroke or a depth that is computed.
     fn computed_pecks(
         &mut self,
         a: &Arguments,
-        peck: Expr,
-        first: Option<Expr>,
+        planes: [&Expr; 2],
+        (peck, first): (Expr, Option<Expr>),
         pause: Option<Expr>,
         src: Source,
         out: &mut Batch,
@@ -189,16 +191,34 @@ impl Lower {
                     dwell,
                 })
             }
-            (1, Some(clearance)) => {
-                let clearance = Clearance::Stated(Expr::Num(clearance));
+            (1, stated) => {
+                let clearance = match stated {
+                    Some(clearance) => Expr::Num(clearance),
+                    None => self.own_clearance(a, planes, out)?,
+                };
+                let clearance = Clearance::Stated(clearance);
                 Some(CycleKind::DrillPeck { peck, first, less: None, clearance, pause, settle, dwell })
-            }
-            (1, None) => {
-                let name = "the control's own clearance of a hole whose depth is computed";
-                self.not_supported(&a.row.name, name, a.span, out);
-                None
             }
             _ => self.out_of_range(a, Role::Way, out),
         }
+    }
+
+    /// The control's own clearance above the last depth, of a hole that is as deep as the run has it.
+    fn own_clearance(
+        &mut self,
+        a: &Arguments,
+        [reference, depth]: [&Expr; 2],
+        out: &mut Batch,
+    ) -> Option<Expr> {
+        if let (Some(reference), Some(depth)) = (reference.literal(), depth.literal()) {
+            return self.automatic_clearance(a, reference, depth, true, out).map(Expr::Num);
+        }
+        let units = self.known_units(a.span, out)?;
+        if self.first_time("clearance") {
+            let parameter = format!("{}, automatic", a.name(Role::Clearance)).into();
+            let value = "1/50 of the hole, 0.6 to 7 mm".into();
+            out.report(Fault::AssumedParameter { parameter, value }, a.span);
+        }
+        Some(clearance_by_depth(&reference.minus(depth), units))
     }
 }

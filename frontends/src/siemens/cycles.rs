@@ -501,7 +501,7 @@ impl Lower {
 
     /// The control's own clearance above the last depth: 0.6 mm for holes up to 30 mm, a fiftieth of
     /// the depth for deeper ones, at most 7 mm.
-    fn automatic_clearance(
+    pub(super) fn automatic_clearance(
         &mut self,
         a: &Arguments,
         reference: Num,
