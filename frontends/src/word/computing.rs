@@ -115,6 +115,7 @@ impl Lower {
         }
         if !self.computes.jumps && (has_jumps(text) || has_returns_to(text)) {
             self.computes.jumps = true;
+            self.found_variables(out);
             out.whole = true;
             self.refresh();
         }
@@ -124,7 +125,8 @@ impl Lower {
         }
     }
 
-    /// The text has variables: calls met before share them.
+    /// The text computes: programs that it calls by number have no variables of their own, the calls met before as
+    /// well, whether it names a variable or not.
     pub(super) fn found_variables(&mut self, out: &mut Batch) {
         if std::mem::replace(&mut self.computes.variables, true) {
             return;
@@ -168,6 +170,7 @@ impl Lower {
 
     /// A statement of the macro language.
     pub(super) fn statement(&mut self, statement: &Statement, block: &Block, src: Source, out: &mut Batch) {
+        self.found_variables(out);
         out.whole = true;
         let span = block.span;
         if self.now.failed {

@@ -421,8 +421,9 @@ impl Lower {
                 self.alone.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
-            Meaning::Call | Meaning::Return if self.level_open() => {
-                // What is called, or called this, need not know of the length.
+            // What is called is looked at by execution: the program is kept whole from here on.
+            Meaning::Return if self.level_open() => {
+                // What called this need not know of the length.
                 return self.refuse_level(code.span, out);
             }
             Meaning::Call => return self.call(code, words, src, out),

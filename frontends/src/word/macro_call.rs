@@ -71,6 +71,7 @@ impl Lower {
 
     /// A block with a macro call.
     pub(super) fn macro_call(&mut self, code: &Code, block: &Block, src: Source, out: &mut Batch) {
+        self.found_variables(out);
         let mut letters = code.row.words.bytes();
         let (program, count) = (letters.next().unwrap_or(b'P'), letters.next().unwrap_or(b'L'));
         let dialect = self.settings.dialect;

@@ -4,6 +4,7 @@
 //! a manual; diagnostics with the very text that they point at.
 
 mod again;
+mod calls;
 mod cycles;
 mod facts;
 mod faults;
