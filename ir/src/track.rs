@@ -43,16 +43,16 @@ pub struct Tracker {
     pub tool: Option<i64>,
     /// Whether a frame of the chain may be in force.
     pub framed: bool,
-    /// What the spindle does, if it is known.
-    pub spindle: Option<Spindle>,
-    /// The feed in force, if it is a number that is known.
-    pub feed: Option<Num>,
-    /// Whether any may have been said.
-    pub fed: bool,
-    /// The spindle speed in force, if it is a number that is known.
-    pub speed: Option<Num>,
     /// Whether that is one of the chain of frames.
     pub chained: bool,
+    /// What the spindle does, if it is known.
+    pub spindle: Option<Spindle>,
+    /// The spindle speed in force, if it is a number that is known.
+    pub speed: Option<Num>,
+    /// The feed in force, if it is a number that is known.
+    pub feed: Option<Num>,
+    /// Whether any feed may have been said.
+    pub fed: bool,
     /// Whether a slot may turn, scale or mirror.
     pub turned: bool,
     /// The local shift.

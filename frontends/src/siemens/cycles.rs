@@ -169,11 +169,17 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Option<Num> {
-        if arguments.get(role).is_none() {
-            let (code, word) = (arguments.row.name.as_str().into(), arguments.name(role).into());
-            return self.refuse(Fault::WordMissing { code, word }, arguments.span, out);
-        }
+        self.is_there(arguments, role, out)?;
         self.argument(arguments, role, src, out)
+    }
+
+    /// Refuses a call without an argument that it needs.
+    fn is_there(&mut self, arguments: &Arguments, role: ParameterRole, out: &mut Batch) -> Option<()> {
+        if arguments.get(role).is_some() {
+            return Some(());
+        }
+        let (code, word) = (arguments.row.name.as_str().into(), arguments.name(role).into());
+        self.refuse(Fault::WordMissing { code, word }, arguments.span, out)
     }
 
     /// The value with a role, written or computed; nothing for an empty argument, or one that is refused.
@@ -196,10 +202,7 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Option<Expr> {
-        if a.get(role).is_none() {
-            // Reported as missing.
-            self.needed(a, role, src, out)?;
-        }
+        self.is_there(a, role, out)?;
         self.value(a, role, src, out)
     }
 

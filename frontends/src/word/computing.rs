@@ -113,7 +113,7 @@ impl Lower {
         if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
             self.found_variables(out);
         }
-        if !self.computes.jumps && (has_jumps(text) || has_returns_to(text)) {
+        if !self.computes.jumps && (has_jumps(text) || has_returns_to(text, self.settings.dialect)) {
             self.computes.jumps = true;
             self.found_variables(out);
             out.whole = true;
@@ -494,6 +494,14 @@ impl Lower {
                     let code = self.settings.dialect.formula.operators[&Operator::Modulo].as_str().into();
                     let name = "the remainder of a number that is not whole".into();
                     self.fault(Fault::NotSupported { code, name }, at, out);
+                }
+                let rules = &self.settings.dialect.formula;
+                if matches!(**node, Node::Binary(Binary::Power, ..))
+                    && !rules.power
+                    && !rules.operators.contains_key(&Operator::Power)
+                {
+                    let fault = Fault::NotSupported { code: "POW".into(), name: "function".into() };
+                    self.fault(fault, at, out);
                 }
                 expr.parts_mut().for_each(|part| self.mean(part, round, at, out));
             }

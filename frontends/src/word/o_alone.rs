@@ -4,6 +4,7 @@
 //!
 //! Not here: subprograms in the text that calls them (`o_subs`).
 
+use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::expr::Var;
 use ncc_ir::open::open_variables;
 use ncc_ir::program::{Op, Procedure, Program, Text};
@@ -38,7 +39,7 @@ impl Alone {
 
 /// Whether a text is the subprogram by whose name its file is called, and nothing else: comments before and behind, the
 /// end of the program behind.
-fn is_whole(text: &[u8], name: &str) -> bool {
+fn is_whole(text: &[u8], name: &str, dialect: &Dialect) -> bool {
     let mut lines = text.split(|b| *b == b'\n').map(bare).filter(|line| !line.is_empty() && line != "%");
     let is = |line: &str, word: &str| {
         let label = line.strip_prefix('o').and_then(|line| line.strip_suffix(word));
@@ -51,7 +52,14 @@ fn is_whole(text: &[u8], name: &str) -> bool {
     };
     lines.next().is_some_and(|first| is(&first, "sub"))
         && lines.any(|line| is(&line, "endsub"))
-        && lines.all(|line| matches!(&*line, "m2" | "m02" | "m30"))
+        && lines.all(|line| is_end(&line, dialect))
+}
+
+/// Whether a line is the code that ends a program.
+fn is_end(line: &str, dialect: &Dialect) -> bool {
+    let number = line.strip_prefix('m').and_then(|number| number.parse::<u32>().ok());
+    let row = number.and_then(|number| dialect.code_row(b'M', number.checked_mul(10)?));
+    row.is_some_and(|row| row.means == Some(Meaning::ProgramEnd))
 }
 
 /// A line without comments and blanks, in small letters.
@@ -82,7 +90,7 @@ impl Reader {
     /// text is a program with a subprogram in it.
     pub(super) fn looks_alone(&mut self, text: &[u8]) {
         if let Alone::File(name) = &self.lower.o.alone {
-            let whole = is_whole(text, name);
+            let whole = is_whole(text, name, self.lower.settings.dialect);
             self.lower.o.alone = if whole { Alone::Looked } else { Alone::No };
         }
     }
@@ -103,7 +111,7 @@ impl Reader {
     /// Whether a block behind such a subprogram is the end of its file, which its caller never comes to.
     pub(super) fn ends_the_file(&self, src: Source) -> bool {
         self.lower.o.alone == Alone::Over
-            && matches!(&*bare(src.bytes(self.block.span)), "m2" | "m02" | "m30")
+            && is_end(&bare(src.bytes(self.block.span)), self.lower.settings.dialect)
     }
 
     /// Its end.

@@ -5,6 +5,7 @@
 //! that is called several times by one word or not in this text, such a return that can be skipped, and one beside calls
 //! of a computed number.
 
+use ncc_dialects::{Dialect, Meaning};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
@@ -20,15 +21,21 @@ use crate::Batch;
 pub(super) struct ReturnTo {
     own: Text,
     block: Option<u32>,
+    code: &'static str,
     at: Span,
 }
 
-/// Whether a text has a return that names a block.
-pub(super) fn has_returns_to(text: &[u8]) -> bool {
-    memchr::memmem::find_iter(text, b"99").any(|at| {
-        let begins = at > 0 && text[at - 1].eq_ignore_ascii_case(&b'M');
-        let behind = text[at + 2..].iter().find(|b| **b != b' ');
-        begins && behind.is_some_and(|b| b.eq_ignore_ascii_case(&b'P'))
+/// Whether a text has a return that names a block: a code of that meaning, and behind it a letter that its row has.
+pub(super) fn has_returns_to(text: &[u8], dialect: &Dialect) -> bool {
+    let mut rows =
+        dialect.code.iter().filter(|row| row.means == Some(Meaning::Return) && !row.blocks.is_empty());
+    rows.any(|row| {
+        let (code, letters) = (row.code.as_bytes(), row.blocks.as_bytes());
+        memchr::memmem::find_iter(text, &code[1..]).any(|at| {
+            let begins = at > 0 && text[at - 1].eq_ignore_ascii_case(&code[0]);
+            let behind = text[at + code.len() - 1..].iter().find(|b| **b != b' ');
+            begins && behind.is_some_and(|b| letters.contains(&b.to_ascii_uppercase()))
+        })
     })
 }
 
@@ -49,23 +56,20 @@ impl Lower {
             Some(word) => match self.whole(&word, src, out) {
                 Some(number) if self.now.skip.is_none() => Some(number),
                 Some(_) => {
-                    self.not_one_way(code.span, out);
+                    self.fault(refused(&code.row.code, SEVERAL), code.span, out);
                     return false;
                 }
                 None => return false,
             },
         };
-        self.computes.returns.push(ReturnTo { own, block, at: code.span });
+        self.computes.returns.push(ReturnTo { own, block, code: &code.row.code, at: code.span });
         true
-    }
-
-    fn not_one_way(&mut self, at: Span, out: &mut Batch) {
-        let fault = Fault::NotSupported { code: "M99".into(), name: SEVERAL.into() };
-        self.fault(fault, at, out);
     }
 }
 
 const SEVERAL: &str = "return to a block of the caller, of a subprogram that may go back in another way";
+
+const AGAIN: &str = "return to a block of the caller, of a subprogram that one word calls several times";
 
 const COMPUTED: &str = "return to a block of the caller, beside calls of a number that is computed";
 
@@ -78,17 +82,17 @@ impl Computes {
         for return_to in &self.returns {
             let Some(block) = return_to.block else { continue };
             let mut all = self.returns.iter().filter(|other| other.own == return_to.own);
-            let why = match () {
-                () if all.any(|other| other.block != Some(block)) => Some(SEVERAL),
-                () if self.calls_of => Some(COMPUTED),
-                () if !is_called(out, &return_to.own) => Some(ELSEWHERE),
-                () => None,
-            };
-            if let Some(name) = why {
-                out.report(Fault::NotSupported { code: "M99".into(), name: name.into() }, return_to.at);
-            } else if !to.contains(&(&return_to.own, block)) {
+            let why = if all.any(|other| other.block != Some(block)) {
+                SEVERAL
+            } else if self.calls_of {
+                COMPUTED
+            } else if is_called(out, &return_to.own) {
                 to.push((&return_to.own, block));
-            }
+                continue;
+            } else {
+                ELSEWHERE
+            };
+            out.report(refused(return_to.code, why), return_to.at);
         }
         if to.is_empty() {
             return;
@@ -97,11 +101,13 @@ impl Computes {
         join(&mut out.stmts, &to, &mut several);
         let bodies = out.procedures.iter_mut().map(|Procedure { body, .. }| body);
         bodies.for_each(|body| join(body, &to, &mut several));
-        for at in several {
-            let name = "several calls by one word of a subprogram that goes back to a block".into();
-            out.report(Fault::NotSupported { code: "L".into(), name }, at);
-        }
+        let code = self.returns.first().map_or("", |first| first.code);
+        several.into_iter().for_each(|at| out.report(refused(code, AGAIN), at));
     }
+}
+
+fn refused(code: &str, why: &str) -> Fault {
+    Fault::NotSupported { code: code.into(), name: why.into() }
 }
 
 fn is_called(out: &Batch, name: &Text) -> bool {

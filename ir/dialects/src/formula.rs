@@ -60,6 +60,8 @@ pub struct FormulaRules {
     pub whole: Option<u8>,
     /// Between which signs a name stands.
     pub name_signs: String,
+    /// Whether newer series read a power as a function of two values, `POW[a,b]`; none is written so.
+    pub power: bool,
     /// Whether comparisons find real numbers equal that are nearly so.
     pub near: bool,
     /// Whether a word rounds what is computed for it to its increment.

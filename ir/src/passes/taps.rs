@@ -249,8 +249,7 @@ fn turned(stmt: &Stmt, state: &State) -> Option<&'static str> {
 }
 
 /// What is said of a move at the feed before a tap, which only the run knows.
-pub(super) const LOST: &str =
-    "a tapping cycle for which a feed must be said in the place of one that only the run knows";
+pub(super) const LOST: &str = "a tap's feed in the place of one that only the run knows";
 
 const RELIES: &str = "a feed or a speed that changes while a tapping cycle is in force";
 
