@@ -180,24 +180,11 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
     Ok(())
 }
 
-/// What a dialect was given and cannot give back, and why.
-const NO_WAY_BACK: [(&str, &str); 2] = [
-    (
-        "fanuc/g74-dwell.nc through siemens",
-        "a tap with a chuck that dwells at R as well is written out as blocks with the chuck (G63), of which the \
-         way back makes no cycle",
-    ),
-    (
-        "linuxcnc/g84-dwell.ngc through siemens",
-        "the dwell behind the spindle's turn at the bottom is written out as blocks with the chuck (G63) likewise",
-    ),
-];
-
 /// The corpus, there and back: every program that a dialect takes comes back as the same cut.
 #[test]
 fn the_corpus_there_and_back() {
     let mut failures = ncc_tests::expect::Failures::default();
-    let (mut done, mut refused) = (0, Vec::new());
+    let mut done = 0;
     for program in corpus::all() {
         let from = program.dialect;
         for through in DIALECTS.into_iter().filter(|d| *d != from) {
@@ -218,17 +205,14 @@ fn the_corpus_there_and_back() {
                         result.map_err(|e| format!("{e}\n{}", String::from_utf8_lossy(&returned))),
                     );
                 }
-                Err(Failure::Refused) => refused.push(what),
-                Err(Failure::VerificationFailed) => {
+                // What a dialect was given it can give back.
+                Err(Failure::Refused | Failure::VerificationFailed) => {
                     failures.add(&what, rendered(&back_job, &program.file, &text, &back.diagnostics));
                 }
             }
         }
     }
     println!("{done} there and back");
-    // What a dialect was given it can give back.
-    let listed: Vec<&str> = NO_WAY_BACK.iter().map(|(what, _)| *what).collect();
-    assert_eq!(refused, listed, "refused on the way back");
     failures.finish();
 }
 

@@ -1,11 +1,11 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::SPINDLE_AFTER_CHANGE;
+use ncc_dialects::{DECIMAL_POINT, SPINDLE_AFTER_CHANGE};
 use ncc_ir::canon::PathMode;
-use ncc_ir::diag::{ArgumentCheck, Fault, ModeName, Verdict};
+use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 
-use super::words::{Context, mode, plain_upto};
+use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
 
 /// What to do. Empty where the message says it already.
@@ -243,6 +243,24 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             Vec::new()
         }
     }
+}
+
+/// What else may be the cause of a fault, by what was found beside it: an arc does not close where numbers without a point
+/// count otherwise on the control that the program was written for.
+pub fn beside(fault: &Fault, all: &[Diagnostic], at: Context) -> Option<String> {
+    if !matches!(fault, Fault::ArcEndOffCircle { .. } | Fault::ArcRadiusTooSmall) {
+        return None;
+    }
+    let option = at.from.option.iter().find(|option| option.name == DECIMAL_POINT)?;
+    let other = option.values.iter().find(|value| **value != option.default)?;
+    all.iter().find_map(|d| match &d.fault {
+        Fault::AssumedBareNumber { word, value } if !word.starts_with(['F', 'S', 'P']) => Some(format!(
+            "or is `{}`, read as {}, meant in whole units? then add `--from-option {DECIMAL_POINT}={other}`",
+            plain(word),
+            plain(value),
+        )),
+        _ => None,
+    })
 }
 
 /// Facts that are too long for a label, a line each.

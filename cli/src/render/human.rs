@@ -77,7 +77,7 @@ pub fn print(
     let (shown, left_out) = choose(about.job, diagnostics, loudness);
     let lines = about.lines(shown.iter().copied())?;
     for diagnostic in shown {
-        let told = about.tell(&lines, diagnostic)?;
+        let told = about.tell_among(&lines, diagnostic, diagnostics)?;
         let boxed = boxed(&told, &lines);
         term::emit_to_write_style(out, &Config::default(), &told.excerpt, &boxed)
             .map_err(io::Error::other)?;

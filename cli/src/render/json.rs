@@ -102,7 +102,7 @@ pub fn print(
     let (shown, left_out) = choose(about.job, diagnostics, loudness);
     let lines = about.lines(shown.iter().copied())?;
     for diagnostic in shown {
-        line(out, &Entry::from(about.tell(&lines, diagnostic)?))?;
+        line(out, &Entry::from(about.tell_among(&lines, diagnostic, diagnostics)?))?;
     }
     for (code, count) in left_out {
         line(out, &LeftOut { left_out: format!("NC{code:04}"), count })?;
@@ -117,7 +117,10 @@ pub fn print(
 pub fn entries(about: &mut About, diagnostics: &[Diagnostic], loudness: Loudness) -> io::Result<Vec<Entry>> {
     let shown = told(about.job, diagnostics, loudness);
     let lines = about.lines(shown.iter().copied())?;
-    shown.into_iter().map(|diagnostic| Ok(Entry::from(about.tell(&lines, diagnostic)?))).collect()
+    shown
+        .into_iter()
+        .map(|diagnostic| Ok(Entry::from(about.tell_among(&lines, diagnostic, diagnostics)?)))
+        .collect()
 }
 
 /// One object in a line.

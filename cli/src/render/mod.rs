@@ -81,6 +81,23 @@ impl About<'_> {
         Ok(lines)
     }
 
+    /// A diagnostic in words, with what else was found in mind. `lines` must know its places.
+    ///
+    /// # Errors
+    /// Reading the source.
+    pub fn tell_among(
+        &mut self,
+        lines: &Lines,
+        diagnostic: &Diagnostic,
+        all: &[Diagnostic],
+    ) -> io::Result<Told> {
+        let mut told = self.tell(lines, diagnostic)?;
+        let at =
+            Context { from: self.job.from.dialect, to: self.job.to.dialect, snippet: "", beside: ("", "") };
+        told.advice.extend(advice::beside(&diagnostic.fault, all, at));
+        Ok(told)
+    }
+
     /// A diagnostic in words. `lines` must know its places.
     ///
     /// # Errors

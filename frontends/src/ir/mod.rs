@@ -253,6 +253,7 @@ impl Reader {
                     | Op::Label(_)
                     | Op::Assign(..)
                     | Op::Declare(_)
+                    | Op::SynchronisedFeed(_)
                     | Op::Leave
                     | Op::NextTurn
             );

@@ -71,6 +71,8 @@ impl Lower {
 
     fn push_thread(&mut self, to: Point, pitch: Pitch, turn: Option<Turn>, block: Span, out: &mut Batch) {
         let chuck = pitch == Pitch::Feed;
+        // In and out may become one cycle.
+        out.whole = true;
         let thread = Synchronised { to, pitch, chuck, turn, back: false };
         self.push(block, Op::SynchronisedFeed(Box::new(thread)), out);
     }

@@ -7,7 +7,7 @@
 //! Not here: which word is what (`sort`), and what the functions, moves, cycles, patterns and calls
 //! of a block mean; they have files of their own beside this one.
 
-use ncc_dialects::{Address, CodeRow, NumberRules, Quantity, Role, Settings};
+use ncc_dialects::{Address, CodeRow, DECIMAL_POINT, NumberRules, Quantity, Role, Settings};
 use ncc_ir::canon::{Axis, FeedMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
@@ -187,7 +187,7 @@ impl Lower {
             table[quantity as usize] = dialect.numbers(quantity);
         }
         let mut lower = Lower {
-            calculator: settings.get("decimal_point") == "calculator",
+            calculator: settings.get(DECIMAL_POINT) == "calculator",
             rules: table,
             letters: std::array::from_fn(|i| dialect.address_row(b'A' + i as u8)),
             roles: Roles::new(dialect),

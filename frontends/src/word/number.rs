@@ -3,7 +3,7 @@
 //! A number without a decimal point is read by the dialect's rule, and a rule that is in doubt is
 //! reported once for each kind of quantity. Nothing is rounded.
 
-use ncc_dialects::{Bare, PointRule, Quantity};
+use ncc_dialects::{Bare, DECIMAL_POINT, PointRule, Quantity};
 use ncc_ir::canon::{Fact, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::num::{Num, Unit};
@@ -116,7 +116,7 @@ impl Lower {
                             num.scale = shift;
                             num.point = true;
                         }
-                        if !self.settings.is_chosen("decimal_point") {
+                        if !self.settings.is_chosen(DECIMAL_POINT) {
                             self.assume_bare(word, num, quantity, src, out);
                         }
                     }

@@ -24,6 +24,9 @@ pub const ANGLE_RANGE: &str = "angle_range";
 /// `milliseconds`.
 pub const COMPUTED_DWELL: &str = "computed_dwell";
 
+/// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
+pub const DECIMAL_POINT: &str = "decimal_point";
+
 /// Option of a dictionary: what the spindle does after a tool change that says nothing of it, `open` or `stopped`.
 pub const SPINDLE_AFTER_CHANGE: &str = "spindle_after_change";
 

@@ -541,7 +541,12 @@ pub(super) fn hole(
         moves.push((false, Op::SetFeedRate(feed.clone())));
     }
     if cycle.kind.drives_spindle() {
-        return with_spindle(walk, in_force, to, [retract, depth], out, target, moves);
+        let from = moves.len();
+        with_spindle(walk, in_force, to, [retract, depth], out, target, moves)?;
+        if let Some((joined, Op::StraightFeed(_) | Op::SynchronisedFeed(_))) = moves.get_mut(from) {
+            *joined = stated;
+        }
+        return Ok(());
     }
     pecks(walk, in_force, normal, target, stated, moves)?;
     let first_cut = matches!(moves.last(), Some((_, Op::SetFeedRate(_))));

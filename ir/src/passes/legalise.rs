@@ -22,7 +22,8 @@ use super::{
     expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
     flatten_facts, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
     path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures,
-    spindle_angle, state_clearance, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
+    spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
+    work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -418,6 +419,10 @@ impl Legaliser {
         }
         if needs & THREAD != 0 && stmts.iter().any(|stmt| threads::is_cycle(stmt, &self.target)) {
             threads::as_cycles(stmts, &mut start.clone(), &self.target);
+            needs |= self.lacks & CYCLE;
+        }
+        if needs & THREAD != 0 && stmts.iter().any(|stmt| tapped_holes::is_half(stmt, &self.target)) {
+            tapped_holes::over(stmts, &mut start.clone(), &self.target);
             needs |= self.lacks & CYCLE;
         }
         if needs & CYCLE != 0 {

@@ -63,6 +63,7 @@ pub mod specialise_procedures;
 mod spindle_angle;
 mod spindle_holes;
 pub mod state_clearance;
+mod tapped_holes;
 pub mod taps;
 pub mod threads;
 pub mod tool_axis;

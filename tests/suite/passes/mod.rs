@@ -35,7 +35,7 @@ use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::{
     Legaliser, PASSES, Target, control_forms, exact_comparisons, passed_labels, planes_checked,
 };
-use ncc_ir::program::{Procedure, Program, Stmt};
+use ncc_ir::program::{Op, Procedure, Program, Stmt};
 use ncc_ir::track::Tracker;
 use ncc_ir::verify::{Comparison, Resolution};
 use ncc_ir::world::World;
@@ -332,9 +332,12 @@ fn in_pieces(before: &Program, told: &Told) -> Option<Program> {
     let mut out = Vec::new();
     let mut piece: Vec<Stmt> = Vec::new();
     let mut rest = before.procedures[0].body.iter().cloned().peekable();
+    let mut whole = false;
     while let Some(stmt) = rest.next() {
+        // From there on readers keep a program whole.
+        whole |= matches!(&stmt.op, Op::SynchronisedFeed(m) if !m.back);
         piece.push(stmt);
-        if rest.peek().is_none_or(|next| !next.joined) {
+        if rest.peek().is_none_or(|next| !next.joined && !whole) {
             legaliser.run(&mut piece, &before.assumed, &mut diags);
             out.append(&mut piece);
         }
