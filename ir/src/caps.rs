@@ -118,6 +118,8 @@ pub struct Caps {
     /// Lengths are those of edges of the tool in the spindle (`true`) or entries of a table; `None`
     /// if either.
     pub tool_edges: Option<bool>,
+    /// Where lengths are entries of a table, that of the tool in the spindle can be called up without its number.
+    pub own_length: bool,
     /// Cycles state the plane to which they return (`true`) or return to a level; `None` if either.
     pub return_planes: Option<bool>,
     /// A word can say for itself whether it is absolute or incremental.

@@ -199,6 +199,8 @@ pub(crate) struct Codes {
     /// The code that says the number of the tool in the spindle, and its word.
     pub tool_number: Option<(Code, Letter)>,
     pub length: Option<Code>,
+    /// Whether it stands without a number, for the tool in the spindle.
+    pub own_length: bool,
     pub no_length: Option<Code>,
     /// Centres are measured from the start point.
     pub centre_from_start: Option<Code>,
@@ -593,6 +595,7 @@ impl Codes {
                 Some((code(Meaning::SetToolNumber)?, letter))
             }),
             length: code(Meaning::UseToolLengthOffset),
+            own_length: dialect.code_for(Meaning::UseToolLengthOffset).is_some_and(|row| row.own_tool),
             no_length: code(Meaning::CancelToolLengthOffset).or_else(|| find.no_edge()),
             centre_from_start: code(Meaning::SetCentreMode(CentreFrom::Start)),
             turns: dialect.arc.turns.and_then(|letter| find.letter(letter, Quantity::Integer)),

@@ -116,7 +116,7 @@ impl Writer {
             Op::GoToReference(reference) => self.reference(reference, span, sink),
             Op::SetData(data) => self.data(data, span, sink),
             Op::UseToolLength(length) => self.stated_length(length, span, sink),
-            Op::UseToolEdge { .. } => Err(cannot("an edge of a tool")),
+            Op::UseToolEdge { edge, .. } => self.own_length(edge, span, sink),
             Op::ArcForm(_) => Err(cannot("an arc in this form")),
             Op::SynchronisedFeed(m) => self.thread(m, span, sink),
             Op::OrientSpindle(angle) => self.orient(angle.as_ref(), span, sink),
@@ -454,6 +454,17 @@ impl Writer {
         }
         self.admit(&Need::new(Rank::Offset).letter(letter.letter), sink)?;
         self.block.word(Part::Offset, letter.letter, value);
+        Ok(())
+    }
+
+    /// The length of the tool in the spindle, whichever that is.
+    fn own_length(&mut self, edge: &Expr, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let code = self.codes.length.filter(|_| self.codes.own_length && !self.tip);
+        let code = code.filter(|_| edge.literal().and_then(|n| n.whole()) == Some(1));
+        let code = code.ok_or_else(|| cannot("an edge of a tool"))?;
+        self.admit(&Need::new(Rank::Offset).code(Some(code)), sink)?;
+        self.block.code(Part::Offset, &code);
+        self.offset_waits = self.dialect.can.offset_with_z.then_some(span);
         Ok(())
     }
 

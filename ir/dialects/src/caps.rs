@@ -217,6 +217,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
             () => TiltForm::None,
         },
         tool_edges: either(dialect.letter_for(crate::Role::ToolEdge).is_some()),
+        own_length: dialect
+            .code
+            .iter()
+            .any(|row| row.own_tool && row.means == Some(Meaning::UseToolLengthOffset)),
         return_planes: either(states),
         arc_forms: everything || names(NameMeaning::ArcThrough),
         word_distance: everything || dialect.can.flat || dialect.block.qualifiers,

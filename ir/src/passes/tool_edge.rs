@@ -1,6 +1,7 @@
 //! `tool-edge`: a tool's length by an edge of the tool in the spindle, or by an entry of a table.
 //!
-//! Edge 1 of tool `n` is entry `n` of the table: an assumption, told once for each tool. Other edges
+//! Edge 1 of tool `n` is entry `n` of the table: an assumption, told once for each tool. Of a tool whose number is not
+//! known it stays edge 1 for a target that calls up the length of the tool in the spindle without its number. Other edges
 //! have no entry, and other entries no edge: they are refused. On a control with edges a tool change
 //! makes edge 1 active by itself, so that what is in force after the change is said there: it moves
 //! nothing until Z is commanded, and stands right behind the change where nothing commands Z between.
@@ -123,8 +124,9 @@ fn to_entries(
     };
     let (edge, said) = (edge.clone(), *said);
     let found = match (whole(&edge), tool(walk)) {
-        (Some(0), _) => Ok(0),
-        (Some(1), Some(tool)) => Ok(tool),
+        (Some(0), _) => Ok(Some(0)),
+        (Some(1), Some(tool)) => Ok(Some(tool)),
+        (Some(1), None) if target.caps.own_length => Ok(None),
         (Some(1), None) => Err(cannot("an edge of a tool that is not known".into())),
         (Some(edge), _) => Err(cannot(format!("edge {edge} of a tool"))),
         (None, _) => Err(cannot("a computed edge of a tool".into())),
@@ -144,12 +146,14 @@ fn to_entries(
     let mut waiting = Waiting { place: None, span, skip, refused: None };
     match found {
         Ok(entry) => {
-            if entry > 0 {
-                state.tell(entry, span, diags);
+            if let Some(entry) = entry {
+                if entry > 0 {
+                    state.tell(entry, span, diags);
+                }
+                // The tool's own number, unless the machine keeps its length elsewhere.
+                let entry = target.edge_entries.get(&entry).copied().unwrap_or(entry);
+                stmt.op = Op::UseToolLengthOffset(Expr::int(i64::from(entry)));
             }
-            // The tool's own number, unless the machine keeps its length elsewhere.
-            let entry = target.edge_entries.get(&entry).copied().unwrap_or(entry);
-            stmt.op = Op::UseToolLengthOffset(Expr::int(i64::from(entry)));
             waiting.place = Some(made.out.len());
             made.push(stmt);
         }
