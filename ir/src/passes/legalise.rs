@@ -494,6 +494,7 @@ impl Legaliser {
         self.one.flush(stmts);
         self.threads.finish(stmts, diags);
         self.change.finish(diags);
+        self.edge.finish(diags);
     }
 
     /// Refuses what no pass can mend.

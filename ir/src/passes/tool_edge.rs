@@ -4,7 +4,8 @@
 //! known it stays edge 1 for a target that calls up the length of the tool in the spindle without its number. Other edges
 //! have no entry, and other entries no edge: they are refused. On a control with edges a tool change
 //! makes edge 1 active by itself, so that what is in force after the change is said there: it moves
-//! nothing until Z is commanded, and stands right behind the change where nothing commands Z between.
+//! nothing until Z is commanded, and stands right behind the change where nothing commands Z between. An edge of a tool
+//! that the program has not called is left out where another follows before Z is commanded.
 
 use super::walk::Walk;
 use super::write::{Rebuild, rebuild};
@@ -31,7 +32,9 @@ struct Waiting {
     place: Option<usize>,
     span: Span,
     skip: Option<u8>,
-    /// Why the edge that comes with the tool cannot be said; told only if the edge is used.
+    /// The program says the edge itself.
+    said: bool,
+    /// Why the edge cannot be said; told only if it is used, or said and in force to the end.
     refused: Option<Fault>,
 }
 
@@ -41,7 +44,11 @@ const REFUSED: Expr = Expr::int(1);
 
 /// Puts one in the other's place, as the target has it.
 pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
-    each_body(program, entry, |body, walk| over(body, walk, &mut State::default(), target, diags));
+    each_body(program, entry, |body, walk| {
+        let mut state = State::default();
+        over(body, walk, &mut state, target, diags);
+        state.finish(diags);
+    });
 }
 
 impl State {
@@ -53,6 +60,13 @@ impl State {
     /// At the start of another body: no tool change waits, what was told stays told.
     pub(super) fn start_over(&mut self) {
         self.waiting = None;
+    }
+
+    /// At the end of a body: what the program says itself is in force behind it.
+    pub(super) fn finish(&mut self, diags: &mut Vec<Diagnostic>) {
+        if let Some(Waiting { refused: Some(fault), span, said: true, .. }) = self.waiting.take() {
+            diags.push(Diagnostic::new(fault, span));
+        }
     }
 
     fn tell(&mut self, tool: u32, span: Span, diags: &mut Vec<Diagnostic>) {
@@ -131,6 +145,8 @@ fn to_entries(
         (Some(edge), _) => Err(cannot(format!("edge {edge} of a tool"))),
         (None, _) => Err(cannot("a computed edge of a tool".into())),
     };
+    // Of a tool that the program has not called, it is needed only where Z moves by it.
+    let unknown = whole(&edge) == Some(1) && tool(walk).is_none();
     walk.step(&stmt);
     if let Some(before) = state.waiting.take() {
         // Nothing has taken up the edge that came with the tool.
@@ -143,7 +159,7 @@ fn to_entries(
         }
     }
     let (span, skip) = (stmt.span, stmt.skip);
-    let mut waiting = Waiting { place: None, span, skip, refused: None };
+    let mut waiting = Waiting { place: None, span, skip, said, refused: None };
     match found {
         Ok(entry) => {
             if let Some(entry) = entry {
@@ -157,7 +173,7 @@ fn to_entries(
             waiting.place = Some(made.out.len());
             made.push(stmt);
         }
-        Err(fault) if said => {
+        Err(fault) if said && !unknown => {
             diags.push(Diagnostic::new(fault, span));
             made.push(stmt);
         }
@@ -166,7 +182,7 @@ fn to_entries(
             made.leave_out(stmt);
         }
     }
-    if !said {
+    if !said || waiting.refused.is_some() {
         state.waiting = Some(waiting);
     }
 }
@@ -211,7 +227,8 @@ fn to_edges(
             }
             walk.step(&stmt);
             let (span, skip) = (stmt.span, stmt.skip);
-            state.waiting = Some(Waiting { place: Some(made.out.len()), span, skip, refused: None });
+            state.waiting =
+                Some(Waiting { place: Some(made.out.len()), span, skip, said: false, refused: None });
             made.push(stmt);
         }
         // The program knows of edges itself.
