@@ -143,7 +143,8 @@ fn the_macro_language_is_refused_by_name() {
     };
     refused("G0 X##1\n", "##1");
     refused("X[#1.]\n", "#1.");
-    let code = "code whose number may be anything: its variable has not, on every way to it, that of a code in force";
+    let code = "code whose number may be anything: on a way to it, its variable has neither that of a code in force \
+                nor one of a known range";
     let told = format!("NotSupported {{ code: 'G#1', name: '{code}' }} at 'G#1'");
     assert_eq!(faults("fanuc", "G#1\n"), [told]);
     refused("M[#1+3]\n", "M[#1+3]");

@@ -1,0 +1,492 @@
+//! What is known of variables on the ways through a text: of which group they have the code in force, or in which range
+//! the whole number is that they have. A loop is gone round until nothing new comes of it; what still changes then is
+//! not known there.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::mem::take;
+
+use ncc_ir::code_of::{CodeOf, code_of, of_number};
+use ncc_ir::diag::Fault;
+use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
+use ncc_ir::program::{Control, Op, Stmt, Text};
+use ncc_ir::source::Span;
+
+use super::{ANY, Saved, Told};
+use crate::Batch;
+use crate::word::computing::Computes;
+
+/// Turns of a loop, or of all that jumps lead to, that are followed number by number: more than a group has codes.
+const TURNS: u32 = 20;
+
+/// Turns of all loops of a program that are followed so: loops within loops come to many.
+const ALL_TURNS: u32 = 20_000;
+
+/// The greatest number that is reckoned with: each control holds those below it exactly.
+const MOST: i64 = 10_000_000;
+
+/// Whole numbers from one to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Range {
+    /// The least of them.
+    pub(super) from: i64,
+    /// The greatest.
+    pub(super) to: i64,
+}
+
+impl Range {
+    /// One number; none is known that a control may not hold exactly.
+    pub(super) fn only(number: i64) -> Option<Range> {
+        (-MOST..=MOST).contains(&number).then_some(Range { from: number, to: number })
+    }
+
+    /// Those of both, and what lies between.
+    fn hull(self, other: Range) -> Range {
+        Range { from: self.from.min(other.from), to: self.to.max(other.to) }
+    }
+
+    /// Of whatever two numbers of each come to.
+    fn of(corners: [Option<i64>; 4]) -> Option<Range> {
+        let mut ranges = corners.into_iter().map(|number| number.and_then(Range::only));
+        let first = ranges.next()??;
+        ranges.try_fold(first, |range, next| Some(range.hull(next?)))
+    }
+}
+
+/// The range of an expression, of which each value is whole then.
+pub(super) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Option<Range> {
+    let node = match expr {
+        Expr::Num(number) => return number.whole().and_then(Range::only),
+        Expr::Node(node) => node,
+    };
+    match &**node {
+        Node::Var(Var::System(_)) => None,
+        Node::Var(var) => known(var),
+        Node::Unary(Unary::Negate, a) => range(a, known).map(|a| Range { from: -a.to, to: -a.from }),
+        Node::Binary(operator, a, b) => {
+            let (a, b) = (range(a, known)?, range(b, known)?);
+            let both = |of: fn(i64, i64) -> Option<i64>| {
+                Range::of([of(a.from, b.from), of(a.from, b.to), of(a.to, b.from), of(a.to, b.to)])
+            };
+            match operator {
+                Binary::Add => both(i64::checked_add),
+                Binary::Subtract => both(i64::checked_sub),
+                Binary::Multiply => both(i64::checked_mul),
+                _ => None,
+            }
+        }
+        // What is whole stays what it is.
+        Node::Call(Function::Round | Function::Floor | Function::Truncate | Function::RoundUp, of) => {
+            range(of.first()?, known)
+        }
+        Node::Element(_) | Node::Vacant | Node::Unary(Unary::Not, _) | Node::Call(..) => None,
+    }
+}
+
+/// What is known of a variable.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Holds {
+    /// It has the code in force of a group, by the place of a row that saves it.
+    Code(usize),
+    /// It has a whole number.
+    Whole(Range),
+}
+
+/// The ranges of the numbers of codes, by where those begin.
+type Ranges = BTreeMap<u32, Range>;
+
+/// Variables and what is known of them.
+type Known = BTreeMap<String, Holds>;
+
+impl Computes {
+    /// The text is over: whether each such variable has its value from its group on every way to the code.
+    pub(in crate::word) fn check_saved(&self, out: &mut Batch) {
+        if self.saved.back.is_empty() {
+            return;
+        }
+        let (mut faults, mut ranges) = (Vec::new(), Ranges::new());
+        let mut bodies = vec![("", &out.stmts)];
+        bodies.extend(out.procedures.iter().map(|procedure| (&*procedure.name, &procedure.body)));
+        let set: Vec<Set> = bodies.iter().map(|(_, body)| Set::of(body)).collect();
+        let names: Vec<&str> = bodies.iter().skip(1).map(|(name, _)| *name).collect();
+        for (at, (_, body)) in bodies.iter().enumerate() {
+            let again = comes_back(at, &set, &names);
+            let mut others = Set::default();
+            for (_, own) in set.iter().enumerate().filter(|(other, _)| again || *other != at) {
+                others.any |= own.any;
+                others.vars.extend(own.vars.iter().cloned());
+            }
+            let (labels, wrong) = (BTreeMap::new(), Vec::new());
+            let (saved, ranges_yet) = (&self.saved, take(&mut ranges));
+            let mut ways = Ways { saved, others, labels, wrong, ranges: ranges_yet, turns: 0 };
+            for turn in 0.. {
+                let before = ways.labels.clone();
+                ways.wrong.clear();
+                ways.body(body, Some(Known::new()));
+                if ways.labels == before {
+                    break;
+                }
+                if turn >= TURNS || ways.turns > ALL_TURNS {
+                    ways.settle_labels(&before);
+                }
+            }
+            faults.append(&mut ways.wrong);
+            ranges = ways.ranges;
+        }
+        for (span, number) in faults {
+            let code = format!("G{number}").into();
+            out.report(Fault::NotSupported { code, name: ANY.into() }, span);
+        }
+        narrow(&mut out.stmts, &ranges);
+        out.procedures.iter_mut().for_each(|procedure| narrow(&mut procedure.body, &ranges));
+    }
+}
+
+/// The variables that statements set.
+#[derive(Default)]
+struct Set {
+    vars: BTreeSet<String>,
+    /// One whose number is computed.
+    any: bool,
+    /// Whether a turn of a loop ends from within.
+    leaves: bool,
+    /// The programs that they call.
+    calls: BTreeSet<Text>,
+}
+
+impl Set {
+    fn of(body: &[Stmt]) -> Set {
+        let mut set = Set::default();
+        set.body(body);
+        set
+    }
+
+    fn body(&mut self, body: &[Stmt]) {
+        for stmt in body {
+            match &stmt.op {
+                Op::Assign(Target::Var(var), _) => drop(self.vars.insert(key(var))),
+                Op::Assign(Target::Element(_), _) | Op::Declare(_) | Op::RepeatBlocks(_) => self.any = true,
+                Op::Leave | Op::NextTurn => self.leaves = true,
+                Op::Call(call) => drop(self.calls.insert(call.name.clone())),
+                Op::Control(control) => {
+                    self.any |= matches!(**control, Control::For { .. });
+                    control.bodies().for_each(|body| self.body(body));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn takes_from(&self, known: &mut Known) {
+        known.retain(|var, _| !self.any && !self.vars.contains(var));
+    }
+}
+
+/// Whether a program may be executed again before it is over: it calls itself, or what calls it, or what is not in the
+/// text. The first program has no name here; its number may be called all the same.
+fn comes_back(own: usize, set: &[Set], names: &[&str]) -> bool {
+    let mut reached = BTreeSet::new();
+    let mut next = vec![own];
+    while let Some(at) = next.pop() {
+        for name in &set[at].calls {
+            let Some(called) = names.iter().position(|other| *other == &**name) else { return true };
+            if reached.insert(called + 1) {
+                next.push(called + 1);
+            }
+        }
+    }
+    reached.contains(&own)
+}
+
+fn key(var: &Var) -> String {
+    let kept = if let Var::Local(_) = var { "local" } else { "shared" };
+    format!("{kept} {}", var.name())
+}
+
+/// What is known on the ways through a program.
+struct Ways<'s> {
+    saved: &'s Saved,
+    /// What the other programs set.
+    others: Set,
+    /// What is known at labels, as far as jumps have led there.
+    labels: BTreeMap<Text, Known>,
+    wrong: Vec<(Span, Box<str>)>,
+    /// The ranges of the numbers of codes, by where those begin.
+    ranges: Ranges,
+    /// Turns of loops that have been followed.
+    turns: u32,
+}
+
+/// What is known where two ways meet.
+fn meet(one: Option<Known>, other: Option<Known>) -> Option<Known> {
+    match (one, other) {
+        (Some(mut one), Some(other)) => {
+            one.retain(|var, holds| match (holds, other.get(var)) {
+                (Holds::Code(group), Some(Holds::Code(other))) => group == other,
+                (Holds::Whole(range), Some(Holds::Whole(other))) => {
+                    *range = range.hull(*other);
+                    true
+                }
+                _ => false,
+            });
+            Some(one)
+        }
+        (one, other) => one.or(other),
+    }
+}
+
+impl Ways<'_> {
+    /// Forgets what still changes at labels.
+    fn settle_labels(&mut self, before: &BTreeMap<Text, Known>) {
+        for (name, known) in &mut self.labels {
+            let Some(before) = before.get(name) else { continue };
+            known.retain(|var, holds| before.get(var) == Some(holds));
+        }
+    }
+
+    /// The group whose code in force a value is.
+    fn group(&self, value: &Expr) -> Option<usize> {
+        self.saved.rows.iter().position(|(_, _, row)| row.value(0, "").as_ref() == Some(value))
+    }
+
+    fn body(&mut self, body: &[Stmt], mut known: Option<Known>) -> Option<Known> {
+        for stmt in body {
+            let skipped = stmt.skip.and(known.clone());
+            known = self.stmt(stmt, known);
+            if stmt.skip.is_some() {
+                known = meet(known, skipped);
+            }
+        }
+        known
+    }
+
+    fn stmt(&mut self, stmt: &Stmt, mut known: Option<Known>) -> Option<Known> {
+        match &stmt.op {
+            Op::Assign(Target::Var(var), value) => {
+                let group = self.group(value).map(Holds::Code);
+                let known = known.as_mut()?;
+                let holds = group.or_else(|| worth(value, known).map(Holds::Whole));
+                match holds {
+                    Some(holds) => drop(known.insert(key(var), holds)),
+                    None => drop(known.remove(&key(var))),
+                }
+            }
+            Op::Assign(Target::Element(_), _) | Op::Declare(_) | Op::RepeatBlocks(_) => {
+                known.as_mut()?.clear()
+            }
+            Op::Call(call) => {
+                let known = known.as_mut()?;
+                let mut local = Known::new();
+                if !call.shared {
+                    local.extend(known.iter().filter(|(var, _)| var.starts_with("local")).map(own));
+                }
+                self.others.takes_from(known);
+                known.extend(local);
+            }
+            Op::Label(name) => known = meet(known, self.labels.get(name).cloned()),
+            Op::Goto(name) => {
+                let there = self.labels.remove(name);
+                if let Some(there) = meet(there, known) {
+                    self.labels.insert(name.clone(), there);
+                }
+                return None;
+            }
+            Op::Return | Op::ProgramEnd | Op::Alarm(_) => return None,
+            Op::Control(control) => {
+                if let Some(code) = code_of(control)
+                    && self.saved.back.iter().any(|(span, _)| *span == stmt.span)
+                    && let Some(known) = &known
+                {
+                    if !self.is_one_of(&code, stmt.span, known) {
+                        self.wrong.push((stmt.span, spelt(code.number)));
+                    }
+                    return Some(known.clone());
+                }
+                return self.control(control, known);
+            }
+            _ => {}
+        }
+        known
+    }
+
+    /// Whether the number of a code is surely that of one of these.
+    fn is_one_of(&mut self, code: &CodeOf<'_>, at: Span, known: &Known) -> bool {
+        let Some((_, told)) = self.saved.back.iter().find(|(span, _)| *span == at) else { return true };
+        match told {
+            Told::Saved(row, var) => {
+                let Some(Holds::Code(group)) = known.get(&key(var)) else { return false };
+                std::ptr::eq(self.saved.rows[*group].2, *row) && !code.codes.is_empty()
+            }
+            Told::Range => {
+                let Some(range) = worth(code.number, known) else { return false };
+                // What is repeated stands in more than one body.
+                let all = self.ranges.get(&at.start).map_or(range, |other| range.hull(*other));
+                self.ranges.insert(at.start, all);
+                let mut numbers = range.from..=range.to;
+                // No more than there are codes are ever looked at: the next one is none of them.
+                numbers.all(|number| code.codes.iter().any(|(own, _)| *own == number))
+            }
+        }
+    }
+
+    fn control(&mut self, control: &Control, known: Option<Known>) -> Option<Known> {
+        match control {
+            Control::If { condition, then, otherwise } => {
+                let holds = known.clone().and_then(|known| where_it(condition, true, known));
+                let fails = known.and_then(|known| where_it(condition, false, known));
+                let then = self.body(then, holds);
+                let otherwise = self.body(otherwise, fails);
+                meet(then, otherwise)
+            }
+            Control::While { condition, body } => {
+                let known = self.turns(Some(condition), body, known);
+                if Set::of(body).leaves {
+                    known
+                } else {
+                    known.and_then(|known| where_it(condition, false, known))
+                }
+            }
+            Control::Loop { body } => self.turns(None, body, known),
+            Control::Repeat { body, .. } | Control::Until { body, .. } | Control::For { body, .. } => {
+                let known = without(known, body, matches!(control, Control::For { .. }));
+                let behind = self.body(body, known.clone());
+                meet(known, behind)
+            }
+        }
+    }
+
+    /// What is known wherever a turn of a loop begins.
+    fn turns(&mut self, condition: Option<&Expr>, body: &[Stmt], known: Option<Known>) -> Option<Known> {
+        // Where it is left from within, that place would have to be looked at as well.
+        let mut begins = if Set::of(body).leaves { without(known, body, false) } else { known };
+        let wrong = take(&mut self.wrong);
+        for turn in 0.. {
+            self.wrong.clear();
+            self.turns += 1;
+            let settles = turn >= TURNS || self.turns > ALL_TURNS;
+            let holds = begins.clone().and_then(|known| match condition {
+                Some(condition) => where_it(condition, true, known),
+                None => Some(known),
+            });
+            let behind = self.body(body, holds);
+            let mut next = meet(begins.clone(), behind);
+            if next == begins {
+                break;
+            }
+            if let (true, Some(next), Some(before)) = (settles, &mut next, &begins) {
+                next.retain(|var, holds| before.get(var) == Some(holds));
+            }
+            begins = next;
+        }
+        self.wrong.splice(0..0, wrong);
+        begins
+    }
+}
+
+/// What is known where a body may have been executed, or not.
+fn without(known: Option<Known>, body: &[Stmt], counts: bool) -> Option<Known> {
+    let mut own = Set::of(body);
+    own.any |= counts;
+    let mut known = known?;
+    own.takes_from(&mut known);
+    Some(known)
+}
+
+/// The range of a value.
+fn worth(value: &Expr, known: &Known) -> Option<Range> {
+    range(value, &|var| match known.get(&key(var)) {
+        Some(Holds::Whole(range)) => Some(*range),
+        Some(Holds::Code(_)) | None => None,
+    })
+}
+
+/// What is known where a condition holds, or does not; `None` where it never comes to that.
+fn where_it(condition: &Expr, holds: bool, known: Known) -> Option<Known> {
+    let Expr::Node(node) = condition else { return Some(known) };
+    let (operator, a, b) = match &**node {
+        Node::Unary(Unary::Not, a) => return where_it(a, !holds, known),
+        Node::Binary(Binary::And, a, b) if holds => return where_it(b, true, where_it(a, true, known)?),
+        Node::Binary(Binary::Or, a, b) if !holds => return where_it(b, false, where_it(a, false, known)?),
+        Node::Binary(operator, a, b) => (*operator, a, b),
+        _ => return Some(known),
+    };
+    let operator = if holds { Some(operator) } else { opposite(operator) };
+    let Some(operator) = operator else { return Some(known) };
+    let known = limit(a, operator, b, known)?;
+    limit(b, turned(operator), a, known)
+}
+
+/// The comparison that holds where another does not.
+fn opposite(operator: Binary) -> Option<Binary> {
+    Some(match operator {
+        Binary::Equal => Binary::NotEqual,
+        Binary::NotEqual => Binary::Equal,
+        Binary::Less => Binary::GreaterOrEqual,
+        Binary::GreaterOrEqual => Binary::Less,
+        Binary::Greater => Binary::LessOrEqual,
+        Binary::LessOrEqual => Binary::Greater,
+        _ => return None,
+    })
+}
+
+/// The same comparison from the other side.
+fn turned(operator: Binary) -> Binary {
+    match operator {
+        Binary::Less => Binary::Greater,
+        Binary::Greater => Binary::Less,
+        Binary::LessOrEqual => Binary::GreaterOrEqual,
+        Binary::GreaterOrEqual => Binary::LessOrEqual,
+        same => same,
+    }
+}
+
+/// What is known where a variable compares so with something else; `None` where it cannot.
+fn limit(what: &Expr, operator: Binary, with: &Expr, mut known: Known) -> Option<Known> {
+    let Some(with) = worth(with, &known) else { return Some(known) };
+    let Expr::Node(node) = what else { return Some(known) };
+    let Node::Var(var) = &**node else { return Some(known) };
+    let Some(Holds::Whole(range)) = known.get_mut(&key(var)) else { return Some(known) };
+    match operator {
+        Binary::Less => range.to = range.to.min(with.to - 1),
+        Binary::LessOrEqual => range.to = range.to.min(with.to),
+        Binary::Greater => range.from = range.from.max(with.from + 1),
+        Binary::GreaterOrEqual => range.from = range.from.max(with.from),
+        Binary::Equal => {
+            *range = Range { from: range.from.max(with.from), to: range.to.min(with.to) };
+        }
+        Binary::NotEqual if with.from == with.to => {
+            let (first, last) = (range.from == with.from, range.to == with.to);
+            *range = Range { from: range.from + i64::from(first), to: range.to - i64::from(last) };
+        }
+        _ => {}
+    }
+    (range.from <= range.to).then_some(known)
+}
+
+/// Takes the codes away of which the number is not in the range.
+fn narrow(body: &mut [Stmt], ranges: &Ranges) {
+    for stmt in body {
+        let Op::Control(control) = &mut stmt.op else { continue };
+        let Some((code, range)) = code_of(control).zip(ranges.get(&stmt.span.start)) else {
+            control.bodies_mut().for_each(|body| narrow(body, ranges));
+            continue;
+        };
+        let within = |(number, _): &(i64, &Op)| (range.from..=range.to).contains(number);
+        let codes = code.codes.iter().filter(|code| within(code));
+        let codes = codes.map(|(number, op)| (*number, (*op).clone())).collect();
+        stmt.op = of_number(code.number, codes, stmt.span);
+    }
+}
+
+/// The number of a code, as a message names it.
+fn spelt(number: &Expr) -> Box<str> {
+    if let Expr::Node(node) = number
+        && let Node::Var(var) = &**node
+    {
+        return format!("#{}", var.name()).into();
+    }
+    "[…]".into()
+}
+
+fn own((var, holds): (&String, &Holds)) -> (String, Holds) {
+    (var.clone(), *holds)
+}
