@@ -239,6 +239,11 @@ impl Verifier {
             let stops = job.to.dialect.caps.stop_messages;
             runs.iter_mut().for_each(|run| run.source.mute(stops));
         }
+        // Nobody has put other values in the messages of a program that is executed.
+        let in_full = job.to.caps().computes.and_then(|there| there.values_in_full);
+        if let Some(digits) = in_full.filter(|_| job.passes.is_empty()) {
+            runs.iter_mut().for_each(|run| run.source.values_in_full(digits));
+        }
         Verifier {
             reader: Reader::new(job.to.clone(), false),
             as_called: false,

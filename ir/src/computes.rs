@@ -168,6 +168,9 @@ pub struct Computes {
     pub whole: Option<u8>,
     /// Its alarms, if a program can give such.
     pub alarms: Option<Alarms>,
+    /// With how many digits a value stands in a message where zeros at its end are not left out; in these messages only
+    /// variables stand.
+    pub values_in_full: Option<u8>,
     /// The alarm with which the control ends a program of which a cycle's planes do not lie one above the other.
     pub planes_alarm: Option<i64>,
     /// Values of the control's own that a program can ask for.

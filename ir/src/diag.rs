@@ -349,6 +349,8 @@ faults! {
     VariablesRenamed { map: Box<str> } = 421, verdict(Verdict::Reformatted);
     /// Alarms have other numbers in the target, or their number in the text; which is which.
     AlarmsRenumbered { map: Box<str> } = 422, verdict(Verdict::Reformatted);
+    /// Values in messages have other digits in the target: so many behind the point.
+    ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

@@ -192,6 +192,10 @@ impl Control {
         if words.message {
             self.m.record(What::Message);
         }
+        if words.alarm {
+            self.m.record(What::Alarm);
+            return Ok(Next::End);
+        }
         let (g, m) = (words.codes('G'), words.codes('M'));
         let of = |group: &[u32]| g.iter().copied().find(|code| group.contains(code));
         for group in GROUPS {

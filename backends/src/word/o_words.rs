@@ -496,7 +496,7 @@ impl Writer {
                     text.push_str(plain);
                 }
                 Piece::Value { value, digits, short } => {
-                    if *short {
+                    if *short && *digits > 0 {
                         return Err(cannot("a value in a message without the zeros at its end"));
                     }
                     if *digits != digits_said {

@@ -174,6 +174,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::CallExpanded { .. }
         | Fault::Flattened { .. }
         | Fault::AlarmsRenumbered { .. }
+        | Fault::ValuesInFull { .. }
         | Fault::VariablesRenamed { .. }
         | Fault::RepeatExpanded { .. }
         | Fault::NumbersLeftOut { .. }

@@ -222,6 +222,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
         Fault::AlarmsRenumbered { .. } => "alarms under other numbers".to_owned(),
+        Fault::ValuesInFull { digits } => {
+            format!("values in messages, with {digits} digits behind the point")
+        }
         Fault::VariablesRenamed { .. } => "variables under other names".to_owned(),
         Fault::Flattened { blocks } => format!("what computes into {blocks} straight blocks"),
         Fault::FramesExpanded => "frames into the coordinates".to_owned(),

@@ -303,6 +303,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "variables, loops, jumps and subprograms are gone, with the comments beside them".into(),
         ),
         Fault::AlarmsRenumbered { map } => ("alarms have other numbers".into(), format!("in {to}, {map}")),
+        Fault::ValuesInFull { digits } => (
+            format!("a value in a message has {digits} digits behind its point"),
+            format!("{to} does not leave out the zeros at its end"),
+        ),
         Fault::VariablesRenamed { map } => ("variables have other names".into(), format!("in {to}, {map}")),
         Fault::SkipLevelLost { level } => (
             format!("block-skip level {level} lost"),

@@ -107,6 +107,8 @@ pub(crate) fn as_stated(asked: &System, at: Span) -> Diagnostic {
 pub(crate) struct Has {
     /// Messages for the operator.
     pub(crate) messages: bool,
+    /// Messages with values in them.
+    pub(crate) values: bool,
     /// Words of inches.
     pub(crate) inches: bool,
     /// The first work offset that it names.
@@ -423,6 +425,7 @@ fn note(op: &Op, has: &mut Has) {
         control.bodies().flatten().for_each(|stmt| note(&stmt.op, has));
     } else {
         has.messages |= matches!(op, Op::Message(_) | Op::MessageOf(_));
+        has.values |= matches!(op, Op::MessageOf(_));
         has.inches |= matches!(op, Op::UseLengthUnits(Units::Inch));
         has.clears_shift |= matches!(op, Op::ClearFrame(FrameSlot::Shift) | Op::UseOriginShift(_));
     }

@@ -12,7 +12,7 @@ use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
-    exact_comparisons, expand_repeats, own_distance, planes_checked, unit_in_force,
+    exact_comparisons, expand_repeats, message_values, own_distance, planes_checked, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
@@ -51,6 +51,9 @@ pub(super) fn say(
     }
     computed_holes::run(program, &job.to.caps(), found);
     exact_comparisons::run(program, there, found);
+    if let Some(digits) = there.values_in_full {
+        message_values::run(program, digits, found);
+    }
     control_forms::run(program, there);
     arithmetic::run(program, there, from.formula.tolerance(), found);
     // Its own words are left as they are, where they say by themselves where they lead.

@@ -289,3 +289,27 @@ fn a_certificate_of_machines() {
     assert!(read(&folder, "m.json").contains("\"name\": \"fanuc-vmc\""));
     run(&["--cert", "m.json"]).exits(0);
 }
+
+/// A value in a message that one control shows without the zeros at its end, and the other with all of them.
+#[test]
+fn values_in_messages() {
+    let folder = folder();
+    let source = "G17 G90 G94 G710 G54 D0\nR1=-1.25 R2=R1*2\nG0 X0 Y0 Z5\nMSG(\"DEPTH \"<<R1)\nX1\n\
+        MSG(\"TWICE \"<<R2<<\" MM \")\nX2\nM30\n";
+    write(&folder, "shown.mpf", source);
+    let run = |arguments: &[&str]| ncc(folder.path(), arguments);
+    let told = run(&["siemens", "to", "linuxcnc", "shown.mpf", "-o", "shown.ngc"]).exits(0).err;
+    assert!(told.contains("values in messages, with 6 digits behind the point (line 4)"), "{told}");
+    let written = read(&folder, "shown.ngc");
+    assert!(written.contains("(DEBUG,DEPTH #101)"), "{written}");
+    let verify = |out: &str| run(&["verify", "siemens:shown.mpf", out]);
+    verify("linuxcnc:shown.ngc").exits(0);
+    run(&["verify", "linuxcnc:shown.ngc", "siemens:shown.mpf"]).exits(0);
+    write(&folder, "digits.ngc", &written.replace("(DEBUG,DEPTH #101)", "(DEBUG,DEPTH %.1f#101)"));
+    verify("linuxcnc:digits.ngc").exits(1);
+    // Straight blocks show what the source shows.
+    run(&["siemens", "to", "linuxcnc", "shown.mpf", "--pass", "flatten", "-o", "flat.ngc"]).exits(0);
+    let written = read(&folder, "flat.ngc");
+    assert!(written.contains("(MSG,DEPTH -1.25)") && written.contains("(MSG,TWICE -2.5 MM)"), "{written}");
+    verify("linuxcnc:flat.ngc").exits(0);
+}

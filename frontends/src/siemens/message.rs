@@ -38,6 +38,11 @@ impl Lower {
             [Piece::Text(text)] => Op::Message(text.trim_end().into()),
             _ => {
                 out.whole = true;
+                // Blanks at the end of a text show nothing.
+                if let Some(Piece::Text(text)) = pieces.last_mut() {
+                    *text = text.trim_end().into();
+                }
+                pieces.retain(|piece| !matches!(piece, Piece::Text(text) if text.is_empty()));
                 Op::MessageOf(pieces.into())
             }
         };

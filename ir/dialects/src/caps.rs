@@ -18,6 +18,9 @@ use crate::power_on::SafeStart;
 use crate::schema::{Dialect, Family};
 use crate::stored::DataKind;
 
+/// Digits of a value in a message where nothing else is said (LinuxCNC 2.9, gcode/overview, comment parameters).
+const VALUE_DIGITS: u8 = 6;
+
 /// The capabilities that follow from a dictionary's rows.
 pub(crate) fn caps(dialect: &Dialect) -> Caps {
     let says = |meaning| dialect.code_for(meaning).is_some();
@@ -385,6 +388,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     capitals: dialect.comment.upper_ascii,
                     longest: (rules.alarm_text > 0).then_some(rules.alarm_text),
                 }),
+                values_in_full: (!dialect.comment.shown.is_empty()).then_some(VALUE_DIGITS),
                 planes_alarm: dialect.cycles.planes_alarm.map(i64::from),
                 system: systems(dialect),
                 worth: rules.not_behind.is_some(),

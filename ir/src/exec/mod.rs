@@ -47,7 +47,7 @@ use crate::expr::Expr;
 use crate::kinds::variables;
 use crate::num::{Nanos, ONE, Unit};
 use crate::polar::Pole;
-use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt, Text};
+use crate::program::{Coord, Detour, FrameSlot, Op, Point, Probe, Slot, Stmt};
 use crate::source::Span;
 use crate::world::World;
 use arcs::Heading;
@@ -117,13 +117,8 @@ pub struct Exec {
     cycle: Option<InForce>,
     /// Whether the program has ended.
     ended: bool,
-    /// Whether messages make no events, but for those of program stops.
-    muted: bool,
-    stops_speak: bool,
-    /// The message of the statement at hand, and of the one before it, if it makes none but for a program stop; with
-    /// their levels of block skip.
-    unspoken: Option<Box<(Text, Span, Option<u8>)>>,
-    before: Option<Box<(Text, Span, Option<u8>)>>,
+    /// What becomes of messages.
+    shown: message::Shown,
     /// Whether events are counted only.
     quiet: bool,
     /// Whether functions are told that make no events.
@@ -211,10 +206,7 @@ impl Exec {
             speed_watched: false,
             cycle: None,
             ended: false,
-            muted: false,
-            stops_speak: false,
-            unspoken: None,
-            before: None,
+            shown: message::Shown::default(),
             quiet: false,
             narrating: false,
             every_move: false,
@@ -490,9 +482,7 @@ impl Exec {
     #[inline]
     fn do_step(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
-        if self.muted {
-            self.before = self.unspoken.take();
-        }
+        self.shown.goes_on();
         match &stmt.op {
             Op::StraightFeed(m) => self.straight(&m.to, true, span, out),
             Op::StraightTraverse(m) => self.straight(&m.to, false, span, out),
@@ -669,8 +659,8 @@ impl Exec {
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
             Op::EndCycle => self.cycle = None,
             Op::ProgramStop => {
-                if let Some(before) = self.before.take().filter(|before| before.2 == stmt.skip) {
-                    self.emit(Kind::Message(before.0), before.1, out)?;
+                if let Some((text, at)) = self.shown.at_stop(stmt.skip) {
+                    self.emit(Kind::Message(text), at, out)?;
                 }
                 self.emit(Kind::ProgramStop, span, out)?;
             }

@@ -4,7 +4,6 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use super::code::{Again, At, Called, Code, Declared, Step};
-use super::message;
 use super::needed::needed;
 use super::nesting::{Blocks, Frame};
 use super::rounds::Rounds;
@@ -590,7 +589,7 @@ impl<'p> Runner<'p> {
                             }
                             (None, literal) => literal.map_or(Value::Vacant, |n| Value::Number(real(n))),
                         };
-                        message::write(value, *digits, *short, &mut text);
+                        asked.exec.shown.write(value, *digits, *short, &mut text);
                     }
                 }
             }

@@ -42,6 +42,7 @@ pub mod known_facts;
 mod legalise;
 pub mod machine_moves;
 pub mod machine_numbers;
+pub mod message_values;
 mod needs;
 pub mod number_names;
 pub mod offset_with_z;

@@ -4,10 +4,11 @@ use super::super::Halt;
 use super::Control;
 use super::parameters::Reading;
 
-/// Letters and numbers of a block, and whether its last remark is for the operator.
+/// Letters and numbers of a block, and whether its last remark is for the operator, or ends the program.
 pub(super) struct Words {
     pub(super) words: Vec<(char, f64)>,
     pub(super) message: bool,
+    pub(super) alarm: bool,
 }
 
 impl Words {
@@ -24,7 +25,7 @@ impl Control {
     /// Words of a line; `None` if it is left out.
     pub(super) fn words(&mut self, line: &str) -> Result<Option<Words>, Halt> {
         let mut bare = String::new();
-        let mut message = false;
+        let (mut message, mut alarm) = (false, false);
         let mut rest = line;
         while let Some(c) = rest.chars().next() {
             rest = &rest[c.len_utf8()..];
@@ -35,6 +36,7 @@ impl Control {
                     let said: String = rest[..end].split_whitespace().collect::<String>().to_uppercase();
                     let shown = ["DEBUG,", "PRINT,"].iter().any(|word| said.starts_with(word));
                     message = said.starts_with("MSG,") || shown;
+                    alarm = said.starts_with("ABORT,");
                     rest = &rest[end + 1..];
                 }
                 _ if c.is_whitespace() => {}
@@ -82,6 +84,6 @@ impl Control {
         for (place, value) in settings {
             self.set(place, value)?;
         }
-        Ok(Some(Words { words, message }))
+        Ok(Some(Words { words, message, alarm }))
     }
 }

@@ -99,6 +99,11 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
     let one_control = same_control(sides);
     let (caps, other) = (&sides[0].dialect().caps, &sides[1].dialect().caps);
     let muted = !caps.messages || !other.messages;
+    // With how many digits one side's values stand in messages that have zeros at their end.
+    let in_full = (courses.iter().all(|course| course.has.values)).then(|| {
+        let digits = |side: &Side| side.job.from.caps().computes.and_then(|own| own.values_in_full);
+        sides.iter().find_map(digits)
+    });
     let says = courses.iter().any(|course| course.has.messages);
     let levels = [courses[0].skip_levels, courses[1].skip_levels];
     let one_level = other.skip_levels <= 1;
@@ -136,6 +141,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         worlds,
         starts,
         muted,
+        in_full: in_full.flatten(),
         stops_speak: caps.shows_at_stops() && other.shows_at_stops(),
         lines: job.from.dialect.can.flat || job.to.dialect.can.flat,
         between_controls: job.between_controls(),
@@ -284,6 +290,8 @@ struct Plan {
     worlds: Vec<[World; 2]>,
     starts: Vec<[Nanos; AXES]>,
     muted: bool,
+    /// With how many digits values stand in messages that have none too many.
+    in_full: Option<u8>,
     /// Whether both show what a program stop says.
     stops_speak: bool,
     /// One of the texts has no blocks; both are for controls of different kinds.
@@ -309,6 +317,9 @@ impl Plan {
             }
             if self.muted {
                 exec.mute(self.stops_speak);
+            }
+            if let Some(digits) = self.in_full {
+                exec.values_in_full(digits);
             }
             if self.lines {
                 exec.without_blocks();

@@ -19,7 +19,7 @@ use crate::computes::{Computes, counted};
 use crate::decimals::Decimals;
 use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use crate::passes::variables::each_value;
-use crate::program::{Control, Op, Program, Stmt};
+use crate::program::{Control, Op, Piece, Program, Stmt};
 use crate::source::Span;
 
 /// How many digits a value has, and whether it may be negative.
@@ -262,6 +262,23 @@ impl WorkedOut<'_> {
             _ => false,
         };
         values(op, &mut |value| self.expr(value, truth, span, before));
+        if let Op::MessageOf(pieces) = op
+            && self.computes.values_in_full.is_some()
+        {
+            self.in_variables(pieces, span, before);
+        }
+    }
+
+    /// Values of a message in variables, where it can have no others.
+    fn in_variables(&mut self, pieces: &mut [Piece], span: Span, before: &mut Before) {
+        for piece in pieces {
+            let Piece::Value { value: shown, .. } = piece else { continue };
+            let is_variable = matches!(shown, Expr::Node(node) if matches!(**node, Node::Var(_)));
+            if !is_variable {
+                let own = self.room((None, true), before);
+                before.stmts.push(assign(&own, std::mem::replace(shown, value(&own)), span));
+            }
+        }
     }
 
     /// Whether a function is worked out.
