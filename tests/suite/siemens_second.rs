@@ -52,6 +52,7 @@ const SAME: &[(&str, &str)] = &[
     (":10 G1 X10 F100\nN010 Y1", "G1 X10 F100\nY1"),
     ("MSG(\"a; b\") ; c\nG1 X10 F100 ;Y5", "MSG(\"\")\nG1 X10 F100"),
     ("G2 X10 CR= 5 F100", "G2 X10 CR=5 F100"),
+    ("R1=2\nR1=0/R1\nG1 X=R1 F100", "G1 X0 F100"),
     ("G91 G1 X10 F100\nX=AC(5) Y2", "G90 G1 X10 F100\nX5 Y2"),
     ("T5\nM6\nG0 Z5", "T=5 M6 D1\nG0 Z5"),
     ("T5 M6 D2\nG0 Z5", "T5 M6\nD2\nG0 Z5"),
