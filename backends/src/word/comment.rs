@@ -62,8 +62,9 @@ impl Comments {
         loop {
             let (piece, next) = cut(rest, self.longest);
             let to = if first { &mut *line } else { &mut *after };
-            // One blank parts the sign from the text.
-            let open = if piece.starts_with(' ') { self.open.trim_end() } else { &self.open };
+            // One blank parts the sign from the text, if there is one.
+            let text = !piece.is_empty() && !piece.starts_with(' ');
+            let open = if text { &self.open } else { self.open.trim_end() };
             to.extend_from_slice(open.as_bytes());
             to.extend_from_slice(piece.as_bytes());
             to.extend_from_slice(self.close.as_bytes());
