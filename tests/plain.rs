@@ -86,6 +86,8 @@ pub enum Happening {
     /// The text is over, and the program has not said that it ends.
     TextEnd,
     Message,
+    /// What was written to a device.
+    Output(u64),
 }
 
 /// How far two lists may be apart.
@@ -360,6 +362,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
             Kind::Message(_) => Happening::Message,
+            Kind::Output(written) => Happening::Output(hash_of(&written.to_string())),
             Kind::Alarm(..) => Happening::Alarm,
             Kind::TextEnd => Happening::TextEnd,
             // The events under test are never narrated.

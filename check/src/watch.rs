@@ -321,6 +321,7 @@ impl Checker {
             | Kind::OptionalProgramStop
             | Kind::TextEnd
             | Kind::Alarm(..)
+            | Kind::Output(_)
             | Kind::Message(_) => {}
         }
     }

@@ -60,6 +60,7 @@ fn event_text(event: &Event, aspect: Aspect) -> String {
         Kind::TextEnd => "the end of the text".to_owned(),
         Kind::Attribute(_) => "an attribute".to_owned(),
         Kind::Message(text) => format!("the message {text:?}"),
+        Kind::Output(written) => written.to_string(),
         Kind::Alarm(None, text) => format!("the alarm {text:?}"),
         Kind::Alarm(Some(number), text) => format!("the alarm {} {text:?}", number / ONE),
     };

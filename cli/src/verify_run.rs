@@ -9,6 +9,7 @@ use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
 use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
 use ncc_ir::exec::{Event, Exec, named_tool};
 use ncc_ir::expr::Function;
@@ -109,6 +110,12 @@ pub(crate) fn fixed(dialect: &Dialect) -> Modes {
 /// How a control says alarms.
 pub(crate) fn alarms_of(settings: &Settings) -> Option<Alarms> {
     settings.caps().computes.and_then(|computes| computes.alarms)
+}
+
+/// Whether a control writes to devices.
+pub(crate) fn writes(settings: &Settings) -> bool {
+    settings.dialect.can.everything
+        || settings.caps().computes.is_some_and(|computes| computes.has(Said::Output))
 }
 
 /// What a dialect's numbers resolve.
@@ -238,6 +245,9 @@ impl Verifier {
             // Their loss is a verdict of its own, that stops unless it is allowed.
             let stops = job.to.dialect.caps.stop_messages;
             runs.iter_mut().for_each(|run| run.source.mute(stops));
+        }
+        if !writes(&job.to) {
+            runs.iter_mut().for_each(|run| run.source.without_output());
         }
         // Nobody has put other values in the messages of a program that is executed.
         let in_full = job.to.caps().computes.and_then(|there| there.values_in_full);

@@ -11,8 +11,8 @@ use crate::expr::{Expr, Target};
 use crate::kinds::{flow, modes, variables};
 use crate::num::Unit;
 use crate::program::{
-    ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Piece, Pitch, Point, PoleWords, Shape,
-    Slot, ToolLength,
+    ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Output, Piece, Pitch, Point, PoleWords,
+    Shape, Slot, ToolLength,
 };
 
 /// An argument, to be read or replaced.
@@ -148,10 +148,11 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
         },
         Op::OrientSpindle(angle) => seen(Argument::Optional(angle), Unit::Degree),
         Op::Dwell(seconds) => seen(Argument::Value(seconds), Unit::Second),
-        Op::MessageOf(pieces) => pieces.iter_mut().try_for_each(|piece| match piece {
-            Piece::Text(_) => Ok(()),
-            Piece::Value { value, .. } => seen(Argument::Value(value), Unit::One),
-        }),
+        Op::MessageOf(pieces) => values(pieces, seen),
+        Op::Output(output) => match &mut **output {
+            Output::Line(pieces) => values(pieces, seen),
+            Output::Open | Output::Close => Ok(()),
+        },
         Op::Alarm(alarm) => seen(Argument::Optional(&mut alarm.number), Unit::One),
         modes!()
         | flow!()
@@ -353,4 +354,11 @@ fn slot<E>(of: &mut Slot, seen: &mut Seen<'_, E>) -> Result<(), E> {
             tilt.angles.iter_mut().try_for_each(|angle| seen(Argument::Value(angle), Unit::Degree))
         }
     }
+}
+
+fn values<E>(pieces: &mut [Piece], seen: &mut Seen<'_, E>) -> Result<(), E> {
+    pieces.iter_mut().try_for_each(|piece| match piece {
+        Piece::Text(_) => Ok(()),
+        Piece::Value { value, .. } => seen(Argument::Value(value), Unit::One),
+    })
 }

@@ -9,7 +9,7 @@ use crate::code_of::code_of;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use crate::num::Num;
-use crate::program::{Control, Op, Piece, Procedure, Program, Stmt, Text};
+use crate::program::{Control, Op, Output, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
 use crate::system::System;
 
@@ -41,6 +41,8 @@ pub enum Said {
     NextTurn,
     /// [`Op::MessageOf`].
     Values,
+    /// [`Op::Output`].
+    Output,
     /// [`Op::Alarm`].
     Alarm,
     /// [`Op::ProgramStop`] with [`Op::Message`] before it in its block.
@@ -171,6 +173,8 @@ pub struct Computes {
     /// With how many digits a value stands in a message where zeros at its end are not left out; in these messages only
     /// variables stand.
     pub values_in_full: Option<u8>,
+    /// Whether a device must be opened before anything is written to it.
+    pub output_opened: bool,
     /// The alarm with which the control ends a program of which a cycle's planes do not lie one above the other.
     pub planes_alarm: Option<i64>,
     /// Values of the control's own that a program can ask for.
@@ -394,10 +398,11 @@ impl Look<'_> {
             Op::Goto(_) => self.has(Said::Jump, "a jump", at),
             Op::MessageOf(pieces) => {
                 self.has(Said::Values, "a message with values in it", at)?;
-                pieces.iter().try_for_each(|piece| match piece {
-                    Piece::Text(_) => Ok(()),
-                    Piece::Value { value, .. } => self.expr(value, at),
-                })
+                self.pieces(pieces, at)
+            }
+            Op::Output(output) => {
+                self.has(Said::Output, "output to a device", at)?;
+                if let Output::Line(pieces) = &**output { self.pieces(pieces, at) } else { Ok(()) }
             }
             Op::Alarm(alarm) => {
                 self.has(Said::Alarm, "an alarm", at)?;
@@ -519,6 +524,13 @@ impl Look<'_> {
                 Err(refuse(format!("the variable {name}"), at))
             }
         }
+    }
+
+    fn pieces(&self, pieces: &[Piece], at: Span) -> Result<(), Diagnostic> {
+        pieces.iter().try_for_each(|piece| match piece {
+            Piece::Text(_) => Ok(()),
+            Piece::Value { value, .. } => self.expr(value, at),
+        })
     }
 
     fn expr(&self, expr: &Expr, at: Span) -> Result<(), Diagnostic> {

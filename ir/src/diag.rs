@@ -351,6 +351,8 @@ faults! {
     AlarmsRenumbered { map: Box<str> } = 422, verdict(Verdict::Reformatted);
     /// Values in messages have other digits in the target: so many behind the point.
     ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
+    /// Text for a device that the target does not write to.
+    OutputDropped = 424, verdict(Verdict::Dropped);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

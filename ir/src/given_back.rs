@@ -141,6 +141,7 @@ impl Changes {
             | Op::Comment(_)
             | Op::Message(_)
             | Op::MessageOf(_)
+            | Op::Output(_)
             | Op::Alarm(_)
             | Op::NoEffect(_)
             | Op::Blank

@@ -6,7 +6,7 @@
 //!
 //! Not here: what a pass makes of a kind. One that only some passes treat alike is no kind.
 
-/// Beside the way: remarks and messages, spindle, coolant, functions of the machine, pauses, on which side of the
+/// Beside the way: remarks and messages, text for devices, spindle, coolant, functions of the machine, pauses, on which side of the
 /// contour the tool goes. Without axis words, lengths or a feed; what the words of the moves that
 /// follow mean, where the axes stand and which tool is meant stay as they are.
 macro_rules! miscellaneous {
@@ -14,6 +14,7 @@ macro_rules! miscellaneous {
         $crate::program::Op::Comment(_)
             | $crate::program::Op::Message(_)
             | $crate::program::Op::MessageOf(_)
+            | $crate::program::Op::Output(_)
             | $crate::program::Op::Alarm(_)
             | $crate::program::Op::NoEffect(_)
             | $crate::program::Op::Blank

@@ -32,6 +32,7 @@ pub mod places;
 pub mod polar;
 pub mod program;
 pub mod round;
+pub mod shown;
 pub mod source;
 pub mod system;
 pub mod track;

@@ -28,6 +28,7 @@ use crate::canon::{
 };
 use crate::cycle::{Cycle, Pattern};
 use crate::expr::{Expr, Target, Var};
+pub use crate::shown::{Alarm, NO_SUCH_BLOCK, Output, Piece};
 use crate::source::Span;
 
 /// A part program: the main procedure first, then its subprograms.
@@ -413,6 +414,8 @@ pub enum Op {
     Message(Text),
     /// `MESSAGE_OF`: text for the operator with values in it.
     MessageOf(Box<[Piece]>),
+    /// `OPEN_OUTPUT`, `OUTPUT`, `CLOSE_OUTPUT`: text for a device.
+    Output(Box<Output>),
     /// `ALARM`: the program ends with an alarm for the operator; what turns goes on turning or not, as the machine
     /// will have it.
     Alarm(Box<Alarm>),
@@ -542,6 +545,11 @@ impl Op {
             Op::ProgramEnd => "PROGRAM_END",
             Op::Message(_) => "MESSAGE",
             Op::MessageOf(_) => "MESSAGE_OF",
+            Op::Output(output) => match **output {
+                Output::Open => "OPEN_OUTPUT",
+                Output::Line(_) => "OUTPUT",
+                Output::Close => "CLOSE_OUTPUT",
+            },
             Op::Alarm(_) => "ALARM",
             Op::Call(_) => "CALL",
             Op::Return => "RETURN",
@@ -562,34 +570,6 @@ impl Op {
             Op::NextTurn => "NEXT_TURN",
         }
     }
-}
-
-/// Part of a text that is made when the program runs.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Piece {
-    /// As it is.
-    Text(Text),
-    /// A number.
-    Value {
-        /// Its value; nothing is written as an empty text.
-        value: Expr,
-        /// Digits behind the point, 0 to 9.
-        digits: u8,
-        /// Whether zeros at the end, and then the point, are left out.
-        short: bool,
-    },
-}
-
-/// The text of the alarm that a control gives by itself where a jump names no block.
-pub const NO_SUCH_BLOCK: &str = "no such block";
-
-/// An alarm that a program gives.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Alarm {
-    /// Its number, as the program says it.
-    pub number: Option<Expr>,
-    /// Its text; may be empty.
-    pub text: Text,
 }
 
 /// A variable that is made known.

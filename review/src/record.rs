@@ -358,9 +358,10 @@ impl Recorder {
                 self.texts += 1;
                 self.batch.texts.push(text.clone());
             }
-            Kind::Data(_) | Kind::Alarm(..) => {
+            Kind::Data(_) | Kind::Output(_) | Kind::Alarm(..) => {
                 let text = match &event.kind {
                     Kind::Data(stored) => stored.to_string(),
+                    Kind::Output(written) => written.to_string(),
                     Kind::Alarm(Some(number), text) => format!("{} {text}", number / ncc_ir::num::ONE),
                     Kind::Alarm(None, text) => text.to_string(),
                     _ => String::new(),
@@ -430,7 +431,11 @@ fn what(kind: &Kind) -> Option<What> {
         Kind::Arc { .. } => What::Arc,
         Kind::Dwell(_) => What::Dwell,
         Kind::ToolChange => What::ToolChange,
-        Kind::MachineFunction(_) | Kind::Data(_) | Kind::Tilt(_) | Kind::OrientToolAxis(_) => What::Function,
+        Kind::MachineFunction(_)
+        | Kind::Data(_)
+        | Kind::Output(_)
+        | Kind::Tilt(_)
+        | Kind::OrientToolAxis(_) => What::Function,
         // Where it ends is another place in each world.
         Kind::Probe { .. } => What::Function,
         Kind::ProgramStop => What::Stop,

@@ -45,7 +45,8 @@ pub(crate) fn fixed(act: &Act, machine: &Machine, before: f64) -> Fixed {
     match &act.event.kind {
         Kind::Synchronised { .. } | Kind::Probe { .. } => stop(0.0),
         Kind::Orient(_) => stop(by_speed(0.0).unwrap_or(known(machine.spindle_stop)) + m),
-        Kind::Traverse | Kind::Feed | Kind::Arc { .. } | Kind::Message(_) | Kind::TextEnd => on_the_fly(0.0),
+        Kind::Traverse | Kind::Feed | Kind::Arc { .. } | Kind::TextEnd => on_the_fly(0.0),
+        Kind::Message(_) | Kind::Output(_) => on_the_fly(0.0),
         // How far the rotary axes go, no program says.
         Kind::Tilt(_) | Kind::OrientToolAxis(_) => stop(0.0),
         Kind::Dwell(seconds) => stop(units(*seconds)),

@@ -49,6 +49,7 @@ pub(crate) fn duration(act: &Act, machine: &Machine) -> f64 {
         | Kind::ProgramEnd
         | Kind::TextEnd
         | Kind::Message(_)
+        | Kind::Output(_)
         | Kind::Alarm(..)
         | Kind::Attribute(
             Attribute::SelectTool(_)

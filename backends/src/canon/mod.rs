@@ -376,6 +376,7 @@ impl Writer {
             | Op::Call(_)
             | Op::Return
             | Op::MessageOf(_)
+            | Op::Output(_)
             | Op::Alarm(_)
             | Op::Assign(..)
             | Op::Declare(_)

@@ -209,6 +209,7 @@ fn rank(op: &Op) -> u8 {
         | Op::Return
         | Op::RepeatBlocks(_)
         | Op::MessageOf(_)
+        | Op::Output(_)
         | Op::Alarm(_)
         | Op::Assign(..)
         | Op::Declare(_)
@@ -468,6 +469,7 @@ impl Printer<'_> {
             | Op::Call(_)
             | Op::RepeatBlocks(_)
             | Op::MessageOf(_)
+            | Op::Output(_)
             | Op::Alarm(_)
             | Op::Assign(..)
             | Op::Declare(_)

@@ -5,7 +5,7 @@ use ncc_ir::canon::{
 };
 use ncc_ir::expr::Expr;
 use ncc_ir::program::{
-    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Piece, Point, Shape, ToolLength,
+    Arc, ArcForm, Call, Centre, CentreFrom, Control, Coord, Op, Output, Piece, Point, Shape, ToolLength,
 };
 
 use super::cycle::{cycle, further_turn, pattern, pitch};
@@ -86,6 +86,7 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
         | Op::ProgramEnd
         | Op::Message(_)
         | Op::MessageOf(_)
+        | Op::Output(_)
         | Op::Alarm(_)
         | Op::Declare(_)
         | Op::Call(_)
@@ -102,6 +103,26 @@ pub(super) fn op(op: &Op, out: &mut Vec<u8>) {
     out.push(b'(');
     arguments(op, out);
     out.push(b')');
+}
+
+/// A text with values in it.
+fn with_values(pieces: &[Piece], out: &mut Vec<u8>) {
+    for (place, piece) in pieces.iter().enumerate() {
+        put(if place > 0 { ", " } else { "" }, out);
+        match piece {
+            Piece::Text(text) => text_argument(text, out),
+            Piece::Value { value, digits, short, places } => {
+                expr(value, out);
+                if *places > 0 {
+                    put(" places ", out);
+                    whole(u64::from(*places), out);
+                }
+                put(" digits ", out);
+                whole(u64::from(*digits), out);
+                put(if *short { " short" } else { "" }, out);
+            }
+        }
+    }
 }
 
 fn arguments(op: &Op, out: &mut Vec<u8>) {
@@ -209,18 +230,10 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
                 }
             }
         }
-        Op::MessageOf(pieces) => {
-            for (place, piece) in pieces.iter().enumerate() {
-                put(if place > 0 { ", " } else { "" }, out);
-                match piece {
-                    Piece::Text(text) => text_argument(text, out),
-                    Piece::Value { value, digits, short } => {
-                        expr(value, out);
-                        put(" digits ", out);
-                        whole(u64::from(*digits), out);
-                        put(if *short { " short" } else { "" }, out);
-                    }
-                }
+        Op::MessageOf(pieces) => with_values(pieces, out),
+        Op::Output(output) => {
+            if let Output::Line(pieces) = &**output {
+                with_values(pieces, out);
             }
         }
         Op::Alarm(alarm) => {

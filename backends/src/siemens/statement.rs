@@ -207,6 +207,7 @@ impl Writer {
             Op::Label(name) => self.label(name, span, sink),
             Op::Control(control) => self.control(control, stmt, sink),
             Op::MessageOf(pieces) => self.message_of(pieces, span, sink),
+            Op::Output(_) => Err(cannot("text for a device")),
             Op::Alarm(alarm) => self.alarm(alarm, span, sink),
             Op::Assign(to, value) => self.assign(to, value, span, sink),
             // With those of its block.

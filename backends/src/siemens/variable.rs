@@ -379,7 +379,7 @@ impl Writer {
                     long += text.chars().count();
                     texts.push(format!("\"{text}\""));
                 }
-                Piece::Value { value, digits, short } => {
+                Piece::Value { value, digits, short, places: _ } => {
                     let fits = match self.variables.types.of(value) {
                         Type::Int => *short || *digits == 0,
                         Type::Real => *short && *digits == DIGITS,

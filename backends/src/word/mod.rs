@@ -27,6 +27,7 @@ pub(crate) mod modes;
 pub(crate) mod motion;
 pub(crate) mod number;
 mod o_words;
+mod output;
 mod plain;
 mod polar;
 mod repeat;

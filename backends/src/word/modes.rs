@@ -107,6 +107,7 @@ impl Setting {
             | Op::Call(_)
             | Op::Return
             | Op::MessageOf(_)
+            | Op::Output(_)
             | Op::Alarm(_)
             | Op::Assign(..)
             | Op::Declare(_)

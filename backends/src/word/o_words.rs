@@ -495,7 +495,7 @@ impl Writer {
                     }
                     text.push_str(plain);
                 }
-                Piece::Value { value, digits, short } => {
+                Piece::Value { value, digits, short, places: _ } => {
                     if *short && *digits > 0 {
                         return Err(cannot("a value in a message without the zeros at its end"));
                     }

@@ -188,6 +188,7 @@ impl Writer {
             Op::Leave if self.has_o_words() => self.o_leave(false, stmt, sink),
             Op::NextTurn if self.has_o_words() => self.o_leave(true, stmt, sink),
             Op::MessageOf(_) => Err(cannot("a message with values in it")),
+            Op::Output(output) => self.output(output, stmt, sink),
             Op::Alarm(alarm) => self.alarm(alarm, stmt, sink),
             Op::Declare(_) => Err(cannot_compute("a variable that is made known")),
             Op::Leave | Op::NextTurn => Err(cannot_compute("a loop that is left")),

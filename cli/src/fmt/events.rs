@@ -104,6 +104,7 @@ fn take(event: &Event, into: &mut DefaultHasher) {
         Kind::Probe { to, probe } => (to, probe).hash(into),
         Kind::Dwell(value) | Kind::Orient(value) => value.hash(into),
         Kind::MachineFunction(text) | Kind::Message(text) => text.hash(into),
+        Kind::Output(written) => written.hash(into),
         Kind::Alarm(number, text) => (number, text).hash(into),
         Kind::Data(stored) => stored.hash(into),
         Kind::Tilt(plane) => plane.as_ref().map(ToString::to_string).hash(into),

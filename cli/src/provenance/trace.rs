@@ -83,6 +83,7 @@ fn place_of(kind: &Kind) -> Option<u8> {
         Kind::OrientToolAxis(_) => 16,
         Kind::Probe { .. } => 17,
         Kind::Alarm(..) => 18,
+        Kind::Output(_) => 19,
         Kind::Attribute(_) => return None,
     })
 }

@@ -184,6 +184,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::NameChanged { .. }
         | Fault::BlockSplit => Vec::new(),
         Fault::SkipLevelLost { .. } => own("the operator must not use the switches one by one any more"),
+        Fault::OutputDropped => own("see that nobody waits for what was written"),
         Fault::MessageDropped => own("tell the operator on the setup sheet"),
 
         Fault::CannotSay { what } if what.starts_with("a tool called ") => {

@@ -72,6 +72,7 @@ impl Columns {
             Kind::OptionalProgramStop => "OPTIONAL_PROGRAM_STOP",
             Kind::ProgramEnd => "PROGRAM_END",
             Kind::Message(_) => "MESSAGE",
+            Kind::Output(_) => "OUTPUT",
             Kind::Alarm(..) => "ALARM",
             Kind::MachineFunction(_) => "MACHINE_FUNCTION",
             Kind::Data(_) => "SET_DATA",

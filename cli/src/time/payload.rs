@@ -178,6 +178,7 @@ impl<W: Write> Sink for Payload<'_, W> {
             Kind::Arc { .. } => parameters::arc(act),
             Kind::Dwell(seconds) => parameters::one("seconds", micro(units(*seconds)).into()),
             Kind::Orient(angle) => parameters::one("angle", micro(units(*angle)).into()),
+            Kind::Output(written) => parameters::one("written", written.to_string().into()),
             Kind::Alarm(_, text) | Kind::Message(text) => parameters::one("text", (&**text).into()),
             Kind::Traverse
             | Kind::Feed

@@ -304,6 +304,7 @@ impl Step {
             | Kind::ProgramEnd
             | Kind::TextEnd
             | Kind::Message(_)
+            | Kind::Output(_)
             | Kind::Alarm(..)
             | Kind::Attribute(Attribute::FeedRate(_) | Attribute::Hole | Attribute::Remark) => Sort::Other,
         };

@@ -12,15 +12,22 @@ use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
-    exact_comparisons, expand_repeats, message_values, own_distance, planes_checked, unit_in_force,
+    exact_comparisons, expand_repeats, leave_out_output, message_values, output_elsewhere, own_distance,
+    planes_checked, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
 
 use crate::job::Job;
 
-/// Says the alarms of a program as the target has them.
+/// Says the alarms of a program as the target has them, and leaves out what it has no device for.
 pub(super) fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
+    let caps = job.to.caps();
+    leave_out_output(program, &caps, found);
+    let opens = caps.computes.is_some_and(|there| there.output_opened);
+    if job.from.dialect.id != job.to.dialect.id {
+        found.extend(output_elsewhere(program, opens));
+    }
     let alarms = job.to.caps().computes.and_then(|there| there.alarms);
     if let Some(alarms) = alarms.filter(|_| job.from.dialect.id != job.to.dialect.id) {
         alarm_numbers::run(program, alarms, found);

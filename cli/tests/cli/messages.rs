@@ -181,3 +181,52 @@ fn of_a_binary_only_that_is_said() {
         done.says("NC0105").says("this is not a part program");
     }
 }
+
+/// Text for a device stays what it is where the control has one, and is lost where it has none.
+#[test]
+fn text_for_a_device() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    let run = |arguments: &[&str]| ncc(folder.path(), arguments);
+    let source = "%\nO4050\nG21 G17 G90 G94 G40 G49 G80\nPOPEN\nDPRNT[***HOLES*]\nDPRNT[]\n#100 = 1.5436\n\
+        #1 = 1\nG54 G0 X0. Y0.\nWHILE [#1 LE 2] DO1\nX[20. * #1]\nDPRNT[NO#1[20]*D#100[44]/-+] (A SIZE)\n\
+        #1 = #1 + 1\nEND1\n/PCLOS\nM30\n%\n";
+    write("sizes.nc", source);
+    for to in ["fanuc", "haas"] {
+        let told = run(&["fanuc", "to", to, "sizes.nc", "-o", "out.nc"]).exits(0).err;
+        let blanks = "not empty, of no more digits than it has places, blanks before it (line 12)";
+        assert_eq!(told.contains(blanks), to == "haas", "{told}");
+        let written = read("out.nc");
+        let lines =
+            ["POPEN\nDPRNT[***HOLES*]\nDPRNT[]\n", "DPRNT[NO#1[20]*D#100[44]/-+] (A SIZE)\n", "/PCLOS\n"];
+        assert!(lines.iter().all(|line| written.contains(line)), "{written}");
+        let out = format!("{to}:out.nc");
+        run(&["verify", "fanuc:sizes.nc", &out]).exits(0);
+        // Other digits, another text, no device.
+        for (was, is) in [("[44]", "[34]"), ("*HOLES", "*SLOTS"), ("POPEN\n", "")] {
+            write("other.nc", &written.replace(was, is));
+            run(&["verify", "fanuc:sizes.nc", &format!("{to}:other.nc")]).exits(1);
+        }
+    }
+    for to in ["siemens", "linuxcnc"] {
+        let told = run(&["fanuc", "to", to, "sizes.nc", "-o", "lost"]).exits(1).err;
+        assert!(told.contains("NC0424"), "{told}");
+        run(&["fanuc", "to", to, "sizes.nc", "-o", "lost", "--allow", "dropped"]).exits(0);
+        assert!(read("lost").contains("NO... D.../-+"), "{}", read("lost"));
+    }
+    // What was executed has its values written out, which no such text has.
+    let told = run(&["fanuc", "to", "fanuc", "sizes.nc", "-o", "flat.nc", "--pass", "flatten"]).exits(1).err;
+    assert!(told.contains("text for a device with these characters"), "{told}");
+    // A Haas writes eight digits, and needs nothing opened.
+    write("digits.nc", &source.replace("[44]", "[54]"));
+    let told = run(&["fanuc", "to", "haas", "digits.nc", "-o", "no.nc"]).exits(1).err;
+    assert!(told.contains("a value for a device with these digits"), "{told}");
+    assert!(
+        run(&["haas", "to", "haas", "digits.nc", "-o", "no.nc"]).exits(1).err.contains("more digits than")
+    );
+    write("unopened.nc", &source.replace("POPEN\n", ""));
+    run(&["haas", "to", "haas", "unopened.nc", "-o", "open.nc"]).exits(0);
+    let told = run(&["haas", "to", "fanuc", "unopened.nc", "-o", "no.nc"]).exits(1).err;
+    assert!(told.contains("text for a device that the program does not open"), "{told}");
+}

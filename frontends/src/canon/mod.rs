@@ -212,6 +212,7 @@ impl State {
             | Op::ProgramEnd
             | Op::Message(_)
             | Op::MessageOf(_)
+            | Op::Output(_)
             | Op::Alarm(_)
             | Op::Declare(_)
             | Op::Leave

@@ -7,7 +7,7 @@ use logos::Logos;
 use ncc_ir::canon::RotaryWay;
 use ncc_ir::expr::Var;
 use ncc_ir::num::{Num, Unit};
-use ncc_ir::program::{Attribute, Detour, Op, Text, ToolValue, Type};
+use ncc_ir::program::{Attribute, Detour, Op, Output, Text, ToolValue, Type};
 
 use super::scan::{block_number, number, quoted, variable};
 
@@ -165,6 +165,8 @@ pub(crate) enum Token {
 
     #[token("BLANK", |_| Box::new(Op::Blank))]
     #[token("STOP_CUTTER_RADIUS_COMPENSATION", |_| Box::new(Op::StopCutterRadiusCompensation))]
+    #[token("OPEN_OUTPUT", |_| Box::new(Op::Output(Box::new(Output::Open))))]
+    #[token("CLOSE_OUTPUT", |_| Box::new(Op::Output(Box::new(Output::Close))))]
     #[token("CHANGE_TOOL", |_| Box::new(Op::ChangeTool))]
     #[token("START_SPINDLE_CLOCKWISE", |_| Box::new(Op::StartSpindleClockwise))]
     #[token("START_SPINDLE_COUNTERCLOCKWISE", |_| Box::new(Op::StartSpindleCounterclockwise))]
@@ -605,6 +607,10 @@ pub(crate) enum Token {
     Of,
     #[token("MESSAGE_OF")]
     MessageOf,
+    #[token("OUTPUT")]
+    Output,
+    #[token("places")]
+    Places,
     #[token("digits")]
     Digits,
     #[token("short")]

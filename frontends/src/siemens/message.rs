@@ -79,7 +79,7 @@ impl Lower {
                         return None;
                     }
                 };
-                into.push(Piece::Value { value: typed.expr, digits, short: true });
+                into.push(Piece::Value { value: typed.expr, digits, short: true, places: 0 });
                 Some(())
             }
         }

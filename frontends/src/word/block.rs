@@ -10,6 +10,7 @@ use ncc_ir::source::Span;
 
 use super::formula::{self, Formula, Piece, Statement};
 use super::o_words::{Decision, Setting};
+use super::output;
 use super::parameters::{Index, constant};
 use super::token::{FlowWord, Refusal, Signs, Token, Tokens};
 
@@ -266,6 +267,12 @@ impl Sink<'_> {
         self.stand.1 = end;
         self.settle(start, end);
         self.pieces.push(piece.unwrap_or(Piece::Refused));
+    }
+
+    /// Text for a device; other words of the kind are refused.
+    pub(crate) fn output(&mut self, start: usize, end: usize) {
+        let output = output::read(&self.line[start..end]);
+        self.piece(start, end, output.map(Piece::Output));
     }
 
     /// A condition, and what depends on it.

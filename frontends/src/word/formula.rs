@@ -10,6 +10,7 @@
 
 use ncc_ir::expr::{Binary, Element, Expr, Function, Many, Node, Target, Var};
 use ncc_ir::num::{Num, Unit};
+use ncc_ir::program::Output;
 use ncc_ir::system::System;
 
 use super::block::Digits;
@@ -53,6 +54,7 @@ pub(crate) enum Piece {
     While(Expr),
     Do(u32),
     End(u32),
+    Output(Output),
     /// What is refused already.
     Refused,
 }
@@ -69,6 +71,8 @@ pub(crate) enum Statement {
     Do(Option<Expr>, u32),
     /// It ends.
     End(u32),
+    /// Text for a device.
+    Output(Output),
 }
 
 impl Formula {
@@ -212,6 +216,7 @@ pub(crate) fn statement(pieces: Vec<Piece>) -> Option<Statement> {
         }
         [Some(Piece::Do(number)), None, None] => Statement::Do(None, number),
         [Some(Piece::End(number)), None, None] => Statement::End(number),
+        [Some(Piece::Output(output)), None, None] => Statement::Output(output),
         _ => return None,
     })
 }

@@ -40,6 +40,7 @@ pub(crate) mod number;
 mod o_alone;
 mod o_subs;
 mod o_words;
+mod output;
 mod parameters;
 mod pattern;
 pub(crate) mod pieces;

@@ -35,7 +35,7 @@ impl Lower {
             }
             let mut value = Expr::Node(Box::new(Node::Var(Var::System(System::Other(name.into())))));
             self.parameters(&mut value, at, out);
-            pieces.push(Piece::Value { value, digits, short: false });
+            pieces.push(Piece::Value { value, digits, short: false, places: 0 });
         }
         let end = decode(&plain);
         if !end.is_empty() {

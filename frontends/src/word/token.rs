@@ -10,6 +10,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Function};
 
 use super::block::Digits;
+use super::output;
 
 /// What of the dictionary the lexer needs.
 #[derive(Clone, Copy, Debug)]
@@ -410,7 +411,7 @@ impl<'t> Tokens<'t> {
         })?;
         self.decides |= token == Token::If;
         let all = match token {
-            Token::Print => self.rest_of_block(rest),
+            Token::Print => output::length(rest).unwrap_or_else(|| self.rest_of_block(rest)),
             _ => word.len(),
         };
         self.raw.bump(all - 1);

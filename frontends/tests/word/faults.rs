@@ -151,7 +151,9 @@ fn the_macro_language_is_refused_by_name() {
     refused("G51 X0 Y0 Z0 P#1\n", "P#1");
     refused("X[#1 EQ 2]\n", "X[#1 EQ 2]");
     refused("F[ROUND[#1]]\n", "F[ROUND[#1]]");
-    refused("DPRNT[X#100[53]*Y]\n", "DPRNT[X#100[53]*Y]");
+    for piece in ["BPRNT[X#100[3]]", "DPRNT[X#100*Y]", "DPRNT[X#100[00]]", "DPRNT[X#[#1][53]]", "DPRNT[X.]"] {
+        refused(&format!("{piece}\n"), piece);
+    }
     refused("#0=5\n", "#0=5");
     refused("#1=#[_DATE]\n", "_DATE");
     refused("#1=BCD[2]\n", "BCD[2]");

@@ -389,6 +389,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                     longest: (rules.alarm_text > 0).then_some(rules.alarm_text),
                 }),
                 values_in_full: (!dialect.comment.shown.is_empty()).then_some(VALUE_DIGITS),
+                output_opened: rules.output_opened,
                 planes_alarm: dialect.cycles.planes_alarm.map(i64::from),
                 system: systems(dialect),
                 worth: rules.not_behind.is_some(),

@@ -88,6 +88,10 @@ pub struct FormulaRules {
     pub alarms: Option<[u32; 2]>,
     /// How many characters the text of an alarm, or of a stop with a message, can have.
     pub alarm_text: usize,
+    /// How many digits a value that is written to a device can have, before the point and behind it.
+    pub output_digits: u8,
+    /// Whether a device must be opened before anything is written to it.
+    pub output_opened: bool,
     /// Whether the words that join conditions work bit by bit where they stand between numbers.
     pub bits: bool,
     /// Whether a call that is made several times begins each of them with the same arguments and no other
@@ -162,6 +166,8 @@ pub enum Statement {
     Values,
     /// An alarm of the program's own.
     Alarm,
+    /// Text for a device.
+    Output,
     /// A stop with a message.
     Stop,
     /// A call of which the number, or how often, is computed.
@@ -187,6 +193,7 @@ impl From<Statement> for Said {
             Statement::NextTurn => Said::NextTurn,
             Statement::Values => Said::Values,
             Statement::Alarm => Said::Alarm,
+            Statement::Output => Said::Output,
             Statement::Stop => Said::Stop,
             Statement::CallOf => Said::CallOf,
             Statement::CodeOf => Said::CodeOf,

@@ -82,6 +82,8 @@ pub enum Kind {
     TextEnd,
     /// Text for the operator.
     Message(Text),
+    /// Something was written to a device.
+    Output(Written),
     /// The program ends with an alarm for the operator: its number, if it has one, in nanos, and its text.
     Alarm(Option<Nanos>, Text),
     /// What sets something and moves nothing. Made only where functions are told one by one
@@ -136,6 +138,27 @@ impl std::fmt::Display for Stored {
     }
 }
 
+/// What was written to the device that the control has for it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Written {
+    /// It was made ready.
+    Opened,
+    /// A line.
+    Line(Text),
+    /// Nothing more is.
+    Closed,
+}
+
+impl std::fmt::Display for Written {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Written::Opened => f.write_str("output is opened"),
+            Written::Line(text) => write!(f, "output of {text:?}"),
+            Written::Closed => f.write_str("output is closed"),
+        }
+    }
+}
+
 /// A move of the axes, by its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Movement {
@@ -179,6 +202,7 @@ impl Kind {
             | Kind::ProgramEnd
             | Kind::TextEnd
             | Kind::Message(_)
+            | Kind::Output(_)
             | Kind::Alarm(..)
             | Kind::Attribute(_) => None,
         }

@@ -3,15 +3,15 @@
 //! Not here: computing what is in an expression (`run`).
 
 use super::term::real;
-use super::{Event, Exec, Kind};
+use super::{Event, Exec, Kind, Written};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Node};
-use crate::program::{Op, Piece, Stmt, Text};
+use crate::program::{Op, Output, Piece, Stmt, Text};
 use crate::source::Span;
 use crate::value::Value;
 
 /// A value as it stands in a text.
-fn write(value: Value, digits: u8, short: bool, out: &mut String) {
+fn write(value: Value, digits: u8, short: bool, places: u8, out: &mut String) {
     let Value::Number(n) = value else { return };
     let number = format!("{n:.*}", usize::from(digits.min(9)));
     let number = match short && number.contains('.') {
@@ -20,7 +20,31 @@ fn write(value: Value, digits: u8, short: bool, out: &mut String) {
     };
     // Nothing left of a negative number has no sign.
     let nothing = number.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
-    out.push_str(if nothing { number.trim_start_matches('-') } else { number });
+    let number = if nothing { number.trim_start_matches('-') } else { number };
+    let whole = number.find('.').unwrap_or(number.len());
+    let blanks = usize::from(places).saturating_sub(whole);
+    out.extend(std::iter::repeat_n(' ', blanks));
+    out.push_str(number);
+}
+
+/// The text of a statement that has values in it.
+pub(super) fn pieces(op: &Op) -> Option<&[Piece]> {
+    match op {
+        Op::MessageOf(pieces) => Some(pieces),
+        Op::Output(output) => match &**output {
+            Output::Line(pieces) => Some(pieces),
+            Output::Open | Output::Close => None,
+        },
+        _ => None,
+    }
+}
+
+/// The same statement with its text as it is.
+pub(super) fn said(op: &Op, text: Text) -> Op {
+    match op {
+        Op::Output(_) => Op::Output(Box::new(Output::Line([Piece::Text(text)].into()))),
+        _ => Op::Message(text),
+    }
 }
 
 /// What becomes of messages.
@@ -35,6 +59,8 @@ pub(super) struct Shown {
     before: Option<Box<(Text, Span, Option<u8>)>>,
     /// With how many digits values stand that have none too many.
     in_full: Option<u8>,
+    /// Whether what is written to devices makes no events.
+    no_output: bool,
 }
 
 impl Shown {
@@ -52,32 +78,39 @@ impl Shown {
     }
 
     /// A value as it stands in a text.
-    pub(super) fn write(&self, value: Value, digits: u8, short: bool, out: &mut String) {
+    fn write(&self, value: Value, digits: u8, short: bool, places: u8, out: &mut String) {
         match self.in_full.filter(|_| short && digits > 0) {
-            Some(digits) => write(value, digits, false, out),
-            None => write(value, digits, short, out),
+            Some(digits) => write(value, digits, false, places, out),
+            None => write(value, digits, short, places, out),
         }
+    }
+
+    /// A text with its values, which are given one after the other.
+    pub(super) fn with_values<E>(
+        &self,
+        pieces: &[Piece],
+        next: &mut dyn FnMut(&Expr) -> Result<Value, E>,
+    ) -> Result<Text, E> {
+        let mut text = String::new();
+        for piece in pieces {
+            match piece {
+                Piece::Text(piece) => text.push_str(piece),
+                Piece::Value { value, digits, short, places } => {
+                    self.write(next(value)?, *digits, *short, *places, &mut text);
+                }
+            }
+        }
+        Ok(text.into())
     }
 
     /// A text all of whose values are written; `None` if one is still to be computed.
     fn text(&self, pieces: &[Piece]) -> Option<Text> {
-        let mut out = String::new();
-        for piece in pieces {
-            match piece {
-                Piece::Text(text) => out.push_str(text),
-                Piece::Value { value, digits, short } => {
-                    let value = match value {
-                        Expr::Num(n) => Value::Number(real(*n)),
-                        Expr::Node(node) => match **node {
-                            Node::Vacant => Value::Vacant,
-                            _ => return None,
-                        },
-                    };
-                    self.write(value, *digits, *short, &mut out);
-                }
-            }
-        }
-        Some(out.into())
+        let literal = |value: &Expr| match value {
+            Expr::Num(n) => Ok(Value::Number(real(*n))),
+            Expr::Node(node) if matches!(**node, Node::Vacant) => Ok(Value::Vacant),
+            Expr::Node(_) => Err(()),
+        };
+        self.with_values(pieces, &mut { literal }).ok()
     }
 }
 
@@ -86,6 +119,11 @@ impl Exec {
     /// compared with.
     pub fn values_in_full(&mut self, digits: u8) {
         self.shown.in_full = Some(digits);
+    }
+
+    /// Makes no events of what is written to devices: for a comparison with a control that has none.
+    pub fn without_output(&mut self) {
+        self.shown.no_output = true;
     }
 
     /// Makes no events of messages: for a comparison with a control that cannot show them, but for those of a
@@ -110,6 +148,21 @@ impl Exec {
                     return self.fault(Fault::NotExecuted { what }, span);
                 };
                 self.emit(Kind::Message(text), span, out)?;
+            }
+            Op::Output(_) if self.shown.no_output => {}
+            Op::Output(output) => {
+                let written = match &**output {
+                    Output::Open => Written::Opened,
+                    Output::Close => Written::Closed,
+                    Output::Line(pieces) => match self.shown.text(pieces) {
+                        Some(text) => Written::Line(text),
+                        None => {
+                            let what = "a value in what is written".into();
+                            return self.fault(Fault::NotExecuted { what }, span);
+                        }
+                    },
+                };
+                self.emit(Kind::Output(written), span, out)?;
             }
             Op::Alarm(alarm) => {
                 let number = alarm.number.as_ref().map(|number| self.value(number, span)).transpose()?;

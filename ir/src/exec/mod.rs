@@ -31,7 +31,7 @@ mod tools;
 
 pub use compensation::Compensation;
 pub use conduct::named_tool;
-pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored};
+pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
@@ -669,7 +669,7 @@ impl Exec {
                 self.emit(Kind::ProgramEnd, span, out)?;
                 self.ended = true;
             }
-            Op::Message(_) | Op::MessageOf(_) | Op::Alarm(_) => self.message(stmt, out)?,
+            Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_) => self.message(stmt, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),
             Op::RepeatBlocks(_) => return self.not_executed("a repetition in the midst of a stream", span),

@@ -8,14 +8,14 @@ use super::needed::needed;
 use super::nesting::{Blocks, Frame};
 use super::rounds::Rounds;
 use super::term::{Asked, Place, Variables, Why, real};
-use super::{Event, Exec};
+use super::{Event, Exec, message};
 use crate::arguments;
 use crate::canon::FeedMode;
 use crate::code_of::is_last;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Expr, Var};
 use crate::num::{Num, ONE, Unit};
-use crate::program::{Centre, Coord, Op, Piece, Program, Stmt};
+use crate::program::{Centre, Coord, Op, Program, Stmt};
 use crate::source::Span;
 use crate::value::Value;
 
@@ -575,25 +575,12 @@ impl<'p> Runner<'p> {
             }
             _ => {}
         }
-        if let Op::MessageOf(pieces) = &stmt.op {
-            let mut text = String::new();
-            for piece in pieces {
-                match (piece, terms.clone().next()) {
-                    (Piece::Text(piece), _) => text.push_str(piece),
-                    (Piece::Value { .. }, None) => {}
-                    (Piece::Value { value, digits, short }, Some(term)) => {
-                        terms.next();
-                        let value = match (term, value.literal()) {
-                            (Some(term), _) => {
-                                variables.value(term, asked).map_err(|why| fault(code.names.fault(why)))?
-                            }
-                            (None, literal) => literal.map_or(Value::Vacant, |n| Value::Number(real(n))),
-                        };
-                        asked.exec.shown.write(value, *digits, *short, &mut text);
-                    }
-                }
-            }
-            now.op = Op::Message(text.into());
+        if let Some(pieces) = message::pieces(&stmt.op) {
+            let text = asked.exec.shown.clone().with_values(pieces, &mut |value| match terms.next() {
+                Some(Some(term)) => variables.value(term, asked).map_err(|why| fault(code.names.fault(why))),
+                _ => Ok(value.literal().map_or(Value::Vacant, |n| Value::Number(real(n)))),
+            })?;
+            now.op = message::said(&stmt.op, text);
             return Ok(true);
         }
         now.op = stmt.op.clone();

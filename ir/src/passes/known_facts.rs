@@ -267,6 +267,7 @@ impl Held {
                 | Op::Blank
                 | Op::Message(_)
                 | Op::MessageOf(_)
+                | Op::Output(_)
                 | Op::FloodOn
                 | Op::MistOn
                 | Op::CoolantOff

@@ -78,7 +78,7 @@ mod write;
 
 pub use expand_compensation::Compensating;
 pub use legalise::Legaliser;
-pub use legalise::messages::leave_out_values;
+pub use legalise::messages::{leave_out_output, leave_out_values, output_elsewhere};
 pub use machine_moves::retract;
 pub use path_control::seen_advice;
 

@@ -152,7 +152,11 @@ fn interest_of(op: &Op) -> u32 {
             CONTROL
         }
         Op::Call(_) | Op::Return => CALL,
-        miscellaneous!() if matches!(op, Op::Message(_) | Op::MessageOf(_) | Op::Alarm(_)) => MESSAGE,
+        miscellaneous!()
+            if matches!(op, Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_)) =>
+        {
+            MESSAGE
+        }
         conduct!() if matches!(op, Op::Corner { .. }) => CORNER | MOVE,
         conduct!() if matches!(op, Op::TurnRotaryAxes(_)) => TURN,
         conduct!() => PATH | MOVE,

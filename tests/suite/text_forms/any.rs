@@ -111,7 +111,14 @@ fn piece() -> impl Strategy<Value = Piece> {
         (expr(), 0u8..=9, any::<bool>()).prop_map(|(value, digits, short)| Piece::Value {
             value,
             digits,
-            short
+            short,
+            places: 0,
+        }),
+        (expr(), 0u8..=9, 1u8..=9).prop_map(|(value, digits, places)| Piece::Value {
+            value,
+            digits,
+            short: false,
+            places,
         }),
     ]
 }
@@ -561,6 +568,9 @@ fn simple() -> BoxedStrategy<Op> {
         }),
         declare().prop_map(|declare| Op::Declare(Box::new(declare))),
         prop::collection::vec(piece(), 0..3).prop_map(|pieces| Op::MessageOf(pieces.into())),
+        prop::collection::vec(piece(), 0..3)
+            .prop_map(|pieces| Op::Output(Box::new(Output::Line(pieces.into())))),
+        select(vec![Output::Open, Output::Close]).prop_map(|output| Op::Output(Box::new(output))),
         (of(expr()), text()).prop_map(|(number, text)| Op::Alarm(Box::new(Alarm { number, text }))),
         Just(Op::Leave),
         Just(Op::NextTurn),

@@ -25,7 +25,7 @@ use crate::job::Job;
 use crate::machines::pair::Machines;
 use crate::review::side::Side;
 use crate::review::stream::{Course, Made, Stage, Unsaid, clearances, stream, stream_as};
-use crate::verify_run::{WORLDS, alarms_of, fixed, resolution, worlds_of};
+use crate::verify_run::{WORLDS, alarms_of, fixed, resolution, worlds_of, writes};
 
 /// Events of a piece that a side hands over.
 const PIECE: usize = 4096;
@@ -142,6 +142,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         starts,
         muted,
         in_full: in_full.flatten(),
+        writes: sides.iter().all(|side| writes(&side.job.from)),
         stops_speak: caps.shows_at_stops() && other.shows_at_stops(),
         lines: job.from.dialect.can.flat || job.to.dialect.can.flat,
         between_controls: job.between_controls(),
@@ -292,6 +293,8 @@ struct Plan {
     muted: bool,
     /// With how many digits values stand in messages that have none too many.
     in_full: Option<u8>,
+    /// Whether both write to devices.
+    writes: bool,
     /// Whether both show what a program stop says.
     stops_speak: bool,
     /// One of the texts has no blocks; both are for controls of different kinds.
@@ -317,6 +320,9 @@ impl Plan {
             }
             if self.muted {
                 exec.mute(self.stops_speak);
+            }
+            if !self.writes {
+                exec.without_output();
             }
             if let Some(digits) = self.in_full {
                 exec.values_in_full(digits);

@@ -1,9 +1,11 @@
-//! Messages to the operator, for a target that cannot show them, or only where the program stops.
+//! Messages to the operator, for a target that cannot show them, or only where the program stops; text for devices that it
+//! does not write to.
 
 use crate::caps::Caps;
 use crate::computes::Said;
 use crate::diag::{Diagnostic, Fault};
-use crate::program::{Op, Piece, Program, Stmt};
+use crate::program::{Op, Output, Piece, Program, Stmt, Text};
+use crate::source::Span;
 
 /// Messages become comments; those with which the program stops stay where the target has them, in the block of the
 /// stop or in the one before it. One without a text, which takes another back, is none where none stays.
@@ -32,19 +34,83 @@ pub fn leave_out_values(program: &mut Program, caps: &Caps, diags: &mut Vec<Diag
     }
 }
 
+/// Text for devices becomes comments where the target writes to none.
+pub fn leave_out_output(program: &mut Program, caps: &Caps, diags: &mut Vec<Diagnostic>) {
+    if !caps.computes.as_ref().is_some_and(|there| there.has(Said::Output)) {
+        program.procedures.iter_mut().for_each(|procedure| output(&mut procedure.body, diags));
+    }
+}
+
+fn output(stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            Op::Output(output) => {
+                diags.push(Diagnostic::new(Fault::OutputDropped, stmt.span));
+                stmt.op = match &**output {
+                    Output::Line(pieces) if !pieces.is_empty() => Op::Comment(without_values(pieces)),
+                    Output::Line(_) | Output::Open | Output::Close => Op::Blank,
+                };
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| output(stmts, diags)),
+            _ => {}
+        }
+    }
+}
+
+/// What is taken for granted of text for a device of another control, and what is refused: `opened` is whether it must be
+/// opened there.
+pub fn output_elsewhere(program: &Program, opened: bool) -> Vec<Diagnostic> {
+    let (mut opens, mut line, mut value) = (false, None, None);
+    let bodies = program.procedures.iter().map(|procedure| &procedure.body);
+    bodies.for_each(|body| written(body, &mut opens, &mut line, &mut value));
+    let unopened = line.filter(|_| opened && !opens).map(|at| {
+        let what = "text for a device that the program does not open".into();
+        Diagnostic::new(Fault::CannotSay { what }, at)
+    });
+    let digits = value.map(|at| {
+        let parameter = "a value that is written to a device".into();
+        let value = "not empty, of no more digits than it has places, blanks before it".into();
+        Diagnostic::new(Fault::AssumedParameter { parameter, value }, at)
+    });
+    unopened.into_iter().chain(digits).collect()
+}
+
+fn written(stmts: &[Stmt], opens: &mut bool, line: &mut Option<Span>, value: &mut Option<Span>) {
+    for stmt in stmts {
+        match &stmt.op {
+            Op::Output(output) => match &**output {
+                Output::Line(pieces) => {
+                    line.get_or_insert(stmt.span);
+                    if pieces.iter().any(|piece| matches!(piece, Piece::Value { .. })) {
+                        value.get_or_insert(stmt.span);
+                    }
+                }
+                Output::Open => *opens = true,
+                Output::Close => {}
+            },
+            Op::Control(control) => {
+                control.bodies().for_each(|body| written(body, opens, line, value));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A text that can be no more than a comment.
+fn without_values(pieces: &[Piece]) -> Text {
+    let text = pieces.iter().map(|piece| match piece {
+        Piece::Text(text) => text,
+        Piece::Value { .. } => "...",
+    });
+    text.collect::<String>().trim().into()
+}
+
 fn values(stmts: &mut [Stmt], diags: &mut Vec<Diagnostic>) {
     for stmt in stmts {
         match &mut stmt.op {
             Op::MessageOf(pieces) => {
-                let text: String = pieces
-                    .iter()
-                    .map(|piece| match piece {
-                        Piece::Text(text) => text,
-                        Piece::Value { .. } => "...",
-                    })
-                    .collect();
                 diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
-                stmt.op = Op::Comment(text.into());
+                stmt.op = Op::Comment(without_values(pieces));
             }
             Op::Control(control) => control.bodies_mut().for_each(|stmts| values(stmts, diags)),
             _ => {}
