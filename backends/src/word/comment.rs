@@ -17,6 +17,8 @@ pub(crate) struct Comments {
     active: Vec<String>,
     message: String,
     shown: String,
+    /// Whether what was written last is the dash for an opening bracket: the number behind it is not negative.
+    bracket: bool,
 }
 
 impl Comments {
@@ -30,12 +32,14 @@ impl Comments {
             active: rules.active.iter().chain([&rules.message]).filter(|w| !w.is_empty()).cloned().collect(),
             message: rules.message.clone(),
             shown: String::new(),
+            bracket: false,
         }
     }
 
     /// Appends a message to the operator to `line`. Returns whether it reads otherwise than the text.
     pub(crate) fn message(&mut self, text: &str, line: &mut Vec<u8>) -> bool {
         self.shown.clear();
+        self.bracket = false;
         for c in text.chars() {
             self.show(c);
         }
@@ -49,6 +53,7 @@ impl Comments {
     /// Returns whether it reads otherwise than the text.
     pub(crate) fn write(&mut self, text: &str, line: &mut Vec<u8>, after: &mut Vec<u8>, eol: &[u8]) -> bool {
         self.shown.clear();
+        self.bracket = false;
         for c in text.chars() {
             self.show(c);
         }
@@ -94,6 +99,9 @@ impl Comments {
     }
 
     fn show(&mut self, c: char) {
+        if std::mem::take(&mut self.bracket) && (c.is_ascii_digit() || c == '.') {
+            self.shown.push(' ');
+        }
         if !self.upper_ascii {
             let closes = !self.close.is_empty() && (self.open.contains(c) || self.close.contains(c));
             self.shown.push(if c.is_control() || closes { ' ' } else { c });
@@ -107,6 +115,7 @@ impl Comments {
         }
         let instead = stand_in(c);
         if instead.chars().all(|c| self.shows(c)) {
+            self.bracket = matches!(c, '(' | '[' | '{');
             self.shown.push_str(instead);
         } else {
             self.shown.push(' ');
@@ -273,6 +282,8 @@ mod tests {
     fn nothing_ends_the_comment_or_the_program() {
         let mut c = capitals(60);
         assert_eq!(written(&mut c, "FACE (TOP) 50%").0, "(FACE -TOP 50 PCT)");
+        assert_eq!(written(&mut c, "UP (5 MM) [-3] ( 2)(").0, "(UP - 5 MM --3 - 2-)");
+        assert_eq!(written(&mut c, "7").0, "(7)");
         assert_eq!(written(&mut c, "A\nB;C").0, "(A B,C)");
         assert_eq!(written(&mut c, "").0, "()");
     }

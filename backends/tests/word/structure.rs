@@ -143,7 +143,7 @@ fn a_comment_in_other_characters_is_reported_once() {
     let mut stmts = lines(vec![rapid("X1.")]);
     stmts[0].comment = Some(Box::new("Furação (8)".into()));
     let (text, diags) = text("fanuc", &stmts);
-    assert_eq!(text, "G00 X1. (FURACAO -8)\n");
+    assert_eq!(text, "G00 X1. (FURACAO - 8)\n");
     assert_eq!(faults(&diags), [&Fault::CommentReformatted]);
     let long = lines(vec![rapid("X1."), Op::Comment("A".repeat(61).into())]);
     let (text, diags) = crate::text("fanuc", &long);
