@@ -303,7 +303,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "variables, loops, jumps and subprograms are gone, with the comments beside them".into(),
         ),
         Fault::AlarmsRenumbered { map } => ("alarms have other numbers".into(), format!("in {to}, {map}")),
-        Fault::OutputDropped => ("text for a device lost".into(), format!("{to} writes to none")),
+        Fault::OutputDropped => ("text for a device lost".into(), format!("nothing of it is written for {to}")),
         Fault::ValuesInFull { digits } => (
             format!("a value in a message has {digits} digits behind its point"),
             format!("{to} does not leave out the zeros at its end"),
