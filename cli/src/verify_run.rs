@@ -83,6 +83,8 @@ pub(crate) struct Verifier {
     given: Given,
     /// What the target computes with.
     functions: Vec<Function>,
+    /// Whether its comparisons find real numbers equal that are nearly so.
+    near: bool,
     /// To which digits its lengths are rounded.
     fineness: Fineness,
     /// Last place of the source that was executed, for differences without an event.
@@ -269,6 +271,7 @@ impl Verifier {
             own_facts: own_facts(job),
             given: job.given.clone(),
             fineness: fineness(job),
+            near: job.to.caps().computes.is_some_and(|computes| computes.near),
             functions: job.to.caps().computes.map(|computes| computes.functions).unwrap_or_default(),
             last: Span::default(),
             notes: Vec::new(),

@@ -8,7 +8,7 @@ use crate::call_of::call_of;
 use crate::code_of::code_of;
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
-use crate::num::Num;
+use crate::num::{Num, Unit};
 use crate::program::{Control, Op, Output, Piece, Procedure, Program, Stmt, Text};
 use crate::source::Span;
 use crate::system::System;
@@ -152,6 +152,10 @@ impl Named {
         made.into()
     }
 }
+
+/// Real numbers that are apart by no more than this part of the greater one are the same where a control's comparisons
+/// find those equal that are nearly so: 10^-12.
+pub const NEARLY: Num = Num { mantissa: 1, scale: 12, point: true, unit: Unit::One };
 
 /// What a target computes with.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -119,8 +119,16 @@ fn number(words: &[Word], letter: char) -> Option<(f64, bool)> {
 impl Control {
     /// Runs blocks; true when the program has ended for good.
     fn program(&mut self, blocks: &[(usize, String)], all: &[Program]) -> Result<bool, Halt> {
+        self.program_from(blocks, 0, all)
+    }
+
+    fn program_from(
+        &mut self,
+        blocks: &[(usize, String)],
+        mut at: usize,
+        all: &[Program],
+    ) -> Result<bool, Halt> {
         let loops = loops(blocks)?;
-        let mut at = 0;
         while let Some((line, block)) = blocks.get(at) {
             self.m.line = *line;
             self.look(block);
@@ -129,6 +137,10 @@ impl Control {
                     Next::Block => match self.on.take() {
                         Some(number) => jump(blocks, &loops, at, number).or_else(|why| self.m.halt(why))?,
                         None => at + 1,
+                    },
+                    Next::Local(from, times) => match self.local(blocks, at, (from, times), all)? {
+                        Next::End => return Ok(true),
+                        _ => at + 1,
                     },
                     Next::Back => return Ok(false),
                     Next::End => return Ok(true),
@@ -333,6 +345,7 @@ impl Control {
             // What is switched off is so behind the block's move.
             Some(89) if self.haas => {}
             Some(29) if !self.haas => self.rigid = true,
+            Some(97) if self.haas => {}
             Some(0 | 1 | 2 | 5 | 9 | 30 | 98 | 99) | None => {}
             Some(other) => return self.m.halt(format!("M{other}")),
         }
@@ -415,11 +428,15 @@ impl Control {
                 self.m.record(What::End);
                 return Ok(Next::End);
             }
+            Some(97) if self.haas => return self.local_call(&words),
             Some(98) => return self.call(&words, called.as_deref(), all),
             _ if called.is_some() => return self.m.halt("a name without a call"),
             Some(99) => {
                 // In the first program of a text, it goes back to one that is not there.
                 self.on = number(&words, 'P').map(|(p, _)| p as u32);
+                if self.haas && self.on.is_some() {
+                    return Ok(Next::Block);
+                }
                 if number(&words, 'L').is_some() || self.on.is_some() && self.depth == 0 {
                     return self.m.halt("M99 with L, or with P in the first program");
                 }
@@ -675,6 +692,8 @@ impl Control {
 
 enum Next {
     Block,
+    /// The blocks from a number on to their return, so often.
+    Local(u32, u32),
     Back,
     End,
 }

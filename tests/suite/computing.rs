@@ -22,7 +22,7 @@ const KEEPING: [&str; 4] = ["fanuc", "haas", "siemens", "linuxcnc"];
 const UNROUNDED: [&str; 2] = ["siemens", "linuxcnc"];
 
 /// Dialects whose programs are kept.
-const KEPT: [&str; 3] = ["fanuc", "siemens", "linuxcnc"];
+const KEPT: [&str; 4] = ["fanuc", "siemens", "linuxcnc", "haas"];
 
 /// The programs of a dialect, by name.
 fn programs(dialect: &'static str) -> Vec<(String, Vec<u8>)> {
@@ -40,7 +40,7 @@ fn what_they_come_to() {
     let mut failures = Failures::default();
     let mut refusals = String::new();
     let mut done = 0;
-    for from in ["fanuc", "linuxcnc", "siemens"] {
+    for from in ["fanuc", "haas", "linuxcnc", "siemens"] {
         for (name, text) in programs(from) {
             for to in DIALECTS {
                 let what = format!("{from}/{name} to {to}");
@@ -218,7 +218,7 @@ fn what_cannot_be_executed_is_refused_at_its_place() {
 #[test]
 fn the_second_interpreter_agrees() {
     let mut failures = Failures::default();
-    for from in ["fanuc", "linuxcnc", "siemens"] {
+    for from in ["fanuc", "haas", "linuxcnc", "siemens"] {
         for program in corpus::computing(from) {
             let what = format!("{from}/{}", program.file);
             let Some(read) = failures.check(&what, translate::read(from, &program.text)) else { continue };

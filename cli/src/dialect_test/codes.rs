@@ -8,9 +8,9 @@ use ncc_ir::canon::{AdviceKind, Distance, FeedMode, PathMode, Plane, ReturnLevel
 use ncc_ir::cycle::Approach;
 use ncc_ir::program::{CentreFrom, PoleFrom};
 
-use super::Row;
 use super::proof::{Bench, Said, Tried, in_place, refusal};
 use super::words::with_procedure;
+use super::{Row, local_call};
 
 /// A polar point about program zero.
 const POLAR: &str = "SET_POLE(XY, zero) & POLAR(XY, radius 12.5mm, angle 30.25deg) said STRAIGHT_FEED()";
@@ -139,6 +139,9 @@ fn code(bench: &Bench, row: &CodeRow, meaning: Meaning, said: &Said) -> Tried {
     };
     match written {
         Some(code) if code == row.code => must_show(bench.both_ways(said), &row.code),
+        Some(other) if meaning == Meaning::Call && !row.blocks.is_empty() => {
+            must_show(local_call::read(bench, said, other, &row.code), &row.code).read_only()
+        }
         Some(other) => {
             let put = |text: String| in_place(&text, other, &row.code).unwrap_or(text);
             must_show(bench.reads(said, &said.say, put), &row.code).read_only()

@@ -11,6 +11,7 @@
 mod calls;
 mod codes;
 mod form;
+mod local_call;
 mod names;
 mod proof;
 mod words;

@@ -120,6 +120,17 @@ impl Bench {
 
     /// Tries how a text is read that is not quite the written one.
     pub(super) fn reads(&self, said: &Said, meant: &str, change: impl Fn(String) -> String) -> Tried {
+        self.reads_as(said, meant, change, Some)
+    }
+
+    /// The same, of a text of which the lines that are read are said in another way, or not at all.
+    pub(super) fn reads_as(
+        &self,
+        said: &Said,
+        meant: &str,
+        change: impl Fn(String) -> String,
+        read_as: impl Fn(String) -> Option<String>,
+    ) -> Tried {
         let mut before = self.begin.clone();
         before.extend(parse(&said.before).stmts);
         let name = &ProgramName::default();
@@ -129,6 +140,7 @@ impl Bench {
         let with = self.write(&before, &format!("{}\n{after}", said.say), &said.procedures, name);
         let text = change(with.text);
         let (read, faults) = self.read(&text);
+        let read: Vec<String> = read.into_iter().filter_map(read_as).collect();
         let mut tried =
             Tried { written: between(&lines(&without.text), &lines(&text)), read: Vec::new(), failed: None };
         if let Some(fault) = with.faults.first() {

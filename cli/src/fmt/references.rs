@@ -278,7 +278,8 @@ impl Look<'_> {
             for letter in row.blocks.bytes() {
                 match word(letter) {
                     Some(w) => {
-                        let of_callers = row.means == Some(Meaning::Return);
+                        let of_callers =
+                            row.means == Some(Meaning::Return) && !self.dialect.program.returns_within;
                         self.reference(base, w.value, w.start, w.end, of_callers);
                         known.push(w.start);
                     }
@@ -294,7 +295,7 @@ impl Look<'_> {
                 self.found.calls.insert((self.scope, p.value));
                 known.push(p.start);
             }
-            if row.means == Some(Meaning::Call) {
+            if row.means == Some(Meaning::Call) && row.blocks.is_empty() {
                 let packed = 10u32.checked_pow(self.dialect.program.packed_call_digits).filter(|p| *p > 1);
                 // As the front-end takes them: the first letter names the program.
                 if let Some(p) = row.words.bytes().next().and_then(word) {

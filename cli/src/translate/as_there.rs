@@ -24,13 +24,13 @@ use crate::job::Job;
 pub(super) fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
     let caps = job.to.caps();
     leave_out_output(program, &caps, found);
-    let opens = caps.computes.is_some_and(|there| there.output_opened);
+    let opens = caps.computes.as_ref().is_some_and(|there| there.output_opened);
     if job.from.dialect.id != job.to.dialect.id {
         found.extend(output_elsewhere(program, opens));
     }
-    let alarms = job.to.caps().computes.and_then(|there| there.alarms);
-    if let Some(alarms) = alarms.filter(|_| job.from.dialect.id != job.to.dialect.id) {
-        alarm_numbers::run(program, alarms, found);
+    let Some(there) = caps.computes else { return };
+    if let Some(alarms) = there.alarms.filter(|_| job.from.dialect.id != job.to.dialect.id) {
+        alarm_numbers::run(program, alarms, there.has(Said::CallOf), found);
     }
 }
 

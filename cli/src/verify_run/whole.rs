@@ -9,7 +9,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Exec, Progress, Runner};
 use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
-use ncc_ir::passes::otherwise::{Taken, otherwise};
+use ncc_ir::passes::otherwise::{Taken, There, compares_nearly, otherwise, places};
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::program::{Procedure, Program, Type};
 use ncc_ir::source::Span;
@@ -46,6 +46,9 @@ const MOST_TOLD: usize = 20;
 /// What another program has left in a variable.
 const LEFT_THERE: f64 = -791.3;
 
+/// Places of which it is asked whether a difference is made there; behind them it is told at the end.
+const MOST_PLACES: usize = 64;
+
 /// Values that any variable may have.
 const FIRST: [f64; 8] = [1.0, 2.5, 10.0, -4.0, 30.0, 0.0, 100.0, -12.5];
 
@@ -73,6 +76,8 @@ struct Given<'g> {
     renamed: Renamed,
     /// The source of an output that computes, in the other [`READINGS`].
     other_readings: [Option<Program>; READINGS.len()],
+    /// Whether the output's comparisons find equal what is nearly so, and the source's do not.
+    near: bool,
 }
 
 impl<'g> Given<'g> {
@@ -96,6 +101,7 @@ impl<'g> Given<'g> {
             pool,
             renamed: Renamed::default(),
             other_readings: [const { None }; READINGS.len()],
+            near: false,
         }
     }
 
@@ -264,8 +270,9 @@ impl Verifier {
             given.open.retain(|(var, _)| given.stated.only(&var.name()).is_some());
         }
         if computes {
-            given.other_readings =
-                READINGS.map(|taken| otherwise(source, taken, &self.functions, self.fineness));
+            given.near = self.near && !compares_nearly(source);
+            let there = self.there(given);
+            given.other_readings = READINGS.map(|taken| otherwise(source, taken, there, u32::MAX));
         }
         let given = &*given;
         let mut gone = Gone::default();
@@ -366,26 +373,36 @@ impl Verifier {
         let start = given.other_readings.iter().any(Option::is_some).then(|| run.clone());
         let ended = self.run_both(run, [source, target], given, set, gone, pairs);
         let (Err(Ended::Target(_)), Some(start)) = (&ended, start) else { return ended };
-        for (other, taken) in given.other_readings.iter().zip(READINGS) {
-            let Some(other) = other else { continue };
+        let same = |other: &Program| {
             let mut run = start.clone();
             run.comparison.keep_pairs(false);
             let told =
                 self.run_both(&mut run, [other, target], given, set, &mut Gone::default(), &mut |_| {});
             // Both may end in what a control stops at.
-            let same = match (&told, &ended) {
+            match (&told, &ended) {
                 (Ok(()), _) => true,
                 (Err(Ended::Source(one)), Err(Ended::Target(two))) => {
                     matches!(two.fault, Fault::NotReadBack { code } if code == one.fault.code())
                 }
                 _ => false,
-            };
-            if same {
-                let what = taken[0].otherwise().into();
-                return Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, self.last)));
             }
-        }
-        ended
+        };
+        let mut read = given.other_readings.iter().zip(READINGS);
+        let Some((_, taken)) = read.find(|(other, _)| other.as_ref().is_some_and(same)) else {
+            return ended;
+        };
+        // The first place with which the output is the source in that reading.
+        let there = self.there(given);
+        let at = places(source, taken, there)
+            .into_iter()
+            .take(MOST_PLACES)
+            .find(|at| otherwise(source, taken, there, at.start).is_some_and(|other| same(&other)));
+        let what = taken[0].otherwise().into();
+        Err(Ended::NotSo(Diagnostic::new(Fault::Computes { what }, at.unwrap_or(self.last))))
+    }
+
+    fn there(&self, given: &Given) -> There<'_> {
+        There { functions: &self.functions, fineness: self.fineness, near: given.near }
     }
 
     fn run_both(

@@ -8,6 +8,7 @@
 
 use std::borrow::Cow;
 
+use ncc_ir::computes::NEARLY;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Many, Node, Unary, Var};
 use ncc_ir::num::{Num, Unit};
@@ -20,9 +21,6 @@ use crate::word::Source;
 
 /// Deepest nesting of an expression.
 const DEEPEST: u32 = 64;
-
-/// Two numbers that differ by less than this part of the greater one are equal, 10^-12.
-const EQUAL: Num = Num { mantissa: 1, scale: 12, point: true, unit: Unit::One };
 
 /// The circle's number, as `$PI` has it.
 const PI: Num = Num { mantissa: 3_141_592_653_589_793, scale: 15, point: true, unit: Unit::One };
@@ -216,7 +214,7 @@ impl Lower {
             out.report(Fault::AssumedParameter { parameter, value }, span);
         }
         let equal = |a: &Typed, b: &Typed| {
-            let arguments = vec![a.expr.clone(), b.expr.clone(), Expr::Num(EQUAL)];
+            let arguments = vec![a.expr.clone(), b.expr.clone(), Expr::Num(NEARLY)];
             Expr::Node(Box::new(Node::Call(Function::NearRatio, arguments)))
         };
         let near = equal(&a, &b);

@@ -39,6 +39,9 @@ impl Lower {
             return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
         };
         let count = letters.next().and_then(|letter| words.take(letter));
+        if code.row.blocks.as_bytes().contains(&program) {
+            return self.local_call(code, &word, count.as_ref(), words, src, out);
+        }
         let computed = |word: &Word| matches!(word.value, Value::Computed(_));
         let says = self.settings.dialect.formula.statements.contains(&Statement::CallOf);
         if says && (computed(&word) || count.as_ref().is_some_and(computed)) {
@@ -107,7 +110,7 @@ impl Lower {
     /// A return to the caller. A text that ends by it and by nothing else is a subprogram that stands alone; run by
     /// itself, the control would begin anew (16-C, subprogram control: M99 in a main program).
     pub(super) fn return_from(&mut self, code: &Code, out: &mut Batch) {
-        if self.sub.is_none() {
+        if self.sub.is_none() && !self.returns_from_blocks() {
             let alone = self.settings.dialect.program.macro_b && self.now.skip.is_none();
             self.alone.returns.get_or_insert(code.span);
             if !alone || self.alone.ends {

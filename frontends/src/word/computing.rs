@@ -20,6 +20,7 @@ use super::code_of::Saved;
 use super::facts::InForce;
 use super::formula::{Statement, To};
 use super::jump_of::JumpOf;
+use super::local_call::{LocalCall, has_local_calls};
 use super::lower::Lower;
 use super::macro_call::parameters;
 use super::modal_call::{AtMoves, Reach};
@@ -45,6 +46,8 @@ pub(super) struct Computes {
     called: Vec<(Text, usize)>,
     /// Jumps to blocks whose number is computed.
     pub(super) jumps_of: Vec<JumpOf>,
+    /// Calls of blocks of the main program.
+    pub(super) local_calls: Vec<LocalCall>,
     /// Returns of the subprograms.
     pub(super) returns: Vec<ReturnTo>,
     /// Whether programs are called whose number is computed.
@@ -113,7 +116,10 @@ impl Lower {
         if !self.computes.variables && memchr::memchr(b'#', text).is_some() {
             self.found_variables(out);
         }
-        if !self.computes.jumps && (has_jumps(text) || has_returns_to(text, self.settings.dialect)) {
+        let dialect = self.settings.dialect;
+        if !self.computes.jumps
+            && (has_jumps(text) || has_returns_to(text, dialect) || has_local_calls(text, dialect))
+        {
             self.computes.jumps = true;
             self.found_variables(out);
             out.whole = true;
@@ -190,15 +196,10 @@ impl Lower {
                 }
             }
             Statement::Goto(condition, to) => {
-                if self.computes.unnamed {
-                    let code = "GOTO".into();
-                    let name = "jump in a text whose first part has numbered blocks, and is long".into();
-                    return self.fault(Fault::NotSupported { code, name }, span, out);
-                }
-                let calls = self.calls_in_force();
                 let named = if let To::Number(to) = to { Some(*to) } else { None };
-                self.computes.reach.jumps.push((named, calls, span));
-                self.leave_motion(None, out);
+                if !self.jumps_from("GOTO", named, span, out) {
+                    return;
+                }
                 match (to, condition) {
                     (To::Number(to), None) => self.push(span, Op::Goto(label(*to)), out),
                     (To::Number(to), Some(condition)) => {
@@ -231,6 +232,19 @@ impl Lower {
             Statement::End(number) => self.end_loop(*number, span, out),
             Statement::Output(output) => self.output(output, span, src, out),
         }
+    }
+
+    /// A jump to the block of a number, or of one that is computed; `false` if there can be none (reported).
+    pub(super) fn jumps_from(&mut self, code: &str, to: Option<u32>, span: Span, out: &mut Batch) -> bool {
+        if self.computes.unnamed {
+            let name = "jump in a text whose first part has numbered blocks, and is long".into();
+            self.fault(Fault::NotSupported { code: code.into(), name }, span, out);
+            return false;
+        }
+        let calls = self.calls_in_force();
+        self.computes.reach.jumps.push((to, calls, span));
+        self.leave_motion(None, out);
+        true
     }
 
     fn open(&mut self, number: u32, condition: Option<Expr>, block: Span) {

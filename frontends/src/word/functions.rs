@@ -421,6 +421,7 @@ impl Lower {
                 self.alone.ends |= self.sub.is_none();
                 Op::ProgramEnd
             }
+            Meaning::Return if self.goes_on_within(code, words, src, out) => return,
             // What is called is looked at by execution: the program is kept whole from here on.
             Meaning::Return if self.level_open() => {
                 // What called this need not know of the length.

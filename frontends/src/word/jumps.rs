@@ -113,7 +113,7 @@ fn named(
     for (letter, digits, _) in words.iter().filter(|word| matches!(word.0, b'G' | b'M')) {
         let row = digits.and_then(tenths).and_then(|tenths| dialect.code_row(*letter, tenths));
         let Some(row) = row else { continue };
-        let quiet = row.means == Some(Meaning::Return);
+        let quiet = row.means == Some(Meaning::Return) && !dialect.program.returns_within;
         for (_, digits, at) in words.iter().filter(|word| row.blocks.as_bytes().contains(&word.0)) {
             let to = digits.map(|digits| format!("{}{}", block_number as char, digits.mantissa));
             found(Flow::Jump { to, at: *at, always: false, quiet });

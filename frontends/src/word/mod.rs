@@ -31,6 +31,7 @@ mod frames;
 pub(crate) mod functions;
 mod jump_of;
 pub(crate) mod jumps;
+mod local_call;
 pub(crate) mod lower;
 mod machine;
 mod macro_call;
@@ -210,6 +211,7 @@ impl Reader {
             self.end_of_text(out);
             self.lower.alone_or_main(out);
             self.lower.computes.give_parameters(&mut out.procedures);
+            self.lower.computes.cut_out_called_blocks(out);
             self.lower.computes.join_returns(out);
             self.lower.computes.join_jumps(out);
             self.lower.computes.join_calls(out);

@@ -5,7 +5,7 @@
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::{Axis, Distance, Fact, Motion, Plane, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::expr::Expr;
+use ncc_ir::expr::{Expr, Function, Node, Unary};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Op, Point};
 use ncc_ir::source::Span;
 
@@ -230,12 +230,13 @@ impl Lower {
                 continue;
             };
             if let Some(word) = words.take(letter) {
-                if let Value::Computed(_) = word.value
+                if let Value::Computed(place) = word.value
                     && (self.state.unplaced != 0 || self.level_open())
                     && !self.settings.dialect.program.o_words
+                    && may_be_left_out(&words.exprs[usize::from(place)])
                 {
                     // Whether the word is there at all must be known. A parameter without a value
-                    // is an error where words cannot go.
+                    // is an error where words cannot go; what is worked out has one.
                     self.fault(Fault::MacroLanguage { what: src.text(word.span) }, word.span, out);
                     continue;
                 }
@@ -368,5 +369,17 @@ fn no_way(plane: Fact<Plane>, to: &Point) -> bool {
             to.get(first).is_none() && to.get(second).is_none()
         }
         Fact::Entry => to.is_empty(),
+    }
+}
+
+/// Whether a word is left out where a variable was never set: one that is a variable, or its opposite. In arithmetic
+/// such a variable is zero (16-C, custom macro, undefined variables).
+fn may_be_left_out(value: &Expr) -> bool {
+    let Expr::Node(node) = value else { return false };
+    match &**node {
+        Node::Unary(Unary::Negate, a) => may_be_left_out(a),
+        Node::Call(Function::Round | Function::RoundTo, all) => all.first().is_none_or(may_be_left_out),
+        Node::Var(_) | Node::Vacant | Node::Element(_) => true,
+        Node::Unary(Unary::Not, _) | Node::Binary(..) | Node::Call(..) => false,
     }
 }

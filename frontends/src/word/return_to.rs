@@ -1,5 +1,6 @@
 //! Returns to a block of the caller (16-C, subprogram control: with P in the block of M99, the caller goes on at the
-//! block of that number): a jump behind each call.
+//! block of that number): a jump behind each call. Where the dictionary says so (`returns_within`), such a code is a
+//! jump to that block of its own program instead, the main one too, and goes back nowhere.
 //!
 //! They are made when the text has been read. Refused by name: a subprogram that goes back in more than one way, one
 //! that is called several times by one word or not in this text, such a return that can be skipped, and one beside calls
@@ -40,6 +41,24 @@ pub(super) fn has_returns_to(text: &[u8], dialect: &Dialect) -> bool {
 }
 
 impl Lower {
+    /// A return that names a block of its own program: a jump there; `false` if it is none.
+    pub(super) fn goes_on_within(
+        &mut self,
+        code: &Code,
+        words: &mut Words,
+        src: Source,
+        out: &mut Batch,
+    ) -> bool {
+        let letter = code.row.blocks.bytes().next().filter(|_| self.settings.dialect.program.returns_within);
+        let Some(word) = letter.and_then(|letter| words.take(letter)) else { return false };
+        if let Some(number) = self.whole(&word, src, out)
+            && self.jumps_from(&code.row.code, Some(number), code.span, out)
+        {
+            self.push(code.span.to(word.span), Op::Goto(label(number)), out);
+        }
+        true
+    }
+
     /// Takes the block that a return names, if it does; `false` if it cannot be (reported).
     pub(super) fn notes_return(
         &mut self,

@@ -45,7 +45,8 @@ pub struct CodeRow {
     #[serde(default)]
     pub turns: String,
     /// Letters whose numbers name blocks: of the program that it stands in, and in a return of the one
-    /// that has called it. They may be words of a code that is refused.
+    /// that has called it, unless returns go on within their own (`returns_within`). In a call they are what is called,
+    /// up to its return. They may be words of a code that is refused.
     #[serde(default)]
     pub blocks: String,
     /// Whether the code is one of other machines than the dictionary is about, so that a text which has

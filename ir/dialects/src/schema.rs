@@ -162,6 +162,9 @@ pub struct ProgramRules {
     pub flow: Vec<String>,
     /// Digits of the program number in a call word that packs the count in front; 0 if it does not.
     pub packed_call_digits: u32,
+    /// Whether a return that names a block goes on there in its own program; else it goes back, to that block of the
+    /// caller.
+    pub returns_within: bool,
     /// Names of the files in which called programs are looked for, without what stands behind the point, in
     /// this order: `{}` is the program's name, `{4}` its number with at least so many digits.
     pub called: Vec<String>,

@@ -1,7 +1,7 @@
 //! Alarms under the numbers that the target has, or with their number before the text where it has none
 //! ([`crate::alarms`]), and told; so is a text that ends before its end.
 //!
-//! Not here: alarms whose number is computed, and those that a control gives by itself.
+//! Not here: alarms whose number is computed, and those that the target gives by itself.
 
 use crate::alarms::Alarms;
 use crate::call_of::NO_SUCH_PROGRAM;
@@ -14,11 +14,16 @@ use crate::source::Span;
 /// Most alarms that are told.
 const MOST_TOLD: usize = 20;
 
-/// Says the alarms of a program as a control does that has these.
-pub fn run(program: &mut Program, alarms: Alarms, diags: &mut Vec<Diagnostic>) {
+/// Says the alarms of a program as a control does that has these. `calls` is whether it says calls of a computed
+/// program, or so often, as the alarm comes with them.
+pub fn run(program: &mut Program, alarms: Alarms, calls: bool, diags: &mut Vec<Diagnostic>) {
+    let own: &[&str] = match calls {
+        true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
+        false => &[NO_SUCH_BLOCK, NO_SUCH_CODE],
+    };
     let mut told: Vec<(String, Span)> = Vec::new();
     for procedure in &mut program.procedures {
-        body(&mut procedure.body, alarms, &mut told);
+        body(&mut procedure.body, alarms, own, &mut told);
     }
     if let Some((_, at)) = told.first() {
         let all: Vec<&str> = told.iter().take(MOST_TOLD).map(|(what, _)| &**what).collect();
@@ -27,11 +32,11 @@ pub fn run(program: &mut Program, alarms: Alarms, diags: &mut Vec<Diagnostic>) {
     }
 }
 
-fn body(stmts: &mut [Stmt], alarms: Alarms, told: &mut Vec<(String, Span)>) {
+fn body(stmts: &mut [Stmt], alarms: Alarms, own: &[&str], told: &mut Vec<(String, Span)>) {
     for stmt in stmts {
         match &mut stmt.op {
             Op::Alarm(alarm) => {
-                if let Some(other) = other(alarm, alarms) {
+                if let Some(other) = other(alarm, alarms, own) {
                     let number = |alarm: &Alarm| {
                         let number = alarm.number.as_ref().and_then(Expr::literal).and_then(|n| n.whole());
                         number.map_or_else(
@@ -49,16 +54,15 @@ fn body(stmts: &mut [Stmt], alarms: Alarms, told: &mut Vec<(String, Span)>) {
                     **alarm = other;
                 }
             }
-            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, told)),
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| body(stmts, alarms, own, told)),
             _ => {}
         }
     }
 }
 
 /// What an alarm becomes, if that is another one.
-fn other(alarm: &Alarm, alarms: Alarms) -> Option<Alarm> {
-    let own =
-        alarm.number.is_none() && [NO_SUCH_BLOCK, NO_SUCH_PROGRAM, NO_SUCH_CODE].contains(&&*alarm.text);
+fn other(alarm: &Alarm, alarms: Alarms, own: &[&str]) -> Option<Alarm> {
+    let own = alarm.number.is_none() && own.contains(&&*alarm.text);
     let number = match &alarm.number {
         None => None,
         Some(number) => Some(number.literal().and_then(|n| n.whole())?),

@@ -1,6 +1,7 @@
 //! Programs of a text, by their numbers and names, and calls of them.
 
 use super::super::Halt;
+use super::macro_b::jump;
 use super::{Control, Next, Word, number};
 
 /// A program of the text: its number or its name, and its blocks, each with its line.
@@ -106,6 +107,37 @@ impl Control {
                 return self.m.halt("M99 with P in a program that is called several times");
             }
         }
+        Ok(Next::Block)
+    }
+
+    /// M97: P is a block of the same program, L the count.
+    pub(super) fn local_call(&mut self, words: &[Word]) -> Result<Next, Halt> {
+        let count = number(words, 'L').map_or(1, |(l, _)| l as u32);
+        match number(words, 'P') {
+            Some((p, _)) => Ok(Next::Local(p as u32, count)),
+            None => self.m.halt("M97 without P"),
+        }
+    }
+
+    /// Runs the blocks that it names, from the one with the number to a return.
+    pub(super) fn local(
+        &mut self,
+        blocks: &[(usize, String)],
+        at: usize,
+        (from, times): (u32, u32),
+        all: &[Program],
+    ) -> Result<Next, Halt> {
+        let first = jump(blocks, &[], at, from).or_else(|why| self.m.halt(why))?;
+        if self.depth == 4 {
+            return self.m.halt("calls five deep");
+        }
+        self.depth += 1;
+        for _ in 0..times {
+            if self.program_from(blocks, first, all)? {
+                return Ok(Next::End);
+            }
+        }
+        self.depth -= 1;
         Ok(Next::Block)
     }
 
