@@ -8,7 +8,7 @@ use std::convert::Infallible;
 use crate::canon::Axis;
 use crate::cycle::{Along, Clearance, Cycle, CycleKind, First, Pattern, Shift};
 use crate::expr::{Expr, Target};
-use crate::kinds::{flow, modes, variables};
+use crate::kinds::{modes, variables};
 use crate::num::Unit;
 use crate::program::{
     ArcForm, Centre, Coord, CutterRadius, Data, Frame, FrameStep, Op, Output, Piece, Pitch, Point, PoleWords,
@@ -154,8 +154,15 @@ pub fn each<E>(op: &mut Op, seen: &mut Seen<'_, E>) -> Result<(), E> {
             Output::Open | Output::Close => Ok(()),
         },
         Op::Alarm(alarm) => seen(Argument::Optional(&mut alarm.number), Unit::One),
+        Op::RepeatBlocks(repeat) => seen(Argument::Value(&mut repeat.times), Unit::One),
         modes!()
-        | flow!()
+        | Op::Call(_)
+        | Op::Return
+        | Op::Control(_)
+        | Op::Goto(_)
+        | Op::Label(_)
+        | Op::Leave
+        | Op::NextTurn
         | variables!()
         | Op::Comment(_)
         | Op::Message(_)

@@ -226,8 +226,8 @@ pub struct RepeatBlocks {
     pub from: Text,
     /// Label where they end, its own block included; without, they end before this statement.
     pub to: Option<Text>,
-    /// How many times, after they have been passed once.
-    pub times: u32,
+    /// How many times, after they have been passed once: a whole number; one that is computed is 1 or more.
+    pub times: Expr,
 }
 
 /// What a statement does. The upper-case name in each comment is its name in text.

@@ -250,7 +250,7 @@ fn slug(words: &str) -> String {
 }
 
 /// What programs that compute take for granted of a control, as it is told.
-const COMPUTING: [&str; 8] = [
+const COMPUTING: [&str; 10] = [
     "increment to which computed words are rounded",
     "axes U, V and W, which the machine does not have",
     "alarms 61000 to 61999 and 65000 to 66999",
@@ -259,6 +259,8 @@ const COMPUTING: [&str; 8] = [
     "ROUNDUP of a negative number",
     "half of a negative number, rounded",
     "what is rounded up",
+    "P of REPEAT, computed",
+    "a value that is written to a device",
 ];
 
 /// Whether a key of `[confirmed]` names a row of the dictionary, or a reading of it.

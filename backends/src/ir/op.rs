@@ -195,7 +195,7 @@ fn arguments(op: &Op, out: &mut Vec<u8>) {
                 name(to, out);
             }
             put(", times ", out);
-            whole(u64::from(r.times), out);
+            expr(&r.times, out);
         }
         Op::UseMachineCoordinates { length } => put(if *length { "" } else { "no-length" }, out),
         Op::Probe(probe) => {

@@ -213,11 +213,21 @@ impl Writer {
         if self.computing.deep >= most.into() {
             return Err(cannot_compute(format!("a structure within {most} others")));
         }
+        self.behind_label(sink);
         self.alone(text, sink)?;
         self.words.flush(false, sink);
         self.words.block_written(sink.out);
         self.forget();
         Ok(())
+    }
+
+    /// A label has a block of its own before a word of a structure: nothing found says that it may stand in the same
+    /// one.
+    fn behind_label(&mut self, sink: &mut Sink) {
+        if !self.words.block.is_empty() {
+            self.words.flush(false, sink);
+            self.words.split = true;
+        }
     }
 
     fn inner(&mut self, body: &[Stmt], changes: bool, stmt: &Stmt, sink: &mut Sink) {
@@ -235,6 +245,7 @@ impl Writer {
     }
 
     fn closes(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
+        self.behind_label(sink);
         self.alone(text, sink)?;
         self.forget();
         Ok(())

@@ -305,10 +305,11 @@ impl Writer {
         said
     }
 
-    /// A block of its own in which nothing else can stand.
+    /// A block of its own in which nothing else can stand but its label: where blocks are repeated up to a label, its
+    /// whole block is.
     fn alone(&mut self, text: &str, sink: &mut Sink) -> Result<(), Fault> {
         let words = &mut self.words;
-        if !words.block.is_empty() {
+        if !words.block.is_empty() && !words.block.is_label() {
             words.flush(false, sink);
             words.split = true;
         }

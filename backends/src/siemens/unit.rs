@@ -167,17 +167,22 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        if repeat.times == 0 {
-            return Ok(());
-        }
+        let count = match repeat.times.literal() {
+            None => format!(" P={}", self.words.expression(&repeat.times, span, sink)?),
+            Some(times) => match times.whole().and_then(|n| u32::try_from(n).ok()) {
+                Some(0) => return Ok(()),
+                Some(times) => count(times)?,
+                None => return Err(cannot("a repetition that is not made a known number of times")),
+            },
+        };
         self.restate_feed(span, sink)?;
         self.pay_call(sink)?;
         let from = self.label_name(&repeat.from, span, sink);
         if repeat.to.as_ref() == Some(&repeat.from) {
-            return self.repeat(NameMeaning::RepeatBlock, &from, "", repeat.times, sink);
+            return self.repeat(NameMeaning::RepeatBlock, &from, "", &count, sink);
         }
         let to = repeat.to.as_ref().map(|to| format!(" {}", self.label_name(to, span, sink)));
-        self.repeat(NameMeaning::RepeatBlocks, &from, &to.unwrap_or_default(), repeat.times, sink)
+        self.repeat(NameMeaning::RepeatBlocks, &from, &to.unwrap_or_default(), &count, sink)
     }
 
     fn repeat(
@@ -185,16 +190,11 @@ impl Writer {
         which: NameMeaning,
         from: &str,
         to: &str,
-        times: u32,
+        count: &str,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let row = self.dialect.name_for(which);
         let row = row.ok_or_else(|| cannot("a repetition of blocks"))?;
-        let count = match times {
-            1 => String::new(),
-            2..=MOST_TIMES => format!(" P={times}"),
-            _ => return Err(Fault::TargetRange { word: times.to_string().into() }),
-        };
         self.alone(&format!("{} {from}{to}{count}", row.name), sink)?;
         self.forget();
         Ok(())
@@ -235,8 +235,17 @@ impl Writer {
         }
         match times {
             1 => Ok(()),
-            times => self.repeat(NameMeaning::RepeatBlocks, &name, "", times - 1, sink),
+            times => self.repeat(NameMeaning::RepeatBlocks, &name, "", &count(times - 1)?, sink),
         }
+    }
+}
+
+/// The word for how many times blocks are repeated.
+fn count(times: u32) -> Result<String, Fault> {
+    match times {
+        1 => Ok(String::new()),
+        2..=MOST_TIMES => Ok(format!(" P={times}")),
+        _ => Err(Fault::TargetRange { word: times.to_string().into() }),
     }
 }
 

@@ -156,6 +156,11 @@ impl Block {
         self.parts.iter().all(Vec::is_empty)
     }
 
+    /// Whether no more than a label stands in it.
+    pub(crate) fn is_label(&self) -> bool {
+        self.parts.iter().enumerate().all(|(part, text)| text.is_empty() == (part != Part::Label as usize))
+    }
+
     /// Whether an address letter stands in it.
     pub(crate) fn has(&self, letter: u8) -> bool {
         self.letters & bit(letter) != 0

@@ -184,7 +184,9 @@ impl Writer {
         sink: &mut Sink,
     ) -> Result<(), Fault> {
         let letters = self.dialect.repeat.letters().ok_or_else(|| cannot("a repetition of blocks"))?;
-        if repeat.times == 0 {
+        let times = repeat.times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+        let times = times.ok_or_else(|| cannot("a computed repetition"))?;
+        if times == 0 {
             return Ok(());
         }
         let named = |name: &Text| self.labels.all.iter().find(|label| label.name == *name);
@@ -194,7 +196,7 @@ impl Writer {
             return Err(cannot("a repetition of these blocks"));
         };
         let total = self.settings.get(REPEAT_COUNT) == "total";
-        let times = repeat.times.saturating_add(u32::from(total));
+        let times = times.saturating_add(u32::from(total));
         if times > MOST_TIMES {
             return Err(Fault::TargetRange { word: times.to_string().into() });
         }

@@ -41,8 +41,12 @@ fn positions_of_a_caller_stay_words() {
 
 #[test]
 fn labels_and_repetitions() {
-    let repeat = |from: &str, to: Option<&str>, times| {
-        Op::RepeatBlocks(Box::new(RepeatBlocks { from: from.into(), to: to.map(Into::into), times }))
+    let repeat = |from: &str, to: Option<&str>, times: u32| {
+        Op::RepeatBlocks(Box::new(RepeatBlocks {
+            from: from.into(),
+            to: to.map(Into::into),
+            times: Expr::int(times.into()),
+        }))
     };
     let stmts = blocks(vec![
         vec![rapid("X0.")],

@@ -3,6 +3,7 @@
 //! Not here: what such a text means; nothing is looked at but the words' names.
 
 use ncc_dialects::Dialect;
+use ncc_frontends::siemens::is_key_word;
 
 use super::{Evidence, word_of};
 
@@ -17,7 +18,7 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
         return evidence.con(number, "`%` is not written".to_owned());
     }
     let mut at = 0;
-    let mut after_name = false;
+    let (mut after_name, mut key_word) = (false, false);
     while at < line.len() {
         let c = line[at];
         let name = line[at..].iter().take_while(|b| b.is_ascii_alphanumeric() || **b == b'_').count();
@@ -35,8 +36,13 @@ pub(super) fn line(dialect: &Dialect, number: usize, line: &[u8], evidence: &mut
         }
         if letters >= 2 {
             let word = String::from_utf8_lossy(&line[at..at + name]).to_uppercase();
-            if dialect.name_row(&word).is_some() || dialect.call_row(&word).is_some() {
+            let before = &line[..at];
+            let key = is_key_word(word.as_bytes());
+            if key || dialect.name_row(&word).is_some() || dialect.call_row(&word).is_some() {
                 evidence.pro(number, format!("`{word}` is one of its words"));
+                key_word |= key;
+            } else if key_word || before.iter().any(|b| b"=(<>".contains(b)) {
+                // A name of the program's own, in an expression or where a structure names it.
             } else if !matches!(line.get(at + name), Some(b'(' | b'=' | b':' | b'[')) && name < line.len() {
                 evidence.con(number, format!("`{word}` is none of its words"));
             }

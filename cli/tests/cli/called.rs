@@ -115,3 +115,37 @@ fn o_words_are_found_in_files_of_their_names() {
     let done = say(at, "linuxcnc to linuxcnc -I sub main.ngc").exits(1);
     assert!(done.err.contains("NC0202"), "{}", done.err);
 }
+
+/// Blocks are repeated as often as a variable says, a whole number that is told to be 1 or more; up to a label with
+/// its whole block.
+#[test]
+fn repeated_by_a_computed_number() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let source = |times: &str, last: &str| {
+        format!(
+            "DEF REAL TIMES={times}\nG710 G90 G17 G94\nT1 D1 M6\nG0 X0 Y0 Z5 S500 M3\nDOWN: G90 G1 Z-1 F100\nG0 Z5\n\
+             G91 X10\nLAST: {last}\nG90 G0 Z6\nREPEAT DOWN LAST P=TIMES\nG90 G0 Z50\nM30\n"
+        )
+    };
+    for last in ["G4 F1", "G0 X1", "R1=R1+1"] {
+        write("rows.mpf", &source("3", last));
+        for (to, kept) in [
+            ("siemens", format!("LAST: {}\n", last.replace('+', " + "))),
+            ("fanuc", "WHILE [".to_owned()),
+            ("linuxcnc", "o1 repeat [#<times>]\n".to_owned()),
+        ] {
+            let done = ncc(folder.path(), &["siemens", "to", to, "rows.mpf", "-o", "out"]).exits(0);
+            assert!(done.err.contains("P of REPEAT, computed = a whole number, 1 or more"), "{}", done.err);
+            let written = std::fs::read_to_string(folder.path().join("out")).unwrap();
+            assert!(written.contains(&kept), "{written}");
+        }
+    }
+    for times in ["0", "-1", "2.5"] {
+        write("none.mpf", &source(times, "X1"));
+        let done = ncc(folder.path(), &["siemens", "to", "fanuc", "none.mpf", "-o", "no.nc"]).exits(1);
+        done.says("NC0209").says("REPEAT DOWN LAST P=TIMES");
+    }
+    write("text.mpf", &source("3", "X1").replace("P=TIMES", "P=\"A\""));
+    ncc(folder.path(), &["siemens", "to", "fanuc", "text.mpf", "-o", "no.nc"]).exits(1).says("error[");
+}

@@ -187,13 +187,13 @@ impl Again {
         }
     }
 
-    /// Blocks from a label to here, or to another label's block, are to run again, so many times: finds whether
+    /// Blocks from a label to here, or to another label's block, are to run again, once or several times: finds whether
     /// they mean the same then, and what is known afterwards.
     pub(super) fn repeat(
         &self,
         from: &str,
         to: Option<&str>,
-        times: i64,
+        several: bool,
         now: &mut State,
     ) -> Result<(), NotAgain> {
         let place = |name: &str| self.labels.iter().rposition(|l| &*l.name == name);
@@ -206,7 +206,7 @@ impl Again {
             let last = place(to).filter(|last| *last >= first).ok_or(NotAgain::Unknown)?;
             let after = self.labels[last].after.as_ref().ok_or(NotAgain::Unknown)?;
             // From the second time on they find what they leave.
-            if times > 1 && differing(&label.before, after) & label.used != 0 {
+            if several && differing(&label.before, after) & label.used != 0 {
                 return Err(NotAgain::Differs);
             }
             let before = now.clone();

@@ -19,7 +19,7 @@ use ncc_ir::source::Span;
 use super::again::{NotAgain, Under};
 use super::cycles::is_cycle;
 use super::facts::{AfterMove, InForce, Motion, State};
-use super::formula::Typed;
+use super::formula::{Kind as Formed, Typed};
 use super::lower::{Head, Lower};
 use super::tree::{Address, Called, Expr, Item, Parameter, Place, Value as Written};
 use super::unit::Kind;
@@ -339,14 +339,22 @@ impl Lower {
     ) {
         let upper = |span: Span| -> Text { src.text(span).to_ascii_uppercase().into() };
         let times = match count {
-            None => Some(1),
-            Some(Expr::Number(digits, _)) => whole(*digits),
+            None => Some(Value::int(1)),
+            Some(Expr::Number(digits, _)) => {
+                whole(*digits).filter(|t| (1..=MOST_TIMES).contains(t)).map(Value::int)
+            }
             Some(other) => {
-                let span = other.span();
-                return self.fault(Fault::MacroLanguage { what: src.text(span) }, span, out);
+                let Some(typed) = self.formula(other, src, out) else { return };
+                let known =
+                    typed.expr.literal().is_some() || matches!(typed.kind, Formed::Text | Formed::Bool);
+                // Nothing found says what the control does with other numbers.
+                let parameter = "P of REPEAT, computed".into();
+                let value = "a whole number, 1 or more".into();
+                out.report(Fault::AssumedParameter { parameter, value }, other.span());
+                Some(typed.expr).filter(|_| !known)
             }
         };
-        let Some(times) = times.filter(|t| (1..=MOST_TIMES).contains(t)) else {
+        let Some(times) = times else {
             return self.fault(Fault::OutOfRange { word: src.text(head.span) }, head.span, out);
         };
         let (from, mut to) = (upper(first), last.map(upper));
@@ -358,7 +366,8 @@ impl Lower {
         if to.is_none() {
             to = self.again.end_behind(&from);
         }
-        match self.again.repeat(&from, to.as_deref(), times, &mut self.state) {
+        let several = times != Value::int(1);
+        match self.again.repeat(&from, to.as_deref(), several, &mut self.state) {
             Ok(()) => {}
             Err(NotAgain::Unknown) => {
                 return self.fault(Fault::LabelUnknown { name: to.unwrap_or(from) }, head.span, out);
@@ -369,7 +378,6 @@ impl Lower {
             }
         }
         out.whole = true;
-        let times = times as u32;
         self.push(head.span, Op::RepeatBlocks(Box::new(RepeatBlocks { from, to, times })), out);
         self.stand.forget();
         self.moved = None;

@@ -56,6 +56,7 @@ pub use reader::Reader;
 use lalrpop_util::ParseError;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::source::Span;
+pub use token::is_key_word;
 
 use token::{Refusal, Token, Tokens};
 use tree::Block;

@@ -379,6 +379,13 @@ fn number(text: &[u8]) -> Option<Digits> {
 /// The longest key word.
 const LONGEST: usize = 8;
 
+/// Whether a name is a key word of the language with names, in any size of letters: of a structure, a jump, a call, a
+/// definition or an operator.
+#[must_use]
+pub fn is_key_word(name: &[u8]) -> bool {
+    keyword(name).is_some()
+}
+
 /// The token of a key word. What the grammar gives to `As` and `CallByPath` is still missing.
 fn keyword(name: &[u8]) -> Option<Token> {
     let mut capitals = [0u8; LONGEST];

@@ -9,6 +9,7 @@
 
 use ncc_dialects::REPEAT_COUNT;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
+use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, RepeatBlocks, Stmt, Text};
 use ncc_ir::source::Span;
 
@@ -80,6 +81,7 @@ impl Lower {
         let times = if total { times - 1 } else { times };
         let at = self.target(out).len();
         self.now.again = Some(Asked { first: (from, first.span), last: (to, last.span), times, at });
+        let times = Expr::int(i64::from(times));
         let blocks = RepeatBlocks { from: label(from), to: Some(label(to)), times };
         self.push(block.span, Op::RepeatBlocks(Box::new(blocks)), out);
         true

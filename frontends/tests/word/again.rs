@@ -1,5 +1,6 @@
 //! Blocks that are executed again by their numbers.
 
+use ncc_ir::expr::Expr;
 use ncc_ir::program::{Op, RepeatBlocks};
 
 use super::*;
@@ -18,7 +19,7 @@ fn repeats(out: &Batch) -> Vec<RepeatBlocks> {
 
 fn blocks(from: u32, to: u32, times: u32) -> RepeatBlocks {
     let label = |number: u32| format!("BLOCK{number}").into();
-    RepeatBlocks { from: label(from), to: Some(label(to)), times }
+    RepeatBlocks { from: label(from), to: Some(label(to)), times: Expr::int(times.into()) }
 }
 
 #[test]

@@ -71,11 +71,12 @@ pub(super) struct Counter {
 }
 
 /// Steps that are executed again.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Again {
     /// From one to before another; `None` is a label that there is not.
     pub(super) steps: Option<(At, At)>,
-    pub(super) times: u32,
+    pub(super) times: Term,
+    pub(super) computed: bool,
     /// How many bodies of the procedure that are counted are open there.
     pub(super) counted: u32,
 }
@@ -260,7 +261,9 @@ impl<'p> Maker<'p> {
             Op::RepeatBlocks(repeat) => {
                 let blocks = super::run::blocks_again(body, place, &repeat.from, repeat.to.as_deref());
                 let steps = blocks.map(|blocks| (begins[blocks.start], begins[blocks.end]));
-                Step::Blocks(stmt, Box::new(Again { steps, times: repeat.times, counted: self.counted }))
+                let computed = repeat.times.literal().is_none();
+                let times = self.code.names.term(&repeat.times);
+                Step::Blocks(stmt, Box::new(Again { steps, times, computed, counted: self.counted }))
             }
             op if arguments::computed(op) => {
                 let mut terms = Vec::new();

@@ -31,7 +31,7 @@ pub(super) struct Blocks {
     pub(super) begin: At,
     pub(super) end: At,
     pub(super) back: At,
-    pub(super) again: u32,
+    pub(super) again: u64,
     /// In which call.
     pub(super) call: usize,
     /// How many bodies that are counted were open there, of all and of the procedure's own.

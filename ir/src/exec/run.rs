@@ -349,7 +349,13 @@ impl<'p> Runner<'p> {
                 }
                 Step::Blocks(_, again) => {
                     exec.no_open_corner()?;
-                    self.again(again, stmt)?;
+                    let times =
+                        self.variables.number(&again.times, asked).map_err(|why| self.no_value(why, span))?;
+                    let least = f64::from(u8::from(again.computed));
+                    if times < least || times != times.trunc() || times > self.most as f64 {
+                        return Err(Diagnostic::new(Fault::OutOfRange { word: "times".into() }, span));
+                    }
+                    self.again(again, times as u64, stmt)?;
                 }
             }
         }
@@ -509,15 +515,15 @@ impl<'p> Runner<'p> {
         Ok(())
     }
 
-    fn again(&mut self, again: &Again, stmt: &Stmt) -> Result<(), Diagnostic> {
+    fn again(&mut self, again: &Again, times: u64, stmt: &Stmt) -> Result<(), Diagnostic> {
         let Some((begin, end)) = again.steps else {
             let Op::RepeatBlocks(repeat) = &stmt.op else { return Ok(()) };
             return Err(Diagnostic::new(Fault::LabelUnknown { name: repeat.from.clone() }, stmt.span));
         };
-        if again.times > 0 && begin < end {
+        if times > 0 && begin < end {
             self.deep("", stmt.span)?;
             let (call, turns) = (self.calls.len(), self.turns.len());
-            let left = again.times - 1;
+            let left = times - 1;
             let counted = again.counted;
             self.blocks.push(Blocks { begin, end, back: self.at, again: left, call, turns, counted });
             self.at = begin;

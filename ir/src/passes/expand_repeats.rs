@@ -169,7 +169,7 @@ fn flatten(
             }
             Op::RepeatBlocks(repeat) => {
                 let RepeatBlocks { from, to, times } = &**repeat;
-                let (times, skip) = (*times, stmt.skip);
+                let (times, skip) = (times.clone(), stmt.skip);
                 let Some(blocks) = again(body, at, from, to.as_deref()) else {
                     let name = from.clone();
                     diags.push(Diagnostic::new(Fault::LabelUnknown { name }, span));
@@ -181,19 +181,19 @@ fn flatten(
                     *full = true;
                     return;
                 }
-                if under.is_none() {
+                let written = times.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+                if let (None, Some(times)) = (under, written) {
                     diags.push(Diagnostic::new(Fault::RepeatExpanded { times }, span));
                 }
-                if as_body {
+                if as_body || written.is_none() {
                     let mut inner = Rebuild::new(blocks.len());
                     flatten(blocks, Some(None), jumps, true, depth + 1, &mut inner, full, diags);
-                    let times = Expr::int(i64::from(times));
                     stmt.op = Op::Control(Box::new(Control::Repeat { times, body: inner.out }));
                     made.push(stmt);
                     continue;
                 }
                 made.leave_out(stmt);
-                for _ in 0..times {
+                for _ in 0..written.unwrap_or_default() {
                     flatten(blocks, Some(skip), jumps, false, depth + 1, made, full, diags);
                     if *full {
                         return;
@@ -247,7 +247,11 @@ fn by_labels(body: &mut Vec<Stmt>, known: &BTreeSet<Text>, last: &mut u32, diags
             made.push(stmt);
         }
         if times > 1 {
-            let op = Op::RepeatBlocks(Box::new(RepeatBlocks { from: name, to: None, times: times - 1 }));
+            let op = Op::RepeatBlocks(Box::new(RepeatBlocks {
+                from: name,
+                to: None,
+                times: Expr::int(i64::from(times - 1)),
+            }));
             let mut new = Stmt::new(span, op);
             new.skip = skip;
             made.push(new);

@@ -313,7 +313,7 @@ fn program() -> impl Strategy<Value = Program> {
         for (k, (ops, skip, number, comment)) in blocks.into_iter().enumerate() {
             if let Some((from, length, times)) = again {
                 let (from, to) = (from % count, (from % count + length).min(count - 1));
-                let repeat = || RepeatBlocks { from: "A".into(), to: None, times };
+                let repeat = || RepeatBlocks { from: "A".into(), to: None, times: Expr::int(times.into()) };
                 let marks = [(from, Op::Label("A".into())), (to, Op::RepeatBlocks(Box::new(repeat())))];
                 let here = marks.into_iter().filter(|(at, _)| *at == k && from < to);
                 body.extend(here.map(|(_, op)| Stmt::new(Span::default(), op)));

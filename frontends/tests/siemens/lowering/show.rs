@@ -42,7 +42,7 @@ fn op(op: &Op) -> String {
         Op::UseToolEdge { edge, said } => format!("EDGE{} {}", if *said { "!" } else { "" }, expr(edge)),
         Op::RepeatBlocks(r) => {
             let to = r.to.as_ref().map_or(String::new(), |to| format!(" to {to}"));
-            format!("REPEAT {}{to} x{}", r.from, r.times)
+            format!("REPEAT {}{to} x{}", r.from, expr(&r.times))
         }
         Op::StartCycle(c) => cycle(c),
         Op::Pattern(p) => pattern(p),
