@@ -212,7 +212,8 @@ fn labels_and_repetition() {
         faults("AA: X1\nREPEAT AA P=0\n"),
         ["OutOfRange { word: 'REPEAT AA P=0' } at 'REPEAT AA P=0'"]
     );
-    assert_eq!(faults("AA: X1\nREPEAT AA P=R1\n"), ["MacroLanguage { what: 'R1' } at 'R1'"]);
+    assert_eq!(after_head("AA: X1\nREPEAT AA P=R1\n")[2], r#"REPEAT AA xNode(Var(Common("R1")))"#);
+    assert_eq!(faults("AA: X1\nREPEAT AA P=\"A\"\n").len(), 1);
     assert_eq!(after_head("AA: X1\nX2\nREPEATB AA P=2\n")[3], "REPEAT AA to AA x2");
     assert_eq!(after_head("ENDLABEL:\n"), ["ENDLABEL_1:"]);
     // The end that stands first behind the label counts; a label of that name is another one.
