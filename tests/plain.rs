@@ -180,7 +180,10 @@ pub fn setup(world: &World, skip: u16) -> Setup {
             plane: world.kinematic_shift(false).map(mm),
             upright: world.oriented().map(|rotary| rotary.map(mm)),
         },
-        power_on: PowerOn::default(),
+        power_on: PowerOn {
+            return_initial: world.power_on.return_level != Some(ReturnLevel::Retract),
+            ..PowerOn::default()
+        },
     }
 }
 
@@ -207,10 +210,13 @@ fn by_name(tool: i64) -> u32 {
 }
 
 /// A world in which the peck clearance and the lift of chip breaking are those that are taken for granted
-/// of a dialect's control where a cycle is written out.
-pub fn with_clearances(world: World, dialect: &str) -> World {
-    let by = if dialect == "linuxcnc" { ONE / 1000 * 254 } else { ONE };
-    World { peck_clearance: by, break_lift: by, ..world }
+/// of a dialect's control where a cycle is written out, and holes are left to the level with which it starts.
+pub fn of_dialect(world: World, dialect: &str) -> World {
+    let linuxcnc = dialect == "linuxcnc";
+    let by = if linuxcnc { ONE / 1000 * 254 } else { ONE };
+    let level = if linuxcnc { ReturnLevel::Retract } else { ReturnLevel::Initial };
+    let power_on = Modes { return_level: Some(level), ..world.power_on };
+    World { peck_clearance: by, break_lift: by, power_on, ..world }
 }
 
 fn mm(nanos: Nanos) -> f64 {

@@ -113,7 +113,7 @@ impl Job {
 
     /// How it is worked out: as the source's control does it, by the tools of the source's machine.
     pub fn compensating(&self) -> Compensating {
-        let known = self.from.dialect.can.stays_beside;
+        let known = self.from.dialect.can.contour_left_at_once;
         Compensating {
             rules: if known { Rules::INTERPRETER } else { Rules::NEAR },
             known,

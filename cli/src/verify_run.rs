@@ -186,9 +186,11 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
         (None, _) | (_, None) => BTreeMap::new(),
     };
     let mut source = World::generate(seed, &from);
+    source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to);
+    target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
     let named = &target.renaming.tool_names;

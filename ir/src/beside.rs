@@ -22,20 +22,20 @@ pub struct Rules {
     pub shallow: f64,
     /// Shortest way round a corner, mm: a shorter one is left out.
     pub least: f64,
-    /// The tool stays where it is after the contour, and the move that leaves goes on from there as its
-    /// words say; otherwise that move goes to the programmed point whatever words it has.
-    pub stays: bool,
+    /// The first move behind the contour goes to the programmed point of the plane, whatever words it has; otherwise
+    /// the first that has words of the plane does.
+    pub left_at_once: bool,
     /// Whether every leg is looked at for having been turned round, and not only where the interpreter does.
     pub strict: bool,
 }
 
 impl Rules {
     /// Those of LinuxCNC's interpreter.
-    pub const INTERPRETER: Rules = Rules { shallow: 0.05, least: 0.0, stays: true, strict: false };
+    pub const INTERPRETER: Rules = Rules { shallow: 0.05, least: 0.0, left_at_once: true, strict: false };
 
     /// For controls that say no more than that the tool goes beside the contour: as near to it as can be
     /// written.
-    pub const NEAR: Rules = Rules { shallow: 0.002, least: 0.005, stays: false, strict: true };
+    pub const NEAR: Rules = Rules { shallow: 0.002, least: 0.005, left_at_once: false, strict: true };
 }
 
 impl Default for Rules {

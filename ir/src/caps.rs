@@ -128,6 +128,8 @@ pub struct Caps {
     pub feed_apart: bool,
     /// A change of units leaves it open what a feed said before means.
     pub feed_again: bool,
+    /// A code of what the feed counts ends the feed even where it counts that already.
+    pub feed_ends_with_mode: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.
     pub call_digits: u32,
     /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.

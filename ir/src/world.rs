@@ -27,6 +27,11 @@ pub struct World {
     pub peck_clearance: Nanos,
     /// The control's own lift of the chip-breaking cycle, in millimetres.
     pub break_lift: Nanos,
+    /// How far the machine goes back by itself from where a probe has touched, in millimetres: nothing, but for a
+    /// control that only plays its machine.
+    pub backs_off: Nanos,
+    /// Whether a code of what the feed counts ends the feed even where it counts that already.
+    pub feed_ends_with_mode: bool,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -155,6 +160,8 @@ impl World {
             path: None,
             start: [0; AXES],
             peck_clearance: 0,
+            backs_off: 0,
+            feed_ends_with_mode: false,
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },

@@ -231,7 +231,12 @@ impl Control {
         }
 
         // Feed, speed and tool; F is in the unit that was in force before the block.
-        match of(GROUPS[10]) {
+        let mode = of(GROUPS[10]);
+        if mode.is_some() {
+            // Said anew, it ends the feed as well.
+            self.m.feed = None;
+        }
+        match mode {
             Some(930) => self.m.count_feed(Per::Move),
             Some(940) => self.m.count_feed(Per::Minute),
             Some(_) => self.m.count_feed(Per::Turn),

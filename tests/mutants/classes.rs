@@ -105,7 +105,7 @@ pub(crate) fn rounded(
     let corners = Corners::between(source.dialect, emitted.dialect);
     let within = Tolerance { place: half, feed: half, corners };
     for seed in [0, 1, 2] {
-        let world = plain::with_clearances(plain::world(seed), source.dialect);
+        let world = plain::of_dialect(plain::world(seed), source.dialect);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0b10, 0x7fe] {
             let list = |dialect: &str, text: &[u8], only: Option<u16>| {

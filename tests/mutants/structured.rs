@@ -225,7 +225,7 @@ fn try_all(program: &Program, to: &str, all: bool, tally: &Mutex<Tally>) {
 fn makes_the_same(from: &str, source: &[u8], to: &str, text: &[u8]) -> Result<(), String> {
     let within = Tolerance { corners: Corners::between(from, to), ..Tolerance::ROUNDED };
     for world in [0, 1, 2].map(plain::world) {
-        let world = plain::with_clearances(world, from);
+        let world = plain::of_dialect(world, from);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let run = |dialect: &str, text: &[u8]| {

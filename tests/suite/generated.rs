@@ -64,7 +64,7 @@ fn by_chance(from: &'static str, program: fn(u64) -> String) {
             from,
             name: format!("{from} program {seed}"),
             text: program(seed as u64 * 7919 + 13),
-            world: plain::world(seed as u32 % 3),
+            world: plain::of_dialect(plain::world(seed as u32 % 3), from),
         };
         let Some(moves) = judge.executed(&source) else { continue };
         judge.written(&source, &moves, DIALECTS[seed % DIALECTS.len()], true);

@@ -34,7 +34,7 @@ fn what_is_kept_makes_the_moves_of_its_source() {
         let Some(to) = to.filter(|_| is_program(&text)) else { continue };
         let within = Tolerance { corners: Corners::between(source.dialect, to), ..Tolerance::ROUNDED };
         for seed in [0, 1, 2] {
-            let world = plain::with_clearances(plain::world(seed), source.dialect);
+            let world = plain::of_dialect(plain::world(seed), source.dialect);
             let start = world.start.map(|n| n as f64 / 1e9);
             for skip in [0, 0x7fe] {
                 let run = |dialect: &str, text: &[u8]| {

@@ -170,7 +170,7 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
         }
     }
     for seed in [1, 2] {
-        let world = plain::with_clearances(plain::world(seed), dialect);
+        let world = plain::of_dialect(plain::world(seed), dialect);
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let list = |p| Ok::<_, String>(plain::of_events(&translate::execute(p, &world, skip)?, start));

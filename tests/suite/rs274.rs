@@ -5,7 +5,6 @@
 //! What is not translated must be refused by name: a program that begins to come out equal has to be moved
 //! to those that must.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -14,6 +13,7 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::diag::Gravity;
 use ncc_ir::num::Nanos;
 use ncc_ir::program::{Procedure, Program};
+use ncc_ir::world::Tables;
 use ncc_tests::corpus;
 use ncc_tests::expect::Failures;
 use ncc_tests::translate::settings;
@@ -104,7 +104,7 @@ const PROGRAMS: [(&str, Must); 51] = [
 ];
 
 /// The calls of a program, or the codes of the messages by which it is refused.
-fn printed(text: &[u8], radii: &BTreeMap<u32, Nanos>) -> Result<String, String> {
+fn printed(text: &[u8], tables: &Tables) -> Result<String, String> {
     let mut batch = Batch::default();
     // The stand-alone interpreter is a machine in inches.
     let mut chosen = settings("linuxcnc");
@@ -120,21 +120,30 @@ fn printed(text: &[u8], radii: &BTreeMap<u32, Nanos>) -> Result<String, String> 
     let main = Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() };
     let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
     let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
-    rs274::print(&program, text, radii).map_err(|d| format!("{:?}", d.fault))
+    rs274::print(&program, text, tables).map_err(|d| format!("{:?}", d.fault))
 }
 
-/// Radii of the tools of a table: a line has their number behind a T, and their diameter behind a D in
-/// inches, or none, as the stand-alone interpreter reads it.
-fn radii(folder: &Path) -> BTreeMap<u32, Nanos> {
-    let Ok(table) = fs::read_to_string(folder.join("test.tbl")) else { return BTreeMap::new() };
+/// The tools of a table: a line has their number behind a T, their offsets behind X, Y and Z, and their diameter behind
+/// a D, in inches or none, as the stand-alone interpreter reads it.
+fn tools(folder: &Path) -> Tables {
+    let mut tables = Tables::default();
+    let Ok(table) = fs::read_to_string(folder.join("test.tbl")) else { return tables };
     let word = |line: &str, letter: char| -> Option<f64> {
         line.split_whitespace().find_map(|word| word.strip_prefix(letter)?.trim_end_matches(';').parse().ok())
     };
-    let row = |line: &str| {
-        let (number, inches) = (word(line, 'T')?, word(line, 'D').unwrap_or(0.0));
-        Some((number as u32, (inches / 2.0 * 25.4 * 1e9).round() as Nanos))
-    };
-    table.lines().map(|line| line.split_once(';').map_or(line, |(row, _)| row)).filter_map(row).collect()
+    for line in table.lines().map(|line| line.split_once(';').map_or(line, |(row, _)| row)) {
+        let Some(number) = word(line, 'T') else { continue };
+        let number = number as u32;
+        let nanos = |letter| (word(line, letter).unwrap_or(0.0) * 25.4 * 1e9).round() as Nanos;
+        tables.radii.insert(number, nanos('D') / 2);
+        // A lathe's tool, known by the side on which its tip lies, has offsets that a mill's has not.
+        if word(line, 'Q').is_some() {
+            continue;
+        }
+        tables.lengths.insert(number, nanos('Z'));
+        tables.offsets.insert(number, [nanos('X'), nanos('Y')]);
+    }
+    tables
 }
 
 /// As the folder of the programs says that texts are to be compared.
@@ -175,7 +184,7 @@ fn programs_of_the_interpreter_are_printed_as_it_does() {
             continue;
         };
         let folder: &Path = &folder.join(name);
-        let found = printed(&fs::read(folder.join(input)).expect("a program"), &radii(folder));
+        let found = printed(&fs::read(folder.join(input)).expect("a program"), &tools(folder));
         let wrong = match (must, &found) {
             (Must::Equal, Ok(text)) => {
                 let expected = fs::read_to_string(folder.join("expected.canon")).expect("its calls");
@@ -220,7 +229,7 @@ fn the_corpus_is_printed() {
     assert!(programs.len() >= 25, "{} programs", programs.len());
     for program in programs {
         // No tool of the corpus is in a table.
-        if let Err(why) = printed(&program.text, &BTreeMap::new())
+        if let Err(why) = printed(&program.text, &Tables::default())
             && !why.starts_with("CannotSay")
             && !why.starts_with("RadiusUnknown")
         {

@@ -30,7 +30,7 @@ fn agrees_with_the_compiler_on_the_corpus() {
         let Some(read) = failures.check(&what, translate::read(program.dialect, &program.text)) else {
             continue;
         };
-        for world in [0, 1, 2].map(plain::world) {
+        for world in [0, 1, 2].map(|seed| plain::of_dialect(plain::world(seed), program.dialect)) {
             for skip in [0, 0b10, 0x7fe] {
                 let second = plain::second(program.dialect, &program.text, plain::setup(&world, skip));
                 let start = world.start.map(|n| n as f64 / 1e9);
@@ -69,7 +69,7 @@ fn emitted_programs_make_the_same_moves() {
             let within = Tolerance { corners: Corners::between(program.dialect, to), ..rounded(&program) };
             for world in [0, 1, 2].map(plain::world) {
                 // Where a peck cycle was written out, this is what the head says was assumed.
-                let world = plain::with_clearances(world, program.dialect);
+                let world = plain::of_dialect(world, program.dialect);
                 let start = world.start.map(|n| n as f64 / 1e9);
                 let list = |dialect: &str, text: &[u8], skip, offset: Option<u16>| {
                     let mut setup = plain::setup(&world, skip);

@@ -9,35 +9,38 @@
 //! tools states.
 //!
 //! Points are in the program's coordinates, as shifted and turned as they are; what sets or takes up an offset prints
-//! its values. Refused is what needs a table (lengths of tools that the program has not put there itself), and what
-//! this control has no call for.
+//! its values. Refused is what needs a table (lengths of tools that neither the program nor a profile has stated), and
+//! what this control has no call for.
 
+mod feeds;
 mod holes;
+mod moves;
 mod offsets;
+mod switches;
 
-use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use ncc_ir::beside::Rules;
-use ncc_ir::canon::{
-    AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, SpindleMode, Turn, Units,
-};
+use ncc_ir::canon::{AXES, Axis, Distance, FeedMode, Modes, PathMode, Plane, ReturnLevel, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
-use ncc_ir::exec::Exec;
+use ncc_ir::exec::{Event, Exec};
 use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten};
+use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten, polar_words};
 use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::leads_nowhere;
-use ncc_ir::world::World;
+use ncc_ir::world::{Tables, World};
 
 /// Least radius of an arc: 0.00005 inch.
 const LEAST_RADIUS: f64 = 0.00127;
 
 /// Most difference of an arc's two radii that is not judged by the radius, in mm and in inch.
 const APART: [f64; 2] = [0.02 * std::f64::consts::SQRT_2, 0.002 * std::f64::consts::SQRT_2 * 25.4];
+
+/// How far the interpreter stands before where it takes a probe to have touched: 0.01 inch.
+pub const BACKS_OFF: Nanos = 254 * ONE / 1000;
 
 /// Most calls one within another.
 const DEPTH: u32 = 10;
@@ -50,18 +53,18 @@ enum Turning {
     Counterclockwise,
 }
 
-/// Prints the calls of a program; `source` is its text, of which the comments are shown, and `radii` are
-/// those of tools by their numbers, in nanos of a millimetre.
+/// Prints the calls of a program; `source` is its text, of which the comments are shown, and `tables` has lengths
+/// and radii of tools by their numbers.
 ///
 /// # Errors
 /// The interpreter refuses it, or it says what this printer has no table for.
-pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> Result<String, Diagnostic> {
+pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String, Diagnostic> {
     let entry = Modes {
         units: Some(Units::Mm),
         plane: Some(Plane::Xy),
         distance: Some(Distance::Absolute),
         feed_mode: Some(FeedMode::PerMinute),
-        return_level: Some(ReturnLevel::Initial),
+        return_level: Some(ReturnLevel::Retract),
         ..Modes::default()
     };
     if let Some(unknown) = leads_nowhere(program).into_iter().next() {
@@ -71,14 +74,18 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
     let modes = Modes { work_offset: Some(1), no_origin_shift: Some(true), length_offset: Some(0), ..entry };
     let mut world = World::generate(0, &modes);
     world.start = [0; AXES];
-    let exec = Exec::new(&world, 0);
+    world.tables = tables.clone();
+    world.backs_off = BACKS_OFF;
+    let mut exec = Exec::new(&world, 0);
+    // The interpreter makes a call of a move that goes nowhere too.
+    exec.every_move();
     let straight = flatten::by(program, &start, exec.clone())?;
-    let program = &beside(straight.as_ref().unwrap_or(program), &start, radii)?;
+    let program = &beside(straight.as_ref().unwrap_or(program), &start, tables)?;
     let mut printer = Printer {
         exec,
         program,
         source,
-        radii,
+        tables,
         out: String::new(),
         at: start,
         beside: false,
@@ -90,6 +97,10 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
         flood: false,
         offset: 1,
         feed: None,
+        limit: None,
+        probing: false,
+        numbered: false,
+        made: Vec::new(),
         ended: false,
     };
     for call in [
@@ -114,7 +125,7 @@ pub fn print(program: &Program, source: &[u8], radii: &BTreeMap<u32, Nanos>) -> 
 struct Printer<'p> {
     program: &'p Program,
     source: &'p [u8],
-    radii: &'p BTreeMap<u32, Nanos>,
+    tables: &'p Tables,
     out: String,
     /// Modes, position and the cycle in force.
     at: Tracker,
@@ -126,6 +137,14 @@ struct Printer<'p> {
     offset: u16,
     /// The feed that was said last.
     feed: Option<f64>,
+    /// The limit of the spindle that the block says.
+    limit: Option<f64>,
+    /// Whether the block's move is a probing one.
+    probing: bool,
+    /// Whether the tool in the spindle is there by its number alone.
+    numbered: bool,
+    /// What the statement at hand makes the machine do.
+    made: Vec<Event>,
     /// Whether calls of moves wait in the interpreter's queue for what the next one is.
     beside: bool,
     /// How corners are taken, how far from the path, and how far off moves made one may lie, in the unit that was
@@ -136,12 +155,13 @@ struct Printer<'p> {
     ended: bool,
 }
 
-/// The program with the path of the tool's centre in place of contours.
-fn beside(program: &Program, start: &Tracker, radii: &BTreeMap<u32, Nanos>) -> Result<Program, Diagnostic> {
+/// The program with coordinates in place of polar words, and the path of the tool's centre in place of contours.
+fn beside(program: &Program, start: &Tracker, tables: &Tables) -> Result<Program, Diagnostic> {
     let compensating =
-        Compensating { rules: Rules::INTERPRETER, known: true, radii: radii.clone(), listing: true };
+        Compensating { rules: Rules::INTERPRETER, known: true, radii: tables.radii.clone(), listing: true };
     let target = Target { decimals: 9, compensating, ..Target::default() };
     let (mut program, mut found) = (program.clone(), Vec::new());
+    polar_words::run(&mut program, &target, start, &mut found);
     expand_compensation::run(&mut program, &target, start, &mut found);
     match found.into_iter().find(|d| d.fault.gravity() == Gravity::Error) {
         Some(refused) => Err(refused),
@@ -256,6 +276,7 @@ impl Printer<'_> {
         if let Some(text) = comment.filter(|_| !says) {
             let _ = writeln!(self.out, "COMMENT(\"{}\")", String::from_utf8_lossy(text.trim_ascii_start()));
         }
+        self.limit = self.limit_of(stmts)?;
         // The feed of a cycle's block; a cycle that is called up with other words says it once more.
         for stmt in stmts {
             if let Op::StartCycle(cycle) = &stmt.op
@@ -342,16 +363,18 @@ impl Printer<'_> {
                 self.beside = false;
                 self.note("cutter radius compensation off");
             }
-            Op::SetFeedMode(FeedMode::PerMinute) => {
-                self.note("feed mode set to units per minute");
-                self.call("SET_FEED_MODE(0, 0)");
-                self.call("SET_FEED_RATE(0.0000)");
+            Op::SetFeedMode(mode) => self.feed_mode(*mode)?,
+            // By time, each move gets its own.
+            Op::SetFeedRate(feed) if self.at.modes.feed_mode == Some(FeedMode::InverseTime) => {
+                self.feed = Some(literal(feed)?);
             }
             Op::SetFeedRate(feed) => {
                 let feed = literal(feed)?;
                 self.feed(feed);
             }
-            Op::SetSpindleMode(SpindleMode::Turns) => self.call("SET_SPINDLE_MODE(0 0.0000)"),
+            Op::SetSpindleMode(mode) => self.spindle_mode(*mode),
+            // It goes with the mode.
+            Op::LimitSpindleSpeed(_) => {}
             Op::SetSpindleSpeed(speed) => {
                 let _ = writeln!(self.out, "SET_SPINDLE_SPEED(0, {:.4})", literal(speed)?);
             }
@@ -360,7 +383,7 @@ impl Printer<'_> {
             }
             Op::ChangeTool => {
                 self.call("STOP_SPINDLE_TURNING(0)");
-                self.turning = Turning::Stopped;
+                (self.turning, self.numbered) = (Turning::Stopped, false);
                 let _ = writeln!(self.out, "CHANGE_TOOL({})", self.at.selected.unwrap_or(0));
             }
             Op::StartSpindleClockwise => self.turn(Turning::Clockwise),
@@ -397,15 +420,22 @@ impl Printer<'_> {
                     self.work_turn(offset);
                 }
                 Data::Offset { .. } => self.note("setting coordinate system origin"),
-                // The block's entry is printed behind all that it sets.
-                Data::Tool { which, .. } if which.is_offset() => {}
-                Data::Measured { .. } => {}
-                Data::Tool { .. } | Data::Position(_) | Data::ToolInSpindle(_) => {
-                    return Err(cannot(stmt.op.name()));
-                }
+                // The block's entry is printed behind all that it sets; radii have no place in that call.
+                Data::Tool { .. } | Data::Measured { .. } => {}
+                // It is kept without a call.
+                Data::Position(_) => {}
+                Data::ToolInSpindle(_) => self.tool_in_spindle(),
             },
             Op::UseMachineCoordinates { .. } => {}
+            Op::Probe(_) => self.probing = true,
+            Op::GoToReference(reference) => self.reference(reference)?,
+            Op::SynchronisedFeed(thread) => self.thread(thread)?,
+            Op::Position(_) => self.position()?,
+            Op::Advise(advice) => self.switch(advice)?,
+            Op::OrientSpindle(angle) => self.orient(angle.as_ref(), stmt)?,
             Op::UseToolLengthOffset(entry) => self.tool_offsets(entry)?,
+            // The interpreter by itself has no length of a tool of which it was told the number alone.
+            Op::UseToolEdge { .. } if self.numbered => return Err(cannot(stmt.op.name())),
             Op::UseToolEdge { .. } => {
                 let entry = self.exec.length_entry().ok_or_else(|| cannot(stmt.op.name()))?;
                 self.tool_offsets(&Expr::int(i64::from(entry)))?;
@@ -417,7 +447,11 @@ impl Printer<'_> {
                 }
             },
             Op::StraightTraverse(_) => self.straight("STRAIGHT_TRAVERSE", self.exec.position()),
-            Op::StraightFeed(_) => self.straight("STRAIGHT_FEED", self.exec.position()),
+            Op::StraightFeed(_) if std::mem::take(&mut self.probing) => self.probe()?,
+            Op::StraightFeed(_) => {
+                self.rate_of_line()?;
+                self.straight("STRAIGHT_FEED", self.exec.position());
+            }
             Op::ArcFeed(arc) => self.arc(arc)?,
             Op::SetMotionControlMode(control) => {
                 self.path = control.mode;
@@ -441,29 +475,20 @@ impl Printer<'_> {
                 let code = self.source.get(stmt.span.start as usize..stmt.span.end as usize);
                 self.end(code.is_some_and(|code| code.eq_ignore_ascii_case(b"M30")));
             }
-            Op::SetFeedMode(_)
-            | Op::SetFrame(_)
+            Op::SetFrame(_)
             | Op::SetSlot(_)
             | Op::ClearFrame(_)
-            | Op::Probe(_)
             | Op::Detour(_)
             | Op::UseToolCentrePoint(_)
             | Op::OrientToolAxis(_)
-            | Op::GoToReference(_)
             | Op::ExactStop
             | Op::TurnRotaryAxes(_)
             | Op::Corner { .. }
-            | Op::Advise(_)
-            | Op::SetSpindleMode(SpindleMode::Surface)
-            | Op::LimitSpindleSpeed(_)
             | Op::SelectToolByName(_)
-            | Op::OrientSpindle(_)
             | Op::MachineFunction(_)
-            | Op::SynchronisedFeed(_)
-            | Op::ArcForm(_)
-            | Op::Position(_)
-            | Op::Hole(_)
             | Op::SetPole(_)
+            | Op::ArcForm(_)
+            | Op::Hole(_)
             | Op::Polar(_)
             | Op::Pattern(_)
             | Op::Call(_)
@@ -501,11 +526,6 @@ impl Printer<'_> {
         if self.path != PathMode::ExactPath && self.path != PathMode::ExactStop {
             let _ = writeln!(self.out, "SET_NAIVECAM_TOLERANCE({:.4})", self.merged);
         }
-    }
-
-    fn feed(&mut self, feed: f64) {
-        self.feed = Some(feed);
-        let _ = writeln!(self.out, "SET_FEED_RATE({feed:.4})");
     }
 
     fn turn(&mut self, turning: Turning) {
@@ -609,6 +629,7 @@ impl Printer<'_> {
         }
         let turns = i64::from(arc.turns) + 1;
         let turns = if arc.turn == Turn::Clockwise { -turns } else { turns };
+        self.rate_of_arc([start, end, centre], turns, to[normal as usize] - here[normal as usize])?;
         let shown = |axis: Axis, nanos| self.shown(axis as usize, nanos);
         let [e1, e2, c1, c2, n] = [
             shown(first, end[0]),

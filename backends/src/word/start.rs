@@ -4,7 +4,7 @@
 //! granted; a fact that neither knows is left out. Comments that come before wait behind it.
 
 use ncc_dialects::SafeStart;
-use ncc_ir::canon::{Axis, Distance, Fact, Modes, Units};
+use ncc_ir::canon::{Axis, Distance, Fact, Modes, ReturnLevel, Units};
 use ncc_ir::diag::Fault;
 use ncc_ir::program::{Op, Stmt};
 
@@ -174,6 +174,12 @@ impl Writer {
         if let Some(level) = preamble.said.return_level {
             self.now_in_force(Setting::Level(level));
             stated.return_level = Some(level);
+        } else if let Some(level) = self.assumed.return_level {
+            // Subprograms may rely on it, where this control begins with the other.
+            let own = self.dialect.power_on.return_level.as_ref().map(|fact| ReturnLevel::from(fact.value));
+            if own.is_some_and(|own| own != level) {
+                self.start_setting(Setting::Level(level), &mut stated, sink);
+            }
         }
         self.flush(false, sink);
         if let Some(setting) = own_block {

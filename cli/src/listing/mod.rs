@@ -6,6 +6,7 @@
 //! interpreter itself, whose own test programs are printed as it prints them. Compensated contours are listed
 //! by the path of the tool's centre.
 
+mod by_time;
 mod read_back;
 
 use std::io::{Read, Seek, SeekFrom};
@@ -15,6 +16,7 @@ use ncc_backends::canon::rs274;
 use ncc_frontends::Batch;
 use ncc_ir::diag::{Fault, Gravity};
 use ncc_ir::program::Program;
+use ncc_ir::world::Tables;
 
 use crate::args::{Format, Style, Translate};
 use crate::files::{self, Destination, Source};
@@ -34,7 +36,7 @@ pub(crate) fn check(args: &Translate, job: &Job) -> Result<(), Problem> {
     if !job.to.dialect.can.flat {
         return wrong("`--style rs274` is a style of canon", "ncc linuxcnc to canon FILE --style rs274");
     }
-    if !job.from.dialect.can.stays_beside {
+    if !job.from.dialect.can.contour_left_at_once {
         let message =
             format!("a program of {} makes no calls of LinuxCNC's interpreter", job.from.dialect.id);
         return wrong(&message, "translate it into linuxcnc first, and list the result");
@@ -49,6 +51,13 @@ pub(crate) fn check(args: &Translate, job: &Job) -> Result<(), Problem> {
         );
     }
     Ok(())
+}
+
+/// The table of tools of the source's machine: lengths and radii that its profile states, and no offsets beside them.
+fn tables(job: &Job) -> Tables {
+    let stated = job.machines.from.as_ref().map(|machine| machine.tables()).unwrap_or_default();
+    let offsets = stated.lengths.keys().map(|entry| (*entry, [0; 2])).collect();
+    Tables { lengths: stated.lengths, radii: stated.radii, offsets, ..Tables::default() }
 }
 
 /// Lists the calls of a program.
@@ -78,7 +87,7 @@ pub(crate) fn run(
         let main = batch.main(body);
         let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
         let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
-        match rs274::print(&program, &text, &job.compensating().radii) {
+        match rs274::print(&program, &text, &tables(job)) {
             Ok(text) => match if job.verify { read_back::verify(job, &program, &text) } else { Ok(()) } {
                 Ok(()) => listing = Some(text),
                 Err(why) => found.push(why),

@@ -5,24 +5,34 @@
 //! the moves behind them lead. How corners are taken is not compared: the interpreter's own cycles set it for their
 //! moves, which no other control's do.
 //!
+//! Where a probe touches no program says: the interpreter takes it to do so at the end of its way, and stands a little
+//! before that. Feeds that the program says by the time of a move are printed, and compared, as those of its way.
+//!
 //! Not here: how calls are printed. Nothing is shared with the printer but the form that
 //! `docs/rs274-listing.md` and the interpreter itself define.
 
-use ncc_ir::canon::{AXES, Axis, Modes, Plane, Spindle, Turn};
+use ncc_ir::canon::{AXES, Axis, FeedMode, Modes, Plane, Spindle, SpindleMode, Turn};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner, Seen, State, Stored};
 use ncc_ir::num::{Nanos, ONE};
-use ncc_ir::program::Program;
+use ncc_ir::program::{Op, Probe, Program, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{Comparison, Resolution};
 use ncc_ir::world::World;
 
+use super::by_time;
 use crate::difference;
 use crate::job::Job;
 use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 
 /// Digits after the point of every number but whole ones.
 const DIGITS: u8 = 4;
+
+/// How far a probe stands before where it has touched, in millimetres.
+const BACKS_OFF: Nanos = 254 * ONE / 1000;
+
+/// What a probe looks for leaves no trace in a listing.
+const PROBE: Probe = Probe { away: false, error: true };
 
 /// Executes a program and reads its listing back; the first difference, if there is one.
 ///
@@ -54,24 +64,36 @@ pub(super) fn verify(job: &Job, program: &Program, listing: &str) -> Result<(), 
     })
 }
 
-/// The events of a program on a control with empty tables, from zero.
+/// The events of a program on a control with its machine's table of tools and no other, from zero.
 fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     let mut world = World::generate(0, &Modes { work_offset: Some(1), ..program.assumed });
     world.start = [0; AXES];
-    world.tables.radii = job.compensating().radii;
+    world.tables = super::tables(job);
+    world.backs_off = BACKS_OFF;
+    world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     let nanos = |option| parameter(job, option).and_then(|n| n.nanos(false)).unwrap_or(0);
     (world.peck_clearance, world.break_lift) = (nanos(PECK_CLEARANCE), nanos(BREAK_LIFT));
     let mut exec = Exec::new(&world, 0);
-    exec.compute_compensation(job.compensating().rules);
+    let is_start = |stmt: &Stmt| matches!(stmt.op, Op::StartCutterRadiusCompensation { .. });
+    if program.procedures.iter().any(|procedure| procedure.body.iter().any(is_start)) {
+        exec.compute_compensation(job.compensating().rules);
+    }
     let (mut runner, mut events) = (Runner::new(program), Vec::new());
     while runner.run(&mut exec, usize::MAX, &mut events)? == Progress::More {}
     exec.end_of_text(&mut events);
-    let is_offset = |stored: &Stored| match stored {
-        Stored::Offset(..) | Stored::Length(..) => true,
-        Stored::Value(_, which, ..) => which.is_offset(),
-        Stored::Position(..) | Stored::Tool(_) => false,
+    by_time::as_feeds(&mut events);
+    for event in &mut events {
+        if let Kind::Probe { probe, .. } = &mut event.kind {
+            *probe = PROBE;
+        }
+    }
+    let has_call = |kind: &Kind| match kind {
+        Kind::Data(stored) => matches!(**stored, Stored::Tool(_)),
+        // Taps and bores have one without that.
+        Kind::Dwell(seconds) => *seconds != 0,
+        _ => true,
     };
-    events.retain(|event| !matches!(&event.kind, Kind::Data(stored) if is_offset(stored)));
+    events.retain(|event| has_call(&event.kind));
     Ok(events)
 }
 
@@ -86,6 +108,8 @@ struct Listed {
     feed: Nanos,
     /// Whether feeds are those of a tap, which the spindle's speed goes with.
     tapping: bool,
+    /// How far a move in step with the spindle goes in a turn, while there is one.
+    pitch: Option<Nanos>,
     /// The spindle before it was stopped by the line before.
     turned: Option<Spindle>,
     /// Zero of the work offset in force, by how many degrees it is turned, and the shift within it.
@@ -112,7 +136,7 @@ impl Listed {
                 self.event(Kind::ProgramEnd, 0);
                 break;
             }
-            self.line(line, lines.get(at + 1).copied()).ok_or_else(|| (*line).to_owned())?;
+            self.line(line, &lines[at + 1..]).ok_or_else(|| (*line).to_owned())?;
         }
         Ok(self.events)
     }
@@ -122,7 +146,8 @@ impl Listed {
         self.events.push(Event { kind, end, rate, state, inch, span: Span::default() });
     }
 
-    fn line(&mut self, line: &str, next: Option<&str>) -> Option<()> {
+    fn line(&mut self, line: &str, behind: &[&str]) -> Option<()> {
+        let next = behind.first().copied();
         let (name, rest) = line.split_once('(')?;
         let inside = rest.strip_suffix(')')?;
         let stopped = self.turned.take();
@@ -155,9 +180,22 @@ impl Listed {
                 };
                 self.plane = Some(plane);
             }
-            "SET_FEED_MODE" => (inside == "0, 0").then_some(())?,
+            "SET_FEED_MODE" => {
+                self.state.feed_mode = match inside {
+                    "0, 0" => FeedMode::PerMinute,
+                    "0, 1" => FeedMode::PerRevolution,
+                    _ => return None,
+                };
+            }
             "SET_FEED_RATE" => self.feed = self.length(inside)?,
-            "SET_SPINDLE_SPEED" => self.state.speed = number(inside.strip_prefix("0, ")?)?,
+            "SET_SPINDLE_SPEED" => self.speed(inside.strip_prefix("0, ")?)?,
+            "SET_SPINDLE_MODE" => self.spindle_mode(inside.strip_prefix("0 ")?)?,
+            "ORIENT_SPINDLE" => {
+                let angle = inside.strip_prefix("0, ")?.strip_suffix(", 0")?;
+                self.state.spindle = Spindle::Stopped;
+                self.event(Kind::Orient(number(angle)?), 0);
+            }
+            "SPINDLE.0.WAIT_ORIENT_COMPLETE" => {}
             "START_SPINDLE_CLOCKWISE" => self.state.spindle = Spindle::Clockwise,
             "START_SPINDLE_COUNTERCLOCKWISE" => self.state.spindle = Spindle::Counterclockwise,
             "STOP_SPINDLE_TURNING" => {
@@ -178,23 +216,36 @@ impl Listed {
             // One word switches both off.
             "MIST_OFF" => self.coolant(self.state.flood, false, next == Some("FLOOD_OFF()")),
             "FLOOD_OFF" => self.coolant(false, self.state.mist, false),
-            // A tap without a dwell has one of no seconds.
-            "DWELL" if self.tapping && number(inside) == Some(0) => {}
+            // A tap or a bore without a dwell has one of no seconds.
+            "DWELL" if number(inside) == Some(0) => {}
             "DWELL" => self.event(Kind::Dwell(number(inside)?), 0),
-            "DISABLE_FEED_OVERRIDE" => self.tapping = true,
+            "DISABLE_FEED_OVERRIDE" => self.tapping = is_tap(behind),
             "ENABLE_FEED_OVERRIDE" => self.tapping = false,
             "DISABLE_SPEED_OVERRIDE" | "ENABLE_SPEED_OVERRIDE" => {}
+            "DISABLE_FEED_HOLD" | "ENABLE_FEED_HOLD" => {}
+            "CHANGE_TOOL_NUMBER" => {
+                let tool: u32 = inside.parse().ok()?;
+                self.state.tool = i64::from(tool);
+                self.event(Kind::Data(Box::new(Stored::Tool(tool))), 0);
+            }
+            "START_SPEED_FEED_SYNC" => self.pitch = Some(self.length(inside.strip_suffix(",0")?)?),
+            "STOP_SPEED_FEED_SYNCH" => self.pitch = None,
+            "RIGID_TAP" => self.rigid_tap(&inside.split(", ").collect::<Vec<_>>())?,
+            "TURN_PROBE_ON" => next?.starts_with("STRAIGHT_PROBE(").then_some(())?,
+            "TURN_PROBE_OFF" => {}
+            "STRAIGHT_PROBE" => self.probe(&inside.split(", ").collect::<Vec<_>>())?,
             "STRAIGHT_TRAVERSE" => {
                 self.at = self.point(&inside.split(", ").collect::<Vec<_>>())?;
                 self.event(Kind::Traverse, 0);
             }
             "STRAIGHT_FEED" => {
                 self.at = self.point(&inside.split(", ").collect::<Vec<_>>())?;
-                let (kind, rate) = match self.tapping {
-                    false => (Kind::Feed, self.feed),
-                    true => (Kind::Synchronised { pitch: self.of_a_turn()?, chuck: true }, self.feed),
+                let kind = match (self.tapping, self.pitch) {
+                    (false, None) => Kind::Feed,
+                    (true, None) => Kind::Synchronised { pitch: self.of_a_turn()?, chuck: true },
+                    (_, Some(pitch)) => Kind::Synchronised { pitch, chuck: false },
                 };
-                self.event(kind, rate);
+                self.event(kind, self.feed);
             }
             "ARC_FEED" => self.arc(&inside.split(", ").collect::<Vec<_>>())?,
             "PROGRAM_STOP" => self.event(Kind::ProgramStop, 0),
@@ -205,12 +256,67 @@ impl Listed {
         Some(())
     }
 
-    /// Switches coolant; where the next call switches the rest, that makes the event.
+    /// Switches coolant; where the next call switches the rest, that makes the event, and there is none where it is so
+    /// already.
     fn coolant(&mut self, flood: bool, mist: bool, more: bool) {
+        let before = (self.state.flood, self.state.mist);
         (self.state.flood, self.state.mist) = (flood, mist);
-        if !more {
+        if !more && before != (flood, mist) {
             self.event(Kind::Coolant, 0);
         }
+    }
+
+    /// A speed of the spindle; that of a surface is said in ft/min where lengths are inches.
+    fn speed(&mut self, text: &str) -> Option<()> {
+        let said = number(text)?;
+        let feet = self.state.spindle_mode == SpindleMode::Surface && self.inch;
+        self.state.speed = if feet { (said * 3048 + 5000) / 10_000 } else { said };
+        Some(())
+    }
+
+    /// What the speed counts; with a surface speed goes a limit, and the radius is measured from program zero.
+    fn spindle_mode(&mut self, text: &str) -> Option<()> {
+        if text == "0.0000" {
+            self.state.spindle_mode = SpindleMode::Turns;
+            return Some(());
+        }
+        let most: f64 = text.parse().ok()?;
+        self.state.limit = if most < 1e9 { (most * 1000.0).round() as u32 } else { u32::MAX };
+        self.state.spindle_mode = SpindleMode::Surface;
+        self.state.centre = self.placed([0; AXES])[0];
+        Some(())
+    }
+
+    /// In and out again in step with the spindle, which turns the other way for the way out.
+    fn rigid_tap(&mut self, words: &[&str]) -> Option<()> {
+        let [x, y, z] = words else { return None };
+        let pitch = self.pitch?;
+        let began = self.at;
+        let to = self.placed([self.length(x)?, self.length(y)?, self.length(z)?, 0, 0, 0]);
+        self.at[..3].copy_from_slice(&to[..3]);
+        self.event(Kind::Synchronised { pitch, chuck: false }, self.feed);
+        let turned = self.state.spindle;
+        self.state.spindle = match turned {
+            Spindle::Counterclockwise => Spindle::Clockwise,
+            Spindle::Clockwise | Spindle::Stopped => Spindle::Counterclockwise,
+        };
+        self.at = began;
+        self.event(Kind::Synchronised { pitch, chuck: false }, self.feed);
+        self.state.spindle = turned;
+        Some(())
+    }
+
+    /// A probe's way, to the end of it and back a little.
+    fn probe(&mut self, words: &[&str]) -> Option<()> {
+        let (from, to) = (self.at, self.point(words)?);
+        let way: [f64; 3] = std::array::from_fn(|axis| (to[axis] - from[axis]) as f64);
+        let long = way.iter().map(|n| n * n).sum::<f64>().sqrt();
+        self.at = to;
+        for axis in (0..3).filter(|_| long > 0.0) {
+            self.at[axis] -= (way[axis] / long * BACKS_OFF as f64).round() as Nanos;
+        }
+        self.event(Kind::Probe { to: Box::new(to), probe: PROBE }, self.feed);
+        Some(())
     }
 
     fn length(&self, text: &str) -> Option<Nanos> {
@@ -293,6 +399,12 @@ impl Listed {
         self.event(Kind::Arc { plane, turn, full: closed, centre }, self.feed);
         Some(())
     }
+}
+
+/// Whether what follows a locked override is a tap: down, the spindle turned round, and up.
+fn is_tap(behind: &[&str]) -> bool {
+    let down = ["DISABLE_SPEED_OVERRIDE", "STRAIGHT_FEED", "STOP_SPINDLE_TURNING", "START_SPINDLE"];
+    behind.len() > down.len() && behind.iter().zip(down).all(|(line, name)| line.starts_with(name))
 }
 
 /// A number with at most nine digits after the point, in billionths.

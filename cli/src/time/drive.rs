@@ -570,6 +570,8 @@ fn world(plan: &Plan) -> World {
         path: None,
         start: [0; AXES],
         peck_clearance: value(PECK_CLEARANCE),
+        backs_off: 0,
+        feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         break_lift: value(BREAK_LIFT),
         orientation: 0,
         bore_shift: Sideways::default(),

@@ -260,6 +260,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         cycle_ends_motion: dialect.cycles.ends_motion,
         cycles_measured_anew: dialect.cycles.measured_anew,
         change_stops_spindle: dialect.can.change_stops_spindle,
+        feed_ends_with_mode: dialect.can.feed_ends_with_mode,
         arc_radius: everything
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),

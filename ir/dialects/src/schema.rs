@@ -429,10 +429,13 @@ pub struct Can {
     pub length_at_once: bool,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
+    /// A code of what the feed counts ends the feed even where it counts that already: the next cut needs a new one.
+    pub feed_ends_with_mode: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is
-    /// neither gone round nor cut short, and behind the contour the tool goes on from where it is. Of others
-    /// that is taken for granted, with every corner gone round, where the path has to be worked out.
-    pub stays_beside: bool,
+    /// neither gone round nor cut short, and the first move behind the contour leads to the programmed point of the
+    /// plane even if it has words of none of its axes. Of others it is taken for granted that every corner is gone
+    /// round, and that the first move with such words leads there, where the path has to be worked out.
+    pub contour_left_at_once: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,
     /// Grids are written only up to this many columns and rows.

@@ -104,7 +104,9 @@ impl Exec {
         self.step_plainly(stmt, &mut made)?;
         let Some(mut path) = self.centre_path.take() else { return Ok(()) };
         let words = super::compensation::to(&stmt.op);
-        let named = words.is_some_and(|to| path.axes.iter().any(|axis| to.axes[*axis].is_some()));
+        let of_the_plane = words.is_some_and(|to| path.axes.iter().any(|axis| to.axes[*axis].is_some()));
+        let moves = made.iter().any(|event| event.kind.moves().is_some());
+        let named = of_the_plane || path.rules.left_at_once && moves;
         let done = made.into_iter().try_for_each(|event| match on {
             true => path.along(event, out),
             false => {
@@ -128,12 +130,8 @@ impl Exec {
         let Some(beside) = path.path.take() else { return Ok(()) };
         let end = beside.leave().map_err(|why| unreachable(why, span))?;
         path.settle(end, out);
-        path.leaving = !path.rules.stays;
+        path.leaving = true;
         self.last = path.tool;
-        if path.rules.stays {
-            let tool = path.tool;
-            self.position = self.unplace(&tool);
-        }
         Ok(())
     }
 }
@@ -153,7 +151,7 @@ impl Exec {
 }
 
 impl CentrePath {
-    /// An event behind the contour's end; `named` says whether its words lead away from there.
+    /// An event behind the contour's end; `named` says whether it leads away from there.
     fn away(&mut self, mut event: Event, named: bool, out: &mut Vec<Event>) {
         event.state.compensation = super::Compensation::default();
         if event.kind.moves().is_some() {
@@ -200,7 +198,7 @@ impl CentrePath {
             self.contour = programmed;
             if self.path.is_some() {
                 self.held.push(event);
-            } else if self.rules.stays {
+            } else if self.rules.left_at_once {
                 return Err(unreachable(Unreachable::Entry, span));
             } else {
                 self.tool = event.end;

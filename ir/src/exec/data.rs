@@ -144,9 +144,22 @@ impl Exec {
             let way = i128::from(to[axis]) - i128::from(from[axis]);
             from[axis].wrapping_add((way * share / i128::from(ONE)) as Nanos)
         });
+        self.touched = Some(Box::new([self.unplace(&self.last), self.tool_offset()]));
+        self.back_off(&from);
         self.position = self.unplace(&self.last);
-        self.touched = Some(Box::new([self.position, self.tool_offset()]));
         self.emit(Kind::Probe { to: Box::new(to), probe }, span, out)
+    }
+
+    /// Goes back from where the probe has touched, the way it came, as far as this machine does so by itself.
+    fn back_off(&mut self, from: &[Nanos; AXES]) {
+        let way: [f64; 3] = std::array::from_fn(|axis| (self.last[axis] - from[axis]) as f64);
+        let long = way.iter().map(|n| n * n).sum::<f64>().sqrt();
+        if self.world.backs_off == 0 || long == 0.0 {
+            return;
+        }
+        for (axis, way) in way.into_iter().enumerate() {
+            self.last[axis] -= (way / long * self.world.backs_off as f64).round() as Nanos;
+        }
     }
 
     #[cold]

@@ -570,7 +570,8 @@ impl Exec {
             }
             Op::SetFeedMode(mode) => {
                 // What a feed said before would count now, nobody knows; a time is one block's.
-                if self.state.feed_mode != *mode || *mode == FeedMode::InverseTime {
+                let ends = self.world.feed_ends_with_mode || *mode == FeedMode::InverseTime;
+                if self.state.feed_mode != *mode || ends {
                     self.state.feed_mode = *mode;
                     self.feed = 0;
                 }

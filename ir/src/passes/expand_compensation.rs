@@ -18,7 +18,7 @@ use crate::cycle::absolute;
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
-use crate::program::{Arc, Centre, CentreFrom, CutterRadius, Data, Move, Op, Point, Program, Stmt};
+use crate::program::{Arc, Centre, CentreFrom, Coord, CutterRadius, Data, Move, Op, Point, Program, Stmt};
 use crate::source::Span;
 use crate::track::Tracker;
 use crate::world::Tables;
@@ -251,12 +251,15 @@ impl Expansion<'_> {
         let full = matches!(stmt.op, Op::ArcFeed(_)) && from == to;
         let still = from == to && !full;
         if contour.radius == 0.0 {
+            if self.leaving.is_some() {
+                return cannot("a contour without a radius before the one before it is left", span);
+            }
             walk.step(&stmt);
             made.push(stmt);
             return Ok(());
         }
         if still {
-            if contour.path.is_none() && rules.stays {
+            if contour.path.is_none() && rules.left_at_once {
                 return Err(unreachable(Unreachable::Entry));
             }
             // Beside the contour, words of the plane would lead back onto it.
@@ -281,6 +284,7 @@ impl Expansion<'_> {
             None => {
                 let path = Beside::enter(contour.radius, contour.left, rules, from, to);
                 contour.path = Some(path.map_err(unreachable)?);
+                self.leaving = None;
             }
             Some(path) => {
                 let Corner { end, round } = path.go_on(leg, to).map_err(unreachable)?;
@@ -333,16 +337,7 @@ impl Expansion<'_> {
         })?;
         let writer = Written { walk, decimals: self.decimals, plane: contour.plane };
         writer.settle(&mut made.out[contour.held], end);
-        if self.how.rules.stays {
-            let (first, second, _) = contour.plane.axes();
-            let written = [(first, end[0]), (second, end[1])]
-                .map(|(axis, mm)| (axis, walk.at.nanos(&writer.coordinate(axis, mm).value)));
-            for (axis, at) in written {
-                walk.at.position[axis as usize] = at;
-            }
-        } else {
-            self.leaving = Some(contour.plane);
-        }
+        self.leaving = Some(contour.plane);
         Ok(())
     }
 
@@ -367,21 +362,13 @@ impl Expansion<'_> {
         if stmt.skip.is_some() {
             return cannot("the way off a contour, in a block that may be skipped,", span);
         }
-        let known = stays(&stmt.op, walk) || matches!(stmt.op, Op::EndCycle);
+        let known = stays(&stmt.op, walk) || matches!(stmt.op, Op::EndCycle | Op::ProgramEnd);
         match &mut stmt.op {
             Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Position(m) if !walk.at.raw => {
-                if m.to.get(first).is_some() || m.to.get(second).is_some() {
-                    let target = walk.at.target(&m.to);
-                    for axis in [first, second] {
-                        let fault = Fault::PositionUnknown { axis: char::from(axis.letter()) };
-                        let to = target[axis as usize].ok_or(Diagnostic::new(fault, span))?;
-                        m.to.set(axis, at(to, axis, walk.unit()));
-                    }
-                    for axis in Axis::ALL {
-                        if let (Some(to), true) = (target[axis as usize], m.to.get(axis).is_some()) {
-                            m.to.set(axis, at(to, axis, walk.unit()));
-                        }
-                    }
+                let named = m.to.get(first).is_some() || m.to.get(second).is_some();
+                if named || self.how.rules.left_at_once {
+                    let writer = Written { walk, decimals: self.decimals, plane };
+                    m.to = writer.whole(&m.to).map_err(|fault| Diagnostic::new(fault, span))?;
                     self.leaving = None;
                 }
             }
@@ -458,7 +445,7 @@ impl Written<'_> {
         Ok([at(first)?, at(second)?])
     }
 
-    fn coordinate(&self, axis: Axis, mm: f64) -> crate::program::Coord {
+    fn coordinate(&self, axis: Axis, mm: f64) -> Coord {
         let unit = unit_of(axis, self.walk.unit());
         let decimals =
             if unit == crate::num::Unit::Inch { self.decimals.saturating_add(1) } else { self.decimals };
@@ -477,19 +464,30 @@ impl Written<'_> {
     /// The words that are none of the plane, from program zero.
     fn others(&self, words: &Point) -> Result<Point, Fault> {
         let (first, second, _) = self.plane.axes();
+        self.from_zero(words, |axis| axis != first && axis != second && words.get(axis).is_some())
+    }
+
+    /// All words from program zero, and those of both axes of the plane among them.
+    fn whole(&self, words: &Point) -> Result<Point, Fault> {
+        let (first, second, _) = self.plane.axes();
+        self.from_zero(words, |axis| axis == first || axis == second || words.get(axis).is_some())
+    }
+
+    /// Where words lead along some axes; an absolute word stays as it is written.
+    fn from_zero(&self, words: &Point, along: impl Fn(Axis) -> bool) -> Result<Point, Fault> {
         let target = self.walk.at.target(words);
-        let mut to = Point::default();
-        for axis in Axis::ALL.into_iter().filter(|axis| *axis != first && *axis != second) {
-            let Some(word) = words.get(axis) else { continue };
-            let own = word.distance.known().or(self.walk.at.modes.distance);
-            let coord = match target[axis as usize] {
-                Some(to) if own != Some(Distance::Absolute) => at(to, axis, self.walk.unit()),
-                Some(_) => super::write::as_absolute(word),
-                None => return Err(Fault::PositionUnknown { axis: char::from(axis.letter()) }),
-            };
-            to.set(axis, coord);
+        let mut point = Point::default();
+        for axis in Axis::ALL.into_iter().filter(|axis| along(*axis)) {
+            let fault = Fault::PositionUnknown { axis: char::from(axis.letter()) };
+            let to = target[axis as usize].ok_or(fault)?;
+            let own = |word: &Coord| word.distance.known().or(self.walk.at.modes.distance);
+            let absolute = words.get(axis).filter(|word| own(word) == Some(Distance::Absolute));
+            point.set(
+                axis,
+                absolute.map_or_else(|| at(to, axis, self.walk.unit()), super::write::as_absolute),
+            );
         }
-        Ok(to)
+        Ok(point)
     }
 
     fn arc(&self, to: Point, centre: Spot, ccw: bool, turns: u32) -> Op {

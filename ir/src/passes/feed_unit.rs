@@ -1,7 +1,9 @@
 //! `feed-unit`: feeds are written in the unit of length in force.
 //!
 //! Likewise a feed is said again before the first cut after a change of units, for targets of which
-//! it is not known what a feed said before means then.
+//! it is not known what a feed said before means then, and behind a code of what the feed counts, for targets
+//! on which such a code ends the feed even where it counts that already. Refused is a feed that would have to be said
+//! again and is not known.
 //!
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
@@ -9,25 +11,26 @@
 use super::walk::Walk;
 use super::write::{exact, rebuild, rounded};
 use super::{Target, each_body};
-use crate::canon::{Motion, Units};
+use crate::canon::{FeedMode, Motion, Units};
 use crate::cycle::CycleKind;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::num::{Num, Unit};
 use crate::program::{Op, Program, Stmt};
 use crate::track::Tracker;
 
-/// Feed in force, and whether the units have changed since it was said.
+/// Feed in force, and whether the units have changed since it was said, or a code has ended it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
     feed: Option<Num>,
     stale: bool,
+    ended: bool,
 }
 
 impl State {
     /// Whether a feed waits to be said again.
     pub(super) fn is_busy(&self) -> bool {
-        self.stale
+        self.stale || self.ended
     }
 
     /// Notes the feed of a statement.
@@ -42,12 +45,18 @@ impl State {
             _ => return,
         };
         self.feed = feed.literal();
-        self.stale = false;
+        (self.stale, self.ended) = (false, false);
     }
 }
 
-/// Says feeds again after a change of units.
-pub(super) fn again(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, target: &Target) {
+/// Says feeds again after a change of units, and behind codes that end them.
+pub(super) fn again(
+    body: &mut Vec<Stmt>,
+    walk: &mut Walk,
+    state: &mut State,
+    target: &Target,
+    diags: &mut Vec<Diagnostic>,
+) {
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
         let cuts = match stmt.op.unwrapped() {
@@ -56,17 +65,32 @@ pub(super) fn again(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, ta
             Op::StartCycle(cycle) => cycle.feed.is_none(),
             _ => false,
         };
-        if let (true, true, Some(feed), Some(units)) = (cuts, state.stale, state.feed, walk.at.modes.units) {
+        let again = state.stale || state.ended;
+        if cuts && state.ended && (state.feed.is_none() || walk.at.modes.units.is_none()) {
+            let what = "a feed that is not known here and holds behind a code of what it counts";
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));
+            state.ended = false;
+        }
+        if let (true, true, Some(feed), Some(units)) = (cuts, again, state.feed, walk.at.modes.units) {
             let feed = in_unit(feed, units, target).unwrap_or(feed);
             let mut said = Stmt::new(stmt.span, Op::SetFeedRate(feed.into()));
             (said.number, said.skip, said.joined) = (stmt.number.take(), stmt.skip, stmt.joined);
             stmt.joined = true;
             // In a block that may be skipped it is said for that block alone.
-            state.stale = stmt.skip.is_some();
+            let skipped = stmt.skip.is_some();
+            (state.stale, state.ended) = (state.stale && skipped, state.ended && skipped);
             made.push(said);
         }
         if let Op::UseLengthUnits(units) = &stmt.op {
             state.stale |= state.feed.is_some() && walk.at.modes.units != Some(*units);
+        }
+        if let (Op::SetFeedMode(mode), true) = (&stmt.op, target.caps.feed_ends_with_mode) {
+            // Another mode ends it on every control.
+            let other = walk.at.modes.feed_mode.is_some_and(|now| now != *mode);
+            state.ended = !other && *mode != FeedMode::InverseTime && walk.at.fed;
+            if other {
+                state.feed = None;
+            }
         }
         state.note(&stmt.op);
         walk.step(&stmt);
@@ -75,10 +99,10 @@ pub(super) fn again(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, ta
 }
 
 /// Writes them in the unit in force.
-pub fn run(program: &mut Program, target: &Target, entry: &Tracker, _: &mut Vec<Diagnostic>) {
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         over(body, &mut walk.clone(), target);
-        again(body, walk, &mut State::default(), target);
+        again(body, walk, &mut State::default(), target, diags);
     });
 }
 

@@ -98,7 +98,8 @@ impl Legaliser {
                     | TOOL_AXIS
                     | CORNER
                     | AT_ONCE)
-                != 0,
+                != 0
+                || caps.feed_ends_with_mode,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
@@ -189,6 +190,15 @@ impl Legaliser {
         self.frames.assume(assumed);
         if self.target.caps.change_stops_spindle {
             self.change.over(stmts, diags);
+        }
+        if self.target.caps.feed_ends_with_mode {
+            let changes = stmts.iter().any(|stmt| matches!(stmt.op, Op::SetFeedMode(_)));
+            match changes || self.feed.is_busy() {
+                true => {
+                    feed_unit::again(stmts, &mut self.walk.clone(), &mut self.feed, &self.target, diags);
+                }
+                false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
+            }
         }
         let needs = self.needs(stmts);
         self.threads.said = self.taps.said;
@@ -379,7 +389,9 @@ impl Legaliser {
             self.walk = start.clone();
             if needs & FRAME != 0 && needs & ARC == 0 {
                 self.arcs = arc_form::State::default();
-                self.feed = feed_unit::State::default();
+                if self.target.caps.feed_again {
+                    self.feed = feed_unit::State::default();
+                }
                 arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
             } else {
                 self.walk.pass(stmts);
@@ -397,7 +409,7 @@ impl Legaliser {
         let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
         let mut needs = if mixed { needs | MEASURE } else { needs };
         if needs & MEASURE != 0 && self.target.caps.feed_again {
-            feed_unit::again(stmts, &mut start.clone(), &mut self.feed, &self.target);
+            feed_unit::again(stmts, &mut start.clone(), &mut self.feed, &self.target, diags);
         }
         if needs & MEASURE != 0 && !self.target.caps.feed_apart {
             feed_unit::over(stmts, &mut start.clone(), &self.target);

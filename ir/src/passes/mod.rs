@@ -55,7 +55,7 @@ pub mod passed_labels;
 mod path_control;
 mod pattern_forms;
 pub mod planes_checked;
-mod polar_words;
+pub mod polar_words;
 mod repeat_ends;
 pub mod return_plane;
 mod rotary_ways;

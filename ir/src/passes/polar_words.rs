@@ -30,7 +30,7 @@ pub(super) struct State {
 }
 
 /// Says them so.
-pub(super) fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
+pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut Vec<Diagnostic>) {
     each_body(program, entry, |body, walk| {
         over(body, walk, &mut State::default(), target, true, diags);
     });

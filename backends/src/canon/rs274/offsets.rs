@@ -26,7 +26,8 @@ impl Printer<'_> {
         if of_a_contour || matches!(stmt.op, Op::Return) {
             return Ok(());
         }
-        self.exec.step(stmt, &mut Vec::new())?;
+        self.made.clear();
+        self.exec.step(stmt, &mut self.made)?;
         // The interpreter counts from the new length at once.
         self.exec.take_up_at_once();
         Ok(())
@@ -63,7 +64,7 @@ impl Printer<'_> {
         let offsets = self.exec.stated_entry(entry).ok_or_else(unknown)?;
         let [x, y, z] = offsets.map(|nanos| nanos as f64 / ONE as f64 / 25.4);
         let rest = "0.0000 0.0000 0.0000 0.0000 0.0000 0.0000";
-        let first = self.radii.keys().next() == Some(&entry);
+        let first = self.tables.radii.keys().next() == Some(&entry);
         let loaded = match self.at.tool {
             Some(tool) => tool == i64::from(entry),
             None => first,

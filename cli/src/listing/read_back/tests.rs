@@ -8,7 +8,7 @@ use ncc_ir::program::Procedure;
 use super::*;
 
 /// One with all that a listing can have: arcs of several turns, holes, a tap, dwells, coolant, a tool, offsets.
-const PART: &str = "G21 G17 G90 G94 G40 G49 G80 G54\nT2 M6\nS1500 M3\nM7\nM8\nG0 X10 Y-5 Z20\nZ2\nG1 Z-1.5 F120\nX30 F300\nG2 X40 Y5 I0 J10 F250\nG3 X40 Y5 Z-3 I-5 J0 P3\nG18 G3 X50 Z-3 I5 K0\nG17 G1 X12.3456\nG4 P0.5\nM9\nG0 Z20\nG98 G82 X5 Y5 Z-4 R2 P0.25 F90\nX15\nG83 X25 Z-9 Q3 R2\nG80\nG84 X1 Y2 Z-8 R3 F1500\nG80\nG10 L2 P2 X5 Y-3 Z1 R30\nG55\nG0 X1 Y1\nG1 X2 F100\nG2 X4 Y1 Z0 I1 J0\nG92 X0 Y2\nG1 X3\nG53 G0 Z5\nX7\nG92.2\nG1 Y4\nG92.1\nG54\nG0 X2 Y2\nM0\n(MSG,LOOK)\nG20\nG0 X1 Y1 Z1\nG1 X2.5 F10\nM5\nM2\n";
+const PART: &str = "G21 G17 G90 G94 G40 G49 G80 G54\nT2 M6\nS1500 M3\nM7\nM8\nG0 X10 Y-5 Z20\nZ2\nG1 Z-1.5 F120\nX30 F300\nG2 X40 Y5 I0 J10 F250\nG3 X40 Y5 Z-3 I-5 J0 P3\nG18 G3 X50 Z-3 I5 K0\nG17 G1 X12.3456\nG4 P0.5\nM9\nG0 Z20\nG98 G82 X5 Y5 Z-4 R2 P0.25 F90\nX15\nG83 X25 Z-9 Q3 R2\nG80\nG84 X1 Y2 Z-8 R3 F1500\nG80\nG10 L2 P2 X5 Y-3 Z1 R30\nG55\nG0 X1 Y1\nG1 X2 F100\nG2 X4 Y1 Z0 I1 J0\nG92 X0 Y2\nG1 X3\nG53 G0 Z5\nX7\nG92.2\nG1 Y4\nG92.1\nG54\nG0 X2 Y2\nG95 F0.2\nG1 X4\nG93 G1 X12 F4\nG2 X20 Y2 I4 J0 F5\nG94\nF140\nG33 Z-3 K1.5\nG0 Z4\nG33.1 Z-6 K1\nG38.2 Z-1.5 F30\nG91 G0 Z1.5\nG90 G0 @9 ^30\nG28.1\nG0 X1\nG28 Z5\nM19 R90 Q2\nM49\nS700 M3\nG1 X2.5 F60\nG96 D900 S80\nG1 X3 F60\nG97 S600\nM0\n(MSG,LOOK)\nG20\nG0 X1 Y1 Z1\nG1 X2.5 F10\nM5\nM2\n";
 
 fn listed(job: &Job) -> (Program, String) {
     let mut batch = Batch::default();
@@ -44,19 +44,27 @@ fn every_other_number_is_found_out() {
         let Some((name, rest)) = line.split_once('(') else { continue };
         let moves = name.starts_with("STRAIGHT") || name == "ARC_FEED";
         // Feeds and speeds that nothing uses are said at the end alone.
-        let used = moves || matches!(name, "DWELL" | "CHANGE_TOOL") && at < end;
-        let words: Vec<&str> = rest.trim_end_matches(')').split(", ").collect();
+        let used = moves
+            || matches!(name, "DWELL" | "CHANGE_TOOL" | "RIGID_TAP" | "ORIENT_SPINDLE") && at < end
+            || name == "START_SPEED_FEED_SYNC";
+        // How the spindle turns to its angle, and what a thread holds to, is no number of the program's.
+        let (rest, tail) = match rest.strip_suffix(",0)").or(rest.strip_suffix(", 0)")) {
+            Some(numbers) => (numbers, &rest[numbers.len()..]),
+            None => (rest.trim_end_matches(')'), ")"),
+        };
+        let words: Vec<&str> = rest.split(", ").collect();
         let tap = name == "DWELL" && words[0] == "0.0000";
-        for word in (0..words.len()).filter(|_| used && !tap) {
+        for word in (0..words.len()).filter(|word| used && !tap && words[*word] != "0") {
             let mut other: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
             other[word] = match words[word].split_once('.') {
                 Some((whole, part)) => {
-                    format!("{whole}.{:04}", (part.parse::<u32>().expect("digits") + 3) % 10_000)
+                    let (four, rest) = part.split_at(4);
+                    format!("{whole}.{:04}{rest}", (four.parse::<u32>().expect("digits") + 3) % 10_000)
                 }
                 None => (words[word].parse::<i64>().expect("a number") * 2).to_string(),
             };
             let mut text: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
-            text[at] = format!("{name}({})", other.join(", "));
+            text[at] = format!("{name}({}{tail}", other.join(", "));
             tried += 1;
             let found = verify(&job, &program, &text.join("\n"));
             assert!(found.is_err(), "{line}: {} is not found out", text[at]);
@@ -88,11 +96,20 @@ fn every_missing_call_is_found_out() {
         "SET_G5X_OFFSET(2",
         "SET_XY_ROTATION(30",
         "SET_G92_OFFSET(-",
+        "SET_FEED_MODE(0, 1",
+        "SET_FEED_RATE(0.2",
+        "SET_FEED_RATE(32.0",
+        "SET_SPINDLE_MODE(0 900",
+        "START_SPEED_FEED_SYNC",
+        "RIGID_TAP",
+        "TURN_PROBE_ON",
+        "ORIENT_SPINDLE(0, 90",
     ];
     let mut tried = 0;
     for at in (6..lines.len()).filter(|at| counts.iter().any(|name| lines[*at].starts_with(name))) {
-        // One that goes where the tool stands is none.
-        if lines[at - 1] == lines[at] {
+        // One that goes where the tool stands is none, and the operator's switches alone are not compared.
+        let switch = lines[at] == "DISABLE_FEED_OVERRIDE()" && !lines[at + 2].starts_with("STRAIGHT_FEED");
+        if lines[at - 1] == lines[at] || switch {
             continue;
         }
         let kept = lines.iter().enumerate().filter(|(line, _)| *line != at).map(|(_, line)| *line);
