@@ -119,6 +119,10 @@ impl Lower {
             Tree::Call { name, arguments, span } => {
                 self.function(*name, arguments, *span, depth, src, out)?
             }
+            Tree::Unary(Sign::Show, _, span) => {
+                self.not_supported(&src.text(*span), "text as a value", *span, out);
+                return None;
+            }
             Tree::Unary(sign, operand, _) => {
                 let a = self.meaning(operand, depth + 1, src, out)?;
                 match sign {
@@ -127,6 +131,8 @@ impl Lower {
                         Typed::new(Node::Unary(Unary::Negate, a.expr), kind)
                     }
                     Sign::Not => Typed::new(Node::Unary(Unary::Not, a.expr), Kind::Bool),
+                    // Refused before.
+                    Sign::Show => a,
                     // All bits turned, in two's complement.
                     Sign::BitNot => {
                         let a = self.whole_number(a, tree.span(), out);

@@ -1,7 +1,8 @@
 //! Lowering of messages and alarms.
 //!
 //! A message may have values in it: whole numbers as they are, real ones with up to ten digits behind the point, as the
-//! manual has it, of which nine are kept; zeros at their end are not written.
+//! manual has it, of which nine are kept; zeros at their end are not written. A value that begins it has `<<` before it,
+//! which makes a text of one value (Job planning, string operations, conversion to STRING).
 //!
 //! Refused by name: alarms of ranges that do not end the program, or of which that is not known.
 
@@ -12,7 +13,7 @@ use ncc_ir::source::Span;
 
 use super::formula::Kind;
 use super::lower::Lower;
-use super::tree::{Binary, Called, Expr as Tree};
+use super::tree::{Binary, Called, Expr as Tree, Unary};
 use crate::Batch;
 use crate::word::Source;
 
@@ -63,6 +64,7 @@ impl Lower {
                 self.pieces(&operands.0, into, src, out)?;
                 self.pieces(&operands.1, into, src, out)
             }
+            Tree::Unary(Unary::Show, operand, _) => self.pieces(operand, into, src, out),
             Tree::Place(place) if self.text_variable(place, src).is_some() => {
                 let name = "text that is not known here";
                 self.not_supported(&src.text(place.span), name, place.span, out);

@@ -15,7 +15,7 @@ use ncc_ir::source::Span;
 use super::computing::Variable;
 use super::formula::Kind;
 use super::lower::Lower;
-use super::tree::{Address, Binary as Operator, Expr as Tree, Place, Value};
+use super::tree::{Address, Binary as Operator, Expr as Tree, Place, Unary, Value};
 use crate::Batch;
 use crate::word::Source;
 
@@ -85,24 +85,29 @@ impl Lower {
                 of.now.clone()
             }
             Tree::Group(inner, _) => self.known_text(inner, src),
+            Tree::Unary(Unary::Show, part, _) => self.known_part(part, src),
             Tree::Binary(Operator::Join, parts) => {
-                let part = |part: &Tree| match part {
-                    // A whole number by its digits (Job planning 03/2006, 1.10).
-                    Tree::Number(digits, _) if digits.scale == 0 && !digits.point => {
-                        Some(digits.mantissa.to_string().into())
-                    }
-                    part => self.known_text(part, src),
-                };
-                Some(format!("{}{}", part(&parts.0)?, part(&parts.1)?).into())
+                let [first, second] = [&parts.0, &parts.1].map(|part| self.known_part(part, src));
+                Some(format!("{}{}", first?, second?).into())
             }
             _ => None,
+        }
+    }
+
+    /// A part of a text that is put together: a whole number by its digits (Job planning 03/2006, 1.10).
+    fn known_part(&self, part: &Tree, src: Source) -> Option<Text> {
+        match part {
+            Tree::Number(digits, _) if digits.scale == 0 && !digits.point => {
+                Some(digits.mantissa.to_string().into())
+            }
+            part => self.known_text(part, src),
         }
     }
 
     /// Whether an expression is a text.
     pub(super) fn is_text(&self, value: &Tree, src: Source) -> bool {
         match value {
-            Tree::Text(_) | Tree::Binary(Operator::Join, _) => true,
+            Tree::Text(_) | Tree::Binary(Operator::Join, _) | Tree::Unary(Unary::Show, ..) => true,
             Tree::Place(place) => self.text_variable(place, src).is_some(),
             Tree::Group(inner, _) => self.is_text(inner, src),
             _ => false,

@@ -315,6 +315,8 @@ pub(crate) enum Unary {
     Not,
     /// `B_NOT`
     BitNot,
+    /// `<<` before one value alone: its text.
+    Show,
 }
 
 /// Operators with two operands.

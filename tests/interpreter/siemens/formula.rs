@@ -35,7 +35,12 @@ impl Reader<'_> {
 
     fn level(&mut self, level: usize) -> Result<Worth, String> {
         let Some(operators) = PRIORITIES.get(level) else { return self.signed() };
+        // `<<` before the first of them makes a text of it.
+        let alone = operators.contains(&"<<") && self.operator(operators).is_some();
         let mut left = self.level(level + 1)?;
+        if alone {
+            left = Worth::Text(shown(&left));
+        }
         while let Some(operator) = self.operator(operators) {
             let right = self.level(level + 1)?;
             left = apply(operator, &left, &right)?;
