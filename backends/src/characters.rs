@@ -2,8 +2,9 @@
 //!
 //! Not here: which signs a comment may have (`word::comment`).
 
+use ncc_ir::letters::stand_in;
+
 use crate::Characters;
-use crate::word::comment::stand_in;
 
 /// Brings what stands in `out` from `start` on within the characters.
 pub(crate) fn encode(out: &mut Vec<u8>, start: usize, characters: Characters) {

@@ -5,26 +5,35 @@
 //! zero. Where alarms have no numbers, the number stands before the text. The text stays, in the letters that the
 //! control has, as far as it has place for it.
 //!
-//! Not here: characters that a control cannot show (the back-end's).
+//! Not here: what stands for characters that a control does not show (`letters`).
 
+use crate::letters::in_capitals;
 use crate::program::Text;
 
 /// How a control says the alarms of a program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Alarms {
     /// Its numbers, from and to; without, alarms have no number.
     pub numbers: Option<[u32; 2]>,
-    /// Whether its texts have capitals alone.
-    pub capitals: bool,
+    /// The signs that its texts have beside capitals, digits and the blank; without, all characters.
+    pub signs: Option<Text>,
     /// How many characters of a text it shows; without, all.
     pub longest: Option<usize>,
 }
 
 impl Alarms {
+    /// A text for the operator in the characters of this control.
+    pub fn shown(&self, text: &str) -> Text {
+        let Some(signs) = &self.signs else { return text.into() };
+        let mut shown = String::new();
+        in_capitals(text, signs, &mut shown);
+        shown.into()
+    }
+
     /// What an alarm is on this control; nothing where it has no number for it.
     pub fn said(&self, number: Option<i64>, text: &str) -> Option<(Option<i64>, Text)> {
         let shown = |text: &str| {
-            let text = if self.capitals { text.to_ascii_uppercase() } else { text.to_owned() };
+            let text = self.shown(text).to_string();
             match self.longest.and_then(|most| text.char_indices().nth(most)) {
                 Some((end, _)) => text[..end].trim_end().to_owned(),
                 None => text,
@@ -58,20 +67,21 @@ mod tests {
 
     #[test]
     fn an_alarm_has_the_number_and_the_text_of_the_other_control() {
-        let mill = Alarms { numbers: Some([0, 200]), capitals: true, longest: Some(12) };
-        let other = Alarms { numbers: Some([65_000, 66_999]), capitals: false, longest: None };
-        let texts = Alarms { numbers: None, capitals: false, longest: None };
-        let of = |alarms: Alarms, number, text| alarms.said(number, text).map(|(n, t)| (n, t.to_string()));
-        assert_eq!(of(other, Some(10), "TOO WIDE"), Some((Some(65_010), "TOO WIDE".into())));
-        assert_eq!(of(mill, Some(65_010), "too wide"), Some((Some(10), "TOO WIDE".into())));
-        assert_eq!(of(mill, Some(101), ""), Some((Some(101), String::new())));
-        assert_eq!(of(mill, Some(5), "twelve signs"), Some((Some(5), "TWELVE SIGNS".into())));
-        assert_eq!(of(mill, Some(5), "the bore is too wide"), Some((Some(5), "THE BORE IS".into())));
-        assert_eq!(of(mill, Some(65_201), ""), None);
-        assert_eq!(of(mill, None, "no size"), Some((Some(1), "NO SIZE".into())));
-        assert_eq!(of(other, None, "no size"), Some((Some(65_000), "no size".into())));
-        assert_eq!(of(texts, Some(10), "TOO WIDE"), Some((None, "10 TOO WIDE".into())));
-        assert_eq!(of(texts, Some(7), ""), Some((None, "7".into())));
-        assert_eq!(of(texts, None, "no size"), Some((None, "no size".into())));
+        let mill = Alarms { numbers: Some([0, 200]), signs: Some(".=".into()), longest: Some(12) };
+        let other = Alarms { numbers: Some([65_000, 66_999]), signs: None, longest: None };
+        let texts = Alarms { numbers: None, signs: None, longest: None };
+        let of = |alarms: &Alarms, number, text| alarms.said(number, text).map(|(n, t)| (n, t.to_string()));
+        assert_eq!(of(&other, Some(10), "TOO WIDE"), Some((Some(65_010), "TOO WIDE".into())));
+        assert_eq!(of(&mill, Some(65_010), "too wide"), Some((Some(10), "TOO WIDE".into())));
+        assert_eq!(of(&mill, Some(101), ""), Some((Some(101), String::new())));
+        assert_eq!(of(&mill, Some(5), "Too wide?"), Some((Some(5), "TOO WIDE.".into())));
+        assert_eq!(of(&mill, Some(5), "twelve signs"), Some((Some(5), "TWELVE SIGNS".into())));
+        assert_eq!(of(&mill, Some(5), "the bore is too wide"), Some((Some(5), "THE BORE IS".into())));
+        assert_eq!(of(&mill, Some(65_201), ""), None);
+        assert_eq!(of(&mill, None, "no size"), Some((Some(1), "NO SIZE".into())));
+        assert_eq!(of(&other, None, "no size"), Some((Some(65_000), "no size".into())));
+        assert_eq!(of(&texts, Some(10), "TOO WIDE"), Some((None, "10 TOO WIDE".into())));
+        assert_eq!(of(&texts, Some(7), ""), Some((None, "7".into())));
+        assert_eq!(of(&texts, None, "no size"), Some((None, "no size".into())));
     }
 }

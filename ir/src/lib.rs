@@ -24,6 +24,7 @@ pub mod expr;
 pub mod geometry;
 pub mod given_back;
 mod kinds;
+pub mod letters;
 pub mod maps;
 pub mod num;
 pub mod open;

@@ -243,8 +243,8 @@ impl Comparison {
     /// Whether an alarm is the same under the target's number.
     fn same_alarm(&self, (number, text): (Option<Nanos>, &str), there: (Option<Nanos>, &str)) -> bool {
         let whole = number.is_none_or(|number| number % ONE == 0);
-        let said =
-            self.alarms.filter(|_| whole).and_then(|alarms| alarms.said(number.map(|n| n / ONE), text));
+        let alarms = self.alarms.as_ref().filter(|_| whole);
+        let said = alarms.and_then(|alarms| alarms.said(number.map(|n| n / ONE), text));
         let said = said.as_ref().map(|(number, text)| (number.map(|n| n * ONE), &**text));
         (number, text) == there || said == Some(there)
     }
@@ -547,6 +547,12 @@ impl Comparison {
             }
             (Kind::Alarm(number, text), Kind::Alarm(other, shown)) => {
                 if !self.same_alarm((*number, text), (*other, shown)) {
+                    return Some(Aspect::Kind);
+                }
+            }
+            (Kind::Message(text), Kind::Message(shown)) => {
+                let here = || self.alarms.as_ref().map(|alarms| alarms.shown(text));
+                if text != shown && here().as_ref() != Some(shown) {
                     return Some(Aspect::Kind);
                 }
             }

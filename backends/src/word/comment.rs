@@ -1,9 +1,10 @@
 //! Comments in the characters that a control shows.
 //!
-//! Letters become capitals, accents and other alphabets are transliterated, signs are replaced by
-//! those that the dictionary lists. Nothing that could end a comment or a program comes through.
+//! Where these are capitals alone, `ncc_ir::letters` says what the text becomes. Nothing that could end a comment or a
+//! program comes through.
 
 use ncc_dialects::CommentRules;
+use ncc_ir::letters::in_capitals;
 
 /// Writes comments; keeps its memory between them.
 #[derive(Clone, Debug)]
@@ -17,8 +18,6 @@ pub(crate) struct Comments {
     active: Vec<String>,
     message: String,
     shown: String,
-    /// Whether what was written last is the dash for an opening bracket: the number behind it is not negative.
-    bracket: bool,
 }
 
 impl Comments {
@@ -32,17 +31,12 @@ impl Comments {
             active: rules.active.iter().chain([&rules.message]).filter(|w| !w.is_empty()).cloned().collect(),
             message: rules.message.clone(),
             shown: String::new(),
-            bracket: false,
         }
     }
 
     /// Appends a message to the operator to `line`. Returns whether it reads otherwise than the text.
     pub(crate) fn message(&mut self, text: &str, line: &mut Vec<u8>) -> bool {
-        self.shown.clear();
-        self.bracket = false;
-        for c in text.chars() {
-            self.show(c);
-        }
+        self.show(text);
         for part in [&self.open, &self.message, &self.shown, &self.close] {
             line.extend_from_slice(part.as_bytes());
         }
@@ -52,11 +46,7 @@ impl Comments {
     /// Appends a comment to `line`, and to `after`, one line each, what is too long for it.
     /// Returns whether it reads otherwise than the text.
     pub(crate) fn write(&mut self, text: &str, line: &mut Vec<u8>, after: &mut Vec<u8>, eol: &[u8]) -> bool {
-        self.shown.clear();
-        self.bracket = false;
-        for c in text.chars() {
-            self.show(c);
-        }
+        self.show(text);
         if self.active.iter().any(|word| begins(&self.shown, word)) {
             // What was only read elsewhere must not do anything here.
             self.shown.insert(0, '.');
@@ -98,32 +88,16 @@ impl Comments {
         !self.message.is_empty() && line.windows(sign.len()).any(|part| part == sign.as_bytes())
     }
 
-    fn show(&mut self, c: char) {
-        if std::mem::take(&mut self.bracket) && (c.is_ascii_digit() || c == '.') {
-            self.shown.push(' ');
+    /// The text as the control shows it.
+    fn show(&mut self, text: &str) {
+        self.shown.clear();
+        if self.upper_ascii {
+            return in_capitals(text, &self.signs, &mut self.shown);
         }
-        if !self.upper_ascii {
+        for c in text.chars() {
             let closes = !self.close.is_empty() && (self.open.contains(c) || self.close.contains(c));
             self.shown.push(if c.is_control() || closes { ' ' } else { c });
-            return;
         }
-        if self.shows(c) {
-            return self.shown.push(c);
-        }
-        if c.is_ascii_lowercase() {
-            return self.shown.push(c.to_ascii_uppercase());
-        }
-        let instead = stand_in(c);
-        if instead.chars().all(|c| self.shows(c)) {
-            self.bracket = matches!(c, '(' | '[' | '{');
-            self.shown.push_str(instead);
-        } else {
-            self.shown.push(' ');
-        }
-    }
-
-    fn shows(&self, c: char) -> bool {
-        c.is_ascii_uppercase() || c.is_ascii_digit() || c == ' ' || self.signs.contains(c)
     }
 }
 
@@ -141,108 +115,6 @@ fn cut(text: &str, longest: usize) -> (&str, Option<&str>) {
     match text[..end].rfind(' ').filter(|at| *at > end / 2) {
         Some(at) => (&text[..at], Some(&text[at + 1..])),
         None => (&text[..end], Some(&text[end..])),
-    }
-}
-
-/// What stands for a character that a control with capitals alone cannot show. Signs first, then
-/// Latin letters with accents (Latin-1, Latin Extended-A), Greek and Cyrillic.
-pub(crate) fn stand_in(c: char) -> &'static str {
-    match c {
-        '(' | '[' | '{' => "-",
-        ')' | ']' | '}' => "",
-        '%' => " PCT",
-        '#' => "NO.",
-        '&' => "+",
-        '@' => "AT",
-        ';' => ",",
-        '!' | '?' => ".",
-        '<' => " LT ",
-        '>' => " GT ",
-        '\\' | '|' => "/",
-        '~' | '–' | '—' | '‐' | '‑' | '−' | '·' | '•' => "-",
-        '\'' | '`' | '´' | '’' | '‘' => "",
-        '"' | '“' | '”' | '„' | '«' | '»' | '^' | '$' | '\t' | '\u{a0}' => " ",
-        '…' => "...",
-        '°' | 'º' => " DEG",
-        'ª' => "A",
-        '±' => "+-",
-        '×' => "X",
-        '÷' => "/",
-        '¹' => "1",
-        '²' => "2",
-        '³' => "3",
-        '¼' => "1/4",
-        '½' => "1/2",
-        '¾' => "3/4",
-        'µ' | 'μ' => "U",
-        'À'..='Ã' | 'Å' | 'à'..='ã' | 'å' | 'Ā'..='ą' => "A",
-        'Ä' | 'ä' | 'Æ' | 'æ' => "AE",
-        'Ç' | 'ç' | 'Ć'..='č' => "C",
-        'Ð' | 'ð' | 'Ď'..='đ' => "D",
-        'È'..='Ë' | 'è'..='ë' | 'Ē'..='ě' => "E",
-        'Ĝ'..='ģ' => "G",
-        'Ĥ'..='ħ' => "H",
-        'Ì'..='Ï' | 'ì'..='ï' | 'Ĩ'..='ı' => "I",
-        'Ĳ' | 'ĳ' => "IJ",
-        'Ĵ' | 'ĵ' => "J",
-        'Ķ'..='ĸ' => "K",
-        'Ĺ'..='ł' => "L",
-        'Ñ' | 'ñ' | 'Ń'..='ŋ' => "N",
-        'Ò'..='Õ' | 'Ø' | 'ò'..='õ' | 'ø' | 'Ō'..='ő' => "O",
-        'Ö' | 'ö' | 'Œ' | 'œ' => "OE",
-        'Ŕ'..='ř' => "R",
-        'ß' | 'ẞ' => "SS",
-        'Ś'..='š' | 'Ș' | 'ș' => "S",
-        'Þ' | 'þ' => "TH",
-        'Ţ'..='ŧ' | 'Ț' | 'ț' => "T",
-        'Ù'..='Û' | 'ù'..='û' | 'Ũ'..='ų' => "U",
-        'Ü' | 'ü' => "UE",
-        'Ŵ' | 'ŵ' => "W",
-        'Ý' | 'ý' | 'ÿ' | 'Ŷ'..='Ÿ' => "Y",
-        'Ź'..='ž' => "Z",
-        _ => other_alphabet(c),
-    }
-}
-
-fn other_alphabet(c: char) -> &'static str {
-    match c {
-        'А' | 'а' | 'Α' | 'α' => "A",
-        'Б' | 'б' | 'Β' | 'β' => "B",
-        'В' | 'в' => "V",
-        'Г' | 'г' | 'Γ' | 'γ' => "G",
-        'Д' | 'д' | 'Δ' | 'δ' => "D",
-        'Е' | 'е' | 'Э' | 'э' | 'Ε' | 'ε' => "E",
-        'Ё' | 'ё' => "YO",
-        'Ж' | 'ж' => "ZH",
-        'З' | 'з' | 'Ζ' | 'ζ' => "Z",
-        'И' | 'и' | 'Ι' | 'ι' | 'Η' | 'η' => "I",
-        'Й' | 'й' | 'Ы' | 'ы' | 'Υ' | 'υ' => "Y",
-        'К' | 'к' | 'Κ' | 'κ' => "K",
-        'Л' | 'л' | 'Λ' | 'λ' => "L",
-        'М' | 'м' | 'Μ' => "M",
-        'Н' | 'н' | 'Ν' | 'ν' => "N",
-        'О' | 'о' | 'Ο' | 'ο' | 'Ω' | 'ω' => "O",
-        'П' | 'п' | 'Π' | 'π' => "P",
-        'Р' | 'р' | 'Ρ' | 'ρ' => "R",
-        'С' | 'с' | 'Σ' | 'σ' | 'ς' => "S",
-        'Т' | 'т' | 'Τ' | 'τ' => "T",
-        'У' | 'у' => "U",
-        'Ф' | 'ф' | 'Φ' | 'φ' => "F",
-        'Х' | 'х' | 'Χ' | 'χ' => "KH",
-        'Ц' | 'ц' => "TS",
-        'Ч' | 'ч' => "CH",
-        'Ш' | 'ш' => "SH",
-        'Щ' | 'щ' => "SHCH",
-        'Ъ' | 'ъ' | 'Ь' | 'ь' => "",
-        'Ю' | 'ю' => "YU",
-        'Я' | 'я' => "YA",
-        'Θ' | 'θ' => "TH",
-        'Ξ' | 'ξ' => "X",
-        'Ψ' | 'ψ' => "PS",
-        '⌀' | '∅' => "D",
-        c if c.is_control() => " ",
-        // Something was here: a reader of the comment is to see that.
-        _ => "*",
     }
 }
 

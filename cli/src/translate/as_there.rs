@@ -29,7 +29,9 @@ pub(super) fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnosti
         found.extend(output_elsewhere(program, opens));
     }
     let Some(there) = caps.computes else { return };
-    if let Some(alarms) = there.alarms.filter(|_| job.from.dialect.id != job.to.dialect.id) {
+    let Some(alarms) = &there.alarms else { return };
+    alarm_numbers::in_its_characters(program, alarms, found);
+    if job.from.dialect.id != job.to.dialect.id {
         alarm_numbers::run(program, alarms, there.has(Said::CallOf), found);
     }
 }

@@ -386,7 +386,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 whole: rules.whole,
                 alarms: rules.statements.contains(&Statement::Alarm).then_some(Alarms {
                     numbers: rules.alarms,
-                    capitals: dialect.comment.upper_ascii,
+                    signs: dialect.comment.upper_ascii.then(|| dialect.comment.signs.as_str().into()),
                     longest: (rules.alarm_text > 0).then_some(rules.alarm_text),
                 }),
                 values_in_full: (!dialect.comment.shown.is_empty()).then_some(VALUE_DIGITS),

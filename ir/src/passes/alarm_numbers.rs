@@ -1,7 +1,7 @@
 //! Alarms under the numbers that the target has, or with their number before the text where it has none
 //! ([`crate::alarms`]), and told; so is a text that ends before its end.
 //!
-//! Not here: alarms whose number is computed, and those that the target gives by itself.
+//! The numbers of alarms that are computed stay. Not here: alarms that the target gives by itself.
 
 use crate::alarms::Alarms;
 use crate::call_of::NO_SUCH_PROGRAM;
@@ -16,7 +16,7 @@ const MOST_TOLD: usize = 20;
 
 /// Says the alarms of a program as a control does that has these. `calls` is whether it says calls of a computed
 /// program, or so often, as the alarm comes with them.
-pub fn run(program: &mut Program, alarms: Alarms, calls: bool, diags: &mut Vec<Diagnostic>) {
+pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<Diagnostic>) {
     let own: &[&str] = match calls {
         true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
         false => &[NO_SUCH_BLOCK, NO_SUCH_CODE],
@@ -32,7 +32,29 @@ pub fn run(program: &mut Program, alarms: Alarms, calls: bool, diags: &mut Vec<D
     }
 }
 
-fn body(stmts: &mut [Stmt], alarms: Alarms, own: &[&str], told: &mut Vec<(String, Span)>) {
+/// Texts of alarms in the characters that a control shows, as its comments are, and told.
+pub fn in_its_characters(program: &mut Program, alarms: &Alarms, diags: &mut Vec<Diagnostic>) {
+    program.procedures.iter_mut().for_each(|procedure| characters(&mut procedure.body, alarms, diags));
+}
+
+fn characters(stmts: &mut [Stmt], alarms: &Alarms, diags: &mut Vec<Diagnostic>) {
+    for stmt in stmts {
+        match &mut stmt.op {
+            // One without a number is another's, of which `run` makes one of the control's.
+            Op::Alarm(alarm) if alarm.number.is_some() => {
+                let shown = alarms.shown(&alarm.text);
+                if shown != alarm.text {
+                    alarm.text = shown;
+                    diags.push(Diagnostic::new(Fault::CommentReformatted, stmt.span));
+                }
+            }
+            Op::Control(control) => control.bodies_mut().for_each(|stmts| characters(stmts, alarms, diags)),
+            _ => {}
+        }
+    }
+}
+
+fn body(stmts: &mut [Stmt], alarms: &Alarms, own: &[&str], told: &mut Vec<(String, Span)>) {
     for stmt in stmts {
         match &mut stmt.op {
             Op::Alarm(alarm) => {
@@ -61,7 +83,7 @@ fn body(stmts: &mut [Stmt], alarms: Alarms, own: &[&str], told: &mut Vec<(String
 }
 
 /// What an alarm becomes, if that is another one.
-fn other(alarm: &Alarm, alarms: Alarms, own: &[&str]) -> Option<Alarm> {
+fn other(alarm: &Alarm, alarms: &Alarms, own: &[&str]) -> Option<Alarm> {
     let own = alarm.number.is_none() && own.contains(&&*alarm.text);
     let number = match &alarm.number {
         None => None,

@@ -559,7 +559,7 @@ impl Legaliser {
             walk.step(stmt);
         }
         if !caps.messages {
-            messages::drop_messages(stmts, caps.stop_messages, diags);
+            messages::drop_messages(stmts, caps, diags);
         }
     }
 }

@@ -344,7 +344,7 @@ impl Plan {
             comparison.rename_tools(self.tools.tools.clone(), &self.tools.tool_names);
             comparison.measure(self.tolerance);
             comparison.see(self.seen);
-            comparison.say_alarms(self.alarms);
+            comparison.say_alarms(self.alarms.clone());
             comparison.measure_by(self.own);
             if self.in_inches {
                 comparison.as_inches();

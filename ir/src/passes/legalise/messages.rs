@@ -8,8 +8,10 @@ use crate::program::{Op, Output, Piece, Program, Stmt, Text};
 use crate::source::Span;
 
 /// Messages become comments; those with which the program stops stay where the target has them, in the block of the
-/// stop or in the one before it. One without a text, which takes another back, is none where none stays.
-pub(super) fn drop_messages(stmts: &mut [Stmt], with_stop: bool, diags: &mut Vec<Diagnostic>) {
+/// stop or in the one before it, in the characters that it shows. One without a text, which takes another back, is none
+/// where none stays.
+pub(super) fn drop_messages(stmts: &mut [Stmt], caps: &Caps, diags: &mut Vec<Diagnostic>) {
+    let alarms = caps.computes.as_ref().and_then(|there| there.alarms.as_ref());
     for at in 0..stmts.len() {
         let (before, behind) = stmts.split_at_mut(at + 1);
         let Some(stmt) = before.last_mut() else { continue };
@@ -17,7 +19,12 @@ pub(super) fn drop_messages(stmts: &mut [Stmt], with_stop: bool, diags: &mut Vec
         let stops = behind.first().is_some_and(|next| next.op == Op::ProgramStop && next.skip == stmt.skip);
         if text.is_empty() {
             stmt.op = Op::Blank;
-        } else if !(with_stop && stops) {
+        } else if caps.stop_messages && stops {
+            if let Some(shown) = alarms.map(|alarms| alarms.shown(text)).filter(|shown| shown != text) {
+                *text = shown;
+                diags.push(Diagnostic::new(Fault::CommentReformatted, stmt.span));
+            }
+        } else {
             let text = std::mem::take(text);
             diags.push(Diagnostic::new(Fault::MessageDropped, stmt.span));
             stmt.op = Op::Comment(text);
