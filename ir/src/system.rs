@@ -20,6 +20,9 @@ pub enum System {
     TouchPoint(Axis),
     /// The same with the offsets of the tool that were in force counted in: where the spindle's end was.
     TouchWithOffsets(Axis),
+    /// Where the spindle's end stands along an axis in the coordinates of the work offset, the offsets of the tool counted
+    /// in (Fanuc `#5041`).
+    SpindlePoint(Axis),
     /// Where the tool stands in machine coordinates, tool length included (LinuxCNC `#<_abs_x>`, Fanuc `#5021`).
     MachinePoint(Axis),
     /// A work offset along an axis; 1 is the first (`#5221`, `$P_UIFR[1,X,TR]`).
@@ -110,6 +113,7 @@ impl System {
     pub fn is_of_the_machine(&self) -> bool {
         match self {
             System::MachinePoint(_)
+            | System::SpindlePoint(_)
             | System::TouchPoint(_)
             | System::TouchWithOffsets(_)
             | System::WorkOffset { .. }
@@ -162,6 +166,7 @@ impl System {
             ("end", [along]) => System::EndPoint(axis(along)?),
             ("touch", [along]) => System::TouchPoint(axis(along)?),
             ("spindle-touch", [along]) => System::TouchWithOffsets(axis(along)?),
+            ("spindle", [along]) => System::SpindlePoint(axis(along)?),
             ("machine", [along]) => System::MachinePoint(axis(along)?),
             ("offset", [of, along]) => {
                 System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: None }
@@ -198,6 +203,7 @@ impl System {
             System::EndPoint(_)
                 | System::TouchPoint(_)
                 | System::TouchWithOffsets(_)
+                | System::SpindlePoint(_)
                 | System::MachinePoint(_)
         )
     }
@@ -315,6 +321,7 @@ impl Display for System {
             System::EndPoint(axis) => write!(f, "end.{}", letter(axis)),
             System::TouchPoint(axis) => write!(f, "touch.{}", letter(axis)),
             System::TouchWithOffsets(axis) => write!(f, "spindle-touch.{}", letter(axis)),
+            System::SpindlePoint(axis) => write!(f, "spindle.{}", letter(axis)),
             System::MachinePoint(axis) => write!(f, "machine.{}", letter(axis)),
             System::WorkOffset { number, axis, unit: of } => {
                 write!(f, "offset.{number}.{}{}", letter(axis), unit(of))
@@ -345,6 +352,7 @@ mod tests {
             System::EndPoint(Axis::X),
             System::TouchPoint(Axis::Z),
             System::TouchWithOffsets(Axis::Z),
+            System::SpindlePoint(Axis::Y),
             System::MachinePoint(Axis::C),
             System::WorkOffset { number: 12, axis: Axis::Z, unit: None },
             System::WorkOffset { number: 1, axis: Axis::A, unit: Some(Units::Inch) },

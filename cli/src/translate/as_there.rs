@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use ncc_dialects::{CodeRow, Quantity};
+use ncc_dialects::{CodeRow, Quantity, SystemRow};
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
@@ -13,7 +13,7 @@ use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
     exact_comparisons, expand_repeats, leave_out_output, message_values, output_elsewhere, own_distance,
-    planes_checked, unit_in_force,
+    planes_checked, spindle_points, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
@@ -80,6 +80,8 @@ pub(super) fn say(
         }
     }
     centres_from_start::run(program, &job.to.caps());
+    let rows = || to.system.iter().filter(|row| row.counts(&job.to));
+    spindle_points::run(program, &|asked| rows().flat_map(SystemRow::says).any(|(said, _)| said == *asked));
     if from.id != to.id {
         unit_in_force::run(program);
     }

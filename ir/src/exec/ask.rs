@@ -129,6 +129,13 @@ impl Exec {
                 let plain = !self.is_tilted() && !self.has_program_frames();
                 plain.then(|| self.counted(at, *axis, None))
             }
+            System::SpindlePoint(axis) => {
+                let at = *axis as usize;
+                let plain = self.stands() && !self.has_program_frames();
+                let settled = plain && !(at == Z && self.waiting.is_some());
+                let above = self.position[at].checked_add(self.tool_offset()[at])?;
+                settled.then(|| self.counted(above, *axis, None))
+            }
             System::MachinePoint(axis) => {
                 self.stands().then(|| self.counted(self.machine()[*axis as usize], *axis, None))
             }

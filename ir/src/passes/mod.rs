@@ -63,6 +63,7 @@ pub mod skip_levels;
 pub mod specialise_procedures;
 mod spindle_angle;
 mod spindle_holes;
+pub mod spindle_points;
 pub mod state_clearance;
 mod tapped_holes;
 pub mod taps;

@@ -2,7 +2,8 @@
 //! came (#5061 to #5063: the last one with the length of the tool counted in, on a Haas without), work offsets (#5221 and
 //! on, 20 apart; #7001 and on for G54.1), codes and words in force (#4001 to #4003, #4005, #4006, #4010, #4109, #4119,
 //! #4120). Of the tables: #2001 and #2201 are wear and geometry of lengths (memory C), which a Haas has the other way
-//! round; #10001 and #11001 are the same on a Fanuc. Where the axes are (#5021) and the length in force (#5083), the work
+//! round; #10001 and #11001 are the same on a Fanuc. Where the axes are (#5021, #5041 with the length counted
+//! in as in #5063) and the length in force (#5083), the work
 //! offset (#4014, on a Haas #4012), H (#4111), counts of parts, on a Haas those of tools (#5401 to #5799). Any other stops.
 
 use super::super::Per;
@@ -27,6 +28,13 @@ impl Control {
                 let axis = (number - 5021) as usize;
                 let plain = self.m.beside.is_none() && !self.m.tip && !self.m.plane_set;
                 (plain && self.m.settled[axis]).then(|| self.m.at[axis] / self.unit())
+            }
+            5041..=5043 => {
+                let axis = (number - 5041) as usize;
+                let turned = self.m.beside.is_some() || self.m.tip || self.m.plane_set;
+                let above = if axis == 2 && !self.haas { self.m.length_of(self.m.entry) } else { 0.0 };
+                let plain = !turned && self.m.settled[axis];
+                plain.then(|| (self.m.at[axis] - self.m.shift(axis) + above) / self.unit())
             }
             5063 if self.haas => self.m.touched.map(|at| at[2] / self.unit()),
             5063 => self.m.touched_above.map(|z| z / self.unit()),
