@@ -1,16 +1,15 @@
 //! Lowering of cutter radius compensation: side, and the entry of the table that has the radius.
 //!
-//! Where a dialect has a word for the entry, it stands in the block or stays in force from an earlier
-//! one; where the code's row says so, it is the tool's own without that word, which then never stays.
-//! A dialect without such a word takes the radius that belongs to the length in force. Codes of their own
-//! have the tool's diameter in that word. Not here: what
-//! controls refuse under compensation; that is execution's.
+//! Where a dialect has a word for the entry, it stands in the block or stays in force from an earlier one, also where
+//! its number is computed, until a variable that it is computed from is set; where the code's row says so, it is the
+//! tool's own without that word, which then never stays. A dialect without such a word takes the radius that belongs to
+//! the length in force. Codes of their own have the tool's diameter in that word. Not here: what controls refuse under
+//! compensation; that is execution's.
 
 use ncc_dialects::{Meaning, Quantity};
 use ncc_ir::canon::Side;
 use ncc_ir::diag::Fault;
-use ncc_ir::expr::Expr;
-use ncc_ir::num::{Num, Unit};
+use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{CutterRadius, Op};
 
 use super::Source;
@@ -36,16 +35,26 @@ impl Lower {
         let radius = match words.take(letter) {
             Some(word) => match self.entry(&word, words, src, out) {
                 Some(entry) => {
-                    self.state.radius_entry = entry.literal().map_or(Know::Lost, Know::Said);
+                    self.state.radius_entry = kept(&entry);
                     CutterRadius::Entry(entry)
                 }
                 None => return,
             },
             None if letter == 0 => CutterRadius::InForce,
             None if code.row.own_tool => CutterRadius::Tool,
-            None => match self.state.radius_entry.value() {
-                Some(entry) => CutterRadius::Entry(Expr::Num(entry)),
-                None => {
+            None => match &self.state.radius_entry {
+                Know::Said(entry) | Know::Taken(entry) => CutterRadius::Entry(entry.clone()),
+                Know::Lost => {
+                    let name =
+                        format!("{} of a block before, of which entry is not known here", char::from(letter));
+                    let code_text = code.row.code.as_str().into();
+                    return self.fault(
+                        Fault::NotSupported { code: code_text, name: name.into() },
+                        code.span,
+                        out,
+                    );
+                }
+                Know::Unsaid | Know::Open | Know::Callers => {
                     let (code_text, word) =
                         (code.row.code.as_str().into(), char::from(letter).to_string().into());
                     return self.fault(Fault::WordMissing { code: code_text, word }, code.span, out);
@@ -89,8 +98,21 @@ impl Lower {
             return self.fault(Fault::NotSupported { code: src.text(word.span), name }, word.span, out);
         }
         let _ = words.take(letter);
-        if let Some(entry) = self.whole(&word, src, out) {
-            self.state.radius_entry = Know::Said(Num::int(i64::from(entry), Unit::One));
+        if let Some(entry) = self.entry(&word, words, src, out) {
+            self.state.radius_entry = kept(&entry);
         }
     }
+
+    /// A variable is set: the entry whose number was computed from it is that of the old value.
+    pub(super) fn entry_changes(&mut self, reads: impl Fn(&Expr) -> bool) {
+        if matches!(&self.state.radius_entry, Know::Said(entry) if reads(entry)) {
+            self.state.radius_entry = Know::Lost;
+        }
+    }
+}
+
+/// The entry as it stays in force: one that is computed from what the control tells may be another one later.
+fn kept(entry: &Expr) -> Know<Expr> {
+    let asks = |node: &Node| matches!(node, Node::Var(Var::System(_)));
+    if entry.has(&asks) { Know::Lost } else { Know::Said(entry.clone()) }
 }

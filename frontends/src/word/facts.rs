@@ -53,15 +53,6 @@ impl<T: Copy> Know<T> {
         matches!(self, Know::Unsaid | Know::Open)
     }
 
-    /// What is known where control may come from elsewhere.
-    pub(crate) fn lost(self) -> Know<T> {
-        match self {
-            Know::Unsaid | Know::Open => Know::Open,
-            Know::Callers => Know::Callers,
-            Know::Said(_) | Know::Taken(_) | Know::Lost => Know::Lost,
-        }
-    }
-
     /// Takes a value for granted.
     pub(crate) fn take(&mut self, value: T) {
         *self = if matches!(self, Know::Open) { Know::Lost } else { Know::Taken(value) };
@@ -69,6 +60,17 @@ impl<T: Copy> Know<T> {
 
     pub(crate) fn value(self) -> Option<T> {
         self.fact().known()
+    }
+}
+
+impl<T> Know<T> {
+    /// What is known where control may come from elsewhere.
+    pub(crate) fn lost(self) -> Know<T> {
+        match self {
+            Know::Unsaid | Know::Open => Know::Open,
+            Know::Callers => Know::Callers,
+            Know::Said(_) | Know::Taken(_) | Know::Lost => Know::Lost,
+        }
     }
 }
 
@@ -202,7 +204,7 @@ pub(super) struct State {
     /// The dwell that some cycle has said, where it stays in force for others.
     pub(super) dwell_left: Know<Num>,
     /// The entry of the table of radii that was named last.
-    pub(super) radius_entry: Know<Num>,
+    pub(super) radius_entry: Know<Expr>,
     /// Whether cutter radius compensation is on.
     pub(super) compensated: Know<bool>,
     /// The code of the thread that bare axis words cut on.
@@ -293,6 +295,7 @@ impl State {
             return_level: self.return_level.lost(),
             work_offset: self.work_offset.lost(),
             length_offset: self.length_offset.lost(),
+            radius_entry: self.radius_entry.clone().lost(),
             ..State::lost()
         }
     }
@@ -335,7 +338,7 @@ impl State {
         }
         self.cycle_feed = self.cycle_feed.or(before.cycle_feed);
         self.dwell_left.join(before.dwell_left);
-        self.radius_entry.join(before.radius_entry);
+        self.radius_entry.join(before.radius_entry.clone());
         self.compensated.join(before.compensated);
         if self.thread != before.thread {
             (self.thread, self.motion) = (None, Know::Lost);
