@@ -3,10 +3,17 @@
 //! Which frame is in force where a block of a loop is executed, the run alone knows, so that none is worked into
 //! coordinates, and none is said by what has changed since the one before.
 //!
-//! Refused by name: a frame that the target has no form of its own for, a shift that leaves an axis as it is, a rotation
-//! about the place where the tool stands, steps that add up but for translations of one stretch of blocks, shifts and
-//! rotations together where the target chains frames, and a move behind a rotation that does not name both axes of its
-//! plane (controls do not agree about it).
+//! Where the target chains frames, a shift and a rotation are one chain: what is in force of the other one is known from
+//! the stretch of blocks at hand, and that nothing is turned where a stretch begins if none ends so (`Held`).
+//!
+//! Refused by name: a frame that the target has no form of its own for, a shift or a rotation beside another one that is
+//! not known there, a rotation about the place where the tool stands, steps that add up but for translations of one
+//! stretch of blocks, and a move behind a rotation that does not name both axes of its plane (controls do not agree about
+//! it).
+
+mod chained;
+
+use chained::{Held, as_chain};
 
 use super::known_facts::Known;
 use super::variables::{round, rounded};
@@ -15,7 +22,7 @@ use crate::arguments;
 use crate::canon::{AXES, Axis, Distance, Fact, Plane};
 use crate::caps::Caps;
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Expr, Node, Unary};
+use crate::expr::Expr;
 use crate::kinds::flow;
 use crate::num::{Num, Unit};
 use crate::program::{Coord, Frame, FrameSlot, FrameStep, Op, Program, Slot, Stmt};
@@ -55,8 +62,8 @@ pub(super) fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<F
         program.procedures.iter().try_for_each(|procedure| absolute(&procedure.body, known))?;
     }
     if used.unsaid {
-        for procedure in &mut program.procedures {
-            over(&mut procedure.body, &used, caps)?;
+        for (at, procedure) in program.procedures.iter_mut().enumerate() {
+            over(&mut procedure.body, &used, caps, at == 0)?;
         }
     }
     Ok(Found::Said)
@@ -79,20 +86,32 @@ struct Used {
     behind: bool,
     /// Whether there is one that the target does not say as it stands.
     unsaid: bool,
-    /// Axes that are shifted.
+    /// Axes that are shifted, and those that are not by 0 alone.
     shifted: [bool; AXES],
+    moved: [bool; AXES],
     /// Slots that are filled.
     slots: Vec<FrameSlot>,
     /// Whether a chain is turned.
     turns: bool,
+    /// Whether a rotation that fills a slot may be in force where a stretch of blocks begins.
+    turned_between: bool,
     /// Whether words are measured from where the tool stands anywhere.
     increments: bool,
 }
 
 impl Used {
     fn look(&mut self, body: &[Stmt], mut straight: bool, caps: &Caps) {
+        let mut turned = false;
         for stmt in body {
-            straight &= !matches!(stmt.op, flow!());
+            let flows = matches!(stmt.op, flow!());
+            straight &= !flows;
+            self.turned_between |= flows && turned;
+            match &stmt.op {
+                Op::SetSlot(slot) if slot_of(slot) == FrameSlot::Rotation => turned = true,
+                Op::ClearFrame(FrameSlot::Rotation) if stmt.skip.is_none() => turned = false,
+                Op::ProgramEnd => turned = false,
+                _ => {}
+            }
             if let Op::Control(control) = &stmt.op {
                 control.bodies().for_each(|body| self.look(body, false, caps));
             }
@@ -117,10 +136,14 @@ impl Used {
                 _ => {}
             }
         }
+        self.turned_between |= turned;
     }
 
     fn shifts(&mut self, axes: &[Option<Expr>]) {
-        self.shifted.iter_mut().zip(axes).for_each(|(shifted, axis)| *shifted |= axis.is_some());
+        for (axis, by) in axes.iter().enumerate() {
+            self.shifted[axis] |= by.is_some();
+            self.moved[axis] |= by.as_ref().is_some_and(|by| !is_zero(by));
+        }
     }
 
     /// The one slot that shifts, if no other does, and the present point is given no coordinates.
@@ -177,10 +200,11 @@ fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps) -> Result<(), Diagnostic> {
+/// `first` is whether the body begins the program.
+fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, first: bool) -> Result<(), Diagnostic> {
     for stmt in body.iter_mut() {
         if let Op::Control(control) = &mut stmt.op {
-            control.bodies_mut().try_for_each(|body| over(body, used, caps))?;
+            control.bodies_mut().try_for_each(|body| over(body, used, caps, false))?;
         }
     }
     if !body.iter().any(|stmt| is_frame(&stmt.op)) {
@@ -191,8 +215,10 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps) -> Result<(), Diagnostic
     let mut anew = false;
     // The translation that this stretch has said anew, while it is the whole chain and worth what it was.
     let mut shift: Option<Shift> = None;
+    let mut held = Held::at_start(used, first);
     rebuild(body, |mut stmt, made: &mut Rebuild| {
         if !is_frame(&stmt.op) {
+            held.behind(&stmt.op, used);
             anew &= matches!(stmt.op, Op::Comment(_) | Op::Blank);
             shift = shift.take().filter(|axes| stays(axes, &stmt.op));
             return made.push(stmt);
@@ -203,7 +229,7 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps) -> Result<(), Diagnostic
         shift = translation(&stmt.op).filter(|_| stmt.skip.is_none());
         let said = match stmt.skip {
             Some(_) => Err("that can be skipped"),
-            None if caps.frames => as_chain(&stmt.op, used),
+            None if caps.frames => as_chain(&stmt.op, used, &mut held),
             None => as_slots(&stmt.op, used, caps, anew),
         };
         anew = matches!(&stmt.op, Op::SetFrame(frame) if !frame.added && is_translation(&frame.step));
@@ -288,64 +314,6 @@ fn is_zero(e: &Expr) -> bool {
 
 fn set(added: bool, step: FrameStep) -> Op {
     Op::SetFrame(Box::new(Frame { added, step }))
-}
-
-/// A slot as a chain that begins anew.
-fn as_chain(op: &Op, used: &Used) -> Result<Vec<Op>, &'static str> {
-    let none = || Ok(vec![Op::ClearFrame(FrameSlot::Chain)]);
-    if used.shift().is_some() && used.fills(FrameSlot::Rotation) {
-        return Err("of a shift and a rotation together");
-    }
-    match op {
-        // What no block fills is empty.
-        Op::ClearFrame(FrameSlot::Chain) => none(),
-        Op::ClearFrame(slot) if !used.fills(*slot) => Ok(Vec::new()),
-        Op::ClearFrame(FrameSlot::Rotation) => none(),
-        Op::ClearFrame(slot) if used.shift() == Some(*slot) => none(),
-        Op::SetSlot(slot) => match &**slot {
-            Slot::Shift { axes, .. } if used.shift().is_some() => {
-                if (0..AXES).any(|axis| used.shifted[axis] && axes[axis].is_none()) {
-                    return Err("that leaves an axis as it is");
-                }
-                if axes.iter().flatten().all(is_zero) {
-                    return none();
-                }
-                Ok(vec![set(false, FrameStep::Translate(axes.clone()))])
-            }
-            Slot::Rotation { plane, centre, angle } => about(*plane, centre, angle),
-            _ => Err("in another form than the target has"),
-        },
-        _ => Err("in another form than the target has"),
-    }
-}
-
-/// A rotation about a point.
-fn about(plane: Fact<Plane>, centre: &[Option<Expr>; 3], angle: &Coord) -> Result<Vec<Op>, &'static str> {
-    if angle.distance != Fact::Known(Distance::Absolute) {
-        return Err("that is turned further");
-    }
-    let Fact::Known(in_plane) = plane else { return Err("in a plane that is not known") };
-    let (first, second, _) = in_plane.axes();
-    let mut there: [Option<Expr>; AXES] = [const { None }; AXES];
-    let mut back = there.clone();
-    for axis in [first, second] {
-        let Some(at) = &centre[axis as usize] else { return Err("about the place where the tool stands") };
-        there[axis as usize] = Some(at.clone());
-        back[axis as usize] = Some(negative(at));
-    }
-    let turn = FrameStep::Rotate { plane, angle: angle.value.clone() };
-    if there.iter().flatten().all(is_zero) {
-        return Ok(vec![set(false, turn)]);
-    }
-    let [there, back] = [there, back].map(|axes| FrameStep::Translate(Box::new(axes)));
-    Ok(vec![set(false, there), set(true, turn), set(true, back)])
-}
-
-fn negative(e: &Expr) -> Expr {
-    match e {
-        Expr::Num(n) => Expr::Num(Num { mantissa: -n.mantissa, ..*n }),
-        Expr::Node(_) => Expr::Node(Box::new(Node::Unary(Unary::Negate, e.clone()))),
-    }
 }
 
 /// A step of a chain as slots: a shift of all axes that are shifted anywhere, and a rotation about its zero.
