@@ -362,7 +362,7 @@ impl Lower {
             Some(to) => value.reads(to),
             None => value.literal().is_none(),
         };
-        self.entry_changes(&reads);
+        self.entry_changes(reads);
         if let InForce::Active(active) = &self.state.cycle
             && ([&active.depth, &active.retract].iter().any(|word| reads(&word.value))
                 || active.peck.as_ref().is_some_and(reads))
