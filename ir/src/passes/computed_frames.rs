@@ -63,7 +63,7 @@ pub(super) fn run(program: &mut Program, caps: &Caps, known: &Known) -> Result<F
     }
     if used.unsaid {
         for (at, procedure) in program.procedures.iter_mut().enumerate() {
-            over(&mut procedure.body, &used, caps, at == 0)?;
+            over(&mut procedure.body, &used, caps, Held::at_start(&used, at == 0))?;
         }
     }
     Ok(Found::Said)
@@ -200,14 +200,9 @@ fn absolute(body: &[Stmt], known: &Known) -> Result<(), Diagnostic> {
     Ok(())
 }
 
-/// `first` is whether the body begins the program.
-fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, first: bool) -> Result<(), Diagnostic> {
-    for stmt in body.iter_mut() {
-        if let Op::Control(control) = &mut stmt.op {
-            control.bodies_mut().try_for_each(|body| over(body, used, caps, false))?;
-        }
-    }
-    if !body.iter().any(|stmt| is_frame(&stmt.op)) {
+/// `held` is what is in force where the body begins.
+fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, mut held: Held) -> Result<(), Diagnostic> {
+    if !body.iter().any(|stmt| is_frame(&stmt.op) || matches!(stmt.op, Op::Control(_))) {
         return Ok(());
     }
     let mut refused = None;
@@ -215,10 +210,15 @@ fn over(body: &mut Vec<Stmt>, used: &Used, caps: &Caps, first: bool) -> Result<(
     let mut anew = false;
     // The translation that this stretch has said anew, while it is the whole chain and worth what it was.
     let mut shift: Option<Shift> = None;
-    let mut held = Held::at_start(used, first);
     rebuild(body, |mut stmt, made: &mut Rebuild| {
         if !is_frame(&stmt.op) {
-            held.behind(&stmt.op, used);
+            if let Op::Control(control) = &mut stmt.op {
+                held = held.across(control, used);
+                let within = |body: &mut Vec<Stmt>| over(body, used, caps, held.clone());
+                refused = refused.take().or(control.bodies_mut().try_for_each(within).err());
+            } else {
+                held.behind(&stmt.op, used);
+            }
             anew &= matches!(stmt.op, Op::Comment(_) | Op::Blank);
             shift = shift.take().filter(|axes| stays(axes, &stmt.op));
             return made.push(stmt);

@@ -3,14 +3,15 @@
 //! Each statement says the whole chain; so it must be known what is in force of the other slot. Refused by name: where
 //! it is not.
 
-use super::{Shift, Used, is_zero, set};
+use super::{Shift, Used, is_frame, is_zero, set, slot_of, stays};
 use crate::canon::{AXES, Distance, Fact, Plane};
-use crate::expr::{Expr, Node, Unary};
+use crate::expr::{Expr, Node, Target, Unary, Var};
 use crate::kinds::flow;
 use crate::num::Num;
-use crate::program::{Coord, FrameSlot, FrameStep, Op, Slot};
+use crate::program::{Control, Coord, FrameSlot, FrameStep, Op, Slot, Stmt};
 
 /// What is in force of the slots that go into one chain; `None` is not known.
+#[derive(Clone)]
 pub(super) struct Held {
     /// By how much each axis is shifted; one that is not is 0.
     shift: Option<Shift>,
@@ -24,9 +25,17 @@ type Turn = (Fact<Plane>, [Option<Expr>; 3], Coord);
 impl Held {
     pub(super) fn at_start(used: &Used, first: bool) -> Held {
         Held {
-            shift: first.then_some([const { None }; AXES]),
+            shift: (first || !used.moved.contains(&true)).then_some([const { None }; AXES]),
             turn: (first || !used.turned_between).then_some(None),
         }
+    }
+
+    /// Where the blocks of a loop or a decision begin, and behind it: the shift is the one before it, if nothing in it
+    /// changes that.
+    pub(super) fn across(&self, control: &Control, used: &Used) -> Held {
+        let anew = Held::at_start(used, false);
+        let kept = || self.shift.clone().filter(|axes| keeps_across(control, axes));
+        Held { shift: anew.shift.or_else(kept), turn: anew.turn }
     }
 
     /// Behind a statement that is no frame. What is computed anew is another value than that in force.
@@ -65,6 +74,23 @@ impl Held {
         }
         Ok(steps.into_iter().enumerate().map(|(at, step)| set(at > 0, step)).collect())
     }
+}
+
+/// Whether nothing in a loop or a decision changes a shift, nor what it was computed from.
+fn keeps_across(control: &Control, axes: &Shift) -> bool {
+    let counts = |variable: &Var| axes.iter().flatten().any(|by| by.reads(&Target::Var(variable.clone())));
+    let counted = matches!(control, Control::For { variable, .. } if counts(variable));
+    !counted && control.bodies().all(|body| keeps(body, axes))
+}
+
+fn keeps(body: &[Stmt], axes: &Shift) -> bool {
+    body.iter().all(|stmt| match &stmt.op {
+        Op::Control(control) => keeps_across(control, axes),
+        Op::Leave | Op::NextTurn => true,
+        Op::SetSlot(slot) => slot_of(slot) == FrameSlot::Rotation,
+        Op::ClearFrame(slot) => *slot == FrameSlot::Rotation,
+        op => !is_frame(op) && stays(axes, op),
+    })
 }
 
 /// A slot as a chain that begins anew, with what is in force of the other ones.
