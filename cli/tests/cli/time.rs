@@ -66,7 +66,7 @@ fn what_cannot_be_executed_is_refused_at_its_place() {
     let cases: [(&str, &[u8], &str, &str); 6] = [
         ("empty.nc", b"", "fanuc", "NC0108"),
         ("binary.nc", b"G0 X1\n\0\x01\x02", "fanuc", "NC0105"),
-        ("variables.nc", b"%\nO1\nG21 G90 G17 G94\n#1=#5041\nG0 X#1\nM30\n%\n", "fanuc", "variables.nc:4"),
+        ("variables.nc", b"%\nO1\nG21 G90 G17 G94\n#1=#5101\nG0 X#1\nM30\n%\n", "fanuc", "variables.nc:4"),
         ("nofeed.cn", b"G90\nG71\nG17\nG0X0Y0Z0\nG1X10.\nM2\n", "mach9", "nofeed.cn:5"),
         ("bad.cn", BAD.as_bytes(), "mach9", "NC0107"),
         ("unit.mpf", b"G17 G90 G710 G94\nL77\nM30\n", "siemens", "NC0217"),
