@@ -19,7 +19,7 @@ use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::passes::{Legaliser, Target, leave_out_values, own_distance, passed_labels};
+use ncc_ir::passes::{Legaliser, Target, leave_out_values, machine_cuts, own_distance, passed_labels};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -147,7 +147,7 @@ struct Line<'j> {
 impl<'j> Line<'j> {
     fn new(job: &'j Job) -> Line<'j> {
         let mut legaliser =
-            Legaliser::new(&job.to.caps(), legal_decimals(job), parameter(job, PECK_CLEARANCE));
+            Legaliser::new(&job.to.caps(), as_there::decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
@@ -219,6 +219,8 @@ impl<'j> Line<'j> {
     fn piece(&mut self, text: &[u8], base: u32) -> io::Result<()> {
         self.reader.read(text, base, &mut self.batch);
         self.take_diagnostics();
+        // What the target computes is looked at by execution.
+        self.batch.whole |= machine_cuts::computes(&self.batch.stmts, self.legaliser.caps());
         if self.batch.whole || !self.job.passes.is_empty() {
             return Ok(());
         }
@@ -339,6 +341,7 @@ impl<'j> Line<'j> {
                 self.take(found, Told::Reader);
                 return Ok(());
             }
+            self.take_parameters(&found);
             self.take(found, Told::Writer);
         }
         if self.is_refused_alone(&source) {
@@ -672,7 +675,7 @@ fn target(job: &Job) -> Target {
     let caps = job.to.caps();
     Target {
         caps,
-        decimals: legal_decimals(job),
+        decimals: as_there::decimals(job),
         peck_clearance: parameter(job, PECK_CLEARANCE),
         break_lift: parameter(job, BREAK_LIFT),
         compensating: job.compensating(),
@@ -680,11 +683,6 @@ fn target(job: &Job) -> Target {
         // What is asked for by name is done in the source's numbers.
         ..Target::default()
     }
-}
-
-/// Digits after the point to which computed positions are rounded: the target's, in mm.
-fn legal_decimals(job: &Job) -> u8 {
-    job.to.dialect.numbers(ncc_dialects::Quantity::Length).decimals
 }
 
 /// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.

@@ -185,11 +185,11 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
         (Some(_), Some(machine)) => machine.tables().edge_entries,
         (None, _) | (_, None) => BTreeMap::new(),
     };
-    let mut source = World::generate(seed, &from);
+    let mut source = World::generate(seed, &from).with_external();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
-    let mut target = World::generate(seed, &to);
+    let mut target = World::generate(seed, &to).with_external();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
@@ -335,7 +335,7 @@ impl Verifier {
         for diagnostic in found {
             match diagnostic.fault {
                 Fault::AssumedParameter { .. } => parameters = true,
-                Fault::PatternFolded { digits, inch, .. } => {
+                Fault::PatternFolded { digits, inch, .. } | Fault::MachineCutFolded { digits, inch } => {
                     self.runs.iter_mut().for_each(|run| run.comparison.rounded(digits, inch));
                 }
                 _ => {}

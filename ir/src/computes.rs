@@ -205,6 +205,8 @@ pub struct Computes {
     pub vacant: bool,
     /// Whether words round what is computed for them to their increment.
     pub rounds: bool,
+    /// To how many digits words of lengths do, in mm, or degrees, and in inches.
+    pub increments: [u8; 2],
     /// Whether the angles of an arc sine and an arc tangent lie from 0 to a turn, as the machine may be set.
     pub turn: bool,
     /// Whether the opposite of a condition can be said.

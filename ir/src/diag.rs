@@ -33,6 +33,8 @@ pub enum ArgumentCheck {
     NotAsked,
     /// Nor needs it to, since one that is left out is zero there, and nothing at all in the output.
     Nothing,
+    /// The same, and it must be a whole number: a word is made of it that the output's control rounds.
+    Whole,
     /// The question is left out, with what is done where the answer is no.
     LeftOut,
     /// That is the value which the argument has then.
@@ -353,6 +355,11 @@ faults! {
     ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
     /// Text for a device that the target does not write to.
     OutputDropped = 424, verdict(Verdict::Dropped);
+    /// A cut in machine coordinates written in the work offset in force, less the offsets.
+    MachineCutExpanded { offset: u16 } = 431, verdict(Verdict::Expanded);
+    /// Words less the offsets in force written as a cut in machine coordinates; the source's control rounds them to so
+    /// many digits, of an inch or of a millimetre.
+    MachineCutFolded { digits: u8, inch: bool } = 432, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

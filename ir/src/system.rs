@@ -34,6 +34,8 @@ pub enum System {
         /// The unit that it counts in, whatever is in force.
         unit: Option<Units>,
     },
+    /// By how much all work offsets are shifted along an axis, beside the one in force (Fanuc `#5201`).
+    ExternalOffset(Axis),
     /// By how much a work offset is turned about Z.
     WorkTurn(u16),
     /// The number of the work offset in force.
@@ -117,6 +119,7 @@ impl System {
             | System::TouchPoint(_)
             | System::TouchWithOffsets(_)
             | System::WorkOffset { .. }
+            | System::ExternalOffset(_)
             | System::WorkTurn(_)
             | System::OriginShift { .. }
             | System::OriginShifted
@@ -174,6 +177,7 @@ impl System {
             ("offset", [of, along, in_unit]) => {
                 System::WorkOffset { number: number(of)?, axis: axis(along)?, unit: Some(unit(in_unit)?) }
             }
+            ("external", [along]) => System::ExternalOffset(axis(along)?),
             ("table", ["diameter"]) => System::TableDiameter { unit: None },
             ("table", ["diameter", in_unit]) => System::TableDiameter { unit: Some(unit(in_unit)?) },
             ("table", [along]) => System::TableOffset { axis: axis(along)?, unit: None },
@@ -326,6 +330,7 @@ impl Display for System {
             System::WorkOffset { number, axis, unit: of } => {
                 write!(f, "offset.{number}.{}{}", letter(axis), unit(of))
             }
+            System::ExternalOffset(axis) => write!(f, "external.{}", letter(axis)),
             System::WorkTurn(number) => write!(f, "turn.{number}"),
             System::TableOffset { axis, unit: of } => write!(f, "table.{}{}", letter(axis), unit(of)),
             System::TableDiameter { unit: of } => write!(f, "table.diameter{}", unit(of)),
@@ -356,6 +361,7 @@ mod tests {
             System::MachinePoint(Axis::C),
             System::WorkOffset { number: 12, axis: Axis::Z, unit: None },
             System::WorkOffset { number: 1, axis: Axis::A, unit: Some(Units::Inch) },
+            System::ExternalOffset(Axis::Y),
             System::WorkTurn(9),
             System::TableOffset { axis: Axis::X, unit: None },
             System::TableOffset { axis: Axis::Z, unit: Some(Units::Inch) },

@@ -55,6 +55,8 @@ pub struct Tracker {
     pub fed: bool,
     /// Whether a slot may turn, scale or mirror.
     pub turned: bool,
+    /// Which slots may: rotation, scale, mirror.
+    pub turning: [bool; 3],
     /// The local shift.
     pub local: Shifted,
     /// By how much the chain moves the origin.
@@ -116,6 +118,7 @@ impl Tracker {
             framed: true,
             chained: true,
             turned: true,
+            turning: [true; 3],
             local: Shifted::LOST,
             chain: Shifted::LOST,
             chain_turned: true,
@@ -276,6 +279,7 @@ impl Tracker {
         self.framed |= other.framed;
         self.chained |= other.chained;
         self.turned |= other.turned;
+        self.turning.iter_mut().zip(other.turning).for_each(|(own, other)| *own |= other);
         self.local.join(&other.local);
         self.chain.join(&other.chain);
         self.chain_turned |= other.chain_turned;

@@ -36,6 +36,9 @@ pub struct World {
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
     pub bore_shift: Sideways,
+    /// By how much all work offsets are shifted, as somebody has set the machine up: not at all, but where programs of
+    /// two controls are compared.
+    pub external: [Nanos; AXES],
     /// What is known of its tables; the rest is the world's own.
     pub tables: Tables,
     /// What is called otherwise here than in the world of the same seed that it is compared with:
@@ -165,6 +168,7 @@ impl World {
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },
+            external: [0; AXES],
             tables: Tables::default(),
             renaming: Renaming::default(),
         };
@@ -180,7 +184,14 @@ impl World {
         std::array::from_fn(|axis| self.odd(70_000 + axis as u32, 20))
     }
 
-    /// Zero of a work offset (1 is the first), in machine coordinates.
+    /// The same world, all work offsets of which are shifted: what does not reckon with it shows.
+    #[must_use]
+    pub fn with_external(mut self) -> World {
+        self.external = std::array::from_fn(|axis| self.odd(140_000_000 + axis as u32, 30));
+        self
+    }
+
+    /// Zero of a work offset (1 is the first), as its table has it: in machine coordinates, but for the external offset.
     pub fn work_offset(&self, number: u16) -> [Nanos; AXES] {
         let stated = self.tables.work_offsets.get(&number);
         let renamed = self.offset_number(number);

@@ -169,6 +169,8 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::Rounded { .. }
         | Fault::PatternExpanded { .. }
         | Fault::PolarExpanded
+        | Fault::MachineCutExpanded { .. }
+        | Fault::MachineCutFolded { .. }
         | Fault::CornerExpanded
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
@@ -232,6 +234,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NotTaken { .. } | Fault::NotCalled { .. } => own("look at what is written for it yourself"),
         Fault::ArgumentNeeded { check, .. } => match check {
             ArgumentCheck::NotAsked => own("look at the calls of this macro: each must give it"),
+            ArgumentCheck::Whole => own("look at the calls: each must give it, as a whole number"),
             ArgumentCheck::Nothing => own("look at the calls: each must give it, also where it is zero"),
             ArgumentCheck::LeftOut => {
                 own("look at the calls of this macro: one that leaves it out is not translated")

@@ -214,6 +214,13 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
         Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
         Fault::PatternExpanded { holes } => format!("a pattern into its {holes} positions"),
+        Fault::MachineCutExpanded { offset } => format!(
+            "cuts in machine coordinates into {}, less the offsets",
+            work_offset(*offset, [at.to, at.from])
+        ),
+        Fault::MachineCutFolded { .. } => {
+            "words less the offsets into cuts in machine coordinates".to_owned()
+        }
         Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
         Fault::CompensationExpanded { radius } => {
             format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))

@@ -283,6 +283,17 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("pattern written out as {holes} {}", plural(u64::from(*holes), "position")),
             format!("{to} has no word for it"),
         ),
+        Fault::MachineCutExpanded { offset } => (
+            "cut in machine coordinates written in the work offset".into(),
+            format!(
+                "{to} goes there rapidly alone; less the offsets, it is the same place in {}",
+                work_offset(*offset, [at.to, at.from])
+            ),
+        ),
+        Fault::MachineCutFolded { .. } => (
+            "written as a cut in machine coordinates".into(),
+            format!("{to} has a word for a place less the offsets in force"),
+        ),
         Fault::PolarExpanded => (
             "point by radius and angle written by its coordinates".into(),
             format!("{to} does not say it so"),
@@ -406,6 +417,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::ArgumentNeeded { name, place, check } => (
             match place {
+                0 if *check == ArgumentCheck::Whole => {
+                    format!("every call must give the argument {name}, a whole number")
+                }
                 0 => format!("every call must give the argument {name}"),
                 place => format!("every call must give the argument {name} in place {place}"),
             },
@@ -415,6 +429,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
                 }
                 ArgumentCheck::Nothing => {
                     "in the output it is a variable of the call, which has no value where a call leaves it out"
+                }
+                ArgumentCheck::Whole => {
+                    "in the output it is a variable of the call, without a value where a call leaves it out; as the \
+                     speed it is rounded"
                 }
                 ArgumentCheck::LeftOut | ArgumentCheck::Default(_) => {
                     "this check is left out: in the output it is a parameter, which is zero where a call leaves it out"

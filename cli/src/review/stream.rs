@@ -141,7 +141,7 @@ pub(crate) fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
         ..World::generate(0, &fixed)
     };
     let mut worlds = vec![plain];
-    worlds.extend((1..=WORLDS).map(|seed| World::generate(seed, &fixed)));
+    worlds.extend((1..=WORLDS).map(|seed| World::generate(seed, &fixed).with_external()));
     for world in &mut worlds {
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
         let [clearance, lift] = clearances;

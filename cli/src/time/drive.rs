@@ -565,6 +565,7 @@ fn world(plan: &Plan) -> World {
     let fixed = fixed(job.from.dialect);
     let value = |option| parameter(job, option).and_then(|value| value.nanos(false)).unwrap_or(0);
     World {
+        external: [0; AXES],
         seed: 0,
         power_on: Modes { no_origin_shift: Some(true), ..fixed },
         path: None,

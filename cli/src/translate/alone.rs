@@ -5,10 +5,10 @@ use ncc_dialects::Dialect;
 use ncc_ir::caps::Caps;
 use ncc_ir::computes::{Handed, LETTERS};
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault};
-use ncc_ir::expr::Var;
+use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::open::open_variables;
 use ncc_ir::passes::variables::questions;
-use ncc_ir::program::{Op, Program, Stmt, Text};
+use ncc_ir::program::{Op, Program, Stmt, Text, Type};
 use ncc_ir::source::Span;
 use ncc_ir::valid::{begins_by_a_move, leaves_a_cycle, moves, returns_alone};
 use ncc_machines::reading::Told;
@@ -83,7 +83,7 @@ impl Line<'_> {
     /// A macro's arguments, which are variables of its calls by their letters, become parameters for a target that has
     /// them by name, and knows none without a value: each call must give them, which is told.
     pub(super) fn with_parameters(&mut self, mut source: Program) -> Program {
-        self.by_letters(&source);
+        self.by_letters(&mut source);
         let from = self.job.from.dialect.program.macro_b;
         let takes = matches!(self.handed(), Some(Handed::Names | Handed::Places));
         if !from || !takes || self.executes_computed() || source.procedures.len() != 1 {
@@ -139,17 +139,27 @@ impl Line<'_> {
 
     /// Arguments by letters have no value where a call leaves them out, where those of the source are zero: each call must
     /// give them, which is told; a number that no letter gives is refused.
-    fn by_letters(&mut self, source: &Program) {
+    fn by_letters(&mut self, source: &mut Program) {
         let vacant = |caps: Caps| caps.computes.is_some_and(|own| own.vacant);
-        let Some(main) = source.procedures.first().filter(|_| returns_alone(source).is_some()) else {
-            return;
-        };
+        let alone = returns_alone(source).is_some();
+        let Some(main) = source.procedures.first_mut().filter(|_| alone) else { return };
         if self.handed() != Some(Handed::Letters) || vacant(self.job.from.caps()) || self.executes_computed()
         {
             return;
         }
         let at = main.body.first().map_or(Span::default(), |stmt| stmt.span);
-        let told = main.parameters.iter().map(|own| {
+        let rounds = |caps: Caps| caps.computes.is_some_and(|own| own.rounds);
+        let rounded = rounds(self.job.to.caps()) && !rounds(self.job.from.caps());
+        let whole: Vec<bool> =
+            main.parameters.iter().map(|own| rounded && is_speed(&main.body, own)).collect();
+        // It is given such numbers: what others come to is the call's.
+        main.kinds.resize(main.parameters.len(), Type::Real);
+        main.kinds
+            .iter_mut()
+            .zip(&whole)
+            .filter(|(_, whole)| **whole)
+            .for_each(|(kind, _)| *kind = Type::Int);
+        let told = main.parameters.iter().zip(whole).map(|(own, whole)| {
             let number = own.name().parse::<u32>();
             let fault = match number {
                 Ok(number) if LETTERS.iter().all(|(_, own)| *own != number) => {
@@ -158,7 +168,8 @@ impl Line<'_> {
                 }
                 _ => {
                     let name = if number.is_ok() { format!("#{}", own.name()) } else { own.name().into() };
-                    Fault::ArgumentNeeded { name: name.into(), place: 0, check: ArgumentCheck::Nothing }
+                    let check = if whole { ArgumentCheck::Whole } else { ArgumentCheck::Nothing };
+                    Fault::ArgumentNeeded { name: name.into(), place: 0, check }
                 }
             };
             Diagnostic::new(fault, at)
@@ -175,6 +186,15 @@ impl Line<'_> {
         }
         source
     }
+}
+
+/// Whether a variable is said as the spindle's speed.
+fn is_speed(body: &[Stmt], var: &Var) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::SetSpindleSpeed(Expr::Node(speed)) => matches!(&**speed, Node::Var(own) if own == var),
+        Op::Control(control) => control.bodies().any(|body| is_speed(body, var)),
+        _ => false,
+    })
 }
 
 fn has_parameters(source: &Program) -> bool {

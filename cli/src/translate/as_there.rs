@@ -12,13 +12,18 @@ use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
-    exact_comparisons, expand_repeats, leave_out_output, message_values, output_elsewhere, own_distance,
-    planes_checked, spindle_points, unit_in_force,
+    exact_comparisons, expand_repeats, leave_out_output, machine_cuts, message_values, output_elsewhere,
+    own_distance, planes_checked, spindle_points, unit_in_force,
 };
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
 
 use crate::job::Job;
+
+/// Digits after the point to which computed positions are rounded: the target's, in mm.
+pub(super) fn decimals(job: &Job) -> u8 {
+    job.to.dialect.numbers(Quantity::Length).decimals
+}
 
 /// Says the alarms of a program as the target has them, and leaves out what it has no device for.
 pub(super) fn alarms(job: &Job, program: &mut Program, found: &mut Vec<Diagnostic>) {
@@ -54,6 +59,7 @@ pub(super) fn say(
         program.procedures.iter_mut().for_each(|procedure| code_of::without_alarms(&mut procedure.body));
     }
     expand_repeats::where_it_computes(program, &job.to.caps(), found);
+    machine_cuts::read(program, &entry, &job.to.caps(), found);
     let lengths = to.numbers(Quantity::Length);
     if let Some(alarm) = there.planes_alarm {
         planes_checked::run(program, alarm, lengths.decimals);

@@ -110,6 +110,8 @@ impl Lower {
         };
         if feeds {
             self.rely_on_feed(block, out);
+            // A control that goes there rapidly alone says it in the work offset.
+            self.rely_on_frames(to.get(Axis::Z).is_some(), block, out);
         }
         self.push(code.span, Op::UseMachineCoordinates { length }, out);
         let to = Move { to, said };

@@ -117,6 +117,16 @@ pub(super) fn spelled(word: FlowWord) -> &'static str {
     }
 }
 
+/// Whether it is where the last move ended.
+fn is_end(system: &System) -> bool {
+    matches!(system, System::EndPoint(_))
+}
+
+/// Whether it is where a work offset lies.
+fn is_zero(system: &System) -> bool {
+    matches!(system, System::WorkOffset { .. } | System::ExternalOffset(_))
+}
+
 impl Lower {
     /// Looks through text that is to be read for parameters and decisions: from there on it is kept whole.
     pub(super) fn o_look_ahead(&mut self, text: &[u8], out: &mut Batch) {
@@ -264,16 +274,18 @@ impl Lower {
             return;
         }
         let mark = self.now.mark;
-        let (mut changed, mut moved) = (false, false);
+        let (mut changed, mut moved, mut set) = (false, false, false);
         let mut late = None;
         for stmt in self.target(out).iter_mut().skip(mark) {
-            // Whether anything is asked, and anything else than where the last move ended.
-            let (mut here, mut other) = (false, false);
+            // Whether it is asked where the last move ended; where work offsets lie; and anything else.
+            let (mut end, mut zero, mut other) = (false, false, false);
             let mut look = |expr: &Expr| {
-                here |= asks(expr).is_some();
-                other |= expr.has(
-                    &|node| matches!(node, Node::Var(Var::System(s)) if !matches!(s, System::EndPoint(_))),
-                );
+                let asks = |of: fn(&System) -> bool| {
+                    expr.has(&|node| matches!(node, Node::Var(Var::System(system)) if of(system)))
+                };
+                end |= asks(is_end);
+                zero |= asks(is_zero);
+                other |= asks(|system| !is_end(system) && !is_zero(system));
             };
             let seen = ncc_ir::arguments::each(&mut stmt.op, &mut |argument, _| {
                 argument.expr().into_iter().for_each(&mut look);
@@ -283,7 +295,7 @@ impl Lower {
             if let Op::Assign(_, value) = &stmt.op {
                 look(value);
             }
-            if here && moved || other && changed {
+            if end && moved || other && changed || zero && set {
                 late = Some(stmt.span);
             }
             let says_nothing = matches!(
@@ -300,6 +312,17 @@ impl Lower {
                     | Op::SetSpindleSpeed(_)
             );
             moved |= !says_nothing && !stays;
+            // Where work offsets lie, in the unit in force.
+            let keeps = matches!(
+                stmt.op,
+                Op::SetOriginOffsets(_)
+                    | Op::UseToolLengthOffset(_)
+                    | Op::StraightTraverse(_)
+                    | Op::StraightFeed(_)
+                    | Op::StartSpindleClockwise
+                    | Op::StartSpindleCounterclockwise
+            );
+            set |= !says_nothing && !stays && !keeps;
         }
         if let Some(at) = late {
             let name = "value of the control's own in a block that does something before".into();

@@ -398,6 +398,10 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 prefix: rules.prefix.as_str().into(),
                 vacant: rules.vacant.is_some(),
                 rounds: rules.rounds,
+                increments: {
+                    let lengths = dialect.numbers(crate::Quantity::Length);
+                    [lengths.increment, lengths.increment_inch.unwrap_or(lengths.increment)]
+                },
                 // An option of the control says so ([`crate::Settings::caps`]).
                 turn: false,
                 blocks: rules.blocks,

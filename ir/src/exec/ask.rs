@@ -142,6 +142,11 @@ impl Exec {
             System::WorkOffset { number, axis, unit } => {
                 Some(self.counted(self.world.work_offset(*number)[*axis as usize], *axis, *unit))
             }
+            System::ExternalOffset(axis) => {
+                // A control may count a shift of the program's own among it.
+                let own = self.slots.is_some() || self.modes.shifted || self.has_program_frames();
+                (!own).then(|| self.counted(self.world.external[*axis as usize], *axis, None))
+            }
             System::WorkTurn(number) => Some(self.counted(self.world.work_turn(*number), Axis::C, None)),
             System::WorkOffsetNumber => Some(f64::from(self.modes.work_offset)),
             System::OriginShift { axis, unit } => {

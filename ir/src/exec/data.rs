@@ -196,11 +196,11 @@ impl Exec {
                 for (axis, word) in words.iter().enumerate() {
                     let Some(word) = word else { continue };
                     let value = self.value(word, span)?;
-                    let length = self.tool_offset()[axis];
+                    let beside = self.tool_offset()[axis].wrapping_add(self.world.external[axis]);
                     let sum = match mode {
                         DataMode::Set => Some(value),
                         DataMode::Add => zero[axis].checked_add(value),
-                        DataMode::Here => here[axis].checked_sub(value).and_then(|v| v.checked_sub(length)),
+                        DataMode::Here => here[axis].checked_sub(value).and_then(|v| v.checked_sub(beside)),
                     };
                     zero[axis] = match sum {
                         Some(sum) if sum.unsigned_abs() < 1 << 60 => sum,

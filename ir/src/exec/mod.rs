@@ -310,6 +310,9 @@ impl Exec {
     /// Computes the frame anew; the machine stays at `here`.
     fn reframe(&mut self, here: [Nanos; AXES]) {
         self.frame = self.world.work_offset(self.modes.work_offset);
+        for (zero, external) in self.frame.iter_mut().zip(self.world.external) {
+            *zero = zero.wrapping_add(external);
+        }
         let turn = self.world.work_turn(self.modes.work_offset);
         if turn != 0 || self.offset_turned {
             self.turn_offset(turn);

@@ -178,7 +178,10 @@ impl Exec {
             None => (self.modes.work_offset, self.unplace(&bare)),
             Some(number) => {
                 let zero = self.world.work_offset(number);
-                let from: [Nanos; AXES] = std::array::from_fn(|axis| here[axis].wrapping_sub(zero[axis]));
+                let external = self.world.external;
+                let from: [Nanos; AXES] = std::array::from_fn(|axis| {
+                    here[axis].wrapping_sub(zero[axis]).wrapping_sub(external[axis])
+                });
                 (number, super::frame::turned(&from, self.world.work_turn(number).wrapping_neg()))
             }
         };

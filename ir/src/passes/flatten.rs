@@ -32,7 +32,7 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
     // What two machines that differ in all that the program has not said agree about, it has said itself.
     let modes = walk.at.modes;
     let control = |seed, skip| {
-        let mut exec = Exec::new(&World::generate(seed, &modes), skip);
+        let mut exec = Exec::new(&World::generate(seed, &modes).with_external(), skip);
         exec.assume(&modes);
         exec
     };

@@ -230,6 +230,7 @@ impl Held {
         modes.feed_mode = had.feed_mode;
         modes.work_offset = had.work_offset;
         (own.framed, own.chained, own.turned) = (before.framed, before.chained, before.turned);
+        own.turning = before.turning;
         (own.chain, own.chain_turned) = (before.chain, before.chain_turned);
         own.compensated = before.compensated;
         // They were those of its own frames.

@@ -125,6 +125,11 @@ impl Legaliser {
         }
     }
 
+    /// What the target can say.
+    pub fn caps(&self) -> &Caps {
+        &self.target.caps
+    }
+
     /// The value of the source control's lift of chip breaking, for cycles that must be written out.
     pub fn set_break_lift(&mut self, lift: Option<Num>) {
         self.target.break_lift = lift;
@@ -382,7 +387,12 @@ impl Legaliser {
         }
         let mut needs = needs;
         if needs & MACHINE != 0 {
+            let found = diags.len();
             machine_moves::over(stmts, &mut start.clone(), &mut self.machine, &self.target, diags);
+            let cut = diags[found..].iter().find(|d| matches!(d.fault, Fault::MachineCutExpanded { .. }));
+            if let Some(at) = cut.map(|cut| cut.span) {
+                origin_shift::take(&mut self.shift, at, diags);
+            }
             needs |= self.lacks & (EDGE | TABLE | LENGTH);
         }
         if self.follow && needs & (CONTROL | WORK | SHIFT | FRAME | MACHINE) != 0 {

@@ -3,7 +3,8 @@
 //! Machine coordinates are measured with the tool's length on one control and without it on another. The
 //! same place is said by a move without a length, which is said anew before the next that needs it; or by
 //! the other form, where no length is in force. A move to the machine's zero is one in machine
-//! coordinates, by way of the point that it names.
+//! coordinates, by way of the point that it names. A cut, for a control that goes rapidly alone, is said in the work
+//! offset in force (`machine_cuts`), in which it is measured with the tool's length.
 //!
 //! Refused by name: a probing move of a kind that the target has not; a move that is measured with a length where the target's is not, unless there is
 //! none; other points of the machine without a word for them; and Z after a return to a point of the
@@ -11,7 +12,7 @@
 
 use super::walk::Walk;
 use super::write::{Rebuild, at as at_place, traverse, unit_of};
-use super::{Target, each_body};
+use super::{Target, each_body, machine_cuts};
 use crate::canon::{Axis, Distance, Fact};
 use crate::caps::{Caps, TiltForm};
 use crate::diag::{Diagnostic, Fault};
@@ -79,10 +80,6 @@ fn take(
     diags: &mut Vec<Diagnostic>,
 ) {
     let caps = &target.caps;
-    if caps.machine_rapid && walk.at.raw && matches!(stmt.op, Op::StraightFeed(_)) {
-        let what = "a cut in machine coordinates".into();
-        diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
-    }
     match &stmt.op {
         Op::Probe(probe) if !caps.probes[Caps::probe(*probe)] => {
             let what = match (probe.away, probe.error) {
@@ -109,7 +106,9 @@ fn take(
                 stmt = by_intermediate(detour, m, walk, stmt.clone(), made, diags);
             }
         }
-        Op::UseMachineCoordinates { length } if caps.machine_length.is_some_and(|own| own != *length) => {
+        Op::UseMachineCoordinates { length }
+            if caps.machine_rapid || caps.machine_length.is_some_and(|own| own != *length) =>
+        {
             walk.step(&stmt);
             state.machine = Some(stmt);
             return;
@@ -118,7 +117,16 @@ fn take(
             let with_z = m.to.get(Axis::Z).is_some();
             let in_force = walk.at.modes.length_offset;
             if let Some(machine) = state.machine.take() {
-                in_other_form(machine, with_z, in_force, state, made, diags);
+                let length = matches!(machine.op, Op::UseMachineCoordinates { length: true });
+                if caps.machine_rapid && matches!(stmt.op, Op::StraightFeed(_)) {
+                    return cut(machine, stmt, walk, state, caps, made, diags);
+                }
+                match caps.machine_length {
+                    Some(own) if own != length => {
+                        in_other_form(machine, with_z, in_force, state, made, diags);
+                    }
+                    _ => made.push(machine),
+                }
             }
             walk.step(&stmt);
             return made.push(stmt);
@@ -203,6 +211,47 @@ pub fn retract(stmts: &[Stmt]) -> Option<usize> {
     Some(if second == Some([true, true, false, false, false, false]) { 2 } else { 1 })
 }
 
+/// A cut in machine coordinates as one of the work offset in force, where it is measured with the tool's length.
+fn cut(
+    machine: Stmt,
+    mut stmt: Stmt,
+    walk: &mut Walk,
+    state: &mut State,
+    caps: &Caps,
+    made: &mut Rebuild,
+    diags: &mut Vec<Diagnostic>,
+) {
+    let (Op::StraightFeed(to), Op::UseMachineCoordinates { length }) = (&stmt.op, &machine.op) else {
+        return made.push(stmt);
+    };
+    let aside = !length && walk.at.aside && [Axis::X, Axis::Y].iter().any(|axis| to.to.get(*axis).is_some());
+    let said = match aside {
+        true => Err("a cut in machine coordinates without the offsets of the tool along X and Y"),
+        false => machine_cuts::as_work(to, &walk.at, caps),
+    };
+    let with_z = to.to.get(Axis::Z).is_some();
+    let (length, in_force) = (*length, walk.at.modes.length_offset);
+    walk.step(&stmt);
+    match said {
+        Ok((to, offset)) => {
+            diags.push(Diagnostic::new(Fault::MachineCutExpanded { offset }, stmt.span));
+            stmt.op = Op::StraightFeed(to);
+        }
+        Err(what) => diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span)),
+    }
+    let (joined, number) = (machine.joined, machine.number);
+    let off = !length && puts_off(with_z, in_force, state, stmt.span);
+    if off {
+        let mut none = Stmt::new(stmt.span, Op::UseToolLengthOffset(Expr::int(0)));
+        (none.skip, none.joined, none.number) = (machine.skip, joined, number);
+        made.push(none);
+    } else {
+        (stmt.joined, stmt.number) = (joined, number);
+    }
+    stmt.comment = stmt.comment.or(machine.comment);
+    made.push(stmt);
+}
+
 /// The statement of machine coordinates in the other form; the move follows.
 fn in_other_form(
     mut machine: Stmt,
@@ -219,19 +268,27 @@ fn in_other_form(
         let what = "a move in machine coordinates that is measured with the tool's length";
         diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, machine.span));
     }
-    if with_z && !length && !none {
+    if !length && puts_off(with_z, in_force, state, machine.span) {
         let mut off = Stmt::new(machine.span, Op::UseToolLengthOffset(Expr::int(0)));
         off.skip = machine.skip;
         off.joined = machine.joined;
         off.number = machine.number.take();
         machine.joined = true;
         made.push(off);
-        match in_force {
-            Some(entry) => state.put_off = Some(entry),
-            None => state.lost = state.lost.or(Some(machine.span)),
-        }
     }
     made.push(machine);
+}
+
+/// Puts the tool's length off, if one may be in force and a move of Z is measured without it.
+fn puts_off(with_z: bool, in_force: Option<u32>, state: &mut State, at: Span) -> bool {
+    let off = with_z && in_force != Some(0) && state.put_off.is_none();
+    if off {
+        match in_force {
+            Some(entry) => state.put_off = Some(entry),
+            None => state.lost = state.lost.or(Some(at)),
+        }
+    }
+    off
 }
 
 /// The move to the intermediate point; what is left to be said is the rest of the way, in a block of its own.

@@ -40,6 +40,7 @@ mod frame_forms;
 mod known_answers;
 pub mod known_facts;
 mod legalise;
+pub mod machine_cuts;
 pub mod machine_moves;
 pub mod machine_numbers;
 pub mod message_values;

@@ -7,6 +7,7 @@ use super::write::{Rebuild, rebuild};
 use super::{Target, each_body};
 use crate::diag::{Diagnostic, Fault, ModeName};
 use crate::program::{FrameSlot, Op, Program, Stmt};
+use crate::source::Span;
 use crate::track::Tracker;
 
 /// What the pass remembers from piece to piece of a program.
@@ -28,11 +29,16 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, diags: &mut Vec<Diag
         if stmt.op != Op::ClearFrame(FrameSlot::Shift) {
             return made.push(stmt);
         }
-        if !state.none {
-            let fault = Fault::AssumedMode { fact: ModeName::OriginShift, value: "none".into() };
-            diags.push(Diagnostic::new(fault, stmt.span));
-            state.none = true;
-        }
+        take(state, stmt.span, diags);
         made.leave_out(stmt);
     });
+}
+
+/// Takes for granted that the target starts without a shift, and tells it once.
+pub(super) fn take(state: &mut State, at: Span, diags: &mut Vec<Diagnostic>) {
+    if !state.none {
+        let fault = Fault::AssumedMode { fact: ModeName::OriginShift, value: "none".into() };
+        diags.push(Diagnostic::new(fault, at));
+        state.none = true;
+    }
 }

@@ -16,6 +16,9 @@ impl Tracker {
 
     /// Empties a slot of the coordinate chain.
     pub(super) fn clear_frame(&mut self, slot: FrameSlot) {
+        if let Some(turning) = turning(slot) {
+            self.turning[turning] = false;
+        }
         match slot {
             FrameSlot::Local => {
                 self.shift_locally(&[Some(Some(0)); AXES]);
@@ -64,6 +67,14 @@ impl Tracker {
                 self.tilted = true;
             }
             Slot::Rotation { .. } | Slot::Scale { .. } | Slot::Mirror(_) | Slot::NoMirror(_) => {
+                let own = match slot {
+                    Slot::Rotation { .. } => FrameSlot::Rotation,
+                    Slot::Scale { .. } => FrameSlot::Scale,
+                    _ => FrameSlot::Mirror,
+                };
+                if let Some(turning) = turning(own) {
+                    self.turning[turning] = true;
+                }
                 self.position = [None; AXES];
                 self.turned = true;
                 self.framed = true;
@@ -115,6 +126,16 @@ impl Tracker {
             let by = self.chain.to(axis, to);
             self.position[axis] = self.position[axis].zip(by).and_then(|(at, by)| at.checked_sub(by));
         }
+    }
+}
+
+/// Which of the slots that turn, scale or mirror it is.
+const fn turning(slot: FrameSlot) -> Option<usize> {
+    match slot {
+        FrameSlot::Rotation => Some(0),
+        FrameSlot::Scale => Some(1),
+        FrameSlot::Mirror => Some(2),
+        FrameSlot::Local | FrameSlot::Shift | FrameSlot::Tilt | FrameSlot::Polar | FrameSlot::Chain => None,
     }
 }
 

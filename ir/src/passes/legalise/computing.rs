@@ -6,7 +6,7 @@
 
 use super::super::computed_frames;
 use super::super::known_facts::{self, Known};
-use super::super::{number_names, origin_shift, taps};
+use super::super::{machine_cuts, number_names, origin_shift, taps};
 use super::{Legaliser, Target};
 use crate::arguments;
 use crate::canon::Modes;
@@ -196,6 +196,12 @@ fn only_the_run_knows(found: &mut Diagnostic) {
     found.fault = Fault::Computes { what: what.into() };
 }
 
+/// Statements with what is computed of cuts in machine coordinates alone taken back.
+fn without_offsets(stmts: &[Stmt]) -> Vec<Stmt> {
+    let plain = |stmt: &Stmt| Stmt { op: machine_cuts::without_offsets(&stmt.op), ..stmt.clone() };
+    stmts.iter().map(plain).collect()
+}
+
 struct Region<'l> {
     fresh: &'l Legaliser,
     known: &'l Known,
@@ -266,6 +272,8 @@ impl Region<'_> {
 
     /// The place of a statement that a pass has changed though it is computed, or others rely on it.
     fn relied_on(&self, before: &[Stmt], after: &[Stmt]) -> Option<Span> {
+        // A cut that is said in a work offset is the same, less the offsets.
+        let (before, after) = [before, after].map(without_offsets).into();
         let relies = |stmt: &&Stmt| {
             let cycle = matches!(stmt.op, drilling!() | Op::EndCycle | Op::Position(_));
             // How corners are taken may be said with less, which is told; nothing relies on it.

@@ -8,9 +8,9 @@ use crate::arguments;
 use crate::canon::Distance;
 use crate::decimals::Decimals;
 use crate::diag::{Diagnostic, Fault};
-use crate::expr::{Binary, Expr, Function, Node};
+use crate::expr::{Binary, Expr, Function, Node, Target};
 use crate::num::{Num, Unit};
-use crate::program::{Centre, Coord, Op, Point, Program, Stmt};
+use crate::program::{Centre, Coord, Op, Point, Program, Stmt, Type};
 use crate::source::Span;
 use crate::units::Said;
 
@@ -115,11 +115,12 @@ pub(in crate::passes) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
 /// are where a program goes from one unit to the other.
 pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec<Diagnostic>) {
     let mut decimals = Decimals::of(program);
+    let whole = whole_arguments(program);
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         decimals.within(at);
         each_op(&mut procedure.body, &mut |stmt| {
             if let Op::SetSpindleSpeed(value) | Op::LimitSpindleSpeed(value) = &mut stmt.op
-                && decimals.is_whole(value)
+                && (decimals.is_whole(value) || at == 0 && whole.contains(value))
             {
                 round(value, 0);
             }
@@ -138,6 +139,19 @@ pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec
         let value = "no further off together than its last digit, as in this program".into();
         diags.push(Diagnostic::new(Fault::AssumedParameter { parameter, value }, at));
     }
+}
+
+/// Parameters of the main program that are whole numbers and stay what they are: whoever calls it gives such.
+fn whole_arguments(program: &mut Program) -> Vec<Expr> {
+    let Some(main) = program.procedures.first_mut() else { return Vec::new() };
+    let own = main.parameters.iter().zip(&main.kinds).filter(|(_, kind)| **kind == Type::Int);
+    let mut whole: Vec<Expr> = own.map(|(var, _)| Expr::Node(Box::new(Node::Var(var.clone())))).collect();
+    each_op(&mut main.body, &mut |stmt| {
+        if let Op::Assign(Target::Var(var), _) = &stmt.op {
+            whole.retain(|own| !matches!(own, Expr::Node(node) if **node == Node::Var(var.clone())));
+        }
+    });
+    whole
 }
 
 /// Whether all lengths of a program are in inches; `None` where it goes from one unit to the other.
