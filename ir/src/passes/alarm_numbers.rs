@@ -15,11 +15,11 @@ use crate::source::Span;
 const MOST_TOLD: usize = 20;
 
 /// Says the alarms of a program as a control does that has these. `calls` is whether it says calls of a computed
-/// program, or so often, as the alarm comes with them.
+/// program, or so often, and jumps to a computed block, as the alarm comes with them.
 pub fn run(program: &mut Program, alarms: &Alarms, calls: bool, diags: &mut Vec<Diagnostic>) {
     let own: &[&str] = match calls {
         true => &[NO_SUCH_BLOCK, NO_SUCH_CODE, NO_SUCH_PROGRAM],
-        false => &[NO_SUCH_BLOCK, NO_SUCH_CODE],
+        false => &[NO_SUCH_CODE],
     };
     let mut told: Vec<(String, Span)> = Vec::new();
     for procedure in &mut program.procedures {
