@@ -25,12 +25,21 @@ pub enum Argument<'a> {
     Value(&'a mut Expr),
 }
 
-impl Argument<'_> {
+impl<'a> Argument<'a> {
     /// The expression, if there is one.
     pub fn expr(&self) -> Option<&Expr> {
         match self {
             Argument::Word(word) => word.as_ref().map(|word| &word.value),
             Argument::Optional(value) => value.as_ref(),
+            Argument::Value(value) => Some(value),
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn expr_mut(self) -> Option<&'a mut Expr> {
+        match self {
+            Argument::Word(word) => word.as_mut().map(|word| &mut word.value),
+            Argument::Optional(value) => value.as_mut(),
             Argument::Value(value) => Some(value),
         }
     }

@@ -4,6 +4,8 @@
 //! Not here: which codes are asked about (the front-end's), and how a control writes such a code.
 
 use crate::expr::{Binary, Expr, Node};
+use crate::num::Num;
+use crate::passes::arithmetic::compared;
 use crate::program::{Alarm, Control, Op, Stmt};
 use crate::source::Span;
 
@@ -30,12 +32,13 @@ pub fn of_number(number: &Expr, codes: Vec<(i64, Op)>, span: Span) -> Op {
     })
 }
 
-/// Takes the alarms of such codes away.
-pub fn without_alarms(body: &mut [Stmt]) {
+/// Takes the alarms of such codes away, but of those that stay one statement.
+pub fn without_alarms(body: &mut [Stmt], stays: &dyn Fn(&Control) -> bool) {
     for stmt in body {
         let Op::Control(control) = &mut stmt.op else { continue };
         if code_of(control).is_none() {
-            control.bodies_mut().for_each(|body| without_alarms(body));
+            control.bodies_mut().for_each(|body| without_alarms(body, stays));
+        } else if stays(control) {
         } else if let Op::Control(control) = std::mem::replace(&mut stmt.op, Op::Blank) {
             stmt.op = without_alarm(*control);
         }
@@ -73,8 +76,8 @@ pub fn code_of(control: &Control) -> Option<CodeOf<'_>> {
     let mut found: Option<CodeOf<'_>> = None;
     let mut next = control;
     loop {
-        let Control::If { condition: Expr::Node(condition), then, otherwise } = next else { return None };
-        let Node::Binary(Binary::Equal, number, Expr::Num(own)) = &**condition else { return None };
+        let Control::If { condition, then, otherwise } = next else { return None };
+        let (number, own) = equal(condition)?;
         let ([mode], [behind]) = (&then[..], &otherwise[..]) else { return None };
         let found = found.get_or_insert_with(|| CodeOf { number, codes: Vec::new() });
         if found.number != number || own.scale != 0 {
@@ -88,4 +91,15 @@ pub fn code_of(control: &Control) -> Option<CodeOf<'_>> {
         }
     }
     found
+}
+
+/// What a condition compares with a number, as whole numbers are the same: to the least bit, or within a tolerance.
+fn equal(condition: &Expr) -> Option<(&Expr, Num)> {
+    let Expr::Node(condition) = condition else { return None };
+    let Node::Binary(operator, a, Expr::Num(limit)) = &**condition else { return None };
+    match (operator, compared(*operator, a, *limit)) {
+        (Binary::Equal, _) => Some((a, *limit)),
+        (_, Some((Binary::Equal, number, Expr::Num(own)))) => Some((number, *own)),
+        _ => None,
+    }
 }

@@ -7,6 +7,7 @@ use crate::arguments;
 use crate::call_of::call_of;
 use crate::code_of::code_of;
 use crate::diag::{Diagnostic, Fault};
+use crate::entry_of::{EntryOf, entry_of, is_about_entries};
 use crate::expr::{Binary, Element, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use crate::num::{Num, Unit};
 use crate::program::{Control, Op, Output, Piece, Procedure, Program, Stmt, Text};
@@ -49,8 +50,12 @@ pub enum Said {
     Stop,
     /// What [`crate::call_of`] finds.
     CallOf,
-    /// What [`crate::code_of`] finds.
+    /// What [`crate::code_of`] finds of codes.
     CodeOf,
+    /// What [`crate::entry_of`] finds, where it only reads places of tables.
+    EntriesRead,
+    /// What [`crate::entry_of`] finds, where it sets a place of a table.
+    EntriesSet,
     /// [`crate::program::Attribute`] of a procedure.
     Attributes,
 }
@@ -183,6 +188,8 @@ pub struct Computes {
     pub planes_alarm: Option<i64>,
     /// Values of the control's own that a program can ask for.
     pub system: Vec<System>,
+    /// Those of them that are places of tables, each with the control's number of it.
+    pub entries: Vec<(System, i64)>,
     /// Whether a condition is worth 1 or 0 wherever a number can stand.
     pub worth: bool,
     /// Whether programs with variables of their own have names.
@@ -245,6 +252,23 @@ impl Computes {
             [only] if matches!(only.op, Op::Goto(_) | Op::Assign(..)) => true,
             [only] if matches!(only.op, Op::Alarm(_)) => self.has(Said::Alarm),
             then => self.has(Said::Stop) && stops(then),
+        }
+    }
+
+    /// Places of tables by a computed number, as the target says them in one statement, if these decisions are such and it
+    /// does.
+    pub fn entry_of<'c>(&self, control: &'c Control) -> Option<EntryOf<'c>> {
+        let entry = entry_of(&code_of(control)?, &self.entries)?;
+        let said = if entry.sets.is_empty() { Said::EntriesRead } else { Said::EntriesSet };
+        self.has(said).then_some(entry)
+    }
+
+    /// Whether decisions about one number are one statement of the target's: a code, or places of its tables.
+    pub fn says_number(&self, control: &Control) -> bool {
+        let Some(code) = code_of(control) else { return false };
+        match is_about_entries(&code) {
+            true => self.entry_of(control).is_some(),
+            false => self.has(Said::CodeOf),
         }
     }
 
@@ -454,10 +478,13 @@ impl Look<'_> {
         {
             return call.number.into_iter().chain(call.times).try_for_each(|value| self.expr(value, at));
         }
-        if self.computes.has(Said::CodeOf)
+        if self.computes.says_number(control)
             && let Some(code) = code_of(control)
         {
-            return self.expr(code.number, at);
+            self.expr(code.number, at)?;
+            // What each of them says is of one form.
+            let first = code.codes.first().filter(|(_, op)| matches!(op, Op::Assign(..) | Op::SetData(_)));
+            return first.map_or(Ok(()), |(_, op)| self.stmt(&Stmt::new(at, (*op).clone()), loops));
         }
         match control {
             Control::While { condition, body } => {

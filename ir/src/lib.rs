@@ -19,6 +19,7 @@ pub mod corner;
 pub mod cycle;
 pub mod decimals;
 pub mod diag;
+pub mod entry_of;
 pub mod exec;
 pub mod expr;
 pub mod geometry;

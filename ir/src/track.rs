@@ -12,7 +12,9 @@ mod known;
 use known::{Known, Polarly, Turning};
 
 use crate::canon::{AXES, Axis, Distance, Fact, Modes, Motion, Plane, ReturnLevel, Spindle, Units};
+use crate::code_of::code_of;
 use crate::cycle::{Cycle, CycleKind, Pattern};
+use crate::entry_of::is_about_entries;
 use crate::expr::Expr;
 use crate::geometry;
 use crate::kinds::{conduct, flow, frames, machine, miscellaneous, variables};
@@ -462,6 +464,11 @@ impl Tracker {
             Op::ChangeTool => self.tool = self.selected,
             Op::SelectToolByName(_) => self.selected = None,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
+            // One of them does what it says, and nothing else.
+            Op::Control(control) if code_of(control).is_some_and(|code| is_about_entries(&code)) => {
+                let code = code_of(control);
+                code.iter().flat_map(|code| &code.codes).for_each(|(_, op)| self.apply(op));
+            }
             flow!() => self.forget(),
             miscellaneous!() => match op {
                 Op::SetSpindleSpeed(speed) => self.speed = speed.literal(),

@@ -74,6 +74,11 @@ impl Writer {
         self.computing.program && !self.computing.targets.contains(name)
     }
 
+    /// Whether a block may be come to from another one than that before it.
+    pub(super) fn is_come_to(&self) -> bool {
+        self.computing.deep > 0 || !self.computing.written.is_empty()
+    }
+
     /// A label is about to be written, at which no cycle is in force.
     pub(super) fn before_label(&mut self, name: &str, sink: &mut Sink) -> Result<(), Fault> {
         if self.computing.program {
@@ -150,6 +155,10 @@ impl Writer {
     pub(super) fn structure(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         let span = stmt.span;
         self.words.spelling(None)?;
+        let computes = self.dialect.caps.computes.as_ref();
+        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+            return self.entry_of_number(&entry, stmt, sink);
+        }
         if stmt.skip.is_some() {
             return Err(cannot("blocks that can be skipped together"));
         }

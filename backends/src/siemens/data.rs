@@ -33,17 +33,9 @@ impl Writer {
                 self.tell_fine_shifts(span, sink);
                 self.alone(&texts.join(" "), sink)?;
                 match self.words.tracker.modes.work_offset {
-                    Some(now) if now != *offset => Ok(()),
-                    Some(_) => {
-                        self.words.flush(false, sink);
-                        self.words.split = true;
-                        self.words.tracker.modes.work_offset = None;
-                        self.words.statement(&Stmt::new(span, Op::SetOriginOffsets(*offset)), sink)
-                    }
-                    None => {
-                        self.stale = true;
-                        Ok(())
-                    }
+                    // Where blocks are come to from elsewhere, a reader may not know that it is another one.
+                    Some(now) if now != *offset && !self.is_come_to() => Ok(()),
+                    _ => self.call_up_again(span, sink),
                 }
             }
             Data::Tool { entry, which, added: false, kept, value } => {
@@ -68,6 +60,20 @@ impl Writer {
             | Data::Position(_)
             | Data::ToolInSpindle(_) => Err(cannot("this value in the control's tables")),
         }
+    }
+
+    /// The work offset in force counts with its new values; where nobody knows it, it must be called up before it counts.
+    pub(super) fn call_up_again(&mut self, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        let Some(now) = self.words.tracker.modes.work_offset else {
+            self.stale = true;
+            return Ok(());
+        };
+        self.words.flush(false, sink);
+        self.words.split = true;
+        self.words.tracker.modes.work_offset = None;
+        let again = self.words.statement(&Stmt::new(span, Op::SetOriginOffsets(now)), sink);
+        self.words.tracker.modes.work_offset = Some(now);
+        again
     }
 
     /// Before another statement, where a work offset has new values that may be in force.
@@ -102,12 +108,12 @@ impl Writer {
         Ok(())
     }
 
-    fn table(&self, of: impl Fn(&DataRow) -> bool) -> Option<&'static DataRow> {
+    pub(super) fn table(&self, of: impl Fn(&DataRow) -> bool) -> Option<&'static DataRow> {
         self.dialect.data.iter().find(|row| row.is_variable() && of(row))
     }
 
     /// `$P_UIFR[1,X,TR]=100`
-    fn set(
+    pub(super) fn set(
         &mut self,
         name: &str,
         axis: Axis,
@@ -128,7 +134,7 @@ impl Writer {
         Ok(format!("{name}={}", digits(value)))
     }
 
-    fn tell_fine_shifts(&mut self, span: Span, sink: &mut Sink) {
+    pub(super) fn tell_fine_shifts(&mut self, span: Span, sink: &mut Sink) {
         if self.told.insert("fine shifts") {
             let parameter = "fine shifts of work offsets ($P_UIFR[…,FI])".into();
             sink.report(Fault::AssumedParameter { parameter, value: "0".into() }, span);

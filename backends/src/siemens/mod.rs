@@ -10,6 +10,7 @@
 mod computing;
 mod cycle;
 mod data;
+mod entry_of;
 mod frame;
 mod motion;
 mod names;

@@ -44,6 +44,8 @@ pub(crate) struct Computing {
     open: u8,
     /// Modes in force where stretches of blocks begin, by the places of their first statements.
     stands: HashMap<u32, Modes>,
+    /// Whether the distance mode is known of the program as a whole, and not of the text where it is read.
+    pub(super) unsaid: bool,
     /// Values of the control's own, by their numbers.
     pub(super) own: Vec<(u32, Expr)>,
 }
@@ -87,9 +89,11 @@ impl Writer {
             return;
         }
         self.forgotten = false;
+        self.computing.unsaid = self.force.distance.is_none();
         self.force.distance = self.force.distance.or(known.distance);
         self.force.plane = self.force.plane.or(known.plane);
         self.force.units = self.force.units.or(known.units);
+        self.tracker.modes.work_offset = self.tracker.modes.work_offset.or(known.work_offset);
     }
 
     /// Whether the program computes when it runs.
@@ -236,7 +240,7 @@ impl Writer {
         self.statement_alone(&text, sink)
     }
 
-    fn assignment(
+    pub(super) fn assignment(
         &mut self,
         to: &Target,
         value: &Expr,
@@ -296,6 +300,10 @@ impl Writer {
     /// A decision or a loop.
     pub(crate) fn control(&mut self, control: &Control, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.spelling(None)?;
+        let computes = self.dialect.caps.computes.as_ref();
+        if let Some(entry) = computes.and_then(|computes| computes.entry_of(control)) {
+            return self.entry_of_number(&entry, stmt, sink);
+        }
         if self.has_o_words() {
             return self.o_structure(control, stmt, sink);
         }

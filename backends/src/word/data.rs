@@ -72,7 +72,7 @@ impl Writer {
                     own.push((letter, turn.clone()));
                 }
                 let entry = u32::from(offset - table.row.first) + 1;
-                self.stored(&table, entry, *mode == DataMode::Add, &own, span, sink)
+                self.stored(&table, &entry.to_string(), *mode == DataMode::Add, &own, span, sink)
             }
             Data::Measured { entry, offset, words } => {
                 let has = |table: &&DataCode| {
@@ -84,7 +84,7 @@ impl Writer {
                 let table =
                     tables.iter().find(has).ok_or_else(|| cannot("a tool measured where the axes stand"))?;
                 let own = self.along(&words[..])?;
-                self.stored(&table.clone(), *entry, false, &own, span, sink)
+                self.stored(&table.clone(), &entry.to_string(), false, &own, span, sink)
             }
             Data::Tool { entry, which, added, value, .. } => {
                 let has = |table: &DataCode| {
@@ -101,7 +101,7 @@ impl Writer {
                 if radius {
                     self.rely(RADIUS_DATA, span, sink);
                 }
-                self.stored(&table, *entry, *added, &[(letter, value)], span, sink)
+                self.stored(&table, &entry.to_string(), *added, &[(letter, value)], span, sink)
             }
         }
     }
@@ -109,16 +109,15 @@ impl Writer {
     /// What is computed for a table, as an assignment to the control's variable of that value; `None` where it has none,
     /// or rounds it otherwise.
     fn data_setting(&mut self, data: &Data, span: Span, sink: &mut Sink) -> Result<Option<String>, Fault> {
-        let (system, value) = match data {
+        let system = match data {
             Data::Offset { offset, mode: DataMode::Set, words, turn: None } => {
-                let mut said =
-                    Axis::ALL.into_iter().filter_map(|axis| Some((axis, words[axis as usize].as_ref()?)));
-                let (Some((axis, value)), None) = (said.next(), said.next()) else { return Ok(None) };
-                (System::WorkOffset { number: *offset, axis, unit: None }, value)
+                let mut said = Axis::ALL.into_iter().filter(|axis| words[*axis as usize].is_some());
+                let (Some(axis), None) = (said.next(), said.next()) else { return Ok(None) };
+                System::WorkOffset { number: *offset, axis, unit: None }
             }
-            Data::Tool { entry, which, added: false, value, .. } => {
+            Data::Tool { entry, which, added: false, .. } => {
                 let Ok(entry) = u16::try_from(*entry) else { return Ok(None) };
-                (System::ToolTable { value: *which, entry }, value)
+                System::ToolTable { value: *which, entry }
             }
             Data::Offset { .. }
             | Data::Tool { .. }
@@ -126,12 +125,37 @@ impl Writer {
             | Data::Position(_)
             | Data::ToolInSpindle(_) => return Ok(None),
         };
+        let Ok(name) = self.spelling(None)?.target(&Target::Var(Var::System(system.clone()))) else {
+            return Ok(None);
+        };
+        self.data_setting_of(&name, &system, data, span, sink)
+    }
+
+    /// The same for the variable of that name, which is this value of the control's or another one of its kind.
+    pub(super) fn data_setting_of(
+        &mut self,
+        name: &str,
+        system: &System,
+        data: &Data,
+        span: Span,
+        sink: &mut Sink,
+    ) -> Result<Option<String>, Fault> {
+        let value = match data {
+            Data::Offset { words, .. } => words.iter().flatten().next(),
+            Data::Tool { value, .. } => Some(value),
+            Data::Measured { .. } | Data::Position(_) | Data::ToolInSpindle(_) => None,
+        };
+        let Some(value) = value else { return Ok(None) };
         let rounds = self.codes.axes[Axis::X as usize].and_then(|letter| letter.format.rounds);
         let (said, value) = rounding(value);
         let mut value = value.clone();
         match (said, rounds, &mut value) {
             (None, _, Expr::Num(num)) if num.unit != Unit::Entry => {
                 self.check_unit(Num::int(1, num.unit), span)?;
+                num.unit = Unit::One;
+            }
+            // What counts in the unit in force does so in the control's variable as well.
+            (None, Some([mm, inch]), Expr::Num(num)) if num.trimmed().scale <= mm.min(inch) => {
                 num.unit = Unit::One;
             }
             (Some(said), Some([mm, inch]), _) if mm == inch && said == mm => {}
@@ -142,12 +166,9 @@ impl Writer {
             _ => return Ok(None),
         }
         let own = Expr::Node(Box::new(Node::Var(Var::System(system.clone()))));
-        let Ok(name) = self.spelling(None)?.target(&Target::Var(Var::System(system))) else {
-            return Ok(None);
-        };
         self.rely_on(&own, span, sink);
         let value = self.expression(&value, span, sink)?;
-        Ok(Some(self.sets(&name, &value)))
+        Ok(Some(self.sets(name, &value)))
     }
 
     /// A length that is no entry of the table, in a block of its own.
@@ -194,10 +215,10 @@ impl Writer {
         Ok(())
     }
 
-    fn stored(
+    pub(super) fn stored(
         &mut self,
         table: &DataCode,
-        entry: u32,
+        entry: &str,
         added: bool,
         own: &[(Letter, Expr)],
         span: Span,
@@ -205,6 +226,10 @@ impl Writer {
     ) -> Result<(), Fault> {
         let mut inserted = Inserted::default();
         if table.row.adds {
+            // Whether values are added, the text says where it is read.
+            if std::mem::take(&mut self.computing.unsaid) {
+                self.force.distance = None;
+            }
             let distance = if added { Distance::Incremental } else { Distance::Absolute };
             let counted =
                 |(_, value): &(Letter, Expr)| Coord { value: value.clone(), distance: Fact::Known(distance) };
@@ -227,7 +252,7 @@ impl Writer {
         self.admit_with(need, inserted, sink)?;
         self.block.code(Part::Mode, &table.code);
         self.block.digits(Part::Mode, table.select.0, &table.select.1.to_string());
-        self.block.digits(Part::Mode, table.entry, &entry.to_string());
+        self.block.digits(Part::Mode, table.entry, entry);
         for (letter, value) in shaped {
             self.block.word(Part::Axes, letter, value);
         }

@@ -17,6 +17,7 @@ mod computing;
 mod corner;
 mod cycles;
 mod data;
+pub(crate) mod entry_of;
 mod force;
 pub(crate) mod formula;
 mod frame;

@@ -56,7 +56,9 @@ pub(super) fn say(
     entry.modes = entry.modes.or(program.assumed);
     if from.id != to.id && !there.has(Said::CodeOf) {
         known_facts::put_back(program, &entry, there);
-        program.procedures.iter_mut().for_each(|procedure| code_of::without_alarms(&mut procedure.body));
+    }
+    for procedure in &mut program.procedures {
+        code_of::without_alarms(&mut procedure.body, &|control| there.says_number(control));
     }
     expand_repeats::where_it_computes(program, &job.to.caps(), found);
     machine_cuts::read(program, &entry, &job.to.caps(), found);
@@ -89,7 +91,7 @@ pub(super) fn say(
     let rows = || to.system.iter().filter(|row| row.counts(&job.to));
     spindle_points::run(program, &|asked| rows().flat_map(SystemRow::says).any(|(said, _)| said == *asked));
     if from.id != to.id {
-        unit_in_force::run(program);
+        unit_in_force::run(program, there);
     }
     if computes.calls != there.calls {
         found.extend(there.too_deep(program));

@@ -31,8 +31,9 @@ impl Lower {
         let span = place.span;
         let name = src.text(name).to_ascii_uppercase();
         let rows = &self.settings.dialect.system;
-        let found =
-            rows.iter().find_map(|row| Some((row, entry_of(&row.name, row.count, &name, place, src)?)));
+        let found = rows
+            .iter()
+            .find_map(|row| Some((row, entry_of(&row.name, row.count, &name, place, self.worth, src)?)));
         let Some((row, (entry, axis))) = found else { return self.no_meaning(&name, span, out) };
         let entry = entry.map_or(String::new(), |entry| format!(".{entry}"));
         let along =
@@ -43,6 +44,9 @@ impl Lower {
         if !counted && self.units(span, out).known() == Some(Units::Inch) {
             self.not_supported(&name, "position of the control where lengths count in inches", span, out);
             return None;
+        }
+        if system.is_place() {
+            self.no_stale_offset(span, out);
         }
         out.whole = true;
         Some(Typed::new(Node::Var(Var::System(system)), kind))
@@ -90,8 +94,9 @@ impl Lower {
         let Address::System(name) = place.address else { return };
         let name = src.text(name).to_ascii_uppercase();
         let rows = self.settings.dialect.data.iter().filter(|row| row.is_variable());
-        let mut found =
-            rows.filter_map(|row| Some((row, entry_of(&row.name, u32::from(row.count), &name, place, src)?)));
+        let mut found = rows.filter_map(|row| {
+            Some((row, entry_of(&row.name, u32::from(row.count), &name, place, self.worth, src)?))
+        });
         let (Some((row, (Some(entry), axis))), Value::Expr(_)) = (found.next(), value) else {
             return self.not_supported(&name, "variable of the control that is set", span, out);
         };
@@ -125,19 +130,21 @@ impl Lower {
         let mut words = [const { None }; AXES];
         words[axis as usize] = Some(value);
         let data = Data::Offset { offset, mode: DataMode::Set, words: Box::new(words), turn: None };
-        // The one in force counts as it was until it is called up again.
-        self.stale |= self.state.work_offset.value().is_none_or(|now| now == offset);
+        // The one in force counts as it was until it is called up again; by a computed number, it may be that one.
+        self.stale |= self.worth.is_some() || self.state.work_offset.value().is_none_or(|now| now == offset);
         self.stand.forget();
         self.push(span, Op::SetData(Box::new(data)), out);
     }
 }
 
 /// The entry and the axis of a variable, where it is the one that a row of the dictionary names: `$P_UIFR[#,@,TR]`.
-fn entry_of(
+/// Where the number of the entry is computed, it is what `worth` says.
+pub(super) fn entry_of(
     row: &str,
     count: u32,
     name: &str,
     place: &Place,
+    worth: Option<u32>,
     src: Source,
 ) -> Option<(Option<u32>, Option<Axis>)> {
     let (own, indices) = match row.split_once('[') {
@@ -152,7 +159,11 @@ fn entry_of(
         let given = given.as_ref()?;
         match *index {
             "#" => {
-                let number = whole(given).filter(|number| (1..=i64::from(count)).contains(number))?;
+                let number = match given {
+                    Tree::Number(..) => whole(given),
+                    _ => worth.map(i64::from),
+                };
+                let number = number.filter(|number| (1..=i64::from(count)).contains(number))?;
                 entry = Some(u32::try_from(number).ok()?);
             }
             "@" => axis = Some(axis_of(Some(given))?),
@@ -177,7 +188,7 @@ fn whole(index: &Tree) -> Option<i64> {
 }
 
 /// An axis as an index.
-fn axis_of(index: Option<&Tree>) -> Option<Axis> {
+pub(super) fn axis_of(index: Option<&Tree>) -> Option<Axis> {
     match index? {
         Tree::Place(Place { address: Address::Letter(letter), extension: None, index, .. })
             if index.is_empty() =>

@@ -12,6 +12,7 @@
 
 use std::collections::HashSet;
 
+use ncc_ir::code_of::code_of;
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target as Into, Var};
 use ncc_ir::num::{Num, Unit};
@@ -497,7 +498,7 @@ impl Lower {
             self.not_supported(closes.word(), "structure whose end can be skipped", head.span, out);
         }
         self.no_idle_tap(head.span, src, out);
-        self.no_stale_offset(head.span, out);
+        let stale = std::mem::take(&mut self.stale);
         self.leave_motion_before(head.span, out);
         let condition = condition.map(|c| self.condition(c, src, out).unwrap_or(Expr::int(1)));
         let Some(Open { what, at, head: begin, number, comment, found, scaled }) = self.flow.open.pop()
@@ -513,6 +514,10 @@ impl Lower {
         if let Some(first) = body.first_mut() {
             first.joined = false;
         }
+        // Tables that a loop only fills count behind it, when the offset in force is called up again.
+        let fills = stale && matches!(what, What::While(_) | What::For { .. }) && only_sets(&body);
+        self.stale = stale && !fills;
+        self.no_stale_offset(head.span, out);
         self.now.mark = self.now.mark.min(at);
         self.forget_texts();
         let is_if = matches!(what, What::If { .. });
@@ -561,6 +566,7 @@ impl Lower {
                 self.fault(Fault::EntryFactNeeded { fact: ModeName::Units }, at, out);
             }
         }
+        self.stale |= fills;
         if self.flow.open.is_empty() {
             self.flow.relied = None;
         }
@@ -619,6 +625,17 @@ fn may_change(body: &[Stmt], expr: &Expr) -> bool {
             }
             found || control.bodies().any(|body| may_change(body, expr))
         }
+        _ => false,
+    })
+}
+
+/// Whether a body does nothing but set variables and values of tables.
+fn only_sets(body: &[Stmt]) -> bool {
+    body.iter().all(|stmt| match &stmt.op {
+        Op::Assign(..) | Op::SetData(_) | Op::Comment(_) | Op::Blank => true,
+        Op::Control(control) => code_of(control).is_some_and(|code| {
+            code.codes.iter().all(|(_, op)| matches!(op, Op::SetData(_) | Op::Assign(..)))
+        }),
         _ => false,
     })
 }

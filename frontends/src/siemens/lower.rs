@@ -31,6 +31,7 @@ use super::unit::Kind;
 use crate::begins::Inherited;
 use crate::word::Source;
 use crate::word::block::{Value, Word};
+use crate::word::code_of::Saved;
 use crate::word::facts::Know;
 use crate::word::fast::{self, Fast, FeedWord};
 use crate::word::lower::decode;
@@ -94,6 +95,10 @@ pub(super) struct Lower {
     pub(super) handed: Handed,
     /// Whether the value of a work offset was set that may be in force, and none has been called up since.
     pub(super) stale: bool,
+    /// What a computed number of a table's entry is worth, where a statement is read for each of them.
+    pub(super) worth: Option<u32>,
+    /// Such statements.
+    pub(super) saved: Saved,
     /// Whether a block has been read that is executed and defines nothing.
     pub(super) executed: bool,
     /// What the text has said of swivelled planes.
@@ -186,6 +191,8 @@ impl Lower {
             flow: Flow::default(),
             handed: Handed::default(),
             stale: false,
+            worth: None,
+            saved: Saved::default(),
             executed: false,
             tilt: Met::default(),
             rounding: None,

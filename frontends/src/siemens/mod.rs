@@ -19,6 +19,7 @@ mod computing;
 mod control;
 mod corner;
 mod cycles;
+mod entry_of;
 mod facts;
 mod flow;
 mod formula;

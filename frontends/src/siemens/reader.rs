@@ -183,6 +183,7 @@ impl Reader {
         self.end_of_program(out);
         self.lower.hand_over(out);
         self.lower.give_back(out);
+        self.lower.saved.check(out);
         self.lower.inherited.settle(self.lower.settings.dialect, out);
         for (name, at) in self.lower.again.unknown() {
             out.report(Fault::CallUnknown { name }, at);

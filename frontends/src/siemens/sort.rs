@@ -260,6 +260,9 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
+        if self.by_number(place, value, span, src, out) {
+            return;
+        }
         if self.is_variable(place, src) {
             return self.assign(place, value, span, src, out);
         }

@@ -29,7 +29,7 @@ use crate::Batch;
 
 /// What the text saves of the modes in force and puts back.
 #[derive(Debug, Default)]
-pub(super) struct Saved {
+pub(crate) struct Saved {
     /// Variables that are given the code in force of a group, each in its program, in the order of the text.
     rows: Vec<(Text, Var, &'static SystemRow)>,
     /// Variables that are given a whole number, in the same way.
@@ -45,6 +45,15 @@ enum Told {
     Saved(&'static SystemRow, Var),
     /// The range of its number.
     Range,
+    /// The same, of a place of a table, by what that is called.
+    Entry(&'static str),
+}
+
+impl Saved {
+    /// A place of a table has a computed number.
+    pub(crate) fn entry(&mut self, at: Span, name: &'static str) {
+        self.back.push((at, Told::Entry(name)));
+    }
 }
 
 impl Lower {
@@ -136,9 +145,8 @@ impl Lower {
         self.computes.saved.rows.iter().rev().find(here).map(|(_, _, row)| *row)
     }
 
-    /// The codes of the group that a computed number is likely to be of: with what its variables were last given as the
-    /// text has it, or one more or less where they are counted first.
-    fn codes_beside(&self, number: &Expr) -> Vec<(i64, Op, &'static str)> {
+    /// What a value is likely to be: with what its variables were last given as the text has it.
+    pub(super) fn likely(&self, number: &Expr) -> Option<i64> {
         let own = self.sub.as_ref().map(|sub| &*sub.name).unwrap_or_default();
         let given = |var: &Var| {
             let here = |(program, of, _): &&(Text, Var, i64)| {
@@ -147,8 +155,14 @@ impl Lower {
             let found = self.computes.saved.numbers.iter().rev().find(here);
             found.and_then(|(_, _, number)| ways::Range::only(*number))
         };
-        let Some(likely) = ways::range(number, &given) else { return Vec::new() };
-        let near = [0, 1, -1].into_iter().filter_map(|by| self.setting_of(likely.from.checked_add(by)?));
+        ways::range(number, &given).map(|range| range.from)
+    }
+
+    /// The codes of the group that a computed number is likely to be of: with what its variables were last given as the
+    /// text has it, or one more or less where they are counted first.
+    fn codes_beside(&self, number: &Expr) -> Vec<(i64, Op, &'static str)> {
+        let Some(likely) = self.likely(number) else { return Vec::new() };
+        let near = [0, 1, -1].into_iter().filter_map(|by| self.setting_of(likely.checked_add(by)?));
         let mut near = near.filter(|(_, op, _)| is_mode(op));
         let Some((_, one, group)) = near.next() else { return Vec::new() };
         let codes = (0..=999).filter_map(|number| self.setting_of(number));

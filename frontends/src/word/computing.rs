@@ -317,6 +317,21 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> Vec<Op> {
+        match self.by_number(to, value, block, src, out) {
+            Some(ops) => ops,
+            None => self.plain_assignment(to, value, block, src, out),
+        }
+    }
+
+    /// The same without places of tables by computed numbers.
+    pub(super) fn plain_assignment(
+        &mut self,
+        to: &Target,
+        value: &Expr,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> Vec<Op> {
         let span = block.span;
         self.saves(to, value);
         if value.has(&|part| matches!(part, Node::Var(Var::System(_)))) {

@@ -5,12 +5,14 @@
 
 use ncc_dialects::{DataKind, DataRow, Meaning, Quantity, RADIUS_DATA};
 use ncc_ir::canon::{AXES, Axis, Distance, Fact};
+use ncc_ir::code_of::of_number;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Num;
 use ncc_ir::program::{Data, DataMode, Op, ToolLength, ToolValue};
 
 use super::Source;
+use super::block::{Value, Word};
 use super::facts::{InForce, Know};
 use super::lower::Lower;
 use super::sort::{Code, Words};
@@ -80,7 +82,15 @@ impl Lower {
             let word = row.entry.to_string().into();
             return self.fault(Fault::WordMissing { code: row_name(), word }, code.span, out);
         };
-        let Some(mut number) = self.whole(&entry, src, out) else { return };
+        // Of which work offset, may be computed when the program runs.
+        let computed = match entry.value {
+            Value::Computed(place) if row.kind == DataKind::Offset => {
+                Some(self.entry_number(words.exprs[usize::from(place)].clone(), &entry, out))
+            }
+            _ => None,
+        };
+        let found = if computed.is_some() { Some(1) } else { self.whole(&entry, src, out) };
+        let Some(mut number) = found else { return };
         if number == 0 && row.zero_current {
             self.rely_on_frames(false, code.span, out);
             let own = self.state.work_offset.value().and_then(|own| (own + 1).checked_sub(row.first));
@@ -146,9 +156,26 @@ impl Lower {
             (_, true) => DataMode::Add,
             (_, false) => DataMode::Set,
         };
-        let offset = row.first + (number - 1) as u16;
-        let data = Data::Offset { offset, mode, words: Box::new(by), turn };
-        self.push(code.span, Op::SetData(Box::new(data)), out);
+        let input = |number: u32| {
+            let offset = row.first + (number - 1) as u16;
+            let data = Data::Offset { offset, mode, words: Box::new(by.clone()), turn: turn.clone() };
+            Op::SetData(Box::new(data))
+        };
+        let Some(computed) = computed else { return self.push(code.span, input(number), out) };
+        out.whole = true;
+        let ways = (1..=u32::from(row.count)).map(|number| (i64::from(number), input(number)));
+        self.computes.saved.entry(code.span, &row.name);
+        self.push(code.span, of_number(&computed, ways.collect(), code.span), out);
+        self.stands_alone();
+    }
+
+    /// The number of a table's entry, where it is computed.
+    fn entry_number(&mut self, mut number: Expr, word: &Word, out: &mut Batch) -> Expr {
+        if !self.settings.dialect.program.o_words {
+            return self.value(&number, word.span, out);
+        }
+        self.parameters(&mut number, word.span, out);
+        number
     }
 
     /// Where the axes stand becomes a stored position; or the number of the tool in the spindle is said.

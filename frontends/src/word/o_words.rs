@@ -212,7 +212,23 @@ impl Lower {
             };
             made.push(left.remove(free));
         }
+        let alone = made.len() == 1 && block.words.is_empty();
         for set in made {
+            if let Some(op) = self.parameter_by_number(set, alone, out) {
+                if let Expr::Node(node) = &set.to
+                    && let Node::Var(var) = &**node
+                    && self.now.skip.is_none()
+                    && let Some(Named::Var(var)) = self.named(&var.name(), set.span, out)
+                {
+                    self.o.given.set(&var);
+                }
+                self.assigned(None, set.span, out);
+                self.push(set.span, op, out);
+                continue;
+            }
+            if self.now.failed {
+                return;
+            }
             let mut value = set.value.clone();
             self.parameters(&mut value, set.span, out);
             if read && asks(&value).is_some() {
@@ -228,13 +244,14 @@ impl Lower {
             {
                 self.o.given.set(var);
             }
+            self.saves(&to, &value);
             self.assigned(None, set.span, out);
             self.push(set.span, Op::Assign(to, value), out);
         }
     }
 
     /// What is set; `None` is refused (reported).
-    fn target_of(&mut self, to: &Expr, at: Span, out: &mut Batch) -> Option<Target> {
+    pub(super) fn target_of(&mut self, to: &Expr, at: Span, out: &mut Batch) -> Option<Target> {
         let Expr::Node(node) = to else { return None };
         match &**node {
             Node::Element(element) => {

@@ -215,11 +215,8 @@ impl Lower {
             };
         }
         let number: u32 = bare.parse().ok()?;
-        if number > LOCALS && number <= OWN {
-            return Some(Named::Var(Var::Common(bare.into())));
-        }
-        if number <= LOCALS {
-            return Some(Named::Var(Var::Local(bare.into())));
+        if number <= OWN {
+            return Some(Named::Var(parameter(bare)));
         }
         let rows = &self.settings.dialect.system;
         let row = rows.iter().find(|row| row.numbers().contains(&number));
@@ -276,6 +273,14 @@ impl Lower {
             }
             Quantity::Milliseconds | Quantity::Factor => None,
         }
+    }
+}
+
+/// A parameter of the program's own, by the digits of its number: those that live as long as a call come first.
+pub(super) fn parameter(digits: &str) -> Var {
+    match digits.parse::<u32>() {
+        Ok(number) if number <= LOCALS => Var::Local(digits.into()),
+        _ => Var::Common(digits.into()),
     }
 }
 

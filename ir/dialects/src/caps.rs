@@ -393,6 +393,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 output_opened: rules.output_opened,
                 planes_alarm: dialect.cycles.planes_alarm.map(i64::from),
                 system: systems(dialect),
+                entries: entries(dialect),
                 worth: rules.not_behind.is_some(),
                 named_programs: dialect.program.o_words,
                 prefix: rules.prefix.as_str().into(),
@@ -417,6 +418,20 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
 /// Values of the control's own that a program of the dialect can ask for.
 fn systems(dialect: &Dialect) -> Vec<System> {
     dialect.system.iter().flat_map(|row| row.says().map(|(system, _)| system)).collect()
+}
+
+/// Those of them that are places of tables, each with the number by which a program has it: that of its parameter, or that
+/// of the entry within a name.
+fn entries(dialect: &Dialect) -> Vec<(System, i64)> {
+    let own = |(system, spelt): (System, String)| {
+        let number = match &system {
+            System::WorkOffset { number, .. } | System::ToolTable { entry: number, .. } => i64::from(*number),
+            _ => return None,
+        };
+        let number = if spelt.starts_with('$') { number } else { spelt.parse().ok()? };
+        Some((system, number))
+    };
+    dialect.system.iter().flat_map(|row| row.says()).filter_map(own).collect()
 }
 
 /// Whether a code, a word or a call gives this advice.

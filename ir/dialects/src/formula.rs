@@ -174,6 +174,10 @@ pub enum Statement {
     CallOf,
     /// A code of which the number is a variable's, which has it from the codes in force.
     CodeOf,
+    /// Places of tables that are read by a computed number.
+    EntriesRead,
+    /// Places of tables that are set by a computed number.
+    EntriesSet,
     /// What is said of a subprogram as a whole.
     Attributes,
 }
@@ -197,6 +201,8 @@ impl From<Statement> for Said {
             Statement::Stop => Said::Stop,
             Statement::CallOf => Said::CallOf,
             Statement::CodeOf => Said::CodeOf,
+            Statement::EntriesRead => Said::EntriesRead,
+            Statement::EntriesSet => Said::EntriesSet,
             Statement::Attributes => Said::Attributes,
         }
     }

@@ -70,7 +70,7 @@ fn within(operator: Binary, a: Expr, b: Expr, tolerance: Num) -> Expr {
 }
 
 /// What is compared within a tolerance of not more than 1, and how.
-pub(super) fn compared<'e>(
+pub(crate) fn compared<'e>(
     operator: Binary,
     by: &'e Expr,
     limit: Num,

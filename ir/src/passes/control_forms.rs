@@ -23,7 +23,6 @@ use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::call_of::call_of;
-use crate::code_of::code_of;
 use crate::computes::{Computes, Said, counted};
 use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use crate::num::Num;
@@ -207,7 +206,7 @@ impl Forms<'_> {
         if self.has(Said::CallOf) && call_of(&control).is_some() {
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
-        if self.has(Said::CodeOf) && code_of(&control).is_some() {
+        if self.computes.says_number(&control) {
             return out.push(Stmt { op: Op::Control(control), ..stmt });
         }
         if self.says_about_one(&control) {

@@ -1,7 +1,8 @@
 //! Values of the control that count in a stated unit, in a program that has no other in force: they count in the one in
-//! force, as on controls that know no other.
+//! force, as on controls that know no other; and the other way about, for a target that knows them in a stated unit alone.
 
 use crate::canon::Units;
+use crate::computes::Computes;
 use crate::expr::{Expr, Node, Var};
 use crate::kinds::flow;
 use crate::program::{Op, Program, Stmt};
@@ -11,10 +12,10 @@ use crate::units::Said;
 use super::variables::expressions;
 
 /// Says them so.
-pub fn run(program: &mut Program) {
+pub fn run(program: &mut Program, there: &Computes) {
     let Some(unit) = only(program) else { return };
     for procedure in &mut program.procedures {
-        expressions(&mut procedure.body, &mut |_, value| plain(value, unit));
+        expressions(&mut procedure.body, &mut |_, value| said(value, unit, there));
     }
 }
 
@@ -44,21 +45,26 @@ fn asks(stmt: &Stmt) -> bool {
     found
 }
 
-fn plain(value: &mut Expr, in_force: Units) {
+fn said(value: &mut Expr, in_force: Units, there: &Computes) {
     if let Expr::Node(node) = value
         && let Node::Var(Var::System(system)) = &mut **node
     {
-        match system {
-            System::WorkOffset { unit, .. }
-            | System::OriginShift { unit, .. }
-            | System::TableOffset { unit, .. }
-            | System::TableDiameter { unit }
-                if *unit == Some(in_force) =>
-            {
-                *unit = None;
+        let mut other = system.clone();
+        if let System::WorkOffset { unit, .. }
+        | System::OriginShift { unit, .. }
+        | System::TableOffset { unit, .. }
+        | System::TableDiameter { unit } = &mut other
+        {
+            let stated = unit.is_some();
+            *unit = match *unit {
+                None => Some(in_force),
+                Some(own) if own == in_force => None,
+                Some(own) => Some(own),
+            };
+            if stated || !there.system.contains(system) && there.system.contains(&other) {
+                *system = other;
             }
-            _ => {}
         }
     }
-    value.parts_mut().for_each(|part| plain(part, in_force));
+    value.parts_mut().for_each(|part| said(part, in_force, there));
 }

@@ -233,11 +233,13 @@ pub(super) fn jump(
     }
 }
 
-/// The numbers of system variables that a block names.
+/// The numbers of system variables that a block names; where it computes one, those of all work offsets.
 fn named(block: &str) -> Vec<u32> {
+    let computed = if block.contains("#[") { vec![5221..=5333, 7001..=7953] } else { Vec::new() };
     let parts = block.split('#').skip(1);
     let digits = |part: &str| part.find(|c: char| !c.is_ascii_digit()).unwrap_or(part.len());
-    parts.filter_map(|part| part[..digits(part)].parse().ok()).filter(|n| *n >= 1000).collect()
+    let written = parts.filter_map(|part| part[..digits(part)].parse().ok()).filter(|n| *n >= 1000);
+    written.chain(computed.into_iter().flatten()).collect()
 }
 
 impl Control {

@@ -12,6 +12,9 @@ use super::text::{self, Argument, Block, Item, Reader, Unit};
 use super::variables::{self, Kind, Known, Place, Worth};
 use super::{Control, Motion, Next, Words};
 
+/// Settable frames.
+const FRAMES: u32 = 99;
+
 /// More blocks than any program here runs.
 const MOST: u64 = 200_000;
 
@@ -40,8 +43,14 @@ impl<'a> Control<'a> {
                 at += 1;
                 continue;
             }
-            self.variables.known =
-                Known { end: self.here(), machine: self.m.at, tool: self.m.tool, inch: self.m.inch };
+            let last = if block.rest.contains(&'$') { FRAMES } else { 0 };
+            self.variables.known = Known {
+                end: self.here(),
+                machine: self.m.at,
+                tool: self.m.tool,
+                inch: self.m.inch,
+                zeros: (1..=last).map(|offset| self.m.zero_of(offset)).collect(),
+            };
             let next = match self.statement(unit, at, block) {
                 Ok(Go::Not) => self.other(unit, at, block)?,
                 Ok(Go::On) => Next::Block,

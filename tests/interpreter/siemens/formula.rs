@@ -159,11 +159,28 @@ impl Reader<'_> {
         }
     }
 
+    /// `[1,X,TR]` and `[R1+1,X,TR]`: the number of a settable frame, and an axis of it.
+    pub(super) fn frame_index(&mut self) -> Result<(u32, usize), String> {
+        let wrong = || "the index of a settable frame".to_string();
+        if !self.take('[') {
+            return Err(wrong());
+        }
+        let number = self.expression()?.number()?.round();
+        if !self.take(',') || !(1.0..=99.0).contains(&number) {
+            return Err(wrong());
+        }
+        self.blanks();
+        let axis = "XYZABC".find(self.peek(0).to_ascii_uppercase()).ok_or_else(wrong)?;
+        self.at += 1;
+        let rest = self.take(',') && self.name().as_deref() == Some("TR") && self.take(']');
+        if rest { Ok((number as u32, axis)) } else { Err(wrong()) }
+    }
+
     /// `$P_EP[X]` and its like.
     fn of_control(&mut self) -> Result<Worth, String> {
         self.at += 1;
         let name = self.name().ok_or("a $ alone")?;
-        let known = self.variables.known;
+        let known = &self.variables.known;
         match name.as_str() {
             "PI" => return Ok(Worth::Number(std::f64::consts::PI, Kind::Real)),
             "P_TOOLNO" => {
@@ -171,6 +188,12 @@ impl Reader<'_> {
                 return Ok(Worth::Number(f64::from(tool), Kind::Int));
             }
             _ => {}
+        }
+        if name == "P_UIFR" {
+            let (index, axis) = self.frame_index()?;
+            let zero = known.zeros.get((index as usize).wrapping_sub(1)).filter(|_| !known.inch);
+            let zero = zero.ok_or_else(|| format!("$P_UIFR[{index}] where it is not known"))?;
+            return Ok(Worth::Number(zero[axis], Kind::Real));
         }
         let axis = if self.take('[') { "XYZABC".find(self.peek(0).to_ascii_uppercase()) } else { None };
         self.at += 1;

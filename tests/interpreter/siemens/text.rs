@@ -297,7 +297,10 @@ impl<'t> Reader<'t> {
         self.at += 1;
         let name = self.name().ok_or("a $ alone")?;
         let mut which = Vec::new();
-        if self.take('[') {
+        if name == "P_UIFR" {
+            let (number, axis) = self.frame_index()?;
+            which = vec![number.to_string(), "XYZABC"[axis..=axis].to_owned(), "TR".to_owned()];
+        } else if self.take('[') {
             loop {
                 let mut one = String::new();
                 self.blanks();

@@ -59,7 +59,7 @@ struct Variable {
 }
 
 /// What the control itself knows at a block.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Known {
     /// Where the program stands, in its own coordinates.
     pub(super) end: Machine,
@@ -67,6 +67,8 @@ pub(super) struct Known {
     pub(super) machine: Machine,
     pub(super) tool: Option<u32>,
     pub(super) inch: bool,
+    /// Zeros of the work offsets, from the first one, where the block may ask for them.
+    pub(super) zeros: Vec<Machine>,
 }
 
 /// All variables.

@@ -13,10 +13,11 @@ use ncc_ir::source::Span;
 
 use super::{ANY, Saved, Told};
 use crate::Batch;
-use crate::word::computing::Computes;
+use crate::word::entry_of;
 
-/// Turns of a loop, or of all that jumps lead to, that are followed number by number: more than a group has codes.
-const TURNS: u32 = 20;
+/// Turns of a loop, or of all that jumps lead to, that are followed number by number: more than a group has codes, or a
+/// table of work offsets places on most controls.
+const TURNS: u32 = 120;
 
 /// Turns of all loops of a program that are followed so: loops within loops come to many.
 const ALL_TURNS: u32 = 20_000;
@@ -75,9 +76,15 @@ pub(super) fn range(expr: &Expr, known: &dyn Fn(&Var) -> Option<Range>) -> Optio
             }
         }
         // What is whole stays what it is.
-        Node::Call(Function::Round | Function::Floor | Function::Truncate | Function::RoundUp, of) => {
-            range(of.first()?, known)
-        }
+        Node::Call(
+            Function::Given
+            | Function::Round
+            | Function::RoundTo
+            | Function::Floor
+            | Function::Truncate
+            | Function::RoundUp,
+            of,
+        ) => range(of.first()?, known),
         Node::Element(_) | Node::Vacant | Node::Unary(Unary::Not, _) | Node::Call(..) => None,
     }
 }
@@ -97,10 +104,10 @@ type Ranges = BTreeMap<u32, Range>;
 /// Variables and what is known of them.
 type Known = BTreeMap<String, Holds>;
 
-impl Computes {
+impl Saved {
     /// The text is over: whether each such variable has its value from its group on every way to the code.
-    pub(in crate::word) fn check_saved(&self, out: &mut Batch) {
-        if self.saved.back.is_empty() {
+    pub(crate) fn check(&self, out: &mut Batch) {
+        if self.back.is_empty() {
             return;
         }
         let (mut faults, mut ranges) = (Vec::new(), Ranges::new());
@@ -116,7 +123,7 @@ impl Computes {
                 others.vars.extend(own.vars.iter().cloned());
             }
             let (labels, wrong) = (BTreeMap::new(), Vec::new());
-            let (saved, ranges_yet) = (&self.saved, take(&mut ranges));
+            let (saved, ranges_yet) = (self, take(&mut ranges));
             let mut ways = Ways { saved, others, labels, wrong, ranges: ranges_yet, turns: 0 };
             for turn in 0.. {
                 let before = ways.labels.clone();
@@ -132,9 +139,8 @@ impl Computes {
             faults.append(&mut ways.wrong);
             ranges = ways.ranges;
         }
-        for (span, number) in faults {
-            let code = format!("G{number}").into();
-            out.report(Fault::NotSupported { code, name: ANY.into() }, span);
+        for (span, fault) in faults {
+            out.report(fault, span);
         }
         narrow(&mut out.stmts, &ranges);
         out.procedures.iter_mut().for_each(|procedure| narrow(&mut procedure.body, &ranges));
@@ -168,7 +174,9 @@ impl Set {
                 Op::Leave | Op::NextTurn => self.leaves = true,
                 Op::Call(call) => drop(self.calls.insert(call.name.clone())),
                 Op::Control(control) => {
-                    self.any |= matches!(**control, Control::For { .. });
+                    if let Control::For { variable, .. } = &**control {
+                        self.vars.insert(key(variable));
+                    }
                     control.bodies().for_each(|body| self.body(body));
                 }
                 _ => {}
@@ -209,7 +217,7 @@ struct Ways<'s> {
     others: Set,
     /// What is known at labels, as far as jumps have led there.
     labels: BTreeMap<Text, Known>,
-    wrong: Vec<(Span, Box<str>)>,
+    wrong: Vec<(Span, Fault)>,
     /// The ranges of the numbers of codes, by where those begin.
     ranges: Ranges,
     /// Turns of loops that have been followed.
@@ -297,15 +305,28 @@ impl Ways<'_> {
                     && let Some(known) = &known
                 {
                     if !self.is_one_of(&code, stmt.span, known) {
-                        self.wrong.push((stmt.span, spelt(code.number)));
+                        self.wrong.push((stmt.span, self.refused(&code, stmt.span)));
                     }
-                    return Some(known.clone());
+                    // One of them may give a variable its value.
+                    let mut behind = known.clone();
+                    control.bodies().for_each(|body| Set::of(body).takes_from(&mut behind));
+                    return Some(behind);
                 }
                 return self.control(control, known);
             }
             _ => {}
         }
         known
+    }
+
+    /// Why such a code is not kept.
+    fn refused(&self, code: &CodeOf<'_>, at: Span) -> Fault {
+        let told = self.saved.back.iter().find(|(span, _)| *span == at);
+        let (code, name) = match told {
+            Some((_, Told::Entry(name))) => ((*name).into(), entry_of::ANY.into()),
+            _ => (format!("G{}", spelt(code.number)).into(), ANY.into()),
+        };
+        Fault::NotSupported { code, name }
     }
 
     /// Whether the number of a code is surely that of one of these.
@@ -316,7 +337,7 @@ impl Ways<'_> {
                 let Some(Holds::Code(group)) = known.get(&key(var)) else { return false };
                 std::ptr::eq(self.saved.rows[*group].2, *row) && !code.codes.is_empty()
             }
-            Told::Range => {
+            Told::Range | Told::Entry(_) => {
                 let Some(range) = worth(code.number, known) else { return false };
                 // What is repeated stands in more than one body.
                 let all = self.ranges.get(&at.start).map_or(range, |other| range.hull(*other));
@@ -338,57 +359,95 @@ impl Ways<'_> {
                 meet(then, otherwise)
             }
             Control::While { condition, body } => {
-                let known = self.turns(Some(condition), body, known);
+                let (known, _) = self.turns([Some(condition), None], body, known);
                 if Set::of(body).leaves {
                     known
                 } else {
                     known.and_then(|known| where_it(condition, false, known))
                 }
             }
-            Control::Loop { body } => self.turns(None, body, known),
-            Control::Repeat { body, .. } | Control::Until { body, .. } | Control::For { body, .. } => {
-                let known = without(known, body, matches!(control, Control::For { .. }));
+            Control::Loop { body } => self.turns([None, None], body, known).0,
+            Control::Until { condition, body } => {
+                let (begins, behind) = self.turns([None, Some(condition)], body, known);
+                match Set::of(body).leaves {
+                    true => begins,
+                    false => behind.and_then(|known| where_it(condition, true, known)),
+                }
+            }
+            Control::Repeat { body, .. } => {
+                let known = without(known, body);
                 let behind = self.body(body, known.clone());
                 meet(known, behind)
+            }
+            Control::For { variable, from, to, step, body } => {
+                let mut known = without(known, body)?;
+                let counts = counted([from, to, step], &known);
+                known.remove(&key(variable));
+                let own = Set::of(body);
+                let mut within = known.clone();
+                if let Some(range) = counts.filter(|_| !own.any && !own.vars.contains(&key(variable))) {
+                    within.insert(key(variable), Holds::Whole(range));
+                }
+                let mut behind = self.body(body, Some(within));
+                if let Some(behind) = &mut behind {
+                    behind.remove(&key(variable));
+                }
+                meet(Some(known), behind)
             }
         }
     }
 
-    /// What is known wherever a turn of a loop begins.
-    fn turns(&mut self, condition: Option<&Expr>, body: &[Stmt], known: Option<Known>) -> Option<Known> {
+    /// What is known wherever a turn of a loop begins, and wherever one ends; `head` must hold before a turn, and `until`
+    /// not behind it for another one.
+    fn turns(
+        &mut self,
+        [head, until]: [Option<&Expr>; 2],
+        body: &[Stmt],
+        known: Option<Known>,
+    ) -> (Option<Known>, Option<Known>) {
         // Where it is left from within, that place would have to be looked at as well.
-        let mut begins = if Set::of(body).leaves { without(known, body, false) } else { known };
+        let mut begins = if Set::of(body).leaves { without(known, body) } else { known };
         let wrong = take(&mut self.wrong);
-        for turn in 0.. {
+        let mut turn = 0;
+        let behind = loop {
             self.wrong.clear();
             self.turns += 1;
             let settles = turn >= TURNS || self.turns > ALL_TURNS;
-            let holds = begins.clone().and_then(|known| match condition {
+            let holds = begins.clone().and_then(|known| match head {
                 Some(condition) => where_it(condition, true, known),
                 None => Some(known),
             });
             let behind = self.body(body, holds);
-            let mut next = meet(begins.clone(), behind);
+            let again = behind.clone().and_then(|known| match until {
+                Some(condition) => where_it(condition, false, known),
+                None => Some(known),
+            });
+            let mut next = meet(begins.clone(), again);
             if next == begins {
-                break;
+                break behind;
             }
+            turn += 1;
             if let (true, Some(next), Some(before)) = (settles, &mut next, &begins) {
                 next.retain(|var, holds| before.get(var) == Some(holds));
             }
             begins = next;
-        }
+        };
         self.wrong.splice(0..0, wrong);
-        begins
+        (begins, behind)
     }
 }
 
 /// What is known where a body may have been executed, or not.
-fn without(known: Option<Known>, body: &[Stmt], counts: bool) -> Option<Known> {
-    let mut own = Set::of(body);
-    own.any |= counts;
+fn without(known: Option<Known>, body: &[Stmt]) -> Option<Known> {
     let mut known = known?;
-    own.takes_from(&mut known);
+    Set::of(body).takes_from(&mut known);
     Some(known)
+}
+
+/// The numbers that a loop counts through: from where it begins to where it ends at the furthest.
+fn counted([from, to, step]: [&Expr; 3], known: &Known) -> Option<Range> {
+    let (from, to, step) = (worth(from, known)?, worth(to, known)?, worth(step, known)?);
+    (step.from > 0 && from.from <= to.to).then_some(Range { from: from.from, to: to.to })
 }
 
 /// The range of a value.
@@ -406,13 +465,61 @@ fn where_it(condition: &Expr, holds: bool, known: Known) -> Option<Known> {
         Node::Unary(Unary::Not, a) => return where_it(a, !holds, known),
         Node::Binary(Binary::And, a, b) if holds => return where_it(b, true, where_it(a, true, known)?),
         Node::Binary(Binary::Or, a, b) if !holds => return where_it(b, false, where_it(a, false, known)?),
-        Node::Binary(operator, a, b) => (*operator, a, b),
-        _ => return Some(known),
+        Node::Binary(Binary::And | Binary::Or, a, b) => {
+            return meet(where_it(a, holds, known.clone()), where_it(b, holds, known));
+        }
+        node => match compared(node) {
+            Some(compared) => compared,
+            None => return Some(known),
+        },
     };
+    // A condition that is worth nothing does not hold.
+    if let (Binary::Equal | Binary::NotEqual, Expr::Node(inner), Some(0)) =
+        (operator, a, b.literal().and_then(|n| n.whole()))
+        && let Node::Binary(decision, ..) = &**inner
+        && decision.decides()
+    {
+        return where_it(a, holds == (operator == Binary::NotEqual), known);
+    }
     let operator = if holds { Some(operator) } else { opposite(operator) };
     let Some(operator) = operator else { return Some(known) };
     let known = limit(a, operator, b, known)?;
     limit(b, turned(operator), a, known)
+}
+
+/// A comparison, as whole numbers have it: within a tolerance they are the same, or one apart at least.
+fn compared(node: &Node) -> Option<(Binary, &Expr, &Expr)> {
+    let apart = |e: &'_ Expr| -> Option<bool> {
+        let Expr::Num(n) = e else { return None };
+        let one = 10_i64.checked_pow(u32::from(n.scale))?;
+        (n.mantissa != 0 && n.mantissa.checked_abs()? < one).then_some(n.mantissa > 0)
+    };
+    match node {
+        Node::Call(Function::Near | Function::NearRatio, of) => match &of[..] {
+            [a, b, within] if apart(within) == Some(true) => Some((Binary::Equal, a, b)),
+            _ => None,
+        },
+        Node::Binary(operator, Expr::Node(of), within) if apart(within).is_some() => {
+            let above = apart(within)?;
+            match (operator, &**of) {
+                (Binary::Less, Node::Binary(Binary::Subtract, a, b)) if above => {
+                    Some((Binary::LessOrEqual, a, b))
+                }
+                (Binary::Greater, Node::Binary(Binary::Subtract, a, b)) if !above => {
+                    Some((Binary::GreaterOrEqual, a, b))
+                }
+                (Binary::Less | Binary::GreaterOrEqual, Node::Call(Function::Abs, of)) if above => {
+                    let [Expr::Node(of)] = &of[..] else { return None };
+                    let Node::Binary(Binary::Subtract, a, b) = &**of else { return None };
+                    let same = *operator == Binary::Less;
+                    Some((if same { Binary::Equal } else { Binary::NotEqual }, a, b))
+                }
+                _ => None,
+            }
+        }
+        Node::Binary(operator, a, b) => Some((*operator, a, b)),
+        _ => None,
+    }
 }
 
 /// The comparison that holds where another does not.
@@ -439,11 +546,20 @@ fn turned(operator: Binary) -> Binary {
     }
 }
 
+/// The variable that an expression is, with a value or whether it has one or not.
+fn variable(e: &Expr) -> Option<&Var> {
+    let Expr::Node(node) = e else { return None };
+    match &**node {
+        Node::Var(var) => Some(var),
+        Node::Call(Function::Given, of) => variable(of.first()?),
+        _ => None,
+    }
+}
+
 /// What is known where a variable compares so with something else; `None` where it cannot.
 fn limit(what: &Expr, operator: Binary, with: &Expr, mut known: Known) -> Option<Known> {
     let Some(with) = worth(with, &known) else { return Some(known) };
-    let Expr::Node(node) = what else { return Some(known) };
-    let Node::Var(var) = &**node else { return Some(known) };
+    let Some(var) = variable(what) else { return Some(known) };
     let Some(Holds::Whole(range)) = known.get_mut(&key(var)) else { return Some(known) };
     match operator {
         Binary::Less => range.to = range.to.min(with.to - 1),

@@ -110,8 +110,8 @@ pub(in crate::passes) fn rounded(value: &Expr) -> Option<(Expr, u8)> {
 /// Says that lengths are rounded, where the target's words do that by themselves and the source's do not: those from
 /// zero are no further off than half of the target's last digit. `increments` are the digits in mm, or degrees, and in
 /// inches. What adds up is the same where it has no more digits than that; where it may have more, that the roundings
-/// come to nothing is taken for granted and told: execution tells whether it is so. Of frames only those are, which have
-/// no more digits: what they move is rounded once more. Speeds and what counts must be whole anyway. Lengths stay as they
+/// come to nothing is taken for granted and told: execution tells whether it is so. Of frames and of values
+/// for tables only those are, which have no more digits: what they move is rounded once more. Speeds and what counts must be whole anyway. Lengths stay as they
 /// are where a program goes from one unit to the other.
 pub(super) fn rounds(program: &mut Program, increments: [u8; 2], diags: &mut Vec<Diagnostic>) {
     let mut decimals = Decimals::of(program);
@@ -293,7 +293,7 @@ fn round_in(
                     round(&mut plane.value, digits[0]);
                 }
             }
-            op @ (Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_)) => {
+            op @ (Op::SetFrame(_) | Op::SetSlot(_) | Op::SetPosition(_) | Op::SetData(_)) => {
                 let all = arguments::each(op, &mut |argument, unit| {
                     let digits = digits[usize::from(unit == Unit::Degree)];
                     if let Some(value) = argument.expr()
