@@ -8,7 +8,7 @@ use std::mem::take;
 use ncc_ir::code_of::{CodeOf, code_of, of_number};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
-use ncc_ir::program::{Control, Op, Stmt, Text};
+use ncc_ir::program::{Control, Op, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::{ANY, Saved, Told};
@@ -21,6 +21,9 @@ const TURNS: u32 = 120;
 
 /// Turns of all loops of a program that are followed so: loops within loops come to many.
 const ALL_TURNS: u32 = 20_000;
+
+/// How deep in calls of calls arguments are followed.
+const ROUNDS: u32 = 3;
 
 /// The greatest number that is reckoned with: each control holds those below it exactly.
 const MOST: i64 = 10_000_000;
@@ -110,7 +113,56 @@ impl Saved {
         if self.back.is_empty() {
             return;
         }
-        let (mut faults, mut ranges) = (Vec::new(), Ranges::new());
+        let mut given = vec![Known::new(); out.procedures.len() + 1];
+        let mut found = self.found(out, &given);
+        for _ in 0..ROUNDS {
+            let more = found.given(out);
+            if more == given {
+                break;
+            }
+            given = more;
+            found = self.found(out, &given);
+        }
+        let Found { faults, ranges, .. } = found;
+        for (span, fault) in faults {
+            out.report(fault, span);
+        }
+        narrow(&mut out.stmts, &ranges);
+        out.procedures.iter_mut().for_each(|procedure| narrow(&mut procedure.body, &ranges));
+    }
+}
+
+/// What is found in a text.
+#[derive(Default)]
+struct Found {
+    faults: Vec<(Span, Fault)>,
+    ranges: Ranges,
+    /// The arguments of calls, as far as their ranges are known.
+    calls: Vec<(Text, Vec<Option<Range>>)>,
+}
+
+impl Found {
+    /// What the programs of the text are given by all their calls.
+    fn given(&self, out: &Batch) -> Vec<Known> {
+        let own = |procedure: &Procedure| {
+            let calls = || self.calls.iter().filter(|(name, _)| *name == procedure.name);
+            let parameters = procedure.parameters.iter().enumerate();
+            let ranges = parameters.filter_map(|(at, parameter)| {
+                let mut each = calls().map(|(_, arguments)| arguments.get(at).copied().flatten());
+                let first = each.next()??;
+                let all = each.try_fold(first, |all, next| Some(all.hull(next?)))?;
+                Some((key(parameter), Holds::Whole(all)))
+            });
+            ranges.collect()
+        };
+        std::iter::once(Known::new()).chain(out.procedures.iter().map(own)).collect()
+    }
+}
+
+impl Saved {
+    /// Follows all ways; `given` is what is known where each program begins.
+    fn found(&self, out: &Batch, given: &[Known]) -> Found {
+        let mut found = Found::default();
         let mut bodies = vec![("", &out.stmts)];
         bodies.extend(out.procedures.iter().map(|procedure| (&*procedure.name, &procedure.body)));
         let set: Vec<Set> = bodies.iter().map(|(_, body)| Set::of(body)).collect();
@@ -123,12 +175,11 @@ impl Saved {
                 others.vars.extend(own.vars.iter().cloned());
             }
             let (labels, wrong) = (BTreeMap::new(), Vec::new());
-            let (saved, ranges_yet) = (self, take(&mut ranges));
-            let mut ways = Ways { saved, others, labels, wrong, ranges: ranges_yet, turns: 0 };
+            let mut ways = Ways { saved: self, others, labels, wrong, found, turns: 0 };
             for turn in 0.. {
                 let before = ways.labels.clone();
                 ways.wrong.clear();
-                ways.body(body, Some(Known::new()));
+                ways.body(body, Some(given[at].clone()));
                 if ways.labels == before {
                     break;
                 }
@@ -136,14 +187,11 @@ impl Saved {
                     ways.settle_labels(&before);
                 }
             }
-            faults.append(&mut ways.wrong);
-            ranges = ways.ranges;
+            let Ways { mut wrong, found: behind, .. } = ways;
+            found = behind;
+            found.faults.append(&mut wrong);
         }
-        for (span, fault) in faults {
-            out.report(fault, span);
-        }
-        narrow(&mut out.stmts, &ranges);
-        out.procedures.iter_mut().for_each(|procedure| narrow(&mut procedure.body, &ranges));
+        found
     }
 }
 
@@ -218,8 +266,7 @@ struct Ways<'s> {
     /// What is known at labels, as far as jumps have led there.
     labels: BTreeMap<Text, Known>,
     wrong: Vec<(Span, Fault)>,
-    /// The ranges of the numbers of codes, by where those begin.
-    ranges: Ranges,
+    found: Found,
     /// Turns of loops that have been followed.
     turns: u32,
 }
@@ -283,6 +330,8 @@ impl Ways<'_> {
             }
             Op::Call(call) => {
                 let known = known.as_mut()?;
+                let arguments = call.arguments.iter().map(|argument| worth(argument, known)).collect();
+                self.found.calls.push((call.name.clone(), arguments));
                 let mut local = Known::new();
                 if !call.shared {
                     local.extend(known.iter().filter(|(var, _)| var.starts_with("local")).map(own));
@@ -340,8 +389,8 @@ impl Ways<'_> {
             Told::Range | Told::Entry(_) => {
                 let Some(range) = worth(code.number, known) else { return false };
                 // What is repeated stands in more than one body.
-                let all = self.ranges.get(&at.start).map_or(range, |other| range.hull(*other));
-                self.ranges.insert(at.start, all);
+                let all = self.found.ranges.get(&at.start).map_or(range, |other| range.hull(*other));
+                self.found.ranges.insert(at.start, all);
                 let mut numbers = range.from..=range.to;
                 // No more than there are codes are ever looked at: the next one is none of them.
                 numbers.all(|number| code.codes.iter().any(|(own, _)| *own == number))
