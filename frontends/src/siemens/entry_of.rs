@@ -32,7 +32,9 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) -> bool {
-        if self.worth.is_some() {
+        // Anything else that is set so is refused where the value is read.
+        let sets = self.is_variable(place, src) || matches!(place.address, Address::System(_));
+        if self.worth.is_some() || !sets {
             return false;
         }
         let mut found: Vec<(&Tree, u32)> = Vec::new();
@@ -80,6 +82,14 @@ impl Lower {
             first.get_or_insert(stmt);
         }
         self.worth = None;
+        if ways.len() < count as usize && !self.now.failed && !self.now.refused {
+            self.not_supported(
+                PLACE,
+                "place of the control's tables, for something else than a value",
+                span,
+                out,
+            );
+        }
         self.now.mark = mark;
         if let Some(first) = first {
             self.saved.entry(span, PLACE);

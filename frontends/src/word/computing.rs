@@ -537,6 +537,7 @@ impl Lower {
                 expr.parts_mut().for_each(|part| self.mean(part, round, at, out));
             }
             Node::Element(element) => {
+                self.no_place_here(element, at, out);
                 element.of = self.numbered();
                 let whole = |a| Node::Call(Function::Round, vec![a]);
                 element.at.iter_mut().for_each(|index| self.mean(index, &whole, at, out));

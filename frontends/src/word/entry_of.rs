@@ -12,6 +12,7 @@ use ncc_ir::diag::Fault;
 use ncc_ir::entry_of::is_entry;
 use ncc_ir::expr::{Binary, Element, Expr, Node, Target, Unary, Var};
 use ncc_ir::program::Op;
+use ncc_ir::source::Span;
 use ncc_ir::system::System;
 
 use super::Source;
@@ -233,6 +234,14 @@ impl Lower {
         match word {
             Some(word) => rows.iter().any(|row| row.name == word),
             None => !self.settings.dialect.program.o_words || self.row_of(name).is_some(),
+        }
+    }
+
+    /// Refuses such a place anywhere but in an assignment.
+    pub(super) fn no_place_here(&mut self, element: &Element, at: Span, out: &mut Batch) {
+        if self.of_the_control(element).is_some() {
+            let name = "place of the control's tables by a computed number, in a word or a condition";
+            self.fault(Fault::NotSupported { code: PLACE.into(), name: name.into() }, at, out);
         }
     }
 

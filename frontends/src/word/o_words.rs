@@ -255,6 +255,7 @@ impl Lower {
         let Expr::Node(node) = to else { return None };
         match &**node {
             Node::Element(element) => {
+                self.no_place_here(element, at, out);
                 let mut element = element.clone();
                 element.of = ncc_ir::expr::Many::Numbered(numbers());
                 for index in &mut element.at {

@@ -174,6 +174,7 @@ impl Lower {
                 }
             }
             Node::Element(element) => {
+                self.no_place_here(element, at, out);
                 element.of = Many::Numbered(numbers());
                 for index in &mut element.at {
                     self.parameters(index, at, out);
