@@ -61,6 +61,9 @@ struct Open {
     turns: bool,
     /// Whether it can be left.
     leaves: bool,
+    /// Whether it can be left behind a place where its turn is: a `do` looks for its end, and takes a `break` on the
+    /// way there for one that is made (interp_o_word.cc).
+    both: bool,
 }
 
 /// A label as it is written.
@@ -293,9 +296,9 @@ impl Writer {
         self.forget();
     }
 
-    fn o_loop(&mut self, label: u32, open: [bool; 2], body: &[Stmt], stmt: &Stmt, sink: &mut Sink) {
-        let [leaves, turns] = open;
-        self.o_words.open.push(Open { label, turns, leaves });
+    fn o_loop(&mut self, label: u32, open: [bool; 3], body: &[Stmt], stmt: &Stmt, sink: &mut Sink) {
+        let [leaves, turns, both] = open;
+        self.o_words.open.push(Open { label, turns, leaves, both });
         self.o_inner(body, stmt, sink);
         self.o_words.open.pop();
     }
@@ -320,18 +323,18 @@ impl Writer {
             Control::While { condition, body } => {
                 let condition = self.condition(condition, stmt.span, sink)?;
                 self.o_head(&format!("o{label} while {condition}"), sink)?;
-                self.o_loop(label, [true, true], body, stmt, sink);
+                self.o_loop(label, [true, true, true], body, stmt, sink);
                 self.o_line(&format!("o{label} endwhile"), sink)
             }
             Control::Loop { body } => {
                 self.o_head(&format!("o{label} while [1]"), sink)?;
-                self.o_loop(label, [true, true], body, stmt, sink);
+                self.o_loop(label, [true, true, true], body, stmt, sink);
                 self.o_line(&format!("o{label} endwhile"), sink)
             }
             // A loop of `do` is left behind its first turn where one of `while` has been left by `break` before.
             Control::Until { condition, body } if self.o_words.left => {
                 self.o_head(&format!("o{label} while [1]"), sink)?;
-                self.o_loop(label, [true, false], body, stmt, sink);
+                self.o_loop(label, [true, false, true], body, stmt, sink);
                 let inner = self.o_label();
                 let holds = self.condition(condition, stmt.span, sink)?;
                 self.o_head(&format!("o{inner} if {holds}"), sink)?;
@@ -341,14 +344,14 @@ impl Writer {
             }
             Control::Until { condition, body } => {
                 self.o_head(&format!("o{label} do"), sink)?;
-                self.o_loop(label, [true, true], body, stmt, sink);
+                self.o_loop(label, [true, true, false], body, stmt, sink);
                 let again = self.condition(&opposite(condition), stmt.span, sink)?;
                 self.o_line(&format!("o{label} while {again}"), sink)
             }
             Control::Repeat { times, body } => {
                 let times = self.condition(counted(times), stmt.span, sink)?;
                 self.o_head(&format!("o{label} repeat {times}"), sink)?;
-                self.o_loop(label, [false, false], body, stmt, sink);
+                self.o_loop(label, [false, false, false], body, stmt, sink);
                 self.o_line(&format!("o{label} endrepeat"), sink)
             }
             Control::For { .. } => Err(cannot_compute("a loop that counts")),
@@ -390,6 +393,9 @@ impl Writer {
         let open = self.o_words.open.last().cloned();
         let open = open.filter(|open| if turn { open.turns } else { open.leaves });
         let open = open.ok_or_else(|| cannot_compute("a loop of this kind that is left"))?;
+        if let (true, Some(open)) = (turn, self.o_words.open.last_mut()) {
+            open.leaves &= open.both;
+        }
         let word = if turn { "continue" } else { "break" };
         self.o_line(&format!("o{} {word}", open.label), sink)
     }

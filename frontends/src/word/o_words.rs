@@ -69,6 +69,8 @@ pub(super) struct Open {
     given: Given,
     /// From where the program has said before that centres are measured.
     centre: Option<CentreFrom>,
+    /// Whether a `continue` stands in it.
+    turned: bool,
 }
 
 #[derive(Debug)]
@@ -479,7 +481,16 @@ impl Lower {
         }
         let (number, given) = (self.now.number, self.o.given.clone());
         let centre = self.state.centre_before;
-        self.o.open.push(Open { label: label.into(), kind, at: None, block, number, given, centre });
+        self.o.open.push(Open {
+            label: label.into(),
+            kind,
+            at: None,
+            block,
+            number,
+            given,
+            centre,
+            turned: false,
+        });
         self.lose_within(centre, block, out);
     }
 
@@ -518,6 +529,13 @@ impl Lower {
         let mut loops = self.o.open.iter().rev().filter(|open| !matches!(open.kind, Kind::If { .. }));
         let inner = loops.next();
         let name = match inner {
+            // What is passed over behind a `continue` is looked through for the loop's label, and a `break` with it
+            // is taken for one that is made (interp_o_word.cc); a `while` goes on all the same.
+            Some(Open { kind: Kind::Do, label: own, turned: true, .. })
+                if **own == *label && word == FlowWord::Break =>
+            {
+                Some("O word that leaves a loop behind a continue of it")
+            }
             Some(Open { kind: Kind::While(_) | Kind::Do, label: own, .. }) if **own == *label => None,
             Some(Open { kind: Kind::While(_) | Kind::Do, .. }) if loops.any(|open| *open.label == *label) => {
                 Some("O word that leaves a loop from within another")
@@ -533,6 +551,10 @@ impl Lower {
         if word == FlowWord::Break && in_while {
             self.o.left.get_or_insert(span);
             self.check_break(span, out);
+        }
+        let is_loop = |open: &&mut Open| *open.label == *label;
+        if let (FlowWord::Continue, Some(open)) = (word, self.o.open.iter_mut().rev().find(is_loop)) {
+            open.turned = true;
         }
         self.leave_motion(None, out);
         let op = if word == FlowWord::Break { Op::Leave } else { Op::NextTurn };
@@ -568,7 +590,16 @@ impl Lower {
         let given = std::mem::take(&mut self.o.given);
         let kind = Kind::Sub(Box::new(outer));
         let (number, centre) = (None, None);
-        self.o.open.push(Open { label: label.into(), kind, at: Some(0), block, number, given, centre });
+        self.o.open.push(Open {
+            label: label.into(),
+            kind,
+            at: Some(0),
+            block,
+            number,
+            given,
+            centre,
+            turned: false,
+        });
     }
 
     /// The subprogram that is open, if it has this label and nothing in it is.
