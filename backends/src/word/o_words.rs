@@ -51,6 +51,9 @@ pub(crate) struct OWords {
     result: Option<(Expr, Option<bool>)>,
     /// Whether some loop that is tested before its turns is left from within.
     left: bool,
+    /// Whether a turn of a `do` is left somewhere, and whether there is a `repeat`: the one disturbs the other.
+    turned: bool,
+    repeats: bool,
 }
 
 /// A loop that is open.
@@ -349,6 +352,8 @@ impl Writer {
                 self.o_line(&format!("o{label} while {again}"), sink)
             }
             Control::Repeat { times, body } => {
+                self.o_words.repeats = true;
+                self.undisturbed()?;
                 let times = self.condition(counted(times), stmt.span, sink)?;
                 self.o_head(&format!("o{label} repeat {times}"), sink)?;
                 self.o_loop(label, [false, false, false], body, stmt, sink);
@@ -386,6 +391,16 @@ impl Writer {
         self.o_line(&format!("o{label} endif"), sink)
     }
 
+    /// A turn of a `do` that is left keeps a mark set, by which the next `repeat` is begun anew at its end.
+    fn undisturbed(&self) -> Result<(), Fault> {
+        match self.o_words.turned && self.o_words.repeats {
+            true => {
+                Err(cannot_compute("a repeated loop beside one whose turns are left and tested at their end"))
+            }
+            false => Ok(()),
+        }
+    }
+
     /// Leaves the innermost loop, or its turn.
     pub(crate) fn o_leave(&mut self, turn: bool, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.no_result()?;
@@ -395,6 +410,10 @@ impl Writer {
         let open = open.ok_or_else(|| cannot_compute("a loop of this kind that is left"))?;
         if let (true, Some(open)) = (turn, self.o_words.open.last_mut()) {
             open.leaves &= open.both;
+            if !open.both {
+                self.o_words.turned = true;
+                self.undisturbed()?;
+            }
         }
         let word = if turn { "continue" } else { "break" };
         self.o_line(&format!("o{} {word}", open.label), sink)

@@ -88,10 +88,13 @@ pub(crate) fn run(
         let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
         let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
         match rs274::print(&program, &text, &tables(job)) {
-            Ok(text) => match if job.verify { read_back::verify(job, &program, &text) } else { Ok(()) } {
-                Ok(()) => listing = Some(text),
-                Err(why) => found.push(why),
-            },
+            Ok(printed) => {
+                let same = job.verify.then(|| read_back::verify(job, &program, &text, &printed));
+                match same.unwrap_or(Ok(())) {
+                    Ok(()) => listing = Some(printed),
+                    Err(why) => found.push(why),
+                }
+            }
             Err(why) => found.push(why),
         }
     }

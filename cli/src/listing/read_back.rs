@@ -38,8 +38,10 @@ const PROBE: Probe = Probe { away: false, error: true };
 ///
 /// # Errors
 /// The listing is not that of the program, or no listing; or the program cannot be executed.
-pub(super) fn verify(job: &Job, program: &Program, listing: &str) -> Result<(), Diagnostic> {
+pub(super) fn verify(job: &Job, program: &Program, text: &[u8], listing: &str) -> Result<(), Diagnostic> {
     let mut source = executed(job, program)?;
+    // What goes to the error output is no call.
+    source.retain(|event| !matches!(event.kind, Kind::Message(_)) || !is_printed(text, event.span));
     let last = source.last().map_or(Span::default(), |event| event.span);
     let differs = |what: String, at: Span| Diagnostic::new(Fault::NotTheSame { difference: what.into() }, at);
     let mut read = match Listed::default().events(listing) {
@@ -399,6 +401,12 @@ impl Listed {
         self.event(Kind::Arc { plane, turn, full: closed, centre }, self.feed);
         Some(())
     }
+}
+
+/// Whether a message is one that is printed.
+fn is_printed(text: &[u8], span: Span) -> bool {
+    let comment = text.get(span.start as usize..).unwrap_or_default().trim_ascii_start();
+    comment.get(..6).is_some_and(|word| word.eq_ignore_ascii_case(b"PRINT,"))
 }
 
 /// Whether what follows a locked override is a tap: down, the spindle turned round, and up.

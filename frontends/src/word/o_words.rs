@@ -55,6 +55,9 @@ pub(super) struct ODecides {
     /// Where a loop of `while` is left by a break, and where one of `do` begins.
     left: Option<Span>,
     does: Option<Span>,
+    /// Where a turn of a `do` is left, and where a `repeat` begins.
+    turned: Option<Span>,
+    repeats: Option<Span>,
 }
 
 /// What has not been closed.
@@ -479,6 +482,10 @@ impl Lower {
             self.o.does.get_or_insert(block);
             self.check_break(block, out);
         }
+        if let Kind::Repeat(_) = kind {
+            self.o.repeats.get_or_insert(block);
+            self.check_continue(block, out);
+        }
         let (number, given) = (self.now.number, self.o.given.clone());
         let centre = self.state.centre_before;
         self.o.open.push(Open {
@@ -555,6 +562,10 @@ impl Lower {
         let is_loop = |open: &&mut Open| *open.label == *label;
         if let (FlowWord::Continue, Some(open)) = (word, self.o.open.iter_mut().rev().find(is_loop)) {
             open.turned = true;
+            if matches!(open.kind, Kind::Do) {
+                self.o.turned.get_or_insert(span);
+                self.check_continue(span, out);
+            }
         }
         self.leave_motion(None, out);
         let op = if word == FlowWord::Break { Op::Leave } else { Op::NextTurn };
@@ -566,6 +577,15 @@ impl Lower {
     fn check_break(&mut self, at: Span, out: &mut Batch) {
         if self.o.left.is_some() && self.o.does.is_some() {
             let name = "loop of do in a text where break leaves a loop of while".into();
+            self.fault(Fault::NotSupported { code: "O".into(), name }, at, out);
+        }
+    }
+
+    /// A continue of `do` leaves its mark set as well, by which the next loop of `repeat` is begun anew at its end
+    /// (run: a `repeat [3]` made six turns).
+    fn check_continue(&mut self, at: Span, out: &mut Batch) {
+        if self.o.turned.is_some() && self.o.repeats.is_some() {
+            let name = "loop of repeat in a text where continue leaves a turn of a do".into();
             self.fault(Fault::NotSupported { code: "O".into(), name }, at, out);
         }
     }

@@ -30,7 +30,7 @@ fn job() -> Job {
 fn a_listing_does_what_its_program_does() {
     let job = job();
     let (program, text) = listed(&job);
-    verify(&job, &program, &text).expect("the same");
+    verify(&job, &program, PART.as_bytes(), &text).expect("the same");
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn every_other_number_is_found_out() {
             let mut text: Vec<String> = lines.iter().map(|line| (*line).to_owned()).collect();
             text[at] = format!("{name}({}{tail}", other.join(", "));
             tried += 1;
-            let found = verify(&job, &program, &text.join("\n"));
+            let found = verify(&job, &program, PART.as_bytes(), &text.join("\n"));
             assert!(found.is_err(), "{line}: {} is not found out", text[at]);
         }
     }
@@ -115,7 +115,7 @@ fn every_missing_call_is_found_out() {
         let kept = lines.iter().enumerate().filter(|(line, _)| *line != at).map(|(_, line)| *line);
         let text = kept.collect::<Vec<_>>().join("\n");
         tried += 1;
-        assert!(verify(&job, &program, &text).is_err(), "{} is not missed", lines[at]);
+        assert!(verify(&job, &program, PART.as_bytes(), &text).is_err(), "{} is not missed", lines[at]);
     }
     assert!(tried > 40, "{tried}");
 }
