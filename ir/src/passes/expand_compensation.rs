@@ -464,17 +464,17 @@ impl Written<'_> {
     /// The words that are none of the plane, from program zero.
     fn others(&self, words: &Point) -> Result<Point, Fault> {
         let (first, second, _) = self.plane.axes();
-        self.from_zero(words, |axis| axis != first && axis != second && words.get(axis).is_some())
+        self.absolute_words(words, |axis| axis != first && axis != second && words.get(axis).is_some())
     }
 
     /// All words from program zero, and those of both axes of the plane among them.
     fn whole(&self, words: &Point) -> Result<Point, Fault> {
         let (first, second, _) = self.plane.axes();
-        self.from_zero(words, |axis| axis == first || axis == second || words.get(axis).is_some())
+        self.absolute_words(words, |axis| axis == first || axis == second || words.get(axis).is_some())
     }
 
     /// Where words lead along some axes; an absolute word stays as it is written.
-    fn from_zero(&self, words: &Point, along: impl Fn(Axis) -> bool) -> Result<Point, Fault> {
+    fn absolute_words(&self, words: &Point, along: impl Fn(Axis) -> bool) -> Result<Point, Fault> {
         let target = self.walk.at.target(words);
         let mut point = Point::default();
         for axis in Axis::ALL.into_iter().filter(|axis| along(*axis)) {
