@@ -5,6 +5,7 @@
 //! refuses, the other must not run: but the compiler may refuse more, by name, of few programs.
 //!
 //! `NCC_GENERATED=10000` makes so many, each for every control that computes, and tells what is refused.
+//! `NCC_GENERATED_TEXTS=DIR` keeps the texts for LinuxCNC there, of which its own interpreter is a judge (`.ci/rs274`).
 
 mod fanuc;
 mod linuxcnc;
@@ -78,6 +79,14 @@ fn by_chance(from: &'static str, program: fn(u64) -> String) {
         }
     }
     judge.finish(from, many);
+}
+
+/// Keeps a text for LinuxCNC's interpreter, where that is asked for.
+fn keep(name: &str, how: &str, text: &[u8]) {
+    if let Some(folder) = std::env::var_os("NCC_GENERATED_TEXTS") {
+        let file = format!("{}-{how}.ngc", name.replace(' ', "-"));
+        std::fs::write(std::path::Path::new(&folder).join(file), text).expect("a folder for texts");
+    }
 }
 
 /// A program that was made.
@@ -166,6 +175,9 @@ impl Judge {
             {
                 Ok(()) => {
                     self.same += 1;
+                    if source.from == "linuxcnc" {
+                        keep(&source.name, "source", source.text.as_bytes());
+                    }
                     return Some(second);
                 }
                 Err(why) => self.fault(source, why),
@@ -192,6 +204,9 @@ impl Judge {
         match outcome.release {
             Ok(()) => {
                 let how = if straight { "straight" } else { "kept" };
+                if to == "linuxcnc" {
+                    keep(&source.name, how, &output);
+                }
                 let fault = match source.second(to, &output) {
                     Ok(moved) => same_way(moves, &moved, source.within(to)).err(),
                     Err(why) if OPEN.iter().any(|open| why.contains(open)) => return self.open += 1,

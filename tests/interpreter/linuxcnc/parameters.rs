@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use super::super::Halt;
+use super::super::{Halt, Per};
 use super::Control;
 
 /// The parameters of a level of calls.
@@ -267,6 +267,13 @@ impl Control {
             "_IMPERIAL" => holds(self.m.inch),
             "_ABSOLUTE" => holds(self.m.absolute),
             "_INCREMENTAL" => holds(!self.m.absolute),
+            "_RETRACT_OLD_Z" => holds(self.return_initial),
+            "_RETRACT_R_PLANE" => holds(!self.return_initial),
+            "_INVERSE_TIME" => holds(self.m.per == Per::Move),
+            "_UNITS_PER_MINUTE" => holds(self.m.per == Per::Minute),
+            "_UNITS_PER_REV" => holds(self.m.per == Per::Turn),
+            "_RPM" => self.m.speed.filter(|_| !self.m.surface),
+            "_SELECTED_TOOL" => self.m.selected.map(f64::from),
             "_FEED" => self.m.feed.map(|feed| feed / self.unit()),
             _ => {
                 let axis = ["_X", "_Y", "_Z", "_A", "_B", "_C"].iter().position(|axis| *axis == name)?;
