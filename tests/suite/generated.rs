@@ -17,7 +17,7 @@ use ncc::job::{Failure, Job};
 use ncc_ir::world::World;
 use ncc_tests::corpus::DIALECTS;
 use ncc_tests::expect::Failures;
-use ncc_tests::plain::{self, Corners, Happening, Plain, Tolerance};
+use ncc_tests::plain::{self, Corners, Plain, Tolerance};
 use ncc_tests::translate::{self, job, rendered};
 
 /// Programs of a language in a usual run.
@@ -132,18 +132,9 @@ fn same_but_for_moves_of(
 ) -> Result<(), String> {
     let told = plain::compare(source, written, within);
     let Err(why) = told else { return Ok(()) };
-    let long = |moves: &[Plain], least: f64| {
-        let mut kept: Vec<Plain> = Vec::new();
-        for event in moves {
-            let straight = matches!(event.what, Happening::Traverse | Happening::Feed);
-            let short = |from: &Plain| from.at.iter().zip(event.at).all(|(a, b)| (a - b).abs() <= least);
-            if !(straight && kept.last().is_some_and(short)) {
-                kept.push(*event);
-            }
-        }
-        kept
-    };
-    let same = |least: &f64| plain::compare(&long(source, *least), &long(written, *least), within).is_ok();
+    let longer = plain::longer;
+    let same =
+        |least: &f64| plain::compare(&longer(source, *least), &longer(written, *least), within).is_ok();
     if lengths.iter().any(same) { Ok(()) } else { Err(why) }
 }
 
