@@ -86,6 +86,8 @@ pub enum Happening {
     /// The text is over, and the program has not said that it ends.
     TextEnd,
     Message,
+    /// The operator is shown nothing any more.
+    MessageCleared,
     /// What was written to a device.
     Output(u64),
 }
@@ -250,6 +252,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
             What::Tool(_) => Happening::ToolChange,
             What::Coolant(..) => Happening::Coolant,
             What::Message => Happening::Message,
+            What::MessageCleared => Happening::MessageCleared,
             What::Alarm => Happening::Alarm,
             What::Data(table, entry, values) => Happening::Data(table, entry, values),
             What::Plane(plane) => Happening::Plane(plane),
@@ -367,6 +370,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
             Kind::ProgramStop => Happening::Stop,
             Kind::OptionalProgramStop => Happening::OptionalStop,
             Kind::ProgramEnd => Happening::End,
+            Kind::Message(text) if text.is_empty() => Happening::MessageCleared,
             Kind::Message(_) => Happening::Message,
             Kind::Output(written) => Happening::Output(hash_of(&written.to_string())),
             Kind::Alarm(..) => Happening::Alarm,

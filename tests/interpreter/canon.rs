@@ -28,7 +28,7 @@ pub fn run(text: &[u8], setup: Setup) -> Result<Machine, Halt> {
         let Some((name, rest)) = line.split_once('(') else { return m.halt("no call") };
         if name == "COMMENT" || name == "MESSAGE" {
             if name == "MESSAGE" {
-                m.record(What::Message);
+                m.record(if rest == "\"\")" { What::MessageCleared } else { What::Message });
             }
             continue;
         }

@@ -38,6 +38,8 @@ impl Machine {
         if z > r {
             return self.halt("the bottom lies above R");
         }
+        // A stop for one block is that of the way to the hole.
+        self.stop_once = false;
         let level = |at: Place, height: f64| [at[0], at[1], height, at[3], at[4], at[5]];
         self.traverse(level(self.at, r));
         match hole {

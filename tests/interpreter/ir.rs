@@ -562,7 +562,10 @@ impl Control {
                 let Some(what) = super::function(name) else { return self.m.halt("a function") };
                 self.m.record(what);
             }
-            "MESSAGE" => self.m.record(What::Message),
+            "MESSAGE" => {
+                let cleared = matches!(a, [Token::Text(text)] if text.is_empty());
+                self.m.record(if cleared { What::MessageCleared } else { What::Message });
+            }
             "PROGRAM_STOP" => self.m.record(What::Stop),
             "OPTIONAL_PROGRAM_STOP" => self.m.record(What::OptionalStop),
             "PROGRAM_END" => {

@@ -189,8 +189,8 @@ impl Control {
     fn block(&mut self, line: &str, all: &[Program]) -> Result<Next, Halt> {
         let Some(words) = self.words(line)? else { return Ok(Next::Block) };
         self.m.begin_block();
-        if words.message {
-            self.m.record(What::Message);
+        if let Some(message) = words.message {
+            self.m.record(message);
         }
         if words.alarm {
             self.m.record(What::Alarm);

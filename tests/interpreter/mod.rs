@@ -117,6 +117,8 @@ pub enum What {
     Alarm,
     /// A text for the operator.
     Message,
+    /// The text is taken away.
+    MessageCleared,
     /// An optional stop.
     OptionalStop,
     /// The end.

@@ -303,7 +303,8 @@ impl Control<'_> {
                     if arguments.len() != 1 || matches!(arguments[0], Argument::Number(..)) {
                         return self.m.halt("MSG of something else than a text");
                     }
-                    self.m.record(What::Message);
+                    let cleared = arguments[0] == Argument::Empty;
+                    self.m.record(if cleared { What::MessageCleared } else { What::Message });
                 }
                 (_, true, ["MCALL"]) if cycles::is_cycle(name) => {
                     self.modal = Some(self.cycle(name, arguments)?);
@@ -544,7 +545,7 @@ impl Control<'_> {
             self.m.round_all = Some(radius.number * self.unit()).filter(|r| *r > 0.0);
         }
         if moves {
-            if !axes.contains(&self.m.axes().2) {
+            if !axes.contains(&self.m.axes().2) && self.motion == Some(Motion::Rapid) && !self.suppressed {
                 self.hold_spindle();
             }
             self.ask_corner(w);

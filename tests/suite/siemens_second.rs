@@ -50,7 +50,7 @@ const SAME: &[(&str, &str)] = &[
     ("G1 F100\nNEXT: X10\nREPEAT NEXT", "G1 F100\nX10"),
     ("G1 F100\nN_A: X10\nN20 LAB1:Y5", "G1 F100\nX10\nY5"),
     (":10 G1 X10 F100\nN010 Y1", "G1 X10 F100\nY1"),
-    ("MSG(\"a; b\") ; c\nG1 X10 F100 ;Y5", "MSG(\"\")\nG1 X10 F100"),
+    ("MSG(\"a; b\") ; c\nG1 X10 F100 ;Y5", "MSG(\"shown\")\nG1 X10 F100"),
     ("G2 X10 CR= 5 F100", "G2 X10 CR=5 F100"),
     ("R1=2\nR1=0/R1\nG1 X=R1 F100", "G1 X0 F100"),
     ("G91 G1 X10 F100\nX=AC(5) Y2", "G90 G1 X10 F100\nX5 Y2"),

@@ -106,12 +106,25 @@ fn spliced(programs: &[Program], dice: &mut fastrand::Rng) -> (String, Vec<u8>) 
     (base.file.clone(), lines.join(&b'\n'))
 }
 
+/// Whether a program of a Sinumerik, which has no other in its text, ends as one that is called.
+fn goes_back(text: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(text);
+    let last = text.lines().rev().find(|line| !line.trim().is_empty());
+    !text.contains("%_N_") && last.is_some_and(|line| line.split_whitespace().last() == Some("M17"))
+}
+
 /// What the second interpreter says, if it runs both: the same moves or not, in two worlds.
 fn second_opinion(
     (from, source): (&str, &[u8]),
     (to, written): (&str, &[u8]),
     only: Option<u16>,
 ) -> Option<Result<(), String>> {
+    let text = String::from_utf8_lossy(written);
+    let says = |word: &str| text.lines().any(|line| line.starts_with('o') && line.contains(word));
+    if to == "linuxcnc" && says(" sub") && !says(" call") {
+        // A subprogram by itself, which nothing calls.
+        return None;
+    }
     let corners = Corners::between(from, to);
     // A feed in inches has three digits.
     let within = Tolerance { corners, feed: 0.015, ..Tolerance::ROUNDED };
@@ -124,6 +137,16 @@ fn second_opinion(
             setup.power_on.inch = dialect == "haas";
             setup.power_on.offset = only.map_or(setup.power_on.offset, u32::from);
             let mut list = plain::of_machine(&plain::second(dialect, text, setup).ok()?, start);
+            if [from, to].iter().any(|dialect| ["mach9", "fanuc", "haas"].contains(dialect)) {
+                // Such a control shows a text where it stops, and none to be taken away.
+                list.retain(|event| event.what != Happening::MessageCleared);
+            }
+            if let Some(last) =
+                list.last_mut().filter(|_| dialect == "siemens" && from != "siemens" && goes_back(text))
+            {
+                // Where nothing calls it, it ends.
+                last.what = Happening::TextEnd;
+            }
             // A way as short as a rounding is one on the other side alone.
             let mut from = start;
             list.retain(|event| {

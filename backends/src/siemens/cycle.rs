@@ -390,8 +390,9 @@ impl Writer {
         span: Span,
         sink: &mut Sink,
     ) -> Result<(), Fault> {
-        let stated = self.above_reference(&planes.cycle, to.row).is_some();
-        if let Some(first) = first.filter(|_| !stated) {
+        let stated = self.above_reference(&planes.cycle, to.row).map(|(_, safety)| safety);
+        let mut below_retract = stated;
+        if let Some(first) = first.filter(|_| stated.is_none()) {
             let word = &planes.cycle.retract;
             let distance = word.distance.known().or(self.words.force.distance);
             let more = difference(first, peck);
@@ -406,6 +407,20 @@ impl Writer {
             for (role, value) in [(Role::SafetyDistance, more), (Role::ReferencePlane, plane)] {
                 self.argument(to, role, &Expr::Num(value), span, sink)?;
             }
+            below_retract = Some(more);
+        }
+        // A first depth below the hole's bottom is out of range: such a hole is made in one go.
+        let inch = self.words.force.units == Some(Units::Inch);
+        let lower = below_retract.map_or(Some(0), |more| more.nanos(inch));
+        let in_one = peck.literal().and_then(|peck| peck.nanos(inch)).zip(planes.retract).and_then(
+            |(peck, retract)| {
+                let whole = retract.checked_sub(lower?)?.checked_sub(planes.depth?)?;
+                (0 < whole && whole < peck).then_some(whole)
+            },
+        );
+        if let Some(whole) = in_one {
+            let text = self.length(whole, &self.parameter(to.row, Role::RelativeFirstDepth))?;
+            return to.put(Role::RelativeFirstDepth, text);
         }
         self.argument(to, Role::RelativeFirstDepth, peck, span, sink)
     }

@@ -454,7 +454,14 @@ impl Writer {
         if let Some(comment) = &stmt.comment {
             self.comment(comment, stmt.span, sink);
         }
+        let length = self.tracker.modes.length_offset;
         self.tracker.step(stmt);
+        if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
+            && (length.is_none() || self.tracker.modes.length_offset != length)
+        {
+            // Until the next command of Z it is not told by which of the two lengths its place is counted.
+            self.tracker.position[Axis::Z as usize] = None;
+        }
         if stmt.skip.is_some() {
             self.force.join(&before);
             self.lost = true;

@@ -176,6 +176,11 @@ impl Writer {
         };
         // On some machines a choice says which letter it is.
         let chosen = words.and_then(|words| words.option.as_deref()).map(|option| self.settings.get(option));
+        let cycles = &self.dialect.cycles;
+        if self.tracker.cycle.is_some() && cycles.retained && !cycles.retained_by_code {
+            // The cycles have the letter too; whether theirs changes with it, no source tells.
+            return Err(cannot("a spindle stopped at an angle while a cycle is in force"));
+        }
         let counts = |letter: u8| chosen.is_none_or(|chosen| chosen.as_bytes() == [letter]);
         let letter = self.codes.orient_angles.iter().find(|letter| counts(letter.letter)).copied();
         let letter = letter.ok_or_else(|| cannot(WHAT))?;

@@ -25,8 +25,9 @@ pub(crate) struct Preamble {
     further: Vec<Code>,
     /// Whether anything was absorbed.
     any: bool,
-    /// Whether the first way along Z is so far from where the axis stands, and no length is said before it: whether
-    /// it is longer by a length that it takes up, or cancels, is a setting of the control.
+    /// Whether the first way along Z is so far from where the axis stands, or a thread or an arc from there, and no
+    /// length is said before it: whether it is longer by a length that it takes up, or cancels, is a setting of the
+    /// control.
     up_from_here: bool,
     /// Number of the first absorbed block.
     number: Option<u32>,
@@ -104,10 +105,14 @@ impl Writer {
             matches!(op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
         };
         let first = ops.take_while(|op| !lengths(op)).find_map(|op| {
-            let (Op::StraightTraverse(m) | Op::StraightFeed(m)) = op else { return None };
-            m.to.get(Axis::Z)
+            if let Op::StraightTraverse(m) | Op::StraightFeed(m) = op {
+                return m.to.get(Axis::Z).map(|z| z.distance == Fact::Known(Distance::Incremental));
+            }
+            let thread = if let Op::SynchronisedFeed(m) = op { m.to.get(Axis::Z) } else { None };
+            let arc = if let Op::ArcFeed(arc) = op { arc.to.get(Axis::Z) } else { None };
+            thread.or(arc).map(|_| true)
         });
-        preamble.up_from_here = first.is_some_and(|z| z.distance == Fact::Known(Distance::Incremental));
+        preamble.up_from_here = first.unwrap_or(false);
     }
 
     /// What waits for the safe start stands before it: definitions, and the comments among them.

@@ -1,7 +1,7 @@
 //! One statement: which words say it, and where they stand in the block.
 
 use ncc_dialects::{COMPUTED_DWELL, Meaning, Quantity};
-use ncc_ir::canon::{PathMode, Side, SpindleMode};
+use ncc_ir::canon::{Motion, PathMode, Side, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Node};
 use ncc_ir::program::{Advice, Call, CutterRadius, FrameSlot, Op, PathControl, Stmt};
@@ -75,6 +75,10 @@ impl Writer {
             }
             Op::SetMotionControlMode(control) => self.path_control(control, span, sink),
             Op::TurnRotaryAxes(_) => Err(cannot("which way round a rotary axis goes")),
+            Op::ExactStop if self.held.is_some() || self.force.motion == Some(Motion::Cycle) => {
+                // Of which ways of a cycle it would be the end, no source tells.
+                Err(cannot("an exact stop in a block of a cycle"))
+            }
             Op::ExactStop => {
                 let code = codes.exact_stop.ok_or_else(|| cannot("an exact stop of one move"))?;
                 self.admit(&Need::new(Rank::ExactStop).code(Some(code)), sink)?;

@@ -271,9 +271,14 @@ impl Lower {
 
     /// A modal tap that goes without a hole: which speed the spindle then has is its control's matter.
     pub(super) fn no_idle_tap(&mut self, at: Span, src: Source, out: &mut Batch) {
+        self.idle_tap_ends(&src.text(at), at, out);
+    }
+
+    /// The same where the place is a code.
+    pub(super) fn idle_tap_ends(&mut self, code: &str, at: Span, out: &mut Batch) {
         if std::mem::take(&mut self.idle_tap) {
             let name = "a modal tap with a speed of its own that makes no hole";
-            self.not_supported(&src.text(at), name, at, out);
+            self.not_supported(code, name, at, out);
         }
     }
 

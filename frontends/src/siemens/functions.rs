@@ -436,6 +436,7 @@ impl Lower {
                 self.ended |= last && !self.goes_on();
                 self.flow.has_end = true;
                 self.flow.over |= last;
+                self.idle_tap_ends(code.name, code.span, out);
                 if self.sub.is_some() {
                     self.leave_motion(code.span, out);
                     self.leave(code.span, out);

@@ -109,6 +109,10 @@ impl Lower {
                     // The way there has the program's feed; the cycle's is taken up in the hole.
                     let name = "position reached at feed under a cycle with a feed of its own";
                     self.not_supported(&src.text(block), name, block, out);
+                } else if self.idle_tap {
+                    // On the way there the spindle still has the speed that was said before.
+                    let name = "first position of a modal tap with a speed of its own that is reached by more than a rapid in the plane";
+                    self.not_supported(&src.text(block), name, block, out);
                 } else {
                     self.push(block, Op::EndCycle, out);
                     self.path(motion.is_some(), machine, block, words, src, out);

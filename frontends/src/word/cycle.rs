@@ -151,6 +151,9 @@ impl Lower {
         self.note_dwell(row, given.dwell, out);
         let dwell = given.dwell.or_else(|| kept.as_ref().and_then(|k| k.dwell));
         let dwell = dwell.or_else(|| self.dwell_left(row, code, out));
+        if dwell.is_none() {
+            self.no_dwell_before(row, code, out);
+        }
         let peck = given.peck.or_else(|| kept.as_ref().and_then(|k| k.peck.clone()));
         let shrinking = given.shrinking.or_else(|| kept.as_ref().and_then(|k| k.shrinking));
         let pecks = self.pecks(row, peck.clone(), shrinking, code.span, out);
@@ -306,6 +309,12 @@ impl Lower {
         out: &mut Batch,
     ) {
         let times = self.repeat(words, src, out);
+        let mark = self.now.mark;
+        if self.target(out).iter().skip(mark).any(|stmt| stmt.op == Op::ExactStop) {
+            // Of which ways of the cycle it would be the end, no source tells.
+            let name = "exact stop in a block of a cycle".into();
+            self.fault(Fault::NotSupported { code: src.text(block), name }, block, out);
+        }
         let to = self.point(Some(depth_letter as u8), block, words, src, out);
         // How the tool comes to a hole elsewhere is open in some dictionaries: it is told.
         self.option(CYCLE_APPROACH, block, out);
@@ -362,7 +371,7 @@ impl Lower {
         self.state.dwell_left = Know::Said(dwell);
         self.dwells.said = true;
         if let Some(relied) = self.dwells.relied.take() {
-            self.fault(left_open(row), relied, out);
+            self.fault(left_open(&row.code), relied, out);
         }
     }
 
@@ -374,11 +383,38 @@ impl Lower {
             Know::Said(dwell) | Know::Taken(dwell) => Some(dwell),
             Know::Unsaid => None,
             Know::Lost | Know::Open | Know::Callers if self.dwells.said => {
-                self.refuse(left_open(row), code.span, out)
+                self.refuse(left_open(&row.code), code.span, out)
             }
             Know::Lost | Know::Open | Know::Callers => {
                 self.dwells.relied.get_or_insert(code.span);
                 None
+            }
+        }
+    }
+
+    /// Control goes elsewhere: a cycle that is called up there keeps the dwell of the one in force.
+    pub(super) fn carry_dwell(&mut self, out: &mut Batch) {
+        let with_dwell = matches!(&self.state.cycle, InForce::Active(active) if active.dwell.is_some());
+        if !(with_dwell && self.settings.dialect.cycles.retained) {
+            return;
+        }
+        self.dwells.carried = true;
+        if let Some((relied, code)) = self.dwells.over_unknown.take() {
+            self.fault(left_open(code), relied, out);
+        }
+    }
+
+    /// A cycle without a dwell of its own, called up where another may be in force whose dwell it would keep.
+    fn no_dwell_before(&mut self, row: &'static CycleRow, code: &Code, out: &mut Batch) {
+        let cycles = &self.settings.dialect.cycles;
+        let takes = row.dwell.is_some() || row.dwell_by.is_some();
+        if self.state.cycle != InForce::Lost || !cycles.retained || cycles.retained_by_code || !takes {
+            return;
+        }
+        match self.dwells.carried {
+            true => self.fault(left_open(&row.code), code.span, out),
+            false => {
+                self.dwells.over_unknown.get_or_insert((code.span, &row.code));
             }
         }
     }
@@ -547,9 +583,9 @@ impl Lower {
     }
 }
 
-fn left_open(row: &CycleRow) -> Fault {
+fn left_open(code: &str) -> Fault {
     let name = "dwell that another cycle left in force, on some way to here".into();
-    Fault::NotSupported { code: row.code.as_str().into(), name }
+    Fault::NotSupported { code: code.into(), name }
 }
 
 /// A cycle's words in one block.

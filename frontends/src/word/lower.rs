@@ -86,6 +86,10 @@ pub(super) struct Dwells {
     pub(super) said: bool,
     /// Where it was first relied on that none was said, in blocks that others call or come back to.
     pub(super) relied: Option<Span>,
+    /// Whether control went elsewhere so far while a cycle with a dwell was in force.
+    pub(super) carried: bool,
+    /// Where a cycle was first called up without one while it is not known which is in force before it.
+    pub(super) over_unknown: Option<(Span, &'static str)>,
 }
 
 /// What has been reported and is not to be reported again.

@@ -134,6 +134,12 @@ impl Lower {
         }
         let said = said?;
         let word = words.take(said.letter as u8)?;
+        let cycles = &self.settings.dialect.cycles;
+        if cycles.retained && !cycles.retained_by_code {
+            // The cycles have the letter too; whether theirs changes with it, no source tells.
+            let name = format!("{} of the spindle's angle while a cycle is in force", said.letter).into();
+            self.without_cycle(Fault::NotSupported { code: code_text, name }, word.span, out);
+        }
         let mut angle = self.number(&word, said.quantity, src, out)?;
         angle.unit = Unit::Degree;
         if !angle.nanos(false).is_some_and(|nanos| (0..360 * ONE).contains(&nanos)) {

@@ -64,6 +64,7 @@ impl Lower {
     /// All facts are lost, as control can come here from elsewhere, or goes there.
     pub(super) fn lose_state(&mut self, out: &mut Batch) {
         self.leave_motion(None, out);
+        self.carry_dwell(out);
         self.state = if self.assume { self.state.met() } else { State::lost() };
     }
 

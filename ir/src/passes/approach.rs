@@ -10,7 +10,7 @@ use super::walk::Walk;
 use super::write::{at, only, traverse};
 use super::{Target, each_body};
 use crate::canon::ReturnLevel;
-use crate::cycle::{Cycle, Pattern};
+use crate::cycle::{Approach, Cycle, Pattern};
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::{flow, moves};
 use crate::program::{Op, Point, Program, Stmt};
@@ -27,6 +27,9 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
     let mut i = 0;
     let in_force = walk.at.cycle.as_ref();
     let mut other_way = in_force.is_some_and(|in_force| in_force.cycle.approach != way);
+    let by_height = matches!(way, Approach::RaiseFirst | Approach::ClearFirst);
+    // Whether a length was called up under a cycle, so that the way to its next hole depends on it.
+    let mut another_length = false;
     while i < body.len() {
         walk.enter(body[i].skip);
         let chained = walk.at.cycle.is_some();
@@ -46,7 +49,18 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             let what = "another zero under a cycle that goes another way to its holes";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
         }
+        let length =
+            matches!(body[i].op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. });
+        another_length = chained && by_height && other_way && (another_length || length);
+        if another_length
+            && walk.waiting
+            && matches!(body[i].op, Op::Position(_) | Op::Hole(_) | Op::Pattern(_))
+        {
+            let what = "a hole on whose way a length is taken up";
+            diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
+        }
         if let Op::StartCycle(cycle) = &body[i].op {
+            another_length = false;
             other_way = cycle.approach != way || other_way && body[i].skip.is_some();
         }
         walk.step(&body[i]);

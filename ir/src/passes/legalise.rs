@@ -314,9 +314,9 @@ impl Legaliser {
             match self.with_polar_words(stmts, needs, start, assumed) {
                 Some(mut found) => return diags.append(&mut found),
                 None => {
-                    // Corners are worked out from exact points.
+                    // Corners and frames are worked out from exact points.
                     let exact = Target { decimals: EXACT - 1, ..self.target.clone() };
-                    let target = if needs & CORNER != 0 { &exact } else { &self.target };
+                    let target = if needs & (CORNER | FRAME) != 0 { &exact } else { &self.target };
                     polar_words::over(stmts, &mut start.clone(), &mut self.polar, target, false, diags);
                 }
             }

@@ -88,6 +88,10 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State) {
         let place = match stmt.op.unwrapped() {
             Op::SetFeedMode(mode) => {
                 state.by_time = *mode == FeedMode::InverseTime;
+                // A feed for which no move has come counts in the mode it was said in.
+                if let Some(feed) = state.held[2].take() {
+                    made.push(apart(feed));
+                }
                 made.push(stmt);
                 continue;
             }

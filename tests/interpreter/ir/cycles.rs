@@ -1,6 +1,6 @@
 //! Cycles and patterns of the neutral program, in program coordinates.
 
-use super::super::{Halt, Place, Spindle, What};
+use super::super::{Halt, Per, Place, Spindle, What};
 use super::Control;
 use super::text::{Token, split};
 
@@ -12,6 +12,9 @@ pub(super) struct Cycle {
     depth: f64,
     /// In machine coordinates; not known after a change of offsets.
     initial: Option<f64>,
+    /// The same by the zero it was called up with: a control that looks whether it is above the retract plane keeps
+    /// the number.
+    initial_number: Option<f64>,
     back_initial: Option<bool>,
     back_plane: Option<f64>,
     raise_first: bool,
@@ -178,6 +181,10 @@ impl Control {
             Some(cycle) => cycle.initial,
             None => self.m.settled[normal].then_some(self.m.at[normal]),
         };
+        let initial_number = match &self.cycle {
+            Some(cycle) => cycle.initial_number,
+            None => self.m.settled[normal].then(|| self.here()[normal]),
+        };
         let from = initial.map(|z| {
             let mut at = self.m.at;
             at[normal] = z;
@@ -224,6 +231,7 @@ impl Control {
             retract,
             depth,
             initial,
+            initial_number,
             back_initial,
             back_plane,
             raise_first,
@@ -284,11 +292,12 @@ impl Control {
         let back = match (cycle.back_plane, cycle.back_initial.unwrap_or(self.return_initial)) {
             (Some(plane), _) => Some(plane),
             (None, false) => Some(r),
+            (None, true) if cycle.clear_first => cycle.initial_number.map(|initial| initial.max(r)),
             (None, true) => cycle.initial.map(|initial| {
                 let mut at = self.m.at;
                 at[normal] = initial;
                 let initial = self.program(at)[normal];
-                if cycle.raise_first || cycle.clear_first { initial.max(r) } else { initial }
+                if cycle.raise_first { initial.max(r) } else { initial }
             }),
         };
         if cycle.retract_first || cycle.raise_first && self.here()[normal] < r {
@@ -296,12 +305,10 @@ impl Control {
         }
         let mut level = self.here()[normal];
         if cycle.clear_first {
-            let (Some(initial), Some(back)) = (cycle.initial, back) else {
+            let (Some(initial), Some(back)) = (cycle.initial_number, back) else {
                 return self.m.halt("the initial level is not known");
             };
-            let mut at = self.m.at;
-            at[normal] = initial;
-            if self.program(at)[normal] < r {
+            if initial < r {
                 self.rapid(r);
                 level = r;
             } else if level <= r {
@@ -311,6 +318,8 @@ impl Control {
         over[normal] = level;
         let to = self.machine(over);
         self.m.traverse(to);
+        // A stop for one block is that of the way to the hole.
+        self.m.stop_once = false;
         self.rapid(r);
         if cycle.feed.is_some() {
             self.m.feed = cycle.feed;
@@ -347,7 +356,10 @@ impl Control {
             }
             Hole::Tap { into, rigid, pitch, dwell, back: turned_dwell, settle, after, to_level } => {
                 let speed = self.m.speed.filter(|speed| *speed > 0.0);
-                let by_feed = self.m.feed.zip(speed).map(|(feed, speed)| feed / speed);
+                let by_feed = match self.m.per {
+                    Per::Turn => self.m.feed,
+                    Per::Minute | Per::Move => self.m.feed.zip(speed).map(|(feed, speed)| feed / speed),
+                };
                 let Some(pitch) = pitch.or(by_feed) else { return self.m.halt("a thread without pitch") };
                 let back = match into {
                     Spindle::Clockwise => Spindle::Counterclockwise,

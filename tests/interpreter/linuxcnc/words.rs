@@ -1,13 +1,13 @@
 //! Words of a line: letters with values, settings of parameters, remarks.
 
-use super::super::Halt;
+use super::super::{Halt, What};
 use super::Control;
 use super::parameters::Reading;
 
 /// Letters and numbers of a block, and whether its last remark is for the operator, or ends the program.
 pub(super) struct Words {
     pub(super) words: Vec<(char, f64)>,
-    pub(super) message: bool,
+    pub(super) message: Option<What>,
     pub(super) alarm: bool,
 }
 
@@ -25,7 +25,7 @@ impl Control {
     /// Words of a line; `None` if it is left out.
     pub(super) fn words(&mut self, line: &str) -> Result<Option<Words>, Halt> {
         let mut bare = String::new();
-        let (mut message, mut alarm) = (false, false);
+        let (mut message, mut alarm) = (None, false);
         let mut rest = line;
         while let Some(c) = rest.chars().next() {
             rest = &rest[c.len_utf8()..];
@@ -35,7 +35,10 @@ impl Control {
                     let Some(end) = rest.find(')') else { return self.m.halt("a remark without an end") };
                     let said: String = rest[..end].split_whitespace().collect::<String>().to_uppercase();
                     let shown = ["DEBUG,", "PRINT,"].iter().any(|word| said.starts_with(word));
-                    message = said.starts_with("MSG,") || shown;
+                    message = match said == "MSG," {
+                        true => Some(What::MessageCleared),
+                        false => (said.starts_with("MSG,") || shown).then_some(What::Message),
+                    };
                     alarm = said.starts_with("ABORT,");
                     rest = &rest[end + 1..];
                 }

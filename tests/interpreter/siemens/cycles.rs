@@ -303,6 +303,8 @@ impl Control<'_> {
 
     /// Runs a cycle where the tool stands.
     pub(super) fn run_cycle(&mut self, cycle: Cycle) -> Result<(), Halt> {
+        // A stop for one block is that of the block's own way.
+        self.m.stop_once = false;
         // The bottom lies along the axis that is not in the plane.
         let normal = self.m.axes().2;
         if cycle.plane != self.m.plane {

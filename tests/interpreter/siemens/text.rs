@@ -475,6 +475,7 @@ impl<'t> Reader<'t> {
                 }
                 _ => match self.expression()? {
                     Worth::Number(number, _) => Argument::Number(number, self.only_place(start)),
+                    Worth::Text(text) if text.is_empty() => Argument::Empty,
                     Worth::Text(_) => Argument::Text,
                 },
             });
