@@ -111,7 +111,8 @@ impl Lower {
                     self.not_supported(&src.text(block), name, block, out);
                 } else if self.idle_tap {
                     // On the way there the spindle still has the speed that was said before.
-                    let name = "first position of a modal tap with a speed of its own that is reached by more than a rapid in the plane";
+                    let name = "way at feed or along Z to a tap with its own speed";
+                    self.idle_tap = false;
                     self.not_supported(&src.text(block), name, block, out);
                 } else {
                     self.push(block, Op::EndCycle, out);

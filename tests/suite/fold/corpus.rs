@@ -24,11 +24,16 @@ const TILTED: &str = "nothing is folded in a tilted plane";
 /// Why pecks that decrease do not come back.
 const DECREASING: &str = "pecks are folded where all but the first and the last are of one depth";
 
+/// Why a peck that is longer than its hole does not come back.
+const IN_ONE_GO: &str = "a hole that is made in one go is drilled";
+
 /// What cannot come back, besides cycles of one plain hole: program, what, why.
-const LOST: [(&str, &str, &str); 21] = [
+const LOST: [(&str, &str, &str); 23] = [
     ("haas/decreasing-pecks.nc", "cycle drill-peck of 1", DECREASING),
     ("haas/decreasing-pecks.nc", "cycle drill-peck of 2", DECREASING),
     ("haas/decreasing-pecks.nc", "cycle drill-break of 2", DECREASING),
+    ("fanuc/shallow-pecks.nc", "cycle drill-peck of 1", IN_ONE_GO),
+    ("fanuc/shallow-pecks.nc", "cycle drill-break of 1", IN_ONE_GO),
     ("fanuc/five-axes.nc", "cycle drill of 3", TILTED),
     ("siemens/five-axes.mpf", "cycle drill of 2", TILTED),
     ("siemens/swivel-post.mpf", "cycle drill of 2", TILTED),
