@@ -29,6 +29,7 @@ pub(crate) mod motion;
 pub(crate) mod number;
 mod o_words;
 mod output;
+mod passed_over;
 mod plain;
 mod polar;
 mod repeat;

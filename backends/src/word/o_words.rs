@@ -18,6 +18,7 @@ use ncc_ir::source::Span;
 use super::block::Rank;
 use super::formula::{cannot_compute, number_of};
 use super::modes::cannot;
+use super::passed_over::may_fail;
 use super::{Sink, Writer};
 use ncc_ir::track::Tracker;
 
@@ -27,6 +28,10 @@ const MOST_ARGUMENTS: u32 = 30;
 /// Where a subprogram leaves its result, and whether it has left one: what `return` and `endsub` say.
 const RESULT: &str = "_value";
 const RESULT_GIVEN: &str = "_value_returned";
+
+/// The variable in which a result is worked out whose text may not stand with the return: the last of a call's own,
+/// which nothing reads after it.
+const LAST: u32 = MOST_ARGUMENTS;
 
 /// Digits of values in a message where nothing is said, and of `%f`.
 const DIGITS: u8 = 6;
@@ -378,6 +383,7 @@ impl Writer {
         let mut rest = otherwise;
         while let [Stmt { op: Op::Control(control), skip: None, comment: None, .. }] = rest
             && let Control::If { condition, then, otherwise } = &**control
+            && !may_fail(condition)
         {
             let holds = self.condition(condition, stmt.span, sink)?;
             self.o_head(&format!("o{label} elseif {holds}"), sink)?;
@@ -499,6 +505,11 @@ impl Writer {
         match self.o_words.result.take() {
             None => Ok(String::new()),
             Some((value, Some(false))) if value.literal().is_some_and(|n| n.is_zero()) => Ok(String::new()),
+            Some((value, Some(true))) if may_fail(&value) => {
+                let value = self.condition(&value, span, sink)?;
+                self.o_line(&format!("#{LAST} = {value}"), sink)?;
+                Ok(format!(" [#{LAST}]"))
+            }
             Some((value, Some(true))) => Ok(format!(" {}", self.condition(&value, span, sink)?)),
             Some(_) => Err(unsaid()),
         }
