@@ -53,6 +53,7 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         steps: 0,
         haas,
         modal: None,
+        by_words: None,
         in_modal: false,
         moved: false,
     };
@@ -102,6 +103,8 @@ struct Control {
     haas: bool,
     /// What G66 has called behind each block that moves.
     modal: Option<Modal>,
+    /// What G66.1 calls with the words of each block, and how often.
+    by_words: Option<(String, u32)>,
     /// Whether that is running: how another within it works is open.
     in_modal: bool,
     /// Whether the block at hand has moved an axis.
@@ -169,24 +172,6 @@ impl Control {
         Ok(false)
     }
 
-    /// A length, in millimetres: without a point it counts 0.001 mm or 0.0001 inch.
-    fn length(&self, words: &[Word], letter: char) -> Option<f64> {
-        let (value, point) = number(words, letter)?;
-        let unit = if self.m.inch { 25.4 } else { 1.0 };
-        let step = match (point, self.m.inch) {
-            (true, _) => 1.0,
-            (false, false) => 0.001,
-            (false, true) => 0.0001,
-        };
-        Some(value * step * unit)
-    }
-
-    /// An angle, in degrees: without a point it counts 0.001.
-    fn angle(&self, words: &[Word], letter: char) -> Option<f64> {
-        let (value, point) = number(words, letter)?;
-        Some(if point { value } else { value * 0.001 })
-    }
-
     fn block(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
         let (block, called) = without_name(block);
         let Some(raw) = self.words(&block)? else { return Ok(Next::Block) };
@@ -195,6 +180,12 @@ impl Control {
         }
         if raw.contains(&('G', "66")) && !self.haas {
             return self.begin_modal(&raw);
+        }
+        if raw.contains(&('G', "66.1")) && !self.haas {
+            return self.begin_words(&raw, all);
+        }
+        if self.by_words.is_some() && raw.iter().any(|(letter, _)| *letter != 'N') {
+            return self.words_call(&raw, all);
         }
         let words = self.values(&raw).or_else(|why| self.m.halt(why))?;
         if let Some((letter, ..)) = words.iter().find(|w| !"XYZABCIJKRFSTHDPQLGMrc".contains(w.0)) {

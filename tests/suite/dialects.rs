@@ -34,6 +34,7 @@ fn built_in_dictionaries_read_back() {
                                 | "PATTERN"
                                 | "CALL_MACRO"
                                 | "CALL_MACRO_AT_MOVES"
+                                | "CALL_MACRO_AT_BLOCKS"
                                 | "END_CALLS_AT_MOVES"
                         )
                     })

@@ -103,3 +103,18 @@ fn the_angle_is_written_by_its_letter() {
         }
     }
 }
+
+/// Whether the block of G66.1 is a call itself, with the words that stand there.
+#[test]
+fn the_block_that_says_the_calls() {
+    let text = "%\nO0001\nG21 G17 G90 G54 G94\nS900 M3\nG0 Z5.\nG66.1 P2 X1.\nX2.\nX3.\nG67\nM30\nO0002\nG0 X#24\nM99\n%\n";
+    for (value, ways) in [("calls", vec![1, 2, 3]), ("silent", vec![2, 3])] {
+        let events = made("own_block_call", value, text).expect("a program");
+        let x: Vec<Nanos> = events
+            .iter()
+            .filter(|event| event.kind == Kind::Traverse)
+            .map(|event| event.end[0] / ONE)
+            .collect();
+        assert_eq!(x[1..], ways[..], "{value}");
+    }
+}

@@ -428,6 +428,9 @@ impl Writer {
     /// A call with variables of its own.
     pub(crate) fn o_call(&mut self, call: &Call, stmt: &Stmt, sink: &mut Sink) -> Result<(), Fault> {
         self.no_result()?;
+        if stmt.skip.is_some() {
+            return Err(cannot("a call that can be skipped"));
+        }
         self.flow(stmt, sink)?;
         self.o_name(&call.name)?;
         match call.times {

@@ -428,7 +428,10 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
             calls.map(|(number, say)| with_procedure(number, Said::new(say))).into()
         }
         // Its arguments are variables, which no text that is written has.
-        Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::EndCallsAtMoves => Vec::new(),
+        Meaning::CallMacro
+        | Meaning::CallMacroAtMoves
+        | Meaning::CallMacroAtBlocks
+        | Meaning::EndCallsAtMoves => Vec::new(),
         // The subprogram's own end is compared with it.
         Meaning::Return => vec![with_procedure(7, Said::new("CALL(7)"))],
         Meaning::RigidTapping => {

@@ -289,7 +289,9 @@ impl Look<'_> {
                     None => {}
                 }
             }
-            if matches!(row.means, Some(Meaning::CallMacro | Meaning::CallMacroAtMoves))
+            let by_p =
+                |m| matches!(m, Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks);
+            if row.means.is_some_and(by_p)
                 && let Some(p) = row.words.bytes().next().and_then(word)
             {
                 self.found.calls.insert((self.scope, p.value));
@@ -324,6 +326,7 @@ impl Look<'_> {
                     | Meaning::Call
                     | Meaning::CallMacro
                     | Meaning::CallMacroAtMoves
+                    | Meaning::CallMacroAtBlocks
             )
         });
         for w in words {

@@ -234,7 +234,12 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
 fn calls_a_macro(dialect: &Dialect, letter: u8, value: &str) -> bool {
     let row = tenths(value).and_then(|tenths| dialect.code_row(letter, tenths));
     letter == b'G'
-        && row.is_some_and(|row| matches!(row.means, Some(Meaning::CallMacro | Meaning::CallMacroAtMoves)))
+        && row.is_some_and(|row| {
+            matches!(
+                row.means,
+                Some(Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks)
+            )
+        })
 }
 
 fn word_of(

@@ -254,7 +254,8 @@ impl Lower {
         codes.clear();
         let mut words = Words { all: &block.words, exprs: &block.exprs, at: [0; 26], left: 0 };
         // A block that is none by its form is not asked for its meaning.
-        let called = self.macro_code(block).filter(|_| !self.now.refused);
+        let called = self.macro_code(block).or_else(|| self.words_call(block, src, out));
+        let called = called.filter(|_| !self.now.refused);
         if let Some(code) = &called {
             self.macro_call(code, block, src, out);
         } else if !self.now.refused {

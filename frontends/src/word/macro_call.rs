@@ -16,6 +16,7 @@ use super::block::{Block, Value, Word};
 use super::computing::has_round;
 use super::lower::Lower;
 use super::sort::Code;
+use super::words::tenths;
 use crate::Batch;
 
 /// Local variables of a program.
@@ -61,9 +62,11 @@ impl Lower {
         }
         block.words.iter().enumerate().find_map(|(at, word)| {
             let Value::Number(digits) = word.value else { return None };
-            let whole = digits.whole().filter(|_| word.letter == b'G')?;
-            let row = dialect.code_row(word.letter, whole.checked_mul(10)?)?;
-            let calls = |meaning: &Meaning| matches!(meaning, Meaning::CallMacro | Meaning::CallMacroAtMoves);
+            let number = tenths(digits).filter(|_| word.letter == b'G')?;
+            let row = dialect.code_row(word.letter, number)?;
+            let calls = |meaning: &Meaning| {
+                matches!(meaning, Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks)
+            };
             let meaning = row.means.filter(calls)?;
             Some(Code { row, meaning, span: word.span, at })
         })
@@ -139,6 +142,16 @@ impl Lower {
                 (code.row.code.as_str().into(), "macro call that is made several times".into());
             return self.fault(Fault::NotSupported { code, name }, block.span, out);
         }
+        let nothing = || Expr::Node(Box::new(Node::Vacant));
+        let arguments: Vec<Expr> = arguments.into_iter().map(|a| a.unwrap_or_else(nothing)).collect();
+        if code.at == usize::MAX {
+            // By the words of its block alone.
+            if self.level_open() {
+                return self.refuse_level(code.span, out);
+            }
+            self.jumped_to(block, out);
+            return self.call_by_words(arguments, block, out);
+        }
         let Some(name) = name.filter(|name| *name > 0) else {
             if !self.now.failed {
                 let word = char::from(program).to_string().into();
@@ -150,14 +163,15 @@ impl Lower {
             return self.refuse_level(code.span, out);
         }
         self.jumped_to(block, out);
-        let nothing = || Expr::Node(Box::new(Node::Vacant));
-        let arguments: Vec<Expr> = arguments.into_iter().map(|a| a.unwrap_or_else(nothing)).collect();
         let name: Box<str> = name.to_string().into();
         out.whole = true;
         self.computes.calls(&name, arguments.len());
         let call = Call { name, times, arguments, shared: false };
         if code.meaning == Meaning::CallMacroAtMoves {
             return self.begin_calls_at_moves(code, call, block, out);
+        }
+        if code.meaning == Meaning::CallMacroAtBlocks {
+            return self.begin_calls_at_blocks(code, call, block, out);
         }
         if self.within_modal(code.span, out) {
             return;

@@ -1,5 +1,6 @@
 //! Lowering of a macro call that comes again behind every block that moves an axis, until it is called off (B-63684EN,
-//! custom macro, modal call): each of them is a call of its own behind the move.
+//! custom macro, modal call): each of them is a call of its own behind the move. Another comes in every block, whose
+//! words are its arguments: each of those blocks is a call.
 //!
 //! The arguments are worth what they are in the block that says them; so they are numbers, or the program's local
 //! variables, which nothing sets until the calls are over.
@@ -7,16 +8,18 @@
 //! Refused by name: one within another, other calls and cycles while it is in force, and ways from where it is in force
 //! to where it is not.
 
+use ncc_dialects::Meaning;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
 use ncc_ir::program::{Call, Op, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::Source;
-use super::block::Block;
+use super::block::{Block, Value, Word};
 use super::computing::Computes;
 use super::lower::Lower;
 use super::sort::{Code, Words};
+use super::words::tenths;
 use crate::Batch;
 
 /// Calls that are in force.
@@ -27,7 +30,12 @@ pub(super) struct AtMoves {
     which: u32,
     /// Whether arguments are computed.
     computed: bool,
+    /// The code by which the words of every block are the arguments of one.
+    by_words: Option<Code>,
 }
+
+/// The option that says whether the block of such a code makes a call itself.
+const OWN_BLOCK: &str = "own_block_call";
 
 /// Which calls are in force where a program can be come to, and where it goes away from; 0 is none.
 #[derive(Debug, Default)]
@@ -71,17 +79,77 @@ impl Lower {
         } else if self.now.failed {
             return;
         } else {
-            self.assume_row(code.row, "MODAL_MACRO_CALL, its arguments anew each time", code.span, out);
+            let what = match code.meaning {
+                Meaning::CallMacroAtBlocks => "MODAL_MACRO_CALL, the words of each block its arguments",
+                _ => "MODAL_MACRO_CALL, its arguments anew each time",
+            };
+            self.assume_row(code.row, what, code.span, out);
             self.now.silent = true;
             self.computes.reach.seen += 1;
             self.computes.reach.code = code.row.code.as_str().into();
             let own = self.sub.as_ref().map(|program| program.name.clone()).unwrap_or_default();
             self.computes.reach.called.push((own, call.name.clone(), code.span));
             let computed = call.arguments.iter().any(|value| value.literal().is_none() && !is_vacant(value));
-            self.computes.at_moves = Some(AtMoves { call, which: self.computes.reach.seen, computed });
+            let which = self.computes.reach.seen;
+            self.computes.at_moves = Some(AtMoves { call, which, computed, by_words: None });
             return;
         };
         self.refuse_modal(&code.row.code, name, code.span, out);
+    }
+
+    /// The block behind which every block is a call, and is one itself where the control has it so.
+    pub(super) fn begin_calls_at_blocks(&mut self, code: &Code, call: Call, block: &Block, out: &mut Batch) {
+        let own = Call { arguments: Vec::new(), ..call.clone() };
+        self.begin_calls_at_moves(code, own, block, out);
+        let Some(calls) = self.computes.at_moves.as_mut().filter(|_| !self.now.failed) else { return };
+        calls.by_words = Some(Code { span: block.span, at: usize::MAX, ..*code });
+        if self.option(OWN_BLOCK, code.span, out) == "calls" {
+            self.now.silent = false;
+            self.leave_motion(None, out);
+            self.push(block.span, Op::Call(Box::new(call)), out);
+            self.lose(block.span, out);
+        }
+    }
+
+    /// The code of the calls of which a block is one by its words.
+    pub(super) fn words_call(&mut self, block: &Block, src: Source, out: &mut Batch) -> Option<Code> {
+        let code = self.computes.at_moves.as_ref()?.by_words?;
+        if block.statement.is_some() || block.decision.is_some() {
+            self.refuse_under("statement where words are arguments", block.span, out);
+            return None;
+        }
+        let number = self.settings.dialect.block.number.map_or(0, |c| c as u8);
+        let words = || block.words.iter().filter(|word| word.letter != number);
+        let ends = |word: &&Word| {
+            let Value::Number(digits) = word.value else { return false };
+            let row = tenths(digits).and_then(|number| self.settings.dialect.code_row(word.letter, number));
+            row.is_some_and(|row| row.means == Some(Meaning::EndCallsAtMoves))
+        };
+        if words().any(|word| ends(&word)) {
+            // One that moves an axis is refused as such.
+            let axis = words().any(|word| b"XYZABC".contains(&word.letter));
+            if words().count() > 1 && !axis {
+                self.refuse_under("end of the calls in a block with other words", block.span, out);
+            }
+            return None;
+        }
+        words().next()?;
+        // Of a function no source of this control says that it is an argument, and not what it always is.
+        if let Some(other) = words().find(|word| b"GMSTPLO".contains(&word.letter)) {
+            let name = format!("{} where words are arguments", src.text(other.span));
+            self.refuse_under(&name, other.span, out);
+            return None;
+        }
+        Some(code)
+    }
+
+    /// Such a block.
+    pub(super) fn call_by_words(&mut self, arguments: Vec<Expr>, block: &Block, out: &mut Batch) {
+        let Some(call) = self.computes.at_moves.as_ref().map(|calls| calls.call.clone()) else { return };
+        self.computes.calls(&call.name, arguments.len());
+        self.leave_motion(None, out);
+        self.push(block.span, Op::Call(Box::new(Call { arguments, ..call })), out);
+        self.lose(block.span, out);
     }
 
     /// The calls are over; where none are in force, nothing is.
@@ -112,7 +180,8 @@ impl Lower {
 
     /// Behind a block that moves an axis.
     pub(super) fn call_at_moves(&mut self, block: &Block, src: Source, out: &mut Batch) {
-        if self.computes.at_moves.is_none() || self.now.failed || block.statement.is_some() {
+        let at_moves = self.computes.at_moves.as_ref().is_some_and(|calls| calls.by_words.is_none());
+        if !at_moves || self.now.failed || block.statement.is_some() {
             return;
         }
         let mark = self.now.mark;

@@ -292,7 +292,11 @@ pub(crate) fn rank(meaning: Meaning) -> u8 {
         Meaning::CoolantOff => 31,
         Meaning::ProgramStop | Meaning::OptionalProgramStop => 32,
         Meaning::ProgramEnd => 33,
-        Meaning::Call | Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::Return => 34,
+        Meaning::Call
+        | Meaning::CallMacro
+        | Meaning::CallMacroAtMoves
+        | Meaning::CallMacroAtBlocks
+        | Meaning::Return => 34,
         // Before the moves that it is no more for.
         Meaning::EndCallsAtMoves => 15,
     }

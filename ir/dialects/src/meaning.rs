@@ -131,6 +131,8 @@ pub enum Meaning {
     CallMacro,
     /// Such a call behind every block that moves an axis, until they end.
     CallMacroAtMoves,
+    /// Such a call in every block, whose words are its arguments, until they end.
+    CallMacroAtBlocks,
     EndCallsAtMoves,
     Return,
 }
@@ -280,6 +282,7 @@ impl fmt::Display for Meaning {
             Meaning::Call => "CALL",
             Meaning::CallMacro => "CALL_MACRO",
             Meaning::CallMacroAtMoves => "CALL_MACRO_AT_MOVES",
+            Meaning::CallMacroAtBlocks => "CALL_MACRO_AT_BLOCKS",
             Meaning::EndCallsAtMoves => "END_CALLS_AT_MOVES",
             Meaning::Return => "RETURN",
         })
@@ -437,6 +440,7 @@ impl FromStr for Meaning {
             ("CALL", "") => Meaning::Call,
             ("CALL_MACRO", "") => Meaning::CallMacro,
             ("CALL_MACRO_AT_MOVES", "") => Meaning::CallMacroAtMoves,
+            ("CALL_MACRO_AT_BLOCKS", "") => Meaning::CallMacroAtBlocks,
             ("END_CALLS_AT_MOVES", "") => Meaning::EndCallsAtMoves,
             ("RETURN", "") => Meaning::Return,
             _ => return Err(format!("no meaning: {text}")),

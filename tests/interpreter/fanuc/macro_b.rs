@@ -469,6 +469,49 @@ impl Control {
         Ok(Next::Block)
     }
 
+    /// G66.1: from here on the words of a block are arguments, and those of its own are.
+    pub(super) fn begin_words(&mut self, raw: &[(char, &str)], all: &[Program]) -> Result<Next, Halt> {
+        if self.modal.is_some() || self.in_modal || self.by_words.is_some() {
+            return self.m.halt("G66.1 within another");
+        }
+        let (program, times) = match self.arguments(raw) {
+            Ok((Some(program), times, _)) => (program.to_string(), times),
+            Ok(_) => return self.m.halt("G66.1 without a program"),
+            Err(why) => return self.m.halt(why),
+        };
+        self.by_words = Some((program, times));
+        let own: Vec<(char, &str)> =
+            raw.iter().copied().filter(|(letter, _)| !"GPL".contains(*letter)).collect();
+        self.words_call(&own, all)
+    }
+
+    /// A block under it.
+    pub(super) fn words_call(&mut self, raw: &[(char, &str)], all: &[Program]) -> Result<Next, Halt> {
+        let Some((program, times)) = self.by_words.take() else { return Ok(Next::Block) };
+        if raw.contains(&('G', "67")) {
+            return Ok(Next::Block);
+        }
+        if raw.iter().any(|(letter, _)| "GMSTPLO".contains(*letter)) {
+            return self.m.halt("a function under G66.1");
+        }
+        let own = raw.iter().copied().filter(|(letter, _)| *letter != 'N');
+        let handed: Vec<(char, &str)> = std::iter::once(('G', "66.1")).chain(own).collect();
+        let next = match self.arguments(&handed) {
+            Err(why) => return self.m.halt(why),
+            Ok((.., local)) => {
+                let mut next = Next::Block;
+                for _ in 0..times {
+                    self.variables.local.push(local);
+                    next = self.run(&program, all)?;
+                    self.variables.local.pop();
+                }
+                next
+            }
+        };
+        self.by_words = Some((program, times));
+        Ok(if let Next::End = next { Next::End } else { Next::Block })
+    }
+
     /// A block, and behind it the macro of G66 if it has moved.
     pub(super) fn block_and_macro(&mut self, block: &str, all: &[Program]) -> Result<Next, Halt> {
         self.moved = false;

@@ -1,7 +1,7 @@
 //! A block taken apart into words: letters, and the text of their values.
 
 use super::super::Halt;
-use super::Control;
+use super::{Control, Word, number};
 
 impl Control {
     /// The words of a block, or nothing where it is skipped; a letter after a comma is kept as a small one.
@@ -39,6 +39,24 @@ impl Control {
             }
         }
         Ok(Some(words))
+    }
+
+    /// A length, in millimetres: without a point it counts 0.001 mm or 0.0001 inch.
+    pub(super) fn length(&self, words: &[Word], letter: char) -> Option<f64> {
+        let (value, point) = number(words, letter)?;
+        let unit = if self.m.inch { 25.4 } else { 1.0 };
+        let step = match (point, self.m.inch) {
+            (true, _) => 1.0,
+            (false, false) => 0.001,
+            (false, true) => 0.0001,
+        };
+        Some(value * step * unit)
+    }
+
+    /// An angle, in degrees: without a point it counts 0.001.
+    pub(super) fn angle(&self, words: &[Word], letter: char) -> Option<f64> {
+        let (value, point) = number(words, letter)?;
+        Some(if point { value } else { value * 0.001 })
     }
 }
 
