@@ -10,15 +10,11 @@ pub(super) fn may_fail(value: &Expr) -> bool {
     let own = match value {
         Expr::Num(_) => false,
         Expr::Node(node) => match &**node {
-            Node::Binary(Binary::Divide | Binary::Modulo, _, by) => {
-                !by.literal().is_some_and(|n| !n.is_zero())
-            }
-            Node::Binary(Binary::Power, _, by) => {
-                !by.literal().and_then(|n| n.whole()).is_some_and(|n| n >= 0)
-            }
+            Node::Binary(Binary::Divide | Binary::Modulo, _, by) => by.literal().is_none_or(|n| n.is_zero()),
+            Node::Binary(Binary::Power, _, by) => by.literal().and_then(|n| n.whole()).is_none_or(|n| n < 0),
             Node::Element(_) => true,
             Node::Call(Function::Remainder, of) => {
-                !of.get(1).and_then(Expr::literal).is_some_and(|n| !n.is_zero())
+                of.get(1).and_then(Expr::literal).is_none_or(|n| n.is_zero())
             }
             Node::Call(function, _) => !matches!(
                 function,
