@@ -444,11 +444,12 @@ fn limit(thousandths: u32) -> Option<f64> {
     (thousandths != u32::MAX).then(|| f64::from(thousandths) / 1000.0)
 }
 
-/// Adds an event, unless it is a straight move that goes nowhere.
+/// Adds an event, unless it is a straight move that goes nowhere, or a dwell of no time.
 fn push(list: &mut Vec<Plain>, start: [f64; 6], event: Plain) {
     let from = list.last().map_or(start, |last| last.at);
     let still = from.iter().zip(event.at).all(|(a, b)| (a - b).abs() < 1e-9);
-    if !(still && matches!(event.what, Happening::Traverse | Happening::Feed)) {
+    let nothing = matches!(event.what, Happening::Dwell(seconds) if seconds == 0.0);
+    if !(nothing || still && matches!(event.what, Happening::Traverse | Happening::Feed)) {
         list.push(event);
     }
 }

@@ -282,6 +282,7 @@ impl Lower {
         self.no_stale_offset(at, out);
         let Some(arguments) = self.handed_over(name, given, at, src, out) else { return };
         self.inherited.call(Some(name.into()), self.state.unsaid());
+        self.motion_goes_on(&[self.state.motion], out);
         self.push(at, Op::Call(Box::new(Call { name: name.into(), times, arguments, shared: false })), out);
         // A subprogram leaves the cycle as it found it, and under one makes no other moves than G0.
         let cycle = std::mem::take(&mut self.state.cycle);
@@ -316,6 +317,7 @@ impl Lower {
 
     /// The subprogram that is read goes back to its caller.
     pub(super) fn leave(&mut self, at: Span, out: &mut Batch) {
+        self.motion_goes_on(&[self.state.motion], out);
         if self.state.cycle != self.entry && self.state.cycle != InForce::Refused {
             let name = "cycle that its subprogram leaves in force or ends";
             return self.not_supported("MCALL", name, at, out);
@@ -472,10 +474,33 @@ impl Lower {
         if self.state.motion == Know::Unsaid && self.motion(at, out).is_ok_and(|m| m.is_some()) {
             return;
         }
+        if self.state.motion != Know::Unsaid {
+            if self.feed_away {
+                // It is told once.
+                self.state.motion = Know::Taken(Motion::Traverse);
+                return self.refuse_rapid(at, out);
+            }
+            self.rapid_taken.get_or_insert(at);
+        }
         if self.first_time("rapid under a cycle") {
             report(out, at, ModeName::Motion, Some("rapid"));
         }
         self.state.motion = Know::Taken(Motion::Traverse);
+    }
+
+    /// Control goes elsewhere with such a motion in force: what is taken for rapid there may be none.
+    pub(super) fn motion_goes_on(&mut self, motions: &[Know<Motion>], out: &mut Batch) {
+        let at_feed = |motion: &Know<Motion>| motion.value().is_some_and(|motion| motion != Motion::Traverse);
+        if motions.iter().any(at_feed) {
+            self.feed_away = true;
+            if let Some(at) = self.rapid_taken.take() {
+                self.refuse_rapid(at, out);
+            }
+        }
+    }
+
+    fn refuse_rapid(&mut self, at: Span, out: &mut Batch) {
+        self.not_supported("MCALL", "position under a cycle that G1 on some way may reach", at, out);
     }
 }
 

@@ -205,6 +205,7 @@ impl Lower {
         self.no_stale_offset(at, out);
         self.settle(at, out);
         self.leave_motion_before(at, out);
+        self.motion_goes_on(&[self.state.motion], out);
         let cycle = std::mem::take(&mut self.state.cycle);
         self.state = State::lost(cycle);
         self.stand.forget();
@@ -524,7 +525,11 @@ impl Lower {
         let control = match what {
             What::If { condition, then, other } => {
                 let (state, moved) = *other;
+                let one = self.state.motion;
                 self.state.join(&state);
+                if self.state.motion.value().is_none() {
+                    self.motion_goes_on(&[one, state.motion], out);
+                }
                 if self.moved != moved {
                     self.moved = None;
                 }

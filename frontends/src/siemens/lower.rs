@@ -70,6 +70,10 @@ pub(super) struct Lower {
     /// Whether the modal tap in force has put its own speed in force and made no hole yet: until it does,
     /// the control has the speed that was said before.
     pub(super) idle_tap: bool,
+    /// Whether control has gone elsewhere, or a switch has left in doubt, where a motion at feed was in force.
+    pub(super) feed_away: bool,
+    /// Where a position was first taken for rapid that such a motion may reach.
+    pub(super) rapid_taken: Option<Span>,
     /// The radius by which every corner is rounded.
     pub(super) rounding: Option<ncc_ir::num::Num>,
     pub(super) surfaces: Surfaces,
@@ -177,6 +181,8 @@ impl Lower {
             cycled: false,
             recall: false,
             idle_tap: false,
+            feed_away: false,
+            rapid_taken: None,
             reported: HashSet::new(),
             sub: None,
             entry: InForce::None,
@@ -334,6 +340,9 @@ impl Lower {
         if let (Some((before, moved)), Some((level, _))) = (before, head.skip) {
             let (inside, moved_inside) = (self.state.clone(), self.moved);
             self.state.join(&before);
+            if self.state.motion.value().is_none() {
+                self.motion_goes_on(&[before.motion, inside.motion], out);
+            }
             self.stand.forget();
             if self.moved != moved {
                 self.moved = None;
