@@ -360,6 +360,8 @@ faults! {
     /// Words less the offsets in force written as a cut in machine coordinates; the source's control rounds them to so
     /// many digits, of an inch or of a millimetre.
     MachineCutFolded { digits: u8, inch: bool } = 432, verdict(Verdict::Reformatted);
+    /// A peck that is longer than its hole written as long as the hole is.
+    PeckShortened = 433, verdict(Verdict::Reformatted);
     /// A point by radius and angle written by its coordinates.
     PolarExpanded = 430, verdict(Verdict::Expanded);
 

@@ -443,6 +443,11 @@ pub enum Op {
 }
 
 impl Op {
+    /// Whether a length is called up, or off, which many controls take up with the next command of Z.
+    pub const fn calls_length(&self) -> bool {
+        matches!(self, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
+    }
+
     /// The move itself, where its point is polar; else the operation.
     pub fn unwrapped(&self) -> &Op {
         match self {

@@ -29,12 +29,7 @@ pub enum Wrong {
     Arguments,
     /// What must have a value has none: the variable was never set.
     NothingGiven,
-    /// A remainder of a number so large that its last digits are no more than a rounding.
-    DigitsLost,
 }
-
-/// Greatest number of which a remainder is told: of more, how a control divides shows in millionths.
-const MOST_DIVIDED: f64 = 1e10;
 
 impl Wrong {
     /// In words.
@@ -45,7 +40,6 @@ impl Wrong {
             Wrong::TooLarge => "a number that is too large",
             Wrong::Arguments => "a function of another number of arguments",
             Wrong::NothingGiven => "a variable that has no value here",
-            Wrong::DigitsLost => "a remainder of a number whose last digits are lost",
         }
     }
 }
@@ -92,7 +86,6 @@ pub fn binary(operator: Binary, a: f64, b: f64) -> Result<f64, Wrong> {
         Binary::Multiply => finite(a * b),
         Binary::Divide | Binary::Modulo if b == 0.0 => Err(Wrong::DivisionByZero),
         Binary::Divide => finite(a / b),
-        Binary::Modulo if a.abs() > MOST_DIVIDED => Err(Wrong::DigitsLost),
         Binary::Modulo => finite(a % b),
         Binary::Power => {
             let n = a.powf(b);
@@ -181,7 +174,6 @@ pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
         Function::Min => a.min(b),
         Function::Max => a.max(b),
         Function::Remainder if b == 0.0 => return Err(Wrong::DivisionByZero),
-        Function::Remainder if a.abs() > MOST_DIVIDED => return Err(Wrong::DigitsLost),
         Function::Remainder => a.rem_euclid(b),
         Function::BitAnd => (bits(a)? & bits(b)?) as f64,
         Function::BitOr => (bits(a)? | bits(b)?) as f64,

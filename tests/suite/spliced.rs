@@ -80,6 +80,31 @@ fn blocks_in_other_programs() {
     failures.finish();
 }
 
+/// Programs that were held back once, and are sayable.
+const WRONG_ONCE: [(&str, &str, &str); 1] = [
+    // The safe start calls a length off, which the thread would have taken up.
+    (
+        "linuxcnc",
+        "fanuc",
+        "G21 G17 G90 G94 G54\nT2 M6\nS900 M3\nG0 X12 Y8\nG33 Z-15 K1.5\nG0 X30\nG43 H2 Z20\nM5\nM2\n",
+    ),
+];
+
+#[test]
+fn what_was_wrong_once() {
+    for (from, to, text) in WRONG_ONCE {
+        let job = job(from, to, "once");
+        let (outcome, written) = translate(&job, text.as_bytes());
+        let told = rendered(&job, "once", text.as_bytes(), &outcome.diagnostics);
+        assert!(outcome.release.is_ok(), "{from} to {to}: {told}");
+        assert_eq!(
+            second_opinion((from, text.as_bytes()), (to, &written), None),
+            Some(Ok(())),
+            "{from} to {to}"
+        );
+    }
+}
+
 /// A program of the corpus with up to four pieces of others put in, left out, or said twice.
 fn spliced(programs: &[Program], dice: &mut fastrand::Rng) -> (String, Vec<u8>) {
     let of = |program: &Program| -> Vec<Vec<u8>> {

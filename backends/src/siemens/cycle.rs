@@ -409,7 +409,7 @@ impl Writer {
             }
             below_retract = Some(more);
         }
-        // A first depth below the hole's bottom is out of range: such a hole is made in one go.
+        // A first depth below the bottom is alarm 61107: such a hole is made in one go.
         let inch = self.words.force.units == Some(Units::Inch);
         let lower = below_retract.map_or(Some(0), |more| more.nanos(inch));
         let in_one = peck.literal().and_then(|peck| peck.nanos(inch)).zip(planes.retract).and_then(
@@ -419,6 +419,7 @@ impl Writer {
             },
         );
         if let Some(whole) = in_one {
+            sink.report(Fault::PeckShortened, span);
             let text = self.length(whole, &self.parameter(to.row, Role::RelativeFirstDepth))?;
             return to.put(Role::RelativeFirstDepth, text);
         }

@@ -457,9 +457,7 @@ impl Writer {
         }
         let length = self.tracker.modes.length_offset;
         self.tracker.step(stmt);
-        if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
-            && (length.is_none() || self.tracker.modes.length_offset != length)
-        {
+        if stmt.op.calls_length() && (length.is_none() || self.tracker.modes.length_offset != length) {
             // Until the next command of Z it is not told by which of the two lengths its place is counted.
             self.tracker.position[Axis::Z as usize] = None;
         }

@@ -29,10 +29,6 @@ const MOST_ARGUMENTS: u32 = 30;
 const RESULT: &str = "_value";
 const RESULT_GIVEN: &str = "_value_returned";
 
-/// The variable in which a result is worked out whose text may not stand with the return: the last of a call's own,
-/// which nothing reads after it.
-const LAST: u32 = MOST_ARGUMENTS;
-
 /// Digits of values in a message where nothing is said, and of `%f`.
 const DIGITS: u8 = 6;
 const FLOAT_DIGITS: u8 = 4;
@@ -508,11 +504,6 @@ impl Writer {
         match self.o_words.result.take() {
             None => Ok(String::new()),
             Some((value, Some(false))) if value.literal().is_some_and(|n| n.is_zero()) => Ok(String::new()),
-            Some((value, Some(true))) if may_fail(&value) => {
-                let value = self.condition(&value, span, sink)?;
-                self.o_line(&format!("#{LAST} = {value}"), sink)?;
-                Ok(format!(" [#{LAST}]"))
-            }
             Some((value, Some(true))) => Ok(format!(" {}", self.condition(&value, span, sink)?)),
             Some(_) => Err(unsaid()),
         }

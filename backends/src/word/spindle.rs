@@ -176,8 +176,7 @@ impl Writer {
         };
         // On some machines a choice says which letter it is.
         let chosen = words.and_then(|words| words.option.as_deref()).map(|option| self.settings.get(option));
-        let cycles = &self.dialect.cycles;
-        if self.tracker.cycle.is_some() && cycles.retained && !cycles.retained_by_code {
+        if self.tracker.cycle.is_some() && self.dialect.cycles.retained_by_all() {
             // The cycles have the letter too; whether theirs changes with it, no source tells.
             return Err(cannot("a spindle stopped at an angle while a cycle is in force"));
         }

@@ -101,10 +101,7 @@ impl Writer {
     pub(crate) fn look_ahead(&mut self, stmts: &[Stmt]) {
         let Some(preamble) = &mut self.preamble else { return };
         let ops = stmts.iter().map(|stmt| stmt.op.unwrapped());
-        let lengths = |op: &Op| {
-            matches!(op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. })
-        };
-        let first = ops.take_while(|op| !lengths(op)).find_map(|op| {
+        let first = ops.take_while(|op| !op.calls_length()).find_map(|op| {
             if let Op::StraightTraverse(m) | Op::StraightFeed(m) = op {
                 return m.to.get(Axis::Z).map(|z| z.distance == Fact::Known(Distance::Incremental));
             }

@@ -289,9 +289,7 @@ impl Look<'_> {
                     None => {}
                 }
             }
-            let by_p =
-                |m| matches!(m, Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks);
-            if row.means.is_some_and(by_p)
+            if row.means.is_some_and(Meaning::calls_macro)
                 && let Some(p) = row.words.bytes().next().and_then(word)
             {
                 self.found.calls.insert((self.scope, p.value));
@@ -318,17 +316,10 @@ impl Look<'_> {
             words.iter().filter(is_code).map(|w| row(w).and_then(|row| row.means)).collect();
         let strange = means.iter().any(Option::is_none)
             || pieces.windows(2).any(|p| p[0].text(line) == b"G" && p[1].text(line).contains(&b'.'));
-        let uses_letters = means.iter().flatten().any(|m| {
-            matches!(
-                m,
-                Meaning::StartCycle
-                    | Meaning::Pattern
-                    | Meaning::Call
-                    | Meaning::CallMacro
-                    | Meaning::CallMacroAtMoves
-                    | Meaning::CallMacroAtBlocks
-            )
-        });
+        let uses_letters = means
+            .iter()
+            .flatten()
+            .any(|m| m.calls_macro() || matches!(m, Meaning::StartCycle | Meaning::Pattern | Meaning::Call));
         for w in words {
             let row = self.dialect.address_row(w.letter);
             let number = self.dialect.block.number == Some(w.letter as char);

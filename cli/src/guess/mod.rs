@@ -233,13 +233,7 @@ fn word_line(dialect: &Dialect, number: usize, line: &[u8], framed: bool, eviden
 
 fn calls_a_macro(dialect: &Dialect, letter: u8, value: &str) -> bool {
     let row = tenths(value).and_then(|tenths| dialect.code_row(letter, tenths));
-    letter == b'G'
-        && row.is_some_and(|row| {
-            matches!(
-                row.means,
-                Some(Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks)
-            )
-        })
+    letter == b'G' && row.is_some_and(|row| row.means.is_some_and(Meaning::calls_macro))
 }
 
 fn word_of(

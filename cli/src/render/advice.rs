@@ -171,6 +171,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::PolarExpanded
         | Fault::MachineCutExpanded { .. }
         | Fault::MachineCutFolded { .. }
+        | Fault::PeckShortened
         | Fault::CornerExpanded
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }

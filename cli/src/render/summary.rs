@@ -221,6 +221,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::MachineCutFolded { .. } => {
             "words less the offsets into cuts in machine coordinates".to_owned()
         }
+        Fault::PeckShortened => "pecks that are longer than their holes".to_owned(),
         Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
         Fault::CompensationExpanded { radius } => {
             format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))

@@ -294,6 +294,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "written as a cut in machine coordinates".into(),
             format!("{to} has a word for a place less the offsets in force"),
         ),
+        Fault::PeckShortened => (
+            "peck as long as its hole".into(),
+            format!("a longer first peck is an alarm on {to}: the hole is made in one go"),
+        ),
         Fault::PolarExpanded => (
             "point by radius and angle written by its coordinates".into(),
             format!("{to} does not say it so"),

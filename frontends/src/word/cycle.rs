@@ -395,7 +395,7 @@ impl Lower {
     /// Control goes elsewhere: a cycle that is called up there keeps the dwell of the one in force.
     pub(super) fn carry_dwell(&mut self, out: &mut Batch) {
         let with_dwell = matches!(&self.state.cycle, InForce::Active(active) if active.dwell.is_some());
-        if !(with_dwell && self.settings.dialect.cycles.retained) {
+        if !(with_dwell && self.settings.dialect.cycles.retained_by_all()) {
             return;
         }
         self.dwells.carried = true;
@@ -406,9 +406,8 @@ impl Lower {
 
     /// A cycle without a dwell of its own, called up where another may be in force whose dwell it would keep.
     fn no_dwell_before(&mut self, row: &'static CycleRow, code: &Code, out: &mut Batch) {
-        let cycles = &self.settings.dialect.cycles;
         let takes = row.dwell.is_some() || row.dwell_by.is_some();
-        if self.state.cycle != InForce::Lost || !cycles.retained || cycles.retained_by_code || !takes {
+        if self.state.cycle != InForce::Lost || !takes || !self.settings.dialect.cycles.retained_by_all() {
             return;
         }
         match self.dwells.carried {

@@ -254,15 +254,18 @@ impl Lower {
         codes.clear();
         let mut words = Words { all: &block.words, exprs: &block.exprs, at: [0; 26], left: 0 };
         // A block that is none by its form is not asked for its meaning.
-        let called = self.macro_code(block).or_else(|| self.words_call(block, src, out));
-        let called = called.filter(|_| !self.now.refused);
+        let called = self.macro_code(block).filter(|_| !self.now.refused);
+        let by_words =
+            if called.is_none() && !self.now.refused { self.by_words(block, src, out) } else { None };
         if let Some(code) = &called {
             self.macro_call(code, block, src, out);
+        } else if let Some(code) = &by_words {
+            self.words_call(code, block, src, out);
         } else if !self.now.refused {
             self.sort_words(block, &mut codes, &mut words, src, out);
             self.check_tail(block, &codes, out);
         }
-        if called.is_some() {
+        if called.is_some() || by_words.is_some() {
             // It is all that its block says.
         } else if !self.now.refused {
             self.jumped_to(block, out);

@@ -64,27 +64,30 @@ impl Lower {
             let Value::Number(digits) = word.value else { return None };
             let number = tenths(digits).filter(|_| word.letter == b'G')?;
             let row = dialect.code_row(word.letter, number)?;
-            let calls = |meaning: &Meaning| {
-                matches!(meaning, Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks)
-            };
-            let meaning = row.means.filter(calls)?;
+            let meaning = row.means.filter(|meaning| meaning.calls_macro())?;
             Some(Code { row, meaning, span: word.span, at })
         })
     }
 
-    /// A block with a macro call.
-    pub(super) fn macro_call(&mut self, code: &Code, block: &Block, src: Source, out: &mut Batch) {
-        self.found_variables(out);
+    /// What the words of a block hand over, but the code's own, which stands at a place where it stands in the block:
+    /// the program's number, how often, and the arguments.
+    fn handed_over(
+        &mut self,
+        code: &Code,
+        at_code: Option<usize>,
+        block: &Block,
+        src: Source,
+        out: &mut Batch,
+    ) -> (Option<u32>, u32, Vec<Expr>) {
         let mut letters = code.row.words.bytes();
         let (program, count) = (letters.next().unwrap_or(b'P'), letters.next().unwrap_or(b'L'));
-        let dialect = self.settings.dialect;
-        let number_letter = dialect.block.number.map_or(0, |c| c as u8);
+        let number_letter = self.settings.dialect.block.number.map_or(0, |c| c as u8);
         let (mut name, mut times) = (None, 1);
         let mut arguments: Vec<Option<Expr>> = Vec::new();
         let mut seen = 0u32;
         let (mut set, mut last) = (0, None);
         for (at, word) in block.words.iter().enumerate() {
-            if at == code.at {
+            if Some(at) == at_code {
                 continue;
             }
             if word.value == Value::None {
@@ -137,24 +140,33 @@ impl Lower {
             arguments[place - 1] = Some(value);
         }
         debug_assert!(arguments.len() <= LOCALS);
-        if times > 1 && !dialect.formula.arguments_again {
+        let nothing = || Expr::Node(Box::new(Node::Vacant));
+        (name, times, arguments.into_iter().map(|a| a.unwrap_or_else(nothing)).collect())
+    }
+
+    /// A block under a code that makes its words the arguments of a call.
+    pub(super) fn words_call(&mut self, code: &Code, block: &Block, src: Source, out: &mut Batch) {
+        self.found_variables(out);
+        let (.., arguments) = self.handed_over(code, None, block, src, out);
+        if self.level_open() {
+            return self.refuse_level(block.span, out);
+        }
+        self.jumped_to(block, out);
+        self.call_by_words(arguments, block, out);
+    }
+
+    /// A block with a macro call.
+    pub(super) fn macro_call(&mut self, code: &Code, block: &Block, src: Source, out: &mut Batch) {
+        self.found_variables(out);
+        let (name, times, arguments) = self.handed_over(code, Some(code.at), block, src, out);
+        if times > 1 && !self.settings.dialect.formula.arguments_again {
             let (code, name) =
                 (code.row.code.as_str().into(), "macro call that is made several times".into());
             return self.fault(Fault::NotSupported { code, name }, block.span, out);
         }
-        let nothing = || Expr::Node(Box::new(Node::Vacant));
-        let arguments: Vec<Expr> = arguments.into_iter().map(|a| a.unwrap_or_else(nothing)).collect();
-        if code.at == usize::MAX {
-            // By the words of its block alone.
-            if self.level_open() {
-                return self.refuse_level(code.span, out);
-            }
-            self.jumped_to(block, out);
-            return self.call_by_words(arguments, block, out);
-        }
         let Some(name) = name.filter(|name| *name > 0) else {
             if !self.now.failed {
-                let word = char::from(program).to_string().into();
+                let word = char::from(code.row.words.bytes().next().unwrap_or(b'P')).to_string().into();
                 self.fault(Fault::WordMissing { code: code.row.code.as_str().into(), word }, code.span, out);
             }
             return;

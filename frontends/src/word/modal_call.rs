@@ -102,7 +102,7 @@ impl Lower {
         let own = Call { arguments: Vec::new(), ..call.clone() };
         self.begin_calls_at_moves(code, own, block, out);
         let Some(calls) = self.computes.at_moves.as_mut().filter(|_| !self.now.failed) else { return };
-        calls.by_words = Some(Code { span: block.span, at: usize::MAX, ..*code });
+        calls.by_words = Some(*code);
         if self.option(OWN_BLOCK, code.span, out) == "calls" {
             self.now.silent = false;
             self.leave_motion(None, out);
@@ -112,7 +112,7 @@ impl Lower {
     }
 
     /// The code of the calls of which a block is one by its words.
-    pub(super) fn words_call(&mut self, block: &Block, src: Source, out: &mut Batch) -> Option<Code> {
+    pub(super) fn by_words(&mut self, block: &Block, src: Source, out: &mut Batch) -> Option<Code> {
         let code = self.computes.at_moves.as_ref()?.by_words?;
         if block.statement.is_some() || block.decision.is_some() {
             self.refuse_under("statement where words are arguments", block.span, out);

@@ -134,8 +134,7 @@ impl Lower {
         }
         let said = said?;
         let word = words.take(said.letter as u8)?;
-        let cycles = &self.settings.dialect.cycles;
-        if cycles.retained && !cycles.retained_by_code {
+        if self.settings.dialect.cycles.retained_by_all() {
             // The cycles have the letter too; whether theirs changes with it, no source tells.
             let name = format!("{} of the spindle's angle while a cycle is in force", said.letter).into();
             self.without_cycle(Fault::NotSupported { code: code_text, name }, word.span, out);

@@ -45,6 +45,13 @@ pub struct CycleRules {
     pub source: String,
 }
 
+impl CycleRules {
+    /// Whether what a cycle has said stays in force for one of another code.
+    pub const fn retained_by_all(&self) -> bool {
+        self.retained && !self.retained_by_code
+    }
+}
+
 /// A canned cycle.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -156,6 +156,13 @@ impl<'de> Deserialize<'de> for Meaning {
     }
 }
 
+impl Meaning {
+    /// Whether the code calls a macro, at once, at moves or at every block: a word of its block says which.
+    pub const fn calls_macro(self) -> bool {
+        matches!(self, Meaning::CallMacro | Meaning::CallMacroAtMoves | Meaning::CallMacroAtBlocks)
+    }
+}
+
 impl fmt::Display for Meaning {
     /// As a data file spells it.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -49,9 +49,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, target: &Target, diags
             let what = "another zero under a cycle that goes another way to its holes";
             diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, body[i].span));
         }
-        let length =
-            matches!(body[i].op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. });
-        another_length = chained && by_height && other_way && (another_length || length);
+        another_length = chained && by_height && other_way && (another_length || body[i].op.calls_length());
         if another_length
             && walk.waiting
             && matches!(body[i].op, Op::Position(_) | Op::Hole(_) | Op::Pattern(_))

@@ -78,7 +78,7 @@ impl Walk {
     #[inline]
     pub(super) fn step(&mut self, stmt: &Stmt) {
         self.enter(stmt.skip);
-        if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolLength(_) | Op::UseToolEdge { .. }) {
+        if stmt.op.calls_length() {
             self.waiting = true;
         } else if self.waiting && stmt.skip.is_none() && self.commands_z(&stmt.op) {
             self.waiting = false;
