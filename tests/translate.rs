@@ -133,3 +133,11 @@ pub fn execute(program: &Program, world: &World, skip: u16) -> Result<Vec<Event>
     exec.end_of_text(&mut events);
     Ok(events)
 }
+
+/// Keeps a text for LinuxCNC's interpreter in the folder `NCC_TEXTS`, where that is asked for.
+pub fn keep(name: &str, text: &[u8]) {
+    if let Some(folder) = std::env::var_os("NCC_TEXTS") {
+        let file = format!("{}.ngc", name.replace(' ', "-"));
+        std::fs::write(std::path::Path::new(&folder).join(file), text).expect("a folder for texts");
+    }
+}

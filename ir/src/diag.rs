@@ -355,6 +355,8 @@ faults! {
     ValuesInFull { digits: u8 } = 423, verdict(Verdict::Reformatted);
     /// Text for a device that the target does not write to.
     OutputDropped = 424, verdict(Verdict::Dropped);
+    /// A macro whose calls give different arguments written as several, one for each set; under these names.
+    MacroApart { name: Box<str>, names: Box<str> } = 425, verdict(Verdict::Expanded);
     /// A cut in machine coordinates written in the work offset in force, less the offsets.
     MachineCutExpanded { offset: u16 } = 431, verdict(Verdict::Expanded);
     /// Words less the offsets in force written as a cut in machine coordinates; the source's control rounds them to so

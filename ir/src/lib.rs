@@ -22,6 +22,7 @@ pub mod diag;
 pub mod entry_of;
 pub mod exec;
 pub mod expr;
+pub mod fails;
 pub mod geometry;
 pub mod given_back;
 mod kinds;

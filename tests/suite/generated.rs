@@ -5,7 +5,7 @@
 //! refuses, the other must not run: but the compiler may refuse more, by name, of few programs.
 //!
 //! `NCC_GENERATED=10000` makes so many, each for every control that computes, and tells what is refused.
-//! `NCC_GENERATED_TEXTS=DIR` keeps the texts for LinuxCNC there, of which its own interpreter is a judge (`.ci/rs274`).
+//! `NCC_TEXTS=DIR` keeps the texts for LinuxCNC there, of which its own interpreter is a judge (`.ci/rs274`).
 
 mod fanuc;
 mod linuxcnc;
@@ -34,11 +34,13 @@ const MOST_FAULTS: usize = 10;
 const KEEPING: [&str; 4] = ["fanuc", "haas", "siemens", "linuxcnc"];
 
 /// What the second interpreter refuses for the manuals say nothing of it.
-const OPEN: [&str; 4] = [
+const OPEN: [&str; 5] = [
     "halves below zero go is open",
     "MOD of a number below zero",
     "ROUNDUP of a number below zero",
     "MOD of numbers that are not whole",
+    // Told where it is read.
+    "an elseif that is passed over",
 ];
 
 #[test]
@@ -80,14 +82,6 @@ fn by_chance(from: &'static str, program: fn(u64) -> String) {
         }
     }
     judge.finish(from, many);
-}
-
-/// Keeps a text for LinuxCNC's interpreter, where that is asked for.
-fn keep(name: &str, how: &str, text: &[u8]) {
-    if let Some(folder) = std::env::var_os("NCC_GENERATED_TEXTS") {
-        let file = format!("{}-{how}.ngc", name.replace(' ', "-"));
-        std::fs::write(std::path::Path::new(&folder).join(file), text).expect("a folder for texts");
-    }
 }
 
 /// A program that was made.
@@ -180,7 +174,7 @@ impl Judge {
                 Ok(()) => {
                     self.same += 1;
                     if source.from == "linuxcnc" {
-                        keep(&source.name, "source", source.text.as_bytes());
+                        translate::keep(&format!("{} source", source.name), source.text.as_bytes());
                     }
                     return Some(second);
                 }
@@ -209,7 +203,7 @@ impl Judge {
             Ok(()) => {
                 let how = if straight { "straight" } else { "kept" };
                 if to == "linuxcnc" {
-                    keep(&source.name, how, &output);
+                    translate::keep(&format!("{} {how}", source.name), &output);
                 }
                 let fault = match source.second(to, &output) {
                     Ok(moved) => same_way(moves, &moved, source.within(to)).err(),

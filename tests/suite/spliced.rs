@@ -4,14 +4,15 @@
 //! released, it has the last word. Few may be held back by the verification, which tells them as a fault of
 //! the compiler: there a refusal by name is missing.
 //!
-//! `NCC_SPLICED=2000` makes so many of each dialect, and prints those that are held back.
+//! `NCC_SPLICED=2000` makes so many of each dialect, and prints those that are held back. `NCC_TEXTS=DIR` keeps the
+//! texts for LinuxCNC there, of which its own interpreter is a judge (`.ci/rs274`).
 
 use ncc::job::Failure;
 use ncc_ir::diag::Fault;
 use ncc_tests::corpus::{self, DIALECTS, Program};
 use ncc_tests::expect::Failures;
 use ncc_tests::plain::{self, Corners, Happening, Tolerance};
-use ncc_tests::translate::{computes, job, rendered, translate};
+use ncc_tests::translate::{computes, job, keep, rendered, translate};
 
 /// Programs of a dialect in a usual run.
 const USUAL: usize = 60;
@@ -38,6 +39,9 @@ fn blocks_in_other_programs() {
             match outcome.release {
                 Ok(()) => {
                     done += 1;
+                    if to == "linuxcnc" {
+                        keep(&format!("{dialect} {seed}"), &written);
+                    }
                     // The one work offset of a control without words for it is the one that is named.
                     let only = outcome.diagnostics.iter().find_map(|d| match d.fault {
                         Fault::AssumedWorkOffset { offset } if job.to.dialect.caps.work_offsets == 0 => {

@@ -225,7 +225,9 @@ impl Writer {
             return Ok(String::new());
         }
         let takes = self.variables.takes.get(&call.name).cloned().unwrap_or_default();
-        if takes.len() != call.arguments.len() {
+        // One that is left out behind the others is zero (PGA, calls with parameters); a variable of the caller's is not.
+        let left_out = takes.get(call.arguments.len()..);
+        if left_out.is_none_or(|left_out| left_out.iter().any(|parameter| parameter.reference.is_some())) {
             return Err(cannot_compute("a call with other arguments than its program has parameters"));
         }
         if call.times > 1 && call.arguments.iter().any(common) {

@@ -29,7 +29,6 @@ pub(crate) mod motion;
 pub(crate) mod number;
 mod o_words;
 mod output;
-mod passed_over;
 mod plain;
 mod polar;
 mod repeat;

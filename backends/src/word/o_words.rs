@@ -12,13 +12,13 @@ use std::collections::BTreeSet;
 use ncc_ir::computes::counted;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Target, Unary, Var};
+use ncc_ir::fails::may_fail;
 use ncc_ir::program::{Alarm, Call, Control, Op, Piece, Procedure, Stmt, Text};
 use ncc_ir::source::Span;
 
 use super::block::Rank;
 use super::formula::{cannot_compute, number_of};
 use super::modes::cannot;
-use super::passed_over::may_fail;
 use super::{Sink, Writer};
 use ncc_ir::track::Tracker;
 

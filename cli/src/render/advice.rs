@@ -172,6 +172,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::MachineCutExpanded { .. }
         | Fault::MachineCutFolded { .. }
         | Fault::PeckShortened
+        | Fault::MacroApart { .. }
         | Fault::CornerExpanded
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }

@@ -221,6 +221,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::MachineCutFolded { .. } => {
             "words less the offsets into cuts in machine coordinates".to_owned()
         }
+        Fault::MacroApart { name, names } => {
+            format!("the macro {}, as {}: one for each set of arguments", plain(name), plain(names))
+        }
         Fault::PeckShortened => "pecks that are longer than their holes".to_owned(),
         Fault::PolarExpanded => "points by radius and angle into coordinates".to_owned(),
         Fault::CompensationExpanded { radius } => {

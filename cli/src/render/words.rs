@@ -294,6 +294,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "written as a cut in machine coordinates".into(),
             format!("{to} has a word for a place less the offsets in force"),
         ),
+        Fault::MacroApart { name, names } => (
+            format!("the macro {} is written as {}", plain(name), plain(names)),
+            format!("calls give it different arguments, and {to} does not know which are given"),
+        ),
         Fault::PeckShortened => (
             "peck as long as its hole".into(),
             format!("a longer first peck is an alarm on {to}: the hole is made in one go"),

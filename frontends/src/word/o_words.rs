@@ -10,6 +10,7 @@
 
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Function, Node, Target, Unary, Var};
+use ncc_ir::fails;
 use ncc_ir::program::{CentreFrom, Control, Op, Stmt, Text};
 use ncc_ir::source::Span;
 use ncc_ir::system::System;
@@ -430,6 +431,11 @@ impl Lower {
                 if let Kind::If { before, now } = &mut open.kind {
                     before.extend(now.take().map(|condition| (condition, body)));
                     *now = (word == FlowWord::ElseIf).then(first);
+                    if now.as_ref().is_some_and(fails::may_fail) {
+                        // The control works it out and stops, whatever held before.
+                        let parameter = "elseif can be worked out where it is passed over".into();
+                        out.report(Fault::AssumedParameter { parameter, value: "yes".into() }, span);
+                    }
                 }
                 open.at = None;
                 self.o.given = open.given.clone();

@@ -23,7 +23,7 @@ use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::call_of::call_of;
-use crate::computes::{Computes, Said, counted};
+use crate::computes::{Computes, Handed, Said, counted};
 use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use crate::num::Num;
 use crate::program::{Control, Op, Program, Stmt, Text};
@@ -127,7 +127,7 @@ impl Forms<'_> {
                 Op::Call(call)
                     if call.times > 1
                         && (!call.shared || !call.arguments.is_empty())
-                        && !self.computes.arguments_again =>
+                        && !(self.computes.arguments_again && self.computes.handed != Handed::Names) =>
                 {
                     self.called_again(stmt, &mut out);
                 }
@@ -176,23 +176,28 @@ impl Forms<'_> {
         self.split = true;
     }
 
-    /// A call with variables of its own that is made several times, where each is made by itself: its arguments are
-    /// worth what they are before the first.
+    /// A call with variables of its own that is made several times: its arguments are worth what they are before the
+    /// first. Where a target makes each by itself, that is so written.
     fn called_again(&mut self, mut stmt: Stmt, out: &mut Vec<Stmt>) {
         let Op::Call(call) = &mut stmt.op else { return };
         if stmt.skip.is_some() {
             return out.push(stmt);
         }
         let changed = Changed { calls: true, shared: call.shared, ..Changed::default() };
-        let times = Expr::int(std::mem::replace(&mut call.times, 1).into());
         for argument in &mut call.arguments {
             if !changed.keeps(argument) {
                 let own = self.taken.counter("GIVEN");
                 let value = Expr::Node(Box::new(Node::Var(own.clone())));
                 let value = std::mem::replace(argument, value);
-                out.push(Stmt::new(stmt.span, Op::Assign(Target::Var(own), value)));
+                let before = Op::Assign(Target::Var(own), value);
+                out.push(Stmt { number: stmt.number.take(), ..Stmt::new(stmt.span, before) });
+                stmt.joined = false;
             }
         }
+        if self.computes.arguments_again {
+            return out.push(stmt);
+        }
+        let times = Expr::int(std::mem::replace(&mut call.times, 1).into());
         // A counter cannot be set in the block of a move that the call stood behind.
         stmt.joined = false;
         let (span, number) = (stmt.span, stmt.number.take());

@@ -168,25 +168,25 @@ impl Settler<'_> {
             return Some((found.procedure.name.clone(), behind));
         }
         let first = !self.made.iter().any(|m| m.of == *name);
-        let new = if first { name.clone() } else { self.free(name) };
+        let new = if first { name.clone() } else { free(&mut self.names, name) };
         let procedure = Procedure { name: new.clone(), body, ..sub.clone() };
         self.made.push(Made { of: name.clone(), procedure });
         Some((new, behind))
     }
+}
 
-    /// A name that nothing has: the next number, or the name with a number behind it.
-    fn free(&mut self, name: &str) -> Text {
-        let number = name.parse::<u32>().ok();
-        let mut k = 1u32;
-        loop {
-            k = k.saturating_add(1);
-            let new: Text = match number {
-                Some(number) => number.saturating_add(k - 1).to_string().into(),
-                None => format!("{name}_{k}").into(),
-            };
-            if self.names.insert(new.clone()) {
-                return new;
-            }
+/// A name that nothing has: the next number, or the name with a number behind it.
+pub(super) fn free(names: &mut BTreeSet<Text>, name: &str) -> Text {
+    let number = name.parse::<u32>().ok();
+    let mut k = 1u32;
+    loop {
+        k = k.saturating_add(1);
+        let new: Text = match number {
+            Some(number) => number.saturating_add(k - 1).to_string().into(),
+            None => format!("{name}_{k}").into(),
+        };
+        if names.insert(new.clone()) {
+            return new;
         }
     }
 }

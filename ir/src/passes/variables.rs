@@ -79,7 +79,7 @@ pub fn run(
     }
     if !own
         && (!computes.vacant || gives(program) && !computes.functions.contains(&Function::Given))
-        && let Err(refused) = vacancy::resolve(program, computes.vacant, from.vacant)
+        && let Err(refused) = vacancy::resolve(program, computes.vacant, from.vacant, diags)
     {
         diags.push(refused);
         return Renamed::default();

@@ -113,7 +113,18 @@ impl Control {
             return Ok(Go::To(place + 1));
         }
         if rest.starts_with("ELSE") {
-            // The end of what was executed.
+            // The end of what was executed. What it passes over it works out.
+            let mut passed = Some(at);
+            while let Some(at) = passed {
+                let rest = split(&lines[at].1).map_or(String::new(), |(_, rest)| rest);
+                if let Some(condition) = rest.strip_prefix("ELSEIF")
+                    && let Err(why) = self.value(&mut Reading { rest: condition })
+                {
+                    return self.m.halt(format!("an elseif that is passed over: {}", why.why));
+                }
+                passed =
+                    find(lines, &label, &["ELSE", "ENDIF"], at + 1).filter(|_| !rest.starts_with("ENDIF"));
+            }
             return Ok(Go::To(past(find(lines, &label, &["ENDIF"], at))));
         }
         if rest.starts_with("ENDIF") || rest.starts_with("DO") {

@@ -18,10 +18,15 @@ pub(super) struct Maker {
     program: u32,
     /// Made of what every control has that computes, so that it goes into the others with its structure.
     common: bool,
+    /// The first so many variables are in use.
+    variables: usize,
 }
 
 /// Variables that hold something, of every kind; `#20` and `#21` never get a value.
-const VARIABLES: [&str; 9] = ["#1", "#2", "#3", "#4", "#5", "#6", "#101", "#102", "#500"];
+const VARIABLES: [&str; 9] = ["#101", "#102", "#500", "#1", "#2", "#3", "#4", "#5", "#6"];
+
+/// How many of them are common to all levels.
+const SHARED: usize = 3;
 
 impl Maker {
     pub(super) fn program(seed: u64) -> String {
@@ -33,6 +38,7 @@ impl Maker {
             blocks: 0,
             program: 0,
             common: seed.is_multiple_of(2),
+            variables: VARIABLES.len(),
         };
         let inches = maker.dice.u8(..5) == 0;
         let unit = if inches { "G20" } else { "G21" };
@@ -47,9 +53,19 @@ impl Maker {
         for _ in 0..maker.dice.u32(2..9) {
             maker.statement(2);
         }
+        if maker.common {
+            // What nothing calls has parameters of which nothing is known.
+            maker.macro_call(8101);
+            maker.macro_call(8102);
+            maker.line("M98 P8103");
+        }
         maker.text.push_str("G90 G0 Z50.\nM30\n");
-        for macro_number in [8101, 8102] {
+        for macro_number in [8101, 8102, 8103] {
             let _ = writeln!(maker.text, "O{macro_number}");
+            if macro_number == 8103 && maker.common {
+                // Called by M98 alone, where a level of its own has other variables than its caller's.
+                maker.variables = SHARED;
+            }
             maker.number = 100;
             maker.program += 1;
             for _ in 0..maker.dice.u32(1..5) {
@@ -75,7 +91,7 @@ impl Maker {
     fn variable(&mut self) -> &'static str {
         match self.dice.u8(..12) {
             0 if !self.common => ["#20", "#21", "#0"][self.dice.usize(..3)],
-            _ => VARIABLES[self.dice.usize(..VARIABLES.len())],
+            _ => VARIABLES[self.dice.usize(..self.variables)],
         }
     }
 
@@ -153,7 +169,7 @@ impl Maker {
     }
 
     fn assignment(&mut self) -> String {
-        let to = VARIABLES[self.dice.usize(..VARIABLES.len())];
+        let to = VARIABLES[self.dice.usize(..self.variables)];
         format!("{to} = {}", self.expression(2))
     }
 
@@ -207,7 +223,8 @@ impl Maker {
             5 | 6 if self.loops < 3 => self.turns(calls),
             7 if self.loops < 2 => {
                 // A loop by a jump back; its turns are counted in a variable of this level alone.
-                let (number, counter) = (self.next_number(), 27 + 2 * self.program + self.loops);
+                let counter = self.counter(27, 2) + self.loops;
+                let number = self.next_number();
                 self.line(&format!("#{counter} = 0"));
                 self.line(&format!("N{number} #{counter} = #{counter} + 1"));
                 self.loops += 1;
@@ -221,10 +238,18 @@ impl Maker {
         }
     }
 
+    /// Where the counters of this program begin, of a kind of which each has so many: locals from there on, or common.
+    fn counter(&self, first: u32, many: u32) -> u32 {
+        match self.program {
+            3 => 110 + first,
+            program => first + many * program,
+        }
+    }
+
     /// WHILE, or DO that is left by a jump.
     fn turns(&mut self, calls: u32) {
         self.loops += 1;
-        let (level, counter) = (self.loops, 10 + 3 * self.program + self.loops);
+        let (level, counter) = (self.loops, self.counter(10, 3) + self.loops);
         let turns = self.dice.u32(..4);
         self.line(&format!("#{counter} = 0"));
         let end = self.next_number();
@@ -248,18 +273,24 @@ impl Maker {
     }
 
     fn call(&mut self) {
-        let number = 8101 + self.dice.u32(..2);
         if self.dice.u8(..3) == 0 {
+            let number = if self.common { 8103 } else { 8101 + self.dice.u32(..3) };
             let text = if self.dice.bool() { format!("M98 P{number}") } else { format!("M98 P2{number}") };
             return self.line(&text);
         }
+        let number = 8101 + self.dice.u32(..2);
+        self.macro_call(number);
+    }
+
+    fn macro_call(&mut self, number: u32) {
         let mut text = format!("G65 P{number}");
         if self.dice.u8(..4) == 0 {
             text.push_str(" L2");
         }
         // What is read must be set before: `A` to `C`, and two sets of `I`, `J` and `K`.
         for letter in ['A', 'B', 'C', 'I', 'J', 'K', 'I', 'J', 'D', 'Z', 'X'] {
-            if self.dice.u8(..3) == 0 {
+            let read = matches!(letter, 'A' | 'B' | 'C' | 'I' | 'J' | 'K');
+            if !(self.common && read) && self.dice.u8(..3) == 0 {
                 continue;
             }
             let value = match self.dice.u8(..4) {
@@ -290,7 +321,8 @@ impl Maker {
         if self.dice.u8(..8) == 0 {
             let _ = write!(text, "F[{} + 5 * ABS[SIN[{}]]]", 20 + self.dice.u32(..200), self.variable());
         }
-        if self.dice.u8(..12) == 0 {
+        // A Haas does not say what a computed one counts.
+        if self.dice.u8(..if self.common { 80 } else { 12 }) == 0 {
             text = format!("G4 P[{} + 100 * ABS[COS[{}]]]", 1 + self.dice.u32(..500), self.expression(1));
         }
         if !text.trim().is_empty() {

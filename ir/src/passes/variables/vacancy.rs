@@ -11,16 +11,18 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::defaults;
-use crate::arguments::{self, Argument};
-use crate::diag::{Diagnostic, Fault};
+use crate::diag::Diagnostic;
 use crate::expr::{Binary, Expr, Function, Many, Node, Numbers, Scope, Target, Unary, Var};
 use crate::open::open_variables;
-use crate::program::{Call, Control, Op, Piece, Procedure, Program, Stmt, Text};
-use crate::source::Span;
+use crate::program::{Call, Control, Op, Procedure, Program, Stmt, Text};
 use crate::valid::not_called;
 use crate::value;
 
+mod apart;
 mod elsewhere;
+mod settle;
+
+use settle::Settle;
 
 pub use elsewhere::{Question, questions};
 
@@ -82,10 +84,44 @@ fn either(a: Way, b: Way) -> Way {
 ///
 /// # Errors
 /// A variable that may or may not have a value where it is read.
-pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Result<(), Diagnostic> {
-    if !vacant {
-        defaults::hand_over(program);
+pub(super) fn resolve(
+    program: &mut Program,
+    vacant: bool,
+    given: bool,
+    diags: &mut Vec<Diagnostic>,
+) -> Result<(), Diagnostic> {
+    if vacant {
+        return settled(program, true, given).map_err(|(refused, _)| refused);
     }
+    defaults::hand_over(program);
+    let mut first = None;
+    let mut told = Vec::new();
+    loop {
+        match settled(program, false, given) {
+            Ok(()) => {
+                diags.append(&mut told);
+                return Ok(());
+            }
+            Err((refused, None)) => return Err(first.unwrap_or(refused)),
+            Err((refused, Some(apart))) => {
+                first.get_or_insert(refused);
+                told.extend(apart.told);
+                *program = apart.program;
+            }
+        }
+    }
+}
+
+/// Puts into a program what is known on all ways.
+///
+/// # Errors
+/// A variable that may or may not have a value where it is read; and the program as it was with its macros apart, if
+/// one has several ways to be called.
+fn settled(
+    program: &mut Program,
+    vacant: bool,
+    given: bool,
+) -> Result<(), (Diagnostic, Option<apart::Apart>)> {
     let before = program.clone();
     let open = if given { open_variables(program) } else { Vec::new() };
     let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
@@ -95,7 +131,7 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
         // What no call of this program leads to, other programs call, with values or without.
         let theirs = not_called(program).into_iter();
         entries.extend(theirs.map(|at| (at, elsewhere::begins(&program.procedures[at]))));
-        elsewhere::parameters(&before, &entries)?;
+        elsewhere::parameters(&before, &entries).map_err(|refused| (refused, None))?;
     }
     if let (Some(known), Some(main)) = (entries.get_mut(&0), before.procedures.first()) {
         let parameters = main.parameters.iter().map(|own| (Text::from(&*own.name()), May::Number));
@@ -104,11 +140,18 @@ pub(super) fn resolve(program: &mut Program, vacant: bool, given: bool) -> Resul
     let mut ways = Ways::over(&before.procedures, entries);
     let facts = std::mem::take(&mut ways.facts);
     let entries = std::mem::take(&mut ways.entries);
+    let mut refused = BTreeMap::new();
     for (at, procedure) in program.procedures.iter_mut().enumerate() {
         let was = &before.procedures[at].body;
         let mut settle = Settle { facts: &facts, vacant, decided: false };
-        let body = std::mem::take(&mut procedure.body);
-        procedure.body = settle.body(was, body)?;
+        match settle.body(was, std::mem::take(&mut procedure.body)) {
+            Ok(body) => procedure.body = body,
+            Err(fault) => drop(refused.insert(at, fault)),
+        }
+    }
+    let unsure: Vec<usize> = refused.keys().copied().collect();
+    if let Some((_, fault)) = refused.pop_first() {
+        return Err((fault, apart::by_arguments(&before, &facts, unsure)));
     }
     if !vacant {
         let handed = |procedure: &Procedure, at: usize| -> Vec<bool> {
@@ -437,264 +480,5 @@ fn holds(e: &Expr, known: &Known) -> Option<bool> {
         },
         Node::Unary(Unary::Not, a) => holds(a, known).map(|holds| !holds),
         _ => None,
-    }
-}
-
-/// Puts in what is known.
-struct Settle<'f> {
-    facts: &'f Facts,
-    /// Whether the target knows variables without a value.
-    vacant: bool,
-    /// Whether a decision of this procedure is made.
-    decided: bool,
-}
-
-/// What becomes of a statement.
-enum Kept {
-    As(Stmt),
-    /// In its place, as blocks of their own.
-    Instead(Vec<Stmt>),
-}
-
-impl Settle<'_> {
-    fn body(&mut self, was: &[Stmt], body: Vec<Stmt>) -> Result<Vec<Stmt>, Diagnostic> {
-        let mut out: Vec<Stmt> = Vec::with_capacity(body.len());
-        // What the first statement of a block was that is gone.
-        let mut first: Option<Option<u32>> = None;
-        for (was, mut stmt) in was.iter().zip(body) {
-            if let Some(number) = first.take()
-                && stmt.joined
-            {
-                (stmt.joined, stmt.number) = (false, number);
-            }
-            let (joined, number, skip) = (stmt.joined, stmt.number, stmt.skip);
-            match self.stmt(was, stmt)? {
-                Kept::As(stmt) => out.push(stmt),
-                Kept::Instead(mut stmts) => {
-                    let own = number.filter(|_| stmts.is_empty());
-                    if let Some(stmt) = stmts.first_mut() {
-                        stmt.number = number.or(stmt.number);
-                    }
-                    first = (!joined).then_some(own);
-                    for stmt in &mut stmts {
-                        stmt.skip = stmt.skip.or(skip);
-                    }
-                    out.append(&mut stmts);
-                }
-            }
-        }
-        Ok(out)
-    }
-
-    fn stmt(&mut self, was: &Stmt, mut stmt: Stmt) -> Result<Kept, Diagnostic> {
-        let Some(known) = self.facts.get(&place(was)) else {
-            // No way leads here. What a decision has cut off is gone.
-            let stays = matches!(stmt.op, Op::Label(_) | Op::Comment(_)) || !self.decided;
-            return Ok(if stays { Kept::As(stmt) } else { Kept::Instead(Vec::new()) });
-        };
-        let at = stmt.span;
-        let values = Values { known, vacant: self.vacant, at };
-        let gone = |stmt: Stmt| {
-            let comment = stmt.comment.map(|text| Stmt::new(stmt.span, Op::Comment(*text)));
-            Kept::Instead(comment.into_iter().collect())
-        };
-        match &mut stmt.op {
-            Op::Assign(to, value) => {
-                if let Target::Element(element) = to {
-                    element.at.iter_mut().try_for_each(|index| values.number(index))?;
-                }
-                values.whole(value)?;
-                if !self.vacant && is_nothing(value) && matches!(to, Target::Var(Var::Local(_))) {
-                    return Ok(gone(stmt));
-                }
-            }
-            Op::Declare(declare) => {
-                declare.initial.iter_mut().flatten().try_for_each(|value| values.number(value))?;
-            }
-            Op::Call(call) => call.arguments.iter_mut().try_for_each(|value| values.handed(value))?,
-            Op::Control(control) => {
-                let Op::Control(before) = &was.op else { return Ok(Kept::As(stmt)) };
-                if let Control::If { condition, then, otherwise } = &mut **control {
-                    let decided = holds(condition, known).filter(|_| !self.vacant);
-                    self.decided |= decided.is_some();
-                    let mut bodies = before.bodies();
-                    for (place, body) in [then, otherwise].into_iter().enumerate() {
-                        let Some(was) = bodies.next() else { continue };
-                        let own = std::mem::take(body);
-                        if decided.is_none_or(|holds| holds == (place == 0)) {
-                            *body = self.body(was, own)?;
-                        }
-                    }
-                    return match decided {
-                        None => {
-                            values.number(condition)?;
-                            Ok(Kept::As(stmt))
-                        }
-                        Some(_) => {
-                            let comment = stmt.comment.take();
-                            let Op::Control(control) = stmt.op else { return Ok(Kept::Instead(Vec::new())) };
-                            let Control::If { then, otherwise, .. } = *control else {
-                                return Ok(Kept::Instead(Vec::new()));
-                            };
-                            let mut all: Vec<Stmt> = then.into_iter().chain(otherwise).collect();
-                            match (all.last_mut(), comment) {
-                                (Some(last), Some(comment)) => {
-                                    last.comment.get_or_insert(comment);
-                                }
-                                (None, Some(comment)) => all.push(Stmt::new(at, Op::Comment(*comment))),
-                                (_, None) => {}
-                            }
-                            Ok(Kept::Instead(all))
-                        }
-                    };
-                }
-                match &mut **control {
-                    Control::While { condition: value, .. } | Control::Until { condition: value, .. } => {
-                        let known = self.facts.get(&place(&**before)).unwrap_or(known);
-                        Values { known, ..values }.number(value)?;
-                    }
-                    Control::Repeat { times: value, .. } => values.number(value)?,
-                    Control::For { from, to, step, .. } => {
-                        [from, to, step].into_iter().try_for_each(|value| values.number(value))?;
-                    }
-                    Control::Loop { .. } | Control::If { .. } => {}
-                }
-                for (was, body) in before.bodies().zip(control.bodies_mut()) {
-                    let own = std::mem::take(body);
-                    *body = self.body(was, own)?;
-                }
-            }
-            Op::MessageOf(pieces) => {
-                let mut all = std::mem::take(pieces).into_vec();
-                for piece in &mut all {
-                    if let Piece::Value { value, .. } = piece {
-                        values.whole(value)?;
-                    }
-                }
-                if !self.vacant {
-                    all.retain(|piece| !matches!(piece, Piece::Value { value, .. } if is_nothing(value)));
-                }
-                *pieces = all.into();
-            }
-            op if arguments::computed(op) => {
-                let droppable = matches!(op, Op::SetFeedRate(_) | Op::SetSpindleSpeed(_) | Op::SelectTool(_));
-                let mut left = true;
-                arguments::each(op, &mut |argument, _| {
-                    let takes = |value: &mut Expr| {
-                        values.whole(value)?;
-                        Ok(!self.vacant && is_nothing(value))
-                    };
-                    match argument {
-                        Argument::Word(word) => {
-                            if let Some(own) = word
-                                && takes(&mut own.value)?
-                            {
-                                *word = None;
-                            }
-                        }
-                        Argument::Optional(place) => {
-                            if let Some(own) = place
-                                && takes(own)?
-                            {
-                                *place = None;
-                            }
-                        }
-                        Argument::Value(value) => left &= !takes(value)? || !droppable,
-                    }
-                    Ok(())
-                })?;
-                if !left {
-                    return Ok(gone(stmt));
-                }
-            }
-            _ => {}
-        }
-        Ok(Kept::As(stmt))
-    }
-}
-
-/// The values of a statement.
-#[derive(Clone, Copy)]
-struct Values<'f> {
-    known: &'f Known,
-    vacant: bool,
-    at: Span,
-}
-
-impl Values<'_> {
-    fn refused(&self, name: &str) -> Diagnostic {
-        let what = format!("the variable {name}, which may have no value where it is read").into();
-        Diagnostic::new(Fault::Computes { what }, self.at)
-    }
-
-    /// The first variable of an expression that is one thing or the other.
-    fn unsure(&self, e: &Expr) -> Diagnostic {
-        fn first<'e>(e: &'e Expr, known: &Known) -> Option<&'e str> {
-            if let Expr::Node(node) = e
-                && let Node::Var(Var::Local(name)) = &**node
-            {
-                return (known.of(name) != May::Number).then_some(&**name);
-            }
-            e.parts().find_map(|part| first(part, known))
-        }
-        self.refused(first(e, self.known).unwrap_or_default())
-    }
-
-    /// What may be nothing: a word, what a variable is given.
-    fn whole(&self, e: &mut Expr) -> Result<(), Diagnostic> {
-        self.settled(e, nothing())
-    }
-
-    /// What is handed over. One that may have no value is refused where it is read there: nothing reads it, so that
-    /// any number will do, and a control that knows no variables without one is not asked for it.
-    fn handed(&self, e: &mut Expr) -> Result<(), Diagnostic> {
-        let handed_on = matches!(e, Expr::Node(node) if matches!(**node, Node::Var(_)));
-        if !self.vacant && may(e, self.known) == May::Either && handed_on {
-            *e = Expr::int(0);
-            return Ok(());
-        }
-        self.whole(e)
-    }
-
-    /// What counts as zero where it is nothing.
-    fn number(&self, e: &mut Expr) -> Result<(), Diagnostic> {
-        self.settled(e, Expr::int(0))
-    }
-
-    /// What is nothing becomes this; what may be nothing or a number is refused.
-    fn settled(&self, e: &mut Expr, nothing: Expr) -> Result<(), Diagnostic> {
-        if self.vacant {
-            return self.inner(e);
-        }
-        match may(e, self.known) {
-            May::Nothing => {
-                *e = nothing;
-                Ok(())
-            }
-            May::Either => Err(self.unsure(e)),
-            May::Number => self.inner(e),
-        }
-    }
-
-    /// The parts of an expression.
-    fn inner(&self, e: &mut Expr) -> Result<(), Diagnostic> {
-        if !self.vacant
-            && let Some(holds) = holds(e, self.known)
-        {
-            *e = Expr::int(i64::from(holds));
-            return Ok(());
-        }
-        if let Expr::Node(node) = e
-            && let Node::Call(Function::Given, arguments) = &mut **node
-        {
-            let [a] = &mut arguments[..] else { return Ok(()) };
-            if may(a, self.known) != May::Number {
-                return Err(self.unsure(a));
-            }
-            self.number(a)?;
-            *e = a.clone();
-            return Ok(());
-        }
-        e.parts_mut().try_for_each(|part| self.number(part))
     }
 }

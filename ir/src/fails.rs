@@ -1,12 +1,12 @@
-//! What a control of O words works out though it passes it over, so that it must not fail there.
+//! Values that may be none: what a control works out though it passes it over must not fail there.
 //!
 //! Not here: variables that have no value where they are passed over; a program sets them before.
 
-use ncc_ir::expr::{Binary, Expr, Function, Node};
+use crate::expr::{Binary, Expr, Function, Node};
 
-/// Whether a value may be one that cannot be worked out. The control works out an `elseif` that it passes over
+/// Whether a value may be one that cannot be worked out. A control of O words works out an `elseif` that it passes over
 /// (LinuxCNC's interpreter, run), and stops if it cannot.
-pub(super) fn may_fail(value: &Expr) -> bool {
+pub fn may_fail(value: &Expr) -> bool {
     let own = match value {
         Expr::Num(_) => false,
         Expr::Node(node) => match &**node {
