@@ -404,6 +404,8 @@ faults! {
     /// A way that the program can go was not gone when it was run against the output: where the decision holds, where
     /// it does not, or both.
     NotTaken { holds: bool, fails: bool } = 605, Warning;
+    /// The output decides more than the source does, and not all of that went both ways; blocks of it where it did not.
+    OutputNotTaken { blocks: Box<str> } = 609, Warning;
     /// A value was stated for a variable, and the program does not rely on it.
     ValueNotRead { name: Box<str> } = 606, Warning;
     /// Nothing in the program calls a subprogram of it, which was therefore not run against the output.

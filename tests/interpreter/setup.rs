@@ -41,9 +41,9 @@ pub struct Setup {
     pub kinematics: Kinematics,
     /// Modes at power-on.
     pub power_on: PowerOn,
-    /// Whether powers come out a little greater, by less than a control promises: what then goes elsewhere hangs on
-    /// the last digits of its numbers. For LinuxCNC.
-    pub greater_powers: bool,
+    /// Whether powers, for LinuxCNC, and what words round, for a Fanuc, come out a little greater, by less than a control
+    /// promises: what then goes elsewhere hangs on the last digits of its numbers.
+    pub last_digits_up: bool,
 }
 
 /// What a machine counts by itself.
@@ -126,7 +126,7 @@ impl Setup {
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),
-            greater_powers: false,
+            last_digits_up: false,
         }
     }
 }

@@ -99,14 +99,12 @@ impl Source {
         Ok(plain::of_machine(&machine, self.start()))
     }
 
-    /// Whether it goes elsewhere where its powers are greater by 1 part of 1e15: which way a control goes then hangs
-    /// on the last digits of its numbers, and no other has the same.
-    fn hangs_on_last_digits(&self, moves: &[Plain]) -> bool {
-        let setup = Setup { greater_powers: true, ..plain::setup(&self.world, 0) };
+    /// Whether it goes elsewhere where its powers, and what its words round, are greater by 1 part of 1e15: which way a
+    /// control goes then hangs on the last digits of its numbers, and no other has the same.
+    fn hangs_on_last_digits(&self, moves: &[Plain], within: Tolerance) -> bool {
+        let setup = Setup { last_digits_up: true, ..plain::setup(&self.world, 0) };
         let other = plain::second(self.from, self.text.as_bytes(), setup);
-        other.is_ok_and(|other| {
-            same_way(moves, &plain::of_machine(&other, self.start()), self.within(self.from)).is_err()
-        })
+        other.is_ok_and(|other| same_way(moves, &plain::of_machine(&other, self.start()), within).is_err())
     }
 
     fn start(&self) -> [f64; 6] {
@@ -178,6 +176,8 @@ impl Judge {
                     }
                     return Some(second);
                 }
+                // A value that lies halfway between two digits of a word is rounded to either.
+                Err(_) if source.hangs_on_last_digits(&second, Tolerance::SAME) => self.hanging += 1,
                 Err(why) => self.fault(source, why),
             },
             (Err(_), Err(_)) => self.both += 1,
@@ -235,7 +235,11 @@ impl Judge {
                     .collect();
                 *told.entry(format!("{to} {codes:?} {whats:?}")).or_default() += 1;
             }
-            Err(Failure::VerificationFailed) if source.hangs_on_last_digits(moves) => self.hanging += 1,
+            Err(Failure::VerificationFailed)
+                if source.hangs_on_last_digits(moves, source.within(source.from)) =>
+            {
+                self.hanging += 1
+            }
             Err(Failure::VerificationFailed) => {
                 let told = rendered(&job, &source.name, source.text.as_bytes(), &outcome.diagnostics);
                 self.fault(source, format!("{to}, held back: {told}"));

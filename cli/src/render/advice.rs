@@ -233,7 +233,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             "this is a fault of ncc, not of your program; nothing is released".to_owned(),
             "please report it with the program, or the lines around this place".to_owned(),
         ],
-        Fault::NotTaken { .. } | Fault::NotCalled { .. } => own("look at what is written for it yourself"),
+        Fault::NotTaken { .. } | Fault::OutputNotTaken { .. } | Fault::NotCalled { .. } => {
+            own("look at what is written for it yourself")
+        }
         Fault::ArgumentNeeded { check, .. } => match check {
             ArgumentCheck::NotAsked => own("look at the calls of this macro: each must give it"),
             ArgumentCheck::Whole => own("look at the calls: each must give it, as a whole number"),

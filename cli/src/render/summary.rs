@@ -326,6 +326,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::VariableGiven { .. }
         | Fault::ValueNotRead { .. }
         | Fault::NotTaken { .. }
+        | Fault::OutputNotTaken { .. }
         | Fault::NotCalled { .. }
         | Fault::ArgumentNeeded { .. }
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,

@@ -457,6 +457,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             }
             .into(),
         ),
+        Fault::OutputNotTaken { blocks } => (
+            "not all of the output was executed when it was verified".into(),
+            format!("it decides more often than the source; not both ways were gone of: {}", plain(blocks)),
+        ),
         Fault::SkipSettingsSampled { levels } => (
             format!("not every setting of {levels} block-skip switches was tried"),
             "each switch alone and every pair were".into(),

@@ -43,6 +43,9 @@ const FEW_SETS: u32 = 8;
 /// Decisions that are told; of more, the first ones.
 const MOST_TOLD: usize = 20;
 
+/// Blocks of the output that are told, where it decides more than the source.
+const MOST_BLOCKS: usize = 3;
+
 /// What another program has left in a variable.
 const LEFT_THERE: f64 = -791.3;
 
@@ -321,7 +324,7 @@ impl Verifier {
             self.notes.push(Diagnostic::new(Fault::NotCalled { name }, at));
         }
         if computes {
-            self.tell(source, &target, given, &gone);
+            self.tell(source, (&target, text, base), given, &gone);
         }
         Ok(())
     }
@@ -470,7 +473,13 @@ impl Verifier {
     }
 
     /// Tells what was given values, and which ways were not gone.
-    fn tell(&mut self, source: &Program, target: &Program, given: &Given, gone: &Gone) {
+    fn tell(
+        &mut self,
+        source: &Program,
+        (target, text, base): (&Program, &[u8], u32),
+        given: &Given,
+        gone: &Gone,
+    ) {
         for (var, span) in given.open.iter().filter(|(var, _)| !given.stated.says(&var.name())) {
             let fault = Fault::VariableGiven { name: var.name().into() };
             self.notes.push(Diagnostic::new(fault, *span));
@@ -481,14 +490,25 @@ impl Verifier {
         untaken.retain(|(span, taken)| *taken == 0 || !self.answered.contains(span));
         // The output has none of these.
         let answered = open - untaken.len();
-        let of_target = Runner::new(target).untaken(&gone.target).len();
+        let of_target = Runner::new(target).untaken(&gone.target);
         let told = untaken.iter().take(MOST_TOLD);
         self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
-        if of_target > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
-            // The output decides what the source does not.
-            self.notes.push(Diagnostic::new(ways(0), self.last));
+        if of_target.len() > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
+            // The output decides what the source does not, or in several places what the source does in one.
+            let blocks =
+                of_target.iter().take(MOST_BLOCKS).map(|(span, _)| block_at(text, span.start - base));
+            let blocks = blocks.collect::<Vec<_>>().join(", ").into();
+            self.notes.push(Diagnostic::new(Fault::OutputNotTaken { blocks }, self.last));
         }
     }
+}
+
+/// The block that something stands in.
+fn block_at(text: &[u8], at: u32) -> String {
+    let (before, behind) = text.split_at((at as usize).min(text.len()));
+    let begins = before.iter().rposition(|b| *b == b'\n').map_or(0, |at| at + 1);
+    let ends = behind.iter().position(|b| *b == b'\n').map_or(text.len(), |at| before.len() + at);
+    String::from_utf8_lossy(&text[begins..ends]).trim().to_owned()
 }
 
 impl Ended {

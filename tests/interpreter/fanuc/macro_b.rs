@@ -405,6 +405,7 @@ impl Control {
                     _ => self.address(letter, other)?,
                 };
                 let Some(value) = self.computed(text, rounding)? else { continue };
+                let value = if self.m.setup.last_digits_up { value * (1.0 + 1e-15) } else { value };
                 let value = match rounding {
                     Rounding::To(digits) => round_to(value, digits),
                     Rounding::Whole => round(value),

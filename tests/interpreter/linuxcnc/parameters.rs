@@ -149,7 +149,7 @@ impl Control {
             "/" if b == 0.0 => self.m.halt("a division by zero"),
             "/" => Ok(a / b),
             "MOD" => Ok(a - b.abs() * (a / b.abs()).floor()),
-            "**" if self.m.setup.greater_powers => Ok(a.powf(b) * (1.0 + 1e-15)),
+            "**" if self.m.setup.last_digits_up => Ok(a.powf(b) * (1.0 + 1e-15)),
             "**" => Ok(a.powf(b)),
             "AND" => holds(yes && also),
             "OR" => holds(yes || also),
