@@ -13,6 +13,7 @@ pub mod beside;
 pub mod call_of;
 pub mod canon;
 pub mod caps;
+pub mod changed;
 pub mod code_of;
 pub mod computes;
 pub mod corner;

@@ -59,6 +59,9 @@ fn finite(n: f64) -> Result<f64, Wrong> {
     if n.is_finite() { Ok(n) } else { Err(Wrong::TooLarge) }
 }
 
+/// From here on a number is not rounded to a whole one.
+const MOST_WHOLE: f64 = i32::MAX as f64 + 0.5;
+
 const fn truth(holds: bool) -> f64 {
     if holds { 1.0 } else { 0.0 }
 }
@@ -157,6 +160,9 @@ pub fn function(function: Function, a: f64, b: f64) -> Result<f64, Wrong> {
         Function::Atan2 => a.atan2(b).to_degrees(),
         Function::Sqrt => a.sqrt(),
         Function::Abs => a.abs(),
+        // What a control has for whole numbers ends there: LinuxCNC's interpreter gives the least of 32 bits for all
+        // that lies beyond, a Sinumerik's INT has them too.
+        Function::Round if a.abs() >= MOST_WHOLE => f64::NAN,
         Function::Round => a.round(),
         Function::RoundTo if b == b.trunc() && (0.0..=9.0).contains(&b) => {
             let by = 10_f64.powi(b as i32);

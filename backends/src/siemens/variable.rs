@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use ncc_dialects::NameMeaning;
 use ncc_ir::arguments;
+use ncc_ir::changed::Changed;
 use ncc_ir::cycle::Cycle;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Binary, Expr, Function, Node, Target, Var};
@@ -33,6 +34,8 @@ pub(super) struct Variables {
     types: Types,
     /// What subprograms take, by name: types of parameters.
     takes: BTreeMap<Text, Vec<Parameter>>,
+    /// What subprograms may change of the variables that all see.
+    changed: Changed,
     /// What the call that was written last gives back, each with where it is kept meanwhile.
     back: Vec<(Target, Expr)>,
     /// Subprograms with parameters that the unit at hand calls, as far as they are not made known.
@@ -91,6 +94,7 @@ fn rounded(expr: &Expr) -> Option<&Expr> {
 impl Writer {
     /// Takes what subprograms have for parameters.
     pub(super) fn know_parameters(&mut self, procedures: &[Procedure]) {
+        self.variables.changed = Changed::by_subprograms(procedures);
         for procedure in procedures.iter().skip(1).filter(|p| !p.parameters.is_empty()) {
             let all = procedure.parameters.iter().enumerate().map(|(place, var)| Parameter {
                 kind: procedure.kinds.get(place).copied().unwrap_or(Type::Real),
@@ -230,7 +234,9 @@ impl Writer {
         if left_out.is_none_or(|left_out| left_out.iter().any(|parameter| parameter.reference.is_some())) {
             return Err(cannot_compute("a call with other arguments than its program has parameters"));
         }
-        if call.times > 1 && call.arguments.iter().any(common) {
+        let by_reference = takes.iter().any(|parameter| parameter.reference.is_some());
+        let changed = |value: &Expr| common(value) && (by_reference || !self.variables.changed.keeps(value));
+        if call.times > 1 && call.arguments.iter().any(changed) {
             let what = "a call that is made several times, with values that the called program may change";
             return Err(cannot_compute(what));
         }

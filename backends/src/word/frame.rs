@@ -1,7 +1,7 @@
 //! The frame of a program: what stands before the first block, between procedures and at the end.
 
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::program::{Op, Procedure};
+use ncc_ir::program::{Control, Op, Procedure, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -88,6 +88,13 @@ impl Writer {
             Some(_) if self.has_name(&p.name) => Ok(None),
             Some(letter) => self.program_number(&p.name).map(|number| Some((letter, number))),
         };
+        let number = match number {
+            // A number in its way ends nothing (LinuxCNC's interpreter, run).
+            Ok(_) if self.dialect.program.o_words && !self.main_ends => {
+                Err(cannot("programs behind one that does not end"))
+            }
+            number => number,
+        };
         match number {
             Ok(Some((letter, number))) => self.program_line(letter, number, p.title.as_deref(), sink.out),
             Ok(None) => self.title_line(&format!("<{}>", p.name), p.title.as_deref(), sink.out),
@@ -134,4 +141,17 @@ impl Writer {
             sink.report(cannot("lengths in a unit that the caller decides"), span);
         }
     }
+}
+
+/// Whether nothing goes on behind a body; nothing if it has no statement that does anything.
+pub(super) fn ends(body: &[Stmt]) -> Option<bool> {
+    let last = body.iter().rev().find(|s| !matches!(s.op, Op::Comment(_) | Op::Blank | Op::NoEffect(_)))?;
+    let over = if let Op::Control(control) = &last.op
+        && let Control::If { then, otherwise, .. } = &**control
+    {
+        [then, otherwise].iter().all(|body| ends(body) == Some(true))
+    } else {
+        matches!(last.op, Op::ProgramEnd | Op::Return | Op::Alarm(_))
+    };
+    Some(over && last.skip.is_none())
 }

@@ -102,6 +102,8 @@ pub struct Writer {
     pub(crate) block: Block,
     pub(crate) force: InForce,
     pub(crate) tracker: Tracker,
+    /// Whether nothing goes on behind what has been written of the main procedure.
+    main_ends: bool,
     /// What the written position lags behind the program's, by rounding; nanos per axis.
     pub(crate) residue: [Nanos; AXES],
     /// Which way round A, B and C go in the next move.
@@ -211,6 +213,7 @@ impl Writer {
             block: Block::new(rules.blanks, rules.g_codes, rules.m_codes),
             force: InForce::default(),
             tracker: Tracker::default(),
+            main_ends: false,
             residue: [0; AXES],
             ways: [None; 3],
             residual: false,
@@ -259,6 +262,7 @@ impl Writer {
     pub fn write(&mut self, stmts: &[Stmt], assumed: &Modes, out: &mut Vec<u8>, diags: &mut Vec<Diagnostic>) {
         let mut sink = Sink { out, diags };
         self.take_for_granted(assumed);
+        self.main_ends = frame::ends(stmts).unwrap_or(self.main_ends);
         self.number_labels(stmts);
         self.number_jumps(stmts);
         self.look_ahead(stmts);

@@ -267,6 +267,12 @@ impl Reader {
             out.report(Fault::EmptyProgram, span);
             self.frame.faulty = true;
         }
+        if self.lower.settings.dialect.program.o_words && !self.lower.ended && !self.frame.faulty {
+            // A number in its way ends nothing (LinuxCNC's interpreter, run).
+            let told = "program that another one goes on into".into();
+            out.report(Fault::NotSupported { code: src.text(span), name: told }, span);
+            self.frame.faulty = true;
+        }
         self.end_of_program(out);
         self.lower.o.subs.numbered(name.clone());
         self.lower.o.numbered_program = true;

@@ -141,6 +141,9 @@ struct InModes {
     shifted: bool,
 }
 
+/// Words and positions are within so many bits, in nanos: 1125899.9 mm.
+const MOST_BITS: u32 = 50;
+
 // Bits of `Exec::said`.
 const MOTION: u16 = 1;
 const DISTANCE: u16 = 2;
@@ -353,8 +356,8 @@ impl Exec {
         };
         let inch = n.unit == Unit::Entry && self.modes.inch;
         match n.nanos(inch) {
-            // Positions are sums of a few such values, so they stay far from the ends of the range.
-            Some(v) if v.unsigned_abs() < 1 << 60 => Ok(v),
+            // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
+            Some(v) if v.unsigned_abs() < 1 << MOST_BITS => Ok(v),
             _ => self.fault(Fault::OutOfRange { word: "".into() }, span),
         }
     }
@@ -374,7 +377,7 @@ impl Exec {
             Distance::Absolute => value,
             Distance::Incremental => {
                 let sum = from.wrapping_add(value);
-                if sum.unsigned_abs() >= 1 << 61 {
+                if sum.unsigned_abs() >= 1 << MOST_BITS {
                     return self.fault(Fault::OutOfRange { word: "".into() }, span);
                 }
                 sum

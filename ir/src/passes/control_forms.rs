@@ -17,12 +17,11 @@ mod names;
 mod structures;
 mod worked_out;
 
-use std::collections::HashSet;
-
 use conditions::{compared, is_condition, opposite};
 use names::{Names, one_label_a_place};
 
 use crate::call_of::call_of;
+use crate::changed::Changed;
 use crate::computes::{Computes, Handed, Said, counted};
 use crate::expr::{Binary, Expr, Function, Node, Target, Unary, Var};
 use crate::num::Num;
@@ -33,7 +32,8 @@ use crate::source::Span;
 pub fn run(program: &mut Program, computes: &Computes) {
     let mut taken = Names::of(program);
     worked_out::over(program, computes, &mut taken);
-    let mut forms = Forms { computes, taken, turning: Vec::new(), open: 0, split: false };
+    let by_subprograms = Changed::by_subprograms(&program.procedures);
+    let mut forms = Forms { computes, by_subprograms, taken, turning: Vec::new(), open: 0, split: false };
     for procedure in &mut program.procedures {
         if !has_control(&procedure.body) {
             continue;
@@ -86,6 +86,8 @@ struct Loop {
 
 struct Forms<'c> {
     computes: &'c Computes,
+    /// What may be another value when a call is made again.
+    by_subprograms: Changed,
     taken: Names,
     turning: Vec<Turning>,
     /// Loops that are open, of those that stay loops.
@@ -127,7 +129,7 @@ impl Forms<'_> {
                 Op::Call(call)
                     if call.times > 1
                         && (!call.shared || !call.arguments.is_empty())
-                        && !(self.computes.arguments_again && self.computes.handed != Handed::Names) =>
+                        && (!self.computes.arguments_again || self.computes.handed == Handed::Names) =>
                 {
                     self.called_again(stmt, &mut out);
                 }
@@ -183,7 +185,7 @@ impl Forms<'_> {
         if stmt.skip.is_some() {
             return out.push(stmt);
         }
-        let changed = Changed { calls: true, shared: call.shared, ..Changed::default() };
+        let changed = Changed { shared: call.shared, ..self.by_subprograms.clone() };
         for argument in &mut call.arguments {
             if !changed.keeps(argument) {
                 let own = self.taken.counter("GIVEN");
@@ -559,57 +561,5 @@ fn sign(step: &Expr) -> Option<bool> {
             Node::Unary(Unary::Negate, Expr::Num(n)) => Some(n.mantissa <= 0),
             _ => None,
         },
-    }
-}
-
-/// What blocks may change.
-#[derive(Debug, Default)]
-struct Changed {
-    variables: HashSet<Var>,
-    /// Programs that are called, which may change what all see; with the caller's own variables too.
-    calls: bool,
-    shared: bool,
-    /// Variables whose number is computed.
-    any: bool,
-}
-
-impl Changed {
-    fn look(&mut self, body: &[Stmt]) {
-        for stmt in body {
-            match &stmt.op {
-                Op::Assign(Target::Var(var), _) => {
-                    self.variables.insert(var.clone());
-                }
-                Op::Assign(Target::Element(_), _) => self.any = true,
-                Op::Declare(declare) => {
-                    self.variables.insert(declare.var.clone());
-                }
-                Op::Call(call) => {
-                    self.calls = true;
-                    self.shared |= call.shared;
-                }
-                Op::Control(control) => {
-                    if let Control::For { variable, .. } = &**control {
-                        self.variables.insert(variable.clone());
-                    }
-                    control.bodies().for_each(|body| self.look(body));
-                }
-                _ => {}
-            }
-        }
-    }
-
-    /// Whether an expression is worth the same before every turn.
-    fn keeps(&self, value: &Expr) -> bool {
-        let Expr::Node(node) = value else { return true };
-        match &**node {
-            Node::Var(Var::System(_)) => false,
-            Node::Var(var @ Var::Local(_)) => !self.any && !self.shared && !self.variables.contains(var),
-            Node::Var(var) => !self.any && !self.calls && !self.variables.contains(var),
-            Node::Element(_) => false,
-            Node::Vacant | Node::Unary(..) | Node::Binary(..) | Node::Call(..) => {
-                value.parts().all(|part| self.keeps(part))
-            }
-        }
     }
 }

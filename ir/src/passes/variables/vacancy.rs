@@ -22,6 +22,7 @@ mod apart;
 mod elsewhere;
 mod settle;
 
+use apart::Apart;
 use settle::Settle;
 
 pub use elsewhere::{Question, questions};
@@ -91,37 +92,35 @@ pub(super) fn resolve(
     diags: &mut Vec<Diagnostic>,
 ) -> Result<(), Diagnostic> {
     if vacant {
-        return settled(program, true, given).map_err(|(refused, _)| refused);
+        return settled(program, true, given).map_err(|unsure| unsure.refused);
     }
     defaults::hand_over(program);
     let mut first = None;
     let mut told = Vec::new();
     loop {
-        match settled(program, false, given) {
-            Ok(()) => {
-                diags.append(&mut told);
-                return Ok(());
-            }
-            Err((refused, None)) => return Err(first.unwrap_or(refused)),
-            Err((refused, Some(apart))) => {
-                first.get_or_insert(refused);
-                told.extend(apart.told);
-                *program = apart.program;
-            }
-        }
+        let Err(unsure) = settled(program, false, given) else {
+            diags.append(&mut told);
+            return Ok(());
+        };
+        let refused = first.get_or_insert(unsure.refused);
+        let Some(apart) = unsure.apart else { return Err(refused.clone()) };
+        told.extend(apart.told);
+        *program = apart.program;
     }
+}
+
+/// A variable that may or may not have a value where it is read.
+struct Unsure {
+    refused: Diagnostic,
+    /// The program as it was with its macros apart, if one is called in several ways.
+    apart: Option<Apart>,
 }
 
 /// Puts into a program what is known on all ways.
 ///
 /// # Errors
-/// A variable that may or may not have a value where it is read; and the program as it was with its macros apart, if
-/// one has several ways to be called.
-fn settled(
-    program: &mut Program,
-    vacant: bool,
-    given: bool,
-) -> Result<(), (Diagnostic, Option<apart::Apart>)> {
+/// A variable that may or may not have a value where it is read.
+fn settled(program: &mut Program, vacant: bool, given: bool) -> Result<(), Box<Unsure>> {
     let before = program.clone();
     let open = if given { open_variables(program) } else { Vec::new() };
     let own = open.iter().filter(|(var, _)| matches!(var, Var::Local(_)));
@@ -131,7 +130,8 @@ fn settled(
         // What no call of this program leads to, other programs call, with values or without.
         let theirs = not_called(program).into_iter();
         entries.extend(theirs.map(|at| (at, elsewhere::begins(&program.procedures[at]))));
-        elsewhere::parameters(&before, &entries).map_err(|refused| (refused, None))?;
+        elsewhere::parameters(&before, &entries)
+            .map_err(|refused| Box::new(Unsure { refused, apart: None }))?;
     }
     if let (Some(known), Some(main)) = (entries.get_mut(&0), before.procedures.first()) {
         let parameters = main.parameters.iter().map(|own| (Text::from(&*own.name()), May::Number));
@@ -150,8 +150,8 @@ fn settled(
         }
     }
     let unsure: Vec<usize> = refused.keys().copied().collect();
-    if let Some((_, fault)) = refused.pop_first() {
-        return Err((fault, apart::by_arguments(&before, &facts, unsure)));
+    if let Some((_, refused)) = refused.pop_first() {
+        return Err(Box::new(Unsure { refused, apart: apart::by_arguments(&before, &facts, unsure) }));
     }
     if !vacant {
         let handed = |procedure: &Procedure, at: usize| -> Vec<bool> {
