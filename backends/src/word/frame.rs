@@ -124,6 +124,10 @@ impl Writer {
             // No stop has come behind it that could say it.
             sink.report(cannot("a message to the operator"), Span::default());
         }
+        if self.dialect.program.o_words && !self.main_ends && self.tracker.compensated {
+            // The last move is made when the program says its end (LinuxCNC's interpreter, run).
+            sink.report(cannot("the end of the text under cutter radius compensation"), Span::default());
+        }
         let frame = &self.dialect.program.frame;
         if !frame.is_empty() {
             sink.out.extend_from_slice(frame.as_bytes());

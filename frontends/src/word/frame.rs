@@ -9,7 +9,7 @@ use ncc_ir::program::{Procedure, Text};
 use ncc_ir::source::Span;
 
 use super::block::Value;
-use super::facts::State;
+use super::facts::{Know, State};
 use super::lower::decode;
 use super::o_subs::is_title;
 use super::{Reader, Source};
@@ -301,6 +301,12 @@ impl Reader {
                 None => Span::new(end.saturating_sub(1), end),
             };
             out.report(Fault::NoProgramEnd, at);
+            if self.lower.settings.dialect.program.o_words && self.lower.state.compensated == Know::Said(true)
+            {
+                // The last move under it is made when the program says its end (LinuxCNC's interpreter, run).
+                let name = "under cutter radius compensation".into();
+                out.report(Fault::NotSupported { code: "end of the text".into(), name }, at);
+            }
         }
         if let Some(procedure) = self.lower.sub.take() {
             out.procedures.push(procedure);
