@@ -1,5 +1,7 @@
 //! `--args`: what variables hold before a program begins; and what a program asks of the machine.
 
+use std::fs;
+
 use super::*;
 
 /// A macro that its operator sets two variables for: how deep, and by how much at a time.
@@ -217,4 +219,39 @@ fn what_nothing_calls_is_told() {
     for to in ["siemens", "linuxcnc"] {
         run(&format!("fanuc to {to} macro.nc")).exits(1).says("the variable 9, which may have no value");
     }
+}
+
+#[test]
+fn an_elseif_that_may_stop_its_control_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    let program = |condition: &str| {
+        format!(
+            "G21 G90 G54 G94 F100\n#1 = 2\no1 if [#1 GT 1]\nG0 X1\no1 elseif [{condition} GT 2]\nG0 X2\no1 endif\nM2\n"
+        )
+    };
+    fs::write(folder.join("stops.ngc"), program("4 / #1")).unwrap();
+    fs::write(folder.join("goes.ngc"), program("4 * #1")).unwrap();
+    let told = "elseif can be worked out where it is passed over = yes (line 5)";
+    ncc(folder, &["linuxcnc", "to", "fanuc", "stops.ngc"]).exits(0).says(told);
+    let goes = ncc(folder, &["linuxcnc", "to", "fanuc", "goes.ngc"]).exits(0).err;
+    assert!(!goes.contains("elseif"), "{goes}");
+}
+
+#[test]
+fn a_macro_with_several_sets_of_arguments_is_told() {
+    let folder = folder();
+    let folder = folder.path();
+    let calls = "G65 P9100 X1. Y1.\nG65 P9100 X2. Y2. Z-1.\nG65 P9100 X3. Y3.\n";
+    let program = format!(
+        "%\nO1\nG21 G17 G40 G49 G80 G94 G90 G54\nG0 X0 Y0\nF99\n{calls}M30\nO9100\nG0 X#24 Y#25\n\
+         IF [#26 EQ #0] GOTO 9\nG1 Z#26\nN9 M99\n%\n"
+    );
+    fs::write(folder.join("p.nc"), program).unwrap();
+    let whole = ncc(folder, &["fanuc", "to", "siemens", "p.nc"]).exits(0);
+    let whole = whole.says("the macro 9100, as 9100, 9101: one for each set of arguments");
+    assert!(whole.out.contains("\nL9100(1.,1.)\nL9101(2.,2.,-1.)\nL9100(3.,3.)\n"), "{}", whole.out);
+    // A Fanuc knows missing arguments.
+    let own = ncc(folder, &["fanuc", "to", "fanuc", "p.nc"]).exits(0).out;
+    assert!(own.contains("IF [#26 EQ #0] GOTO 9") && !own.contains("9101"), "{own}");
 }
