@@ -85,12 +85,19 @@ fn blocks_in_other_programs() {
 }
 
 /// Programs that were held back once, and are sayable.
-const WRONG_ONCE: [(&str, &str, &str); 1] = [
+const WRONG_ONCE: [(&str, &str, &str); 2] = [
     // The safe start calls a length off, which the thread would have taken up.
     (
         "linuxcnc",
         "fanuc",
         "G21 G17 G90 G94 G54\nT2 M6\nS900 M3\nG0 X12 Y8\nG33 Z-15 K1.5\nG0 X30\nG43 H2 Z20\nM5\nM2\n",
+    ),
+    // A line of modes that are in force already, between a feed and a tap with one of its own.
+    (
+        "siemens",
+        "fanuc",
+        "G17 G90 G71 G94 G40\nG54\nT5 M6\nD1\nS600 M3\nG0 X0 Y0\nZ20\nF200\nG17 G90 G71 G94 G40\n\
+         MCALL CYCLE84(20,0,3,-18,,,3,,1.25,,500,500)\nX10 Y10\nMCALL\nG1 X40\nG0 Z50\nM30\n",
     ),
 ];
 

@@ -217,9 +217,18 @@ pub(super) fn over(
             state.note(&said);
             made.push(said);
         }
+        // A mode that is in force already leaves the feed as it is; in other units it is still that of the source.
+        let again = match &stmt.op {
+            Op::SetFeedMode(mode) => walk.at.modes.feed_mode == Some(*mode),
+            Op::UseLengthUnits(units) => walk.at.modes.units == Some(*units),
+            _ => false,
+        };
+        if matches!(stmt.op, Op::UseLengthUnits(_)) && !again {
+            state.entered |= state.said.feed.is_some();
+        }
         walk.step(&stmt);
         // What a changed tap sets is given back at its end.
-        if !(state.changed && matches!(stmt.op, Op::StartCycle(_))) {
+        if !again && !(state.changed && matches!(stmt.op, Op::StartCycle(_))) {
             state.note(&stmt);
         }
         let span = stmt.span;
