@@ -228,7 +228,8 @@ pub(super) fn over(
         }
         walk.step(&stmt);
         // What a changed tap sets is given back at its end.
-        if !again && !(state.changed && matches!(stmt.op, Op::StartCycle(_))) {
+        let tap = state.changed && matches!(stmt.op, Op::StartCycle(_));
+        if !again && !tap {
             state.note(&stmt);
         }
         let span = stmt.span;
