@@ -14,6 +14,9 @@ use crate::source::Span;
 /// Most sets of arguments that one macro is written for.
 const MOST_SETS: usize = 6;
 
+/// Most programs that a program may come to by that.
+const MOST_PROGRAMS: usize = 100;
+
 /// A call as the facts know it: the procedure that it stands in, and which arguments have values.
 struct Given {
     from: usize,
@@ -81,7 +84,7 @@ pub(super) fn by_arguments(program: &Program, facts: &Facts, mut unsure: Vec<usi
             apart.procedures.push(copy);
         }
     }
-    (!told.is_empty()).then_some(Apart { program: apart, told })
+    (!told.is_empty() && apart.procedures.len() <= MOST_PROGRAMS).then_some(Apart { program: apart, told })
 }
 
 /// The calls of a procedure in the order of the text; nothing if it must stay one.
