@@ -237,6 +237,8 @@ mod tests {
         assert_eq!(function(Function::RoundTo, 12.3456, 3.0), Ok(12.346));
         assert_eq!(function(Function::RoundTo, -0.5, 0.0), Ok(-1.0));
         assert_eq!(function(Function::RoundTo, 1.0, 0.5), Err(Wrong::NotDefined));
+        assert_eq!(function(Function::Round, -2_147_483_647.4, 0.0), Ok(-2_147_483_647.0));
+        assert_eq!(function(Function::Round, 2_147_483_647.5, 0.0), Err(Wrong::NotDefined));
         assert_eq!(binary(Binary::Modulo, -7.0, 3.0), Ok(-1.0));
         assert_eq!(function(Function::Remainder, -7.0, 3.0), Ok(2.0));
         assert_eq!(function(Function::Remainder, -7.0, 0.0), Err(Wrong::DivisionByZero));

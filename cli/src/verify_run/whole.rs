@@ -495,8 +495,10 @@ impl Verifier {
         self.notes.extend(told.map(|(span, taken)| Diagnostic::new(ways(*taken), *span)));
         if of_target.len() > Runner::new(source).open_ways(&gone.source).saturating_sub(answered) {
             // The output decides what the source does not, or in several places what the source does in one.
-            let blocks =
-                of_target.iter().take(MOST_BLOCKS).map(|(span, _)| block_at(text, span.start - base));
+            let blocks = of_target
+                .iter()
+                .take(MOST_BLOCKS)
+                .map(|(span, _)| block_at(text, span.start.saturating_sub(base)));
             let blocks = blocks.collect::<Vec<_>>().join(", ").into();
             self.notes.push(Diagnostic::new(Fault::OutputNotTaken { blocks }, self.last));
         }

@@ -358,7 +358,7 @@ impl Exec {
         match n.nanos(inch) {
             // Controls have words to 999999.999 (Fanuc 30i), and round them in whole numbers of 32 bits.
             Some(v) if v.unsigned_abs() < 1 << MOST_BITS => Ok(v),
-            _ => self.fault(Fault::OutOfRange { word: "".into() }, span),
+            _ => self.fault(Fault::OutOfRange { word: "value".into() }, span),
         }
     }
 
@@ -378,7 +378,7 @@ impl Exec {
             Distance::Incremental => {
                 let sum = from.wrapping_add(value);
                 if sum.unsigned_abs() >= 1 << MOST_BITS {
-                    return self.fault(Fault::OutOfRange { word: "".into() }, span);
+                    return self.fault(Fault::OutOfRange { word: "sum of lengths".into() }, span);
                 }
                 sum
             }
