@@ -18,6 +18,7 @@ use ncc_ir::given_back::left_out;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
+use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::passes::{Legaliser, Target, leave_out_values, machine_cuts, own_distance, passed_labels};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
@@ -119,6 +120,8 @@ struct Line<'j> {
     folder: Option<Folder>,
     /// Puts the target machine's numbers in.
     renumbering: Renumbering,
+    /// Writes what codes of the source's control do besides their names.
+    side_effects: SideEffects,
     legaliser: Legaliser,
     writer: Writer,
     text: Vec<u8>,
@@ -170,6 +173,7 @@ impl<'j> Line<'j> {
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),
+            side_effects: SideEffects::new(job.from.behaviours(), job.to.behaviours()),
             legaliser,
             writer,
             text: Vec::new(),
@@ -243,15 +247,18 @@ impl<'j> Line<'j> {
         self.state_given(stmts);
         let renumbers = self.renumbering.touches(stmts);
         let there = self.taken_there(stmts, &assumed, &mut found);
-        let touched = unfolded.is_some() || renumbers || self.legaliser.touches(stmts);
+        let switches = self.side_effects.touches(stmts);
+        let touched = unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts);
         if touched {
             // What the passes take for granted holds for the source as well.
             let original = unfolded.unwrap_or_else(|| stmts.clone());
+            self.side_effects.over(stmts, &mut found);
             self.renumbering.over(stmts, &mut found);
             self.legaliser.run(stmts, &there, &mut found);
             self.take_parameters(&found);
             self.check(|v| v.source(&original, &assumed));
         } else {
+            self.side_effects.over(stmts, &mut found);
             self.legaliser.run(stmts, &there, &mut found);
         }
         self.write_main(stmts, &there, &mut found);
@@ -302,6 +309,9 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let mut program = source.clone();
+        let mut found = Vec::new();
+        self.side_effects.run(&mut program.procedures, &mut found);
+        self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {
             let mut told = left_out(&program, &self.job.to.caps());
             as_there::alarms(self.job, &mut program, &mut told);
