@@ -88,7 +88,9 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         }
         Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
         Fault::AssumedContourPath => "compensation worked out as RS274/NGC has it".to_owned(),
-        Fault::StartedAgain { behaviour } => format!("{}: started again before the next cut", behaviour.about()),
+        Fault::StartedAgain { behaviour } => {
+            format!("{}: started again before the next cut", behaviour.about())
+        }
         Fault::OpenBehaviour { behaviour, source, taken, .. } => {
             let [to, from] = dialects.map(|dialect| dialect.id.as_str());
             format!("{} = {taken} on {}", behaviour.option(), if *source { from } else { to })

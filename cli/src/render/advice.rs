@@ -105,13 +105,17 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
-        Fault::StartedAgain { .. } => own("check at the machine that it runs before the tool touches the part"),
+        Fault::StartedAgain { .. } => {
+            own("check at the machine that it runs before the tool touches the part")
+        }
         Fault::OpenBehaviour { behaviour, source, taken, other } => {
             let side = if *source { "from" } else { "to" };
             let option = behaviour.option();
             own(&format!("state what your machine does: `--{side}-option {option}={taken}` or `={other}`"))
         }
-        Fault::OptionalStopDiffers => own("say `M03` and `M08` after `M01` in the source, as the cut needs them"),
+        Fault::OptionalStopDiffers => {
+            own("say `M03` and `M08` after `M01` in the source, as the cut needs them")
+        }
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {

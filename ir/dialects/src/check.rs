@@ -76,8 +76,12 @@ fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fau
             continue;
         }
         let values = behaviour.values().iter().chain([&UNKNOWN]);
-        let doc = format!("What becomes of the {}. `{UNKNOWN}`: ncc runs the program with each value, the \
-                           usual one (`{}`) first, and reports where they differ.", behaviour.about(), row.value);
+        let doc = format!(
+            "What becomes of the {}. `{UNKNOWN}`: ncc runs the program with each value, the \
+                           usual one (`{}`) first, and reports where they differ.",
+            behaviour.about(),
+            row.value
+        );
         dialect.option.push(OptionRow {
             name,
             values: values.map(|value| (*value).to_owned()).collect(),

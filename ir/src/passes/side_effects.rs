@@ -45,7 +45,7 @@ pub struct SideEffects {
     coolant: Switch,
     /// Switched off by the target's control alone: to be started again before the next cut.
     again: [Option<(Behaviour, Vec<Op>)>; 2],
-    /// Z is at machine zero.
+    /// Z is at machine zero, or where the operator has left it.
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
@@ -65,7 +65,7 @@ impl SideEffects {
             spindle: Switch::Off,
             coolant: Switch::Off,
             again: [None, None],
-            z_home: false,
+            z_home: true,
             machine: false,
         }
     }
@@ -201,12 +201,8 @@ impl SideEffects {
         if self.goes_home() {
             let mut axes = [false; AXES];
             axes[Axis::Z as usize] = true;
-            let home = Reference {
-                point: ReferencePoint::Home,
-                axes,
-                via: Point::default(),
-                keeps_length: true,
-            };
+            let home =
+                Reference { point: ReferencePoint::Home, axes, via: Point::default(), keeps_length: true };
             let home = Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::GoToReference(Box::new(home))) };
             diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
             let at = insertion(made, stmt);
@@ -333,7 +329,8 @@ fn insertion(made: &[Stmt], stmt: &Stmt) -> usize {
         return made.len();
     }
     let first = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
-    let selects = |op: &Op| matches!(op, Op::SelectTool(_) | Op::SelectToolByName(_) | Op::Comment(_) | Op::Blank);
+    let selects =
+        |op: &Op| matches!(op, Op::SelectTool(_) | Op::SelectToolByName(_) | Op::Comment(_) | Op::Blank);
     match made[first..].iter().all(|stmt| selects(&stmt.op)) {
         true => first,
         false => made.len(),
