@@ -227,7 +227,7 @@ fn the_second_interpreter_agrees() {
                     let start = world.start.map(|n| n as f64 / 1e9);
                     let second = plain::second(from, &program.text, plain::setup(&world, skip));
                     let result = second.and_then(|machine| {
-                        let events = translate::execute(&read, &world, skip)?;
+                        let events = translate::execute(&read, &plain::behaving(&world, from), skip)?;
                         let (a, b) = (plain::of_machine(&machine, start), plain::of_events(&events, start));
                         plain::compare(&a, &b, Tolerance::SAME)
                     });

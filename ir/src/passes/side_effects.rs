@@ -49,6 +49,9 @@ pub struct SideEffects {
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
+    /// The operation that switches spindle, coolant on, where a whole program has no other one: what is on without being
+    /// known to be is on by this.
+    only: [Option<Op>; 2],
 }
 
 /// Spindle, coolant: what each does at a stop, at a change and at the end.
@@ -67,6 +70,7 @@ impl SideEffects {
             again: [None, None],
             z_home: true,
             machine: false,
+            only: [None, None],
         }
     }
 
@@ -85,11 +89,12 @@ impl SideEffects {
         for mut stmt in std::mem::take(stmts) {
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
+                let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
                 for body in control.bodies_mut() {
-                    self.elsewhere();
+                    self.enter(keeps);
                     self.over(body, diags);
                 }
-                self.elsewhere();
+                self.enter(keeps);
                 made.push(stmt);
                 continue;
             }
@@ -100,11 +105,21 @@ impl SideEffects {
 
     /// Rewrites the bodies of procedures; what their callers have switched on is not known.
     pub fn run(&mut self, procedures: &mut [Procedure], diags: &mut Vec<Diagnostic>) {
+        self.only = [only(procedures, 0), only(procedures, 1)];
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
             }
             self.over(&mut procedure.body, diags);
+        }
+    }
+
+    /// A body begins, or ends, that may be executed several times or not at all; `keeps`: it switches nothing.
+    fn enter(&mut self, keeps: bool) {
+        if keeps {
+            (self.z_home, self.machine) = (false, false);
+        } else {
+            self.elsewhere();
         }
     }
 
@@ -168,8 +183,13 @@ impl SideEffects {
             let other = target_stops && !source_stops
                 || self.target.is_open(behaviour) && !self.source.is_open(behaviour) && !source_stops;
             let restarts = behaviour != Behaviour::SpindleAtChange && both != END;
-            if let (true, true, Switch::On(ops)) = (other, restarts, &*state) {
-                self.again[at] = Some((behaviour, ops.clone()));
+            let ops = match &*state {
+                Switch::On(ops) => Some(ops.clone()),
+                Switch::Unknown => self.only[at].clone().map(|op| vec![op]),
+                Switch::Off => None,
+            };
+            if let (true, true, Some(ops)) = (other, restarts, ops) {
+                self.again[at] = Some((behaviour, ops));
             }
         }
         let at = insertion(made, stmt);
@@ -296,6 +316,43 @@ impl SideEffects {
         }
         self.machine = false;
     }
+}
+
+/// Whether an operation switches spindle or coolant, or may.
+fn switches(op: &Op) -> bool {
+    match op {
+        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op))),
+        Op::StartCycle(cycle) => cycle.kind.drives_spindle(),
+        Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::OrientSpindle(_)
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff => true,
+        op => is_code(op) || matches!(op, flow!()),
+    }
+}
+
+/// The operation of a program that switches the spindle (0) or coolant (1) on, if there is but one.
+fn only(procedures: &[Procedure], which: usize) -> Option<Op> {
+    fn found(body: &[Stmt], which: usize, all: &mut Vec<Op>) {
+        for stmt in body {
+            let starts = match which {
+                0 => matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise),
+                _ => matches!(stmt.op, Op::FloodOn | Op::MistOn),
+            };
+            if starts && !all.contains(&stmt.op) {
+                all.push(stmt.op.clone());
+            }
+            if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| found(body, which, all));
+            }
+        }
+    }
+    let mut all = Vec::new();
+    procedures.iter().for_each(|procedure| found(&procedure.body, which, &mut all));
+    all.pop().filter(|_| all.is_empty())
 }
 
 /// Whether a code does something besides its name on some control.
