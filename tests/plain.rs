@@ -502,6 +502,18 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
                 continue;
             }
         }
+        // From where the one control has gone up, back to where the other one stands.
+        let back = |list: &[Plain], at: usize, other: Option<&Plain>| {
+            let (event, before) = (list.get(at)?, list.get(at.checked_sub(1)?)?);
+            let returns = event.what == Happening::Traverse && before.by_itself.z && !event.by_itself.z;
+            let near = |x: f64, y: f64| (x - y).abs() <= within.place;
+            Some(returns && event.at.iter().zip(other?.at).all(|(x, y)| near(*x, y)))
+        };
+        let before = |list: &[Plain], at: usize| at.checked_sub(1).and_then(|at| list.get(at)).copied();
+        if back(actual, at, before(expected, index).as_ref()) == Some(true) {
+            at += 1;
+            continue;
+        }
         // Moves that rounding has brought to nothing vanish.
         if stands(expected, index, within) {
             index += 1;

@@ -204,7 +204,7 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to).with_external();
-    target.behaviours = job.to.behaviours();
+    target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;

@@ -647,9 +647,7 @@ impl Machine {
         (self.by_itself.z, self.by_itself.moves) = (true, true);
         self.traverse(up);
         self.by_itself.moves = false;
-        self.change_tool()?;
-        self.by_itself.spindle = false;
-        Ok(())
+        self.change_tool()
     }
 
     /// The tool change.

@@ -94,8 +94,10 @@ impl Exec {
         self.before_change(span, out)?;
         self.state.tool = self.selected;
         let emitted = self.emit(Kind::ToolChange, span, out);
-        // A spindle that the program needs after the change, it starts there: nobody else does.
-        self.said_by_program(by_control::SPINDLE);
+        if self.state.by_control & by_control::Z == 0 {
+            // With Z where the program has put it, every move may need the spindle.
+            self.said_by_program(by_control::SPINDLE);
+        }
         emitted
     }
 

@@ -49,9 +49,9 @@ pub struct SideEffects {
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
-    /// The operation that switches spindle, coolant on, where a whole program has no other one: what is on without being
-    /// known to be is on by this.
-    only: [Option<Op>; 2],
+    /// The operation that starts the spindle, where a whole program has no other one: a spindle that may turn turns by
+    /// this.
+    only_sense: Option<Op>,
 }
 
 /// Spindle, coolant: what each does at a stop, at a change and at the end.
@@ -70,7 +70,7 @@ impl SideEffects {
             again: [None, None],
             z_home: true,
             machine: false,
-            only: [None, None],
+            only_sense: None,
         }
     }
 
@@ -105,7 +105,7 @@ impl SideEffects {
 
     /// Rewrites the bodies of procedures; what their callers have switched on is not known.
     pub fn run(&mut self, procedures: &mut [Procedure], diags: &mut Vec<Diagnostic>) {
-        self.only = [only(procedures, 0), only(procedures, 1)];
+        self.only_sense = only_sense(procedures);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
@@ -185,7 +185,8 @@ impl SideEffects {
             let restarts = behaviour != Behaviour::SpindleAtChange && both != END;
             let ops = match &*state {
                 Switch::On(ops) => Some(ops.clone()),
-                Switch::Unknown => self.only[at].clone().map(|op| vec![op]),
+                Switch::Unknown if at == 0 => self.only_sense.clone().map(|op| vec![op]),
+                Switch::Unknown => None,
                 Switch::Off => None,
             };
             if let (true, true, Some(ops)) = (other, restarts, ops) {
@@ -208,7 +209,7 @@ impl SideEffects {
     /// Whether Z goes to machine zero in words before a tool change.
     fn goes_home(&self) -> bool {
         let behaviour = Behaviour::ZAtChange;
-        self.source.surely(behaviour) && !self.target.surely(behaviour) && !self.z_home
+        self.source.surely(behaviour) && !self.target.does(behaviour) && !self.z_home
     }
 
     /// Z at a tool change.
@@ -334,25 +335,22 @@ fn switches(op: &Op) -> bool {
     }
 }
 
-/// The operation of a program that switches the spindle (0) or coolant (1) on, if there is but one.
-fn only(procedures: &[Procedure], which: usize) -> Option<Op> {
-    fn found(body: &[Stmt], which: usize, all: &mut Vec<Op>) {
+/// The operation that starts the spindle of a program, if there is but one.
+fn only_sense(procedures: &[Procedure]) -> Option<Op> {
+    fn find(body: &[Stmt], found: &mut Vec<Op>) {
         for stmt in body {
-            let starts = match which {
-                0 => matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise),
-                _ => matches!(stmt.op, Op::FloodOn | Op::MistOn),
-            };
-            if starts && !all.contains(&stmt.op) {
-                all.push(stmt.op.clone());
+            let starts = matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise);
+            if starts && !found.contains(&stmt.op) {
+                found.push(stmt.op.clone());
             }
             if let Op::Control(control) = &stmt.op {
-                control.bodies().for_each(|body| found(body, which, all));
+                control.bodies().for_each(|body| find(body, found));
             }
         }
     }
-    let mut all = Vec::new();
-    procedures.iter().for_each(|procedure| found(&procedure.body, which, &mut all));
-    all.pop().filter(|_| all.is_empty())
+    let mut found = Vec::new();
+    procedures.iter().for_each(|procedure| find(&procedure.body, &mut found));
+    found.pop().filter(|_| found.is_empty())
 }
 
 /// Whether a code does something besides its name on some control.
@@ -386,8 +384,17 @@ fn insertion(made: &[Stmt], stmt: &Stmt) -> usize {
         return made.len();
     }
     let first = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
-    let selects =
-        |op: &Op| matches!(op, Op::SelectTool(_) | Op::SelectToolByName(_) | Op::Comment(_) | Op::Blank);
+    let selects = |op: &Op| {
+        matches!(
+            op,
+            Op::SelectTool(_)
+                | Op::SelectToolByName(_)
+                | Op::Comment(_)
+                | Op::Blank
+                | Op::Message(_)
+                | Op::MessageOf(_)
+        )
+    };
     match made[first..].iter().all(|stmt| selects(&stmt.op)) {
         true => first,
         false => made.len(),

@@ -71,6 +71,8 @@ pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Res
     for behaviour in Behaviour::ALL.iter().copied().filter(|b| sides[1].job.from.behaviours().does(*b)) {
         behaviours.set(behaviour, sides[1].job.from.behaviours().get(behaviour), false);
     }
+    // But where Z goes for a tool change, which is not in the text.
+    behaviours.set(Behaviour::ZAtChange, 0, false);
     let settings = |skip| {
         clearances.map(|clearances| Settings { skip, mute: muted, clearances, behaviours: Some(behaviours) })
     };
