@@ -478,9 +478,21 @@ fn push(list: &mut Vec<Plain>, start: [f64; 6], event: Plain) {
 /// The first difference, with what stands around it.
 pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Result<(), String> {
     let (mut index, mut at) = (0, 0);
+    // Words that stop the spindle for an optional stop are passed over until something is cut.
+    let mut optional = false;
     while index < expected.len() || at < actual.len() {
         let fault = match (expected.get(index), actual.get(at)) {
-            (Some(a), Some(b)) => difference(a, b, within),
+            (Some(a), Some(b)) => {
+                optional = a.what == Happening::OptionalStop || optional && !cuts(a.what);
+                let b = if optional && b.speed == 0.0 {
+                    Plain { speed: a.speed, surface: a.surface, ..*b }
+                } else {
+                    *b
+                };
+                let off = optional && b.coolant == (false, false);
+                let b = if off { Plain { coolant: a.coolant, ..b } } else { b };
+                difference(a, &b, within)
+            }
             _ => Some("one list is shorter"),
         };
         let Some(fault) = fault else {
@@ -493,7 +505,8 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
                 index += 1;
                 continue;
             }
-            if switched(b, a) || b.by_itself.moves {
+            let for_stop = b.what == Happening::Coolant && (optional || a.what == Happening::OptionalStop);
+            if switched(b, a) || b.by_itself.moves || for_stop {
                 at += 1;
                 continue;
             }
@@ -543,14 +556,27 @@ fn switched(event: &Plain, other: &Plain) -> bool {
         && (event.by_itself.coolant || other.by_itself.coolant && event.coolant == other.coolant)
 }
 
+/// Whether it is a cut.
+fn cuts(what: Happening) -> bool {
+    matches!(what, Happening::Feed | Happening::Arc { .. } | Happening::Thread { .. } | Happening::Probe(..))
+}
+
+/// The same without what is on at the end of the program: some controls switch it off by themselves.
+pub fn but_for_the_end(list: &[Plain]) -> Vec<Plain> {
+    let mut list = list.to_vec();
+    if let Some(end) = list.pop() {
+        while list.last().is_some_and(|event| event.what == Happening::Coolant) {
+            list.pop();
+        }
+        list.push(Plain { speed: 0.0, surface: None, coolant: (false, false), ..end });
+    }
+    list
+}
+
 /// What the second control alone has done by itself is as the first one has it, as long as nothing is cut.
 fn passed_over(a: &Plain, b: &Plain) -> Plain {
     let mut b = *b;
-    let cuts = matches!(
-        b.what,
-        Happening::Feed | Happening::Arc { .. } | Happening::Thread { .. } | Happening::Probe(..)
-    );
-    if cuts {
+    if cuts(b.what) {
         return b;
     }
     if b.by_itself.spindle && !a.by_itself.spindle {

@@ -175,7 +175,9 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let list = |p| Ok::<_, String>(plain::of_events(&translate::execute(p, &world, skip)?, start));
-            plain::compare(&list(&a)?, &list(&b)?, within)?;
+            // On the way, the program's end may have switched off what was on, and comes back as words.
+            let (a, b) = (plain::but_for_the_end(&list(&a)?), plain::but_for_the_end(&list(&b)?));
+            plain::compare(&a, &b, within)?;
         }
     }
     Ok(())
@@ -185,7 +187,7 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
 #[test]
 fn the_corpus_there_and_back() {
     let mut failures = ncc_tests::expect::Failures::default();
-    let mut done = 0;
+    let (mut done, mut up) = (0, 0);
     for program in corpus::all() {
         let from = program.dialect;
         for through in DIALECTS.into_iter().filter(|d| *d != from) {
@@ -197,6 +199,8 @@ fn the_corpus_there_and_back() {
             let back_job = job(through, from, &program.file);
             let (back, returned) = translate::translate(&back_job, &text);
             match back.release {
+                // On the way Z goes up for a tool change, which was told, and comes back as words.
+                Ok(()) if there.diagnostics.iter().any(|d| d.fault == Fault::MovedAtChange) => up += 1,
                 Ok(()) => {
                     done += 1;
                     let corners = Corners::between(from, through);
@@ -213,7 +217,8 @@ fn the_corpus_there_and_back() {
             }
         }
     }
-    println!("{done} there and back");
+    println!("{done} there and back, {up} with another way up to a tool change");
+    assert!(up * 20 < done, "{up} of {done}");
     failures.finish();
 }
 

@@ -164,7 +164,7 @@ fn rows(table: &str, rows: &[(u32, &str)]) -> String {
     rows.iter().map(|(number, name)| format!("[[{table}]]\nnumber = {number}\nname = {name:?}\n")).collect()
 }
 
-const FANUC: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nS500 M03\nG00 X0. Y0.\nG43 H23 Z5.\nG01 Z-1. F100.\nG49\nT4 M06\nG43 H4 Z5.\nG55\nX1. Y2. Z3.\nT0 M06\nM30\n%\n";
+const FANUC: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nS500 M03\nG00 X0. Y0.\nG43 H23 Z5.\nG01 Z-1. F100.\nG49\nT4 M06\nS500 M03\nG43 H4 Z5.\nG55\nX1. Y2. Z3.\nT0 M06\nM30\n%\n";
 
 const SIEMENS: &str = "G71 G17 G90 G40 G94\nG54\nT3 M6\nD1\nS500 M3\nG0 X0 Y0\nZ5\nG1 Z-1 F100\nT4 M6\nD1\nG0 Z5\nG55\nG0 X1 Y2 Z3\nM30\n";
 

@@ -163,6 +163,8 @@ impl Legaliser {
     /// What codes of the source's control do besides their names: a spindle that it stops at a tool change does not go on
     /// turning.
     pub fn set_source(&mut self, source: &Behaviours) {
+        let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
+        self.walk.at.z_lost_at_change = up(source) || up(&self.target.caps.behaviours);
         self.target.caps.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
     }
 

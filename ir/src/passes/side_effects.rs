@@ -90,11 +90,17 @@ impl SideEffects {
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
                 let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
+                let mut left = [None, None];
                 for body in control.bodies_mut() {
                     self.enter(keeps);
                     self.over(body, diags);
+                    // What a stop in a body has switched off may be off after it.
+                    for (left, own) in left.iter_mut().zip(&mut self.again) {
+                        *left = left.take().or(own.take());
+                    }
                 }
                 self.enter(keeps);
+                self.again = left;
                 made.push(stmt);
                 continue;
             }
