@@ -226,7 +226,7 @@ pub fn of_dialect(world: World, dialect: &str) -> World {
     behaving(&World { peck_clearance: by, break_lift: by, power_on, ..world }, dialect)
 }
 
-/// A world whose control does what codes do besides their names on a dialect's control.
+/// The same with what codes do besides their names on a dialect's control.
 pub fn behaving(world: &World, dialect: &str) -> World {
     let behaviours = ncc_dialects::builtin(dialect).map(|d| d.behaviours()).unwrap_or_default();
     World { behaviours, ..world.clone() }
@@ -522,8 +522,8 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
             let near = |x: f64, y: f64| (x - y).abs() <= within.place;
             Some(returns && event.at.iter().zip(other?.at).all(|(x, y)| near(*x, y)))
         };
-        let before = |list: &[Plain], at: usize| at.checked_sub(1).and_then(|at| list.get(at)).copied();
-        if back(actual, at, before(expected, index).as_ref()) == Some(true) {
+        let stood = index.checked_sub(1).and_then(|index| expected.get(index));
+        if back(actual, at, stood) == Some(true) {
             at += 1;
             continue;
         }
@@ -559,18 +559,6 @@ fn switched(event: &Plain, other: &Plain) -> bool {
 /// Whether it is a cut.
 fn cuts(what: Happening) -> bool {
     matches!(what, Happening::Feed | Happening::Arc { .. } | Happening::Thread { .. } | Happening::Probe(..))
-}
-
-/// The same without what is on at the end of the program: some controls switch it off by themselves.
-pub fn but_for_the_end(list: &[Plain]) -> Vec<Plain> {
-    let mut list = list.to_vec();
-    if let Some(end) = list.pop() {
-        while list.last().is_some_and(|event| event.what == Happening::Coolant) {
-            list.pop();
-        }
-        list.push(Plain { speed: 0.0, surface: None, coolant: (false, false), ..end });
-    }
-    list
 }
 
 /// What the second control alone has done by itself is as the first one has it, as long as nothing is cut.

@@ -172,7 +172,7 @@ pub(super) fn looked_at(job: &Job) -> [u64; 2] {
 }
 
 /// Whether the switch for optional stops makes a difference: spindle and coolant stop there on one of the controls.
-pub(super) fn stops_differ(job: &Job) -> bool {
+pub(crate) fn stops_differ(job: &Job) -> bool {
     let stops = |behaviours: Behaviours| {
         behaviours.does(Behaviour::SpindleAtStop) || behaviours.does(Behaviour::CoolantAtStop)
     };
