@@ -13,9 +13,10 @@ use ncc_pictures::{Listing, Page, Record, Undrawn, charts, report, view};
 use ncc_timeline::Timed;
 
 use self::args::Plot;
-use crate::files::{self, Destination, Source};
+use crate::files::{Destination, Source};
 use crate::job::Output;
 use crate::known::Known;
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
 use crate::time::drive::{Said, Sink};
 use crate::time::{self, Shop};
@@ -48,7 +49,9 @@ impl Sink for Recorder {
 /// wrong with a program is told on `err`.
 pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
-    let mut sources = args.files.iter().map(|path| files::open(path)).collect::<Result<Vec<_>, _>>()?;
+    let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
+    let opened = args.files.iter().map(|path| milling::open(path, voice, known, err));
+    let mut sources = opened.collect::<Result<Vec<_>, _>>()?;
     let name = args.output.as_ref().filter(|name| *name != Path::new("-"));
     for source in &sources {
         source.guard(name.map(PathBuf::as_path))?;

@@ -42,10 +42,11 @@ use self::summary::{Report, Timing};
 use self::tally::{Tallier, Tally};
 use crate::called;
 use crate::files::{self, Destination, Source};
-use crate::guess::{Guess, guess};
+use crate::guess::better;
 use crate::job::{Failure, Job, Output};
 use crate::known::Known;
 use crate::machines::pair::Machines;
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
@@ -93,8 +94,9 @@ pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
     let shop = Shop::of(args, known, err)?;
     let mut lost = Lost { names: Vec::new(), exit: Exit::Done };
     let mut sources = Vec::new();
+    let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
     for path in &args.files {
-        match files::open(path) {
+        match milling::open(path, voice, known, err) {
             Ok(source) => sources.push(source),
             Err(problem) => lost.take(args, path.display().to_string(), problem, err)?,
         }
@@ -297,12 +299,8 @@ fn tell(
     let shown = source.shown.clone();
     let other = match course.refused {
         false => None,
-        true => match guess(&mut source.file, known.all())? {
-            Guess::Sure(other, reasons) => Some((other, reasons)),
-            Guess::Unsure(_) => None,
-        },
+        true => better(&mut source.file, &plan.job.from, known.all())?,
     };
-    let other = other.filter(|(other, _)| other.id != plan.job.from.dialect.id);
     let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
     // What is wrong with a text in another language is nothing that anybody wants to know.
     if other.is_none() || args.telling.quiet {
