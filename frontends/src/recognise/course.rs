@@ -377,7 +377,8 @@ impl Course {
         }
         self.lines += 1;
         let block_like = block.words.iter().any(is_block_word)
-            || block.code.iter().any(|b| b"=#%[$:".contains(b))
+            || block.code.iter().any(|b| b"=%[$:".contains(b))
+            || block.text.windows(2).any(|two| two[0] == b'#' && b"0123456789[<#".contains(&two[1]))
             || block.text.iter().position(|b| *b == b'(').is_some_and(|at| {
                 at > 1 && block.text[..at].iter().all(|b| b.is_ascii_uppercase() || *b == b'_')
             });

@@ -1,3 +1,5 @@
+//! Each sign by a small program, and what must never be taken for one.
+
 use super::signs::{Kind, Pattern, SIGNS, System};
 use super::{BEGINNING, Finding, recognise};
 
