@@ -171,6 +171,7 @@ fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
         let value = match fact.fact.unit(fact.axis) {
             "" if fact.value == 0.0 => "no".to_owned(),
             "" => "yes".to_owned(),
+            _ if fact.value.is_infinite() => "the whole path".to_owned(),
             unit => format!("{} {unit}", short(fact.value, 3)),
         };
         let axis = fact.axis.map(letter);
