@@ -41,4 +41,5 @@ mod tables;
 mod text_forms;
 mod tidy;
 mod time;
+mod time_modes;
 mod verify;

@@ -18,7 +18,7 @@ use crate::job::Output;
 use crate::known::Known;
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
-use crate::time::drive::{Said, Sink};
+use crate::time::drive::{Plan, Said, Sink};
 use crate::time::{self, Shop};
 
 /// What a file is.
@@ -64,7 +64,8 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Resul
         let asked = args.timed(n);
         let shop = Shop::of(&asked, known, err)?;
         let job = time::job(&asked, &shop, known, source, err)?;
-        let plan = time::plan(&asked, &shop, &job);
+        // The picture is that of the contour.
+        let plan = Plan { centre: false, ..time::plan(&asked, &shop, &job) };
         let mut recorder = Recorder(Record::new(&source.name));
         let course = time::execute(&asked, &plan, known, source, &mut recorder, err)?;
         if course.refused {

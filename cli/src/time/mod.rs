@@ -257,6 +257,8 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         skip: args.setting.switches.on(),
         start_time: args.setting.start_time,
         stage: args.stage,
+        // Cycles that are told as they are called have no times.
+        centre: args.stage == Stage::After,
     }
 }
 
@@ -513,7 +515,9 @@ fn canonical(
     again.seek(SeekFrom::Start(0)).map_err(cannot)?;
     let mut text = Source::of(file, &source.name);
     let second = Job { from: to.clone(), to, start, called: None, ..first.job.clone() };
-    let plan = Plan { job: &second, machine: shop.machine.clone(), ..plan(args, shop, &second) };
+    // Each function of the text has its own line.
+    let plan =
+        Plan { job: &second, machine: shop.machine.clone(), centre: false, ..plan(args, shop, &second) };
     let mut sink = canon::Canon::new(BufReader::new(again), out);
     let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;
     sink.finish().map_err(cannot)?;

@@ -29,6 +29,7 @@ mod thread;
 mod tilt;
 mod tools;
 
+pub use centre_path::AsProgrammed;
 pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written};
