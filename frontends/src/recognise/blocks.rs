@@ -21,7 +21,7 @@ impl Word {
     /// Ten times the number of a code; `None` is no code.
     pub(super) fn tenths(&self) -> Option<u32> {
         let tenths = self.value? * 10.0;
-        (tenths >= 0.0 && tenths < 1e6 && tenths.fract() == 0.0).then_some(tenths as u32)
+        ((0.0..1e6).contains(&tenths) && tenths.fract() == 0.0).then_some(tenths as u32)
     }
 }
 
@@ -62,11 +62,10 @@ impl Block {
         self.text.extend(trimmed.iter().map(u8::to_ascii_uppercase));
         self.place = base + start..base + start + trimmed.len();
         self.cut(base + start);
-        self.calls = self.words.iter().any(|word| match (word.letter, word.tenths()) {
-            (b'G', Some(650 | 660 | 661)) => true,
-            (b'M', Some(980 | 970)) => true,
-            _ => false,
-        }) || self.names.iter().any(|(name, _)| name == b"CALL");
+        let calls = |word: &Word| {
+            matches!((word.letter, word.tenths()), (b'G', Some(650 | 660 | 661)) | (b'M', Some(970 | 980)))
+        };
+        self.calls = self.words.iter().any(calls) || self.names.iter().any(|(name, _)| name == b"CALL");
         if !self.calls {
             self.letters = self.words.iter().fold(0, |all, word| all | bit(word.letter));
         }

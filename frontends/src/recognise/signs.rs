@@ -348,7 +348,7 @@ pub(super) enum Shape {
     /// As of [`Pattern::Begins`].
     Begins(&'static str),
     /// As of [`Pattern::Says`].
-    Says(memchr::memmem::Finder<'static>, usize),
+    Says(Box<memchr::memmem::Finder<'static>>, usize),
     /// Nothing that a block alone can show.
     Course,
 }
@@ -366,7 +366,9 @@ impl Shape {
             Pattern::Block(words) => words,
             Pattern::Name(name) => return Shape::Name(name),
             Pattern::Begins(text) => return Shape::Begins(text),
-            Pattern::Says(text) => return Shape::Says(memchr::memmem::Finder::new(text), text.len()),
+            Pattern::Says(text) => {
+                return Shape::Says(Box::new(memchr::memmem::Finder::new(text)), text.len());
+            }
             Pattern::Course(_) => return Shape::Course,
         };
         let (mut letters, mut none, mut only) = (0, 0, false);
