@@ -12,6 +12,7 @@ use ncc_ir::diag::Verdict;
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::passes::Pass;
 
+use crate::milling::Assumed;
 use crate::setting::{Lines, Standing, Telling};
 
 /// `ncc` and its verbs.
@@ -36,6 +37,19 @@ pub struct Cli {
     /// POCKET.SPF [may be repeated]
     #[arg(short = 'I', long = "include", global = true, value_name = "DIR")]
     pub include: Vec<PathBuf>,
+    /// Read every program as a milling program, even one that looks like a lathe's: `--assume milling`
+    #[arg(
+        long,
+        global = true,
+        value_name = "WHAT",
+        value_enum,
+        num_args = 0..=1,
+        require_equals = true,
+        hide_possible_values = true,
+        // Last of what is accepted.
+        display_order = 999
+    )]
+    pub assume: Option<Option<Assumed>>,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,
@@ -67,9 +81,9 @@ Examples:
 all options of `ncc translate --help` can be given with them.
 
 The translated program goes to stdout, everything else to stderr. Exit code: 0 done and verified;
-1 the program has errors, or something would be lost; 2 wrong usage; 3 verification failed and
-nothing is released; 4 a file could not be read or written. Of `ncc diff` and `ncc verify`:
-1 the programs differ, or a certificate does not hold; 5 they could not be compared.";
+1 the program has errors or is not for a mill, or something would be lost; 2 wrong usage;
+3 verification failed and nothing is released; 4 a file could not be read or written.
+Of `ncc diff` and `ncc verify`: 1 the programs differ, or a certificate does not hold; 5 they could not be compared.";
 
 const TRANSLATE_EXAMPLES: &str = "\
 Examples:

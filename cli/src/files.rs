@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use ncc_ir::diag::Diagnostic;
 use same_file::Handle;
 
 use crate::arrow;
@@ -26,6 +27,8 @@ pub struct Source {
     pub name: String,
     /// What programs it calls from files of their own; they stand behind its own text in `file`.
     pub called: Option<Called>,
+    /// What was taken for granted of it before it is read.
+    pub assumed: Vec<Diagnostic>,
     identity: Option<Handle>,
 }
 
@@ -56,7 +59,7 @@ pub fn open(path: &Path) -> Result<Source, Problem> {
         Some(name) if !stdin => name.to_string_lossy().into_owned(),
         Some(_) | None => "-".to_owned(),
     };
-    Ok(Source { file, shown, name, called: None, identity: identity.ok() })
+    Ok(Source { file, shown, name, called: None, assumed: Vec::new(), identity: identity.ok() })
 }
 
 /// Keeps what can be read only once in an anonymous file.
@@ -70,7 +73,8 @@ fn spool(from: &mut dyn Read) -> io::Result<File> {
 impl Source {
     /// A file that nobody has named: an anonymous one, from its beginning.
     pub(crate) fn of(file: File, name: &str) -> Source {
-        Source { file, shown: name.to_owned(), name: name.to_owned(), called: None, identity: None }
+        let (shown, name) = (name.to_owned(), name.to_owned());
+        Source { file, shown, name, called: None, assumed: Vec::new(), identity: None }
     }
 
     /// Whether the path is this source.

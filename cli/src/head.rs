@@ -83,6 +83,9 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedParameter { parameter, value } => format!("{parameter} = {value}"),
         Fault::AssumedHoleOrder { pattern } => format!("order of the holes of {pattern}"),
         Fault::AssumedPath { path } => format!("corners always by {path}"),
+        Fault::AssumedMilling { looks_like, line } => {
+            format!("a milling program, though line {line} looks like {looks_like}")
+        }
         Fault::AssumedTip => {
             "rotary axes, and the zero of the tool's tip, as on the other control".to_owned()
         }

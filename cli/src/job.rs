@@ -58,6 +58,8 @@ pub struct Job {
     pub source_name: String,
     /// Files of called programs, which stand behind the source's own text.
     pub called: Option<Called>,
+    /// What is taken for granted of the source before it is read.
+    pub assumed: Vec<Diagnostic>,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
@@ -82,6 +84,7 @@ impl Job {
             program_number: None,
             source_name: source_name.into(),
             called: None,
+            assumed: Vec::new(),
             allow: Vec::new(),
             deny: Vec::new(),
         }

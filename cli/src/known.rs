@@ -26,6 +26,8 @@ pub struct Known {
     texts: Vec<(PathBuf, String)>,
     /// Folders in which called programs are looked for.
     folders: Vec<PathBuf>,
+    /// Whether every program is taken for a milling program.
+    all_for_mills: bool,
 }
 
 impl Known {
@@ -97,6 +99,16 @@ impl Known {
     /// Folders in which called programs are looked for.
     pub fn folders(&self) -> &[PathBuf] {
         &self.folders
+    }
+
+    /// Takes every program for a milling program, whatever it looks like.
+    pub fn assume_milling(&mut self) {
+        self.all_for_mills = true;
+    }
+
+    /// Whether every program is taken for a milling program.
+    pub fn all_for_mills(&self) -> bool {
+        self.all_for_mills
     }
 
     /// All of them, the built-in ones first. All are read for that.

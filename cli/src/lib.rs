@@ -24,6 +24,7 @@ pub mod judge;
 pub mod known;
 mod listing;
 pub mod machines;
+pub mod milling;
 mod order;
 pub mod plot;
 pub mod problem;

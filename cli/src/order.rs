@@ -99,6 +99,7 @@ impl Order {
             program_number: args.program_number,
             source_name: source_name.to_owned(),
             called: None,
+            assumed: Vec::new(),
             allow: args.allow.clone(),
             deny: args.deny.clone(),
         })

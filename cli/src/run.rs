@@ -12,9 +12,10 @@ use ncc_ir::passes::PASSES;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
 use crate::files::{self, Destination, Source};
-use crate::guess::{Guess, guess};
+use crate::guess::{Guess, better, guess};
 use crate::job::{Failure, Job, Outcome};
 use crate::known::{self, Known};
+use crate::milling::{self, Assumed, Voice};
 use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
@@ -50,6 +51,14 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
         Err(error) => return clap_says(&error, &arguments, &known, &mut err),
     };
     let mut err = StandardStream::stderr(choice(cli.color));
+    match cli.assume {
+        None => {}
+        Some(Some(Assumed::Milling)) => known.assume_milling(),
+        Some(None) => {
+            let problem = Problem::usage("--assume takes what for granted?", "write `--assume milling`");
+            return fail(&problem, &mut err, as_json);
+        }
+    }
     if let Err(problem) = known.look_in(&cli.include) {
         return fail(&problem, &mut err, as_json);
     }
@@ -184,7 +193,13 @@ fn translated(
         Order::find(args, known, told)?
     };
     destination.check()?;
-    let mut source = files::open(path)?;
+    let voice = match (args.format, args.telling.quiet) {
+        (Format::Json, _) => Voice::Json,
+        (Format::Human, true) => Voice::Quiet,
+        // The head and the report state it.
+        (Format::Human, false) => Voice::Human,
+    };
+    let mut source = milling::open(path, voice, known, err)?;
     match &destination {
         Destination::File(name) => source.guard(Some(name))?,
         Destination::Stdout => source.guard(None)?,
@@ -215,6 +230,7 @@ fn translated(
     let mut job = order.job(args, from, &source.name, crlf)?;
     called::gather(&mut source, &job.from, known.folders())?;
     job.called.clone_from(&source.called);
+    job.assumed.clone_from(&source.assumed);
     source.rewind()?;
     if args.style == Style::Rs274 {
         listing::check(args, &job)?;
@@ -291,7 +307,7 @@ pub(crate) fn tell(
     err.flush()
 }
 
-/// If a refused text is clearly written in another dialect, says so.
+/// If a refused text is clearly written in another dialect, in which it has fewer errors, says so.
 ///
 /// # Errors
 /// Reading the source, or writing.
@@ -301,17 +317,13 @@ pub(crate) fn doubt_dialect(
     known: &Known,
     err: &mut dyn Write,
 ) -> io::Result<()> {
-    match guess(&mut source.file, known.all())? {
-        Guess::Sure(other, reasons) if other.id != job.from.dialect.id => {
-            let (from, to) = (&other.id, &job.to.dialect.id);
-            writeln!(err, "{} reads like {from}: {}", source.shown, reasons.join(", "))?;
-            if from != to {
-                writeln!(err, "  help: ncc {from} to {to} {}", source.shown)?;
-            }
-            Ok(())
-        }
-        Guess::Sure(..) | Guess::Unsure(_) => Ok(()),
+    let Some((other, reasons)) = better(&mut source.file, &job.from, known.all())? else { return Ok(()) };
+    let (from, to) = (&other.id, &job.to.dialect.id);
+    writeln!(err, "{} reads like {from}: {}", source.shown, reasons.join(", "))?;
+    if from != to {
+        writeln!(err, "  help: ncc {from} to {to} {}", source.shown)?;
     }
+    Ok(())
 }
 
 /// Says where an arrow has led to.

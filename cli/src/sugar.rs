@@ -33,6 +33,7 @@ const ARROWS: [&str; 4] = ["to", "->", "=>", "→"];
 
 /// Rewrites the arguments, the program's name first. What is no sugar comes back as it was.
 pub fn rewrite(arguments: Vec<OsString>) -> Said {
+    let arguments = assumed(arguments);
     let command = Cli::command();
     let Some(at) = first_positional(&arguments, &command) else {
         return Said::Plain(arguments);
@@ -81,6 +82,20 @@ pub fn rewrite(arguments: Vec<OsString>) -> Said {
     Said::Plain(arguments)
 }
 
+/// `--assume milling` as one argument. The option may have no value, so that clap takes one only behind `=`.
+fn assumed(arguments: Vec<OsString>) -> Vec<OsString> {
+    let mut all: Vec<OsString> = Vec::with_capacity(arguments.len());
+    let mut options = true;
+    for argument in arguments {
+        options &= argument != "--";
+        match all.last_mut().filter(|last| options && *last == "--assume") {
+            Some(last) if argument == "milling" => *last = "--assume=milling".into(),
+            Some(_) | None => all.push(argument),
+        }
+    }
+    all
+}
+
 /// What a shell leaves of an arrow.
 fn torn(rest: &str) -> Option<&'static str> {
     match rest {
@@ -126,7 +141,8 @@ fn first_positional(arguments: &[OsString], command: &Command) -> Option<usize> 
             a.get_long().is_some_and(|long| text.strip_prefix("--") == Some(long))
                 || a.get_short().is_some_and(|short| text.strip_prefix('-') == Some(&short.to_string()))
         });
-        at += if option.is_some_and(|o| o.get_action().takes_values()) { 2 } else { 1 };
+        let apart = |o: &clap::Arg| o.get_action().takes_values() && !o.is_require_equals_set();
+        at += if option.is_some_and(apart) { 2 } else { 1 };
     }
     None
 }
@@ -168,6 +184,15 @@ mod tests {
             plain("-q --eol crlf mach9 to fanuc -o x p.cn"),
             "translate --from mach9 --to fanuc -q --eol crlf -o x p.cn"
         );
+    }
+
+    #[test]
+    fn what_is_assumed_is_one_argument() {
+        let verb = "translate --from mach9 --to fanuc --assume=milling p.cn";
+        assert_eq!(plain("--assume milling mach9 to fanuc p.cn"), verb);
+        assert_eq!(plain("--assume=milling mach9 to fanuc p.cn"), verb);
+        assert_eq!(plain("time --assume milling p.cn"), "time --assume=milling p.cn");
+        assert_eq!(plain("time -- --assume milling"), "time -- --assume milling");
     }
 
     #[test]

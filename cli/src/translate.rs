@@ -197,6 +197,7 @@ impl<'j> Line<'j> {
             blocks: 0,
         };
         line.open_frame();
+        line.take(job.assumed.clone(), Told::Reader);
         line
     }
 

@@ -9,6 +9,7 @@ mod begins;
 pub mod canon;
 pub mod ir;
 pub mod pieces;
+pub mod recognise;
 pub mod siemens;
 pub mod word;
 

@@ -310,6 +310,9 @@ faults! {
     MovedAtChange = 324, verdict(Verdict::Assumed);
     /// The cut is another one where the switch for optional stops is on.
     OptionalStopDiffers = 325, verdict(Verdict::Assumed);
+    /// The program looks like something else than a milling program, and the user says that it is one; in
+    /// which line the sign stands that decides.
+    AssumedMilling { looks_like: Box<str>, line: u64 } = 330, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
 

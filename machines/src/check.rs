@@ -117,6 +117,9 @@ fn numbers(schema: &Schema, found: &mut Found) {
     found.number::<Rates>(&rates.rapid, "rapid", above_zero);
     found.number::<Rates>(&rates.max_feed, "max_feed", above_zero);
     found.number::<Rates>(&rates.path_tolerance, "path_tolerance", from_zero);
+    if rates.look_ahead.value == Some(0) {
+        found.takes::<Rates>("look_ahead", rates.look_ahead.span.clone());
+    }
     let times = &schema.times;
     found.number::<Times>(&times.tool_change, "tool_change", from_zero);
     found.number::<Times>(&times.spindle_start, "spindle_start", from_zero);

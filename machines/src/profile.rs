@@ -132,6 +132,7 @@ impl Profile {
             spindle_max: s.spindle.max_speed.get(),
             path_tolerance: s.rates.path_tolerance.get(),
             exact_stop: s.rates.exact_stop.get(),
+            look_ahead: s.rates.look_ahead.get(),
             m_function: s.times.m_function.get(),
             functions: s
                 .m_code

@@ -212,10 +212,12 @@ table! {
         rapid: f64 = "a number above 0";
         /// Highest feed, mm/min.
         max_feed: f64 = "a number above 0";
-        /// How far the path may leave a corner, mm; 0 is an exact stop in every corner.
+        /// How far the path may leave a corner, mm; 0 is an exact stop in every corner. A length that the program states wins over it.
         path_tolerance: f64 = "a number from 0";
-        /// Whether every move ends in a stop, in a straight line too.
+        /// Whether every move ends in a stop, in a straight line too. A path mode that the program states wins over it.
         exact_stop: bool = "`true`, `false`";
+        /// Blocks with a move that the control knows beyond the one that it carries out; where not stated, the whole path.
+        look_ahead: u32 = "a whole number above 0";
     }
 }
 

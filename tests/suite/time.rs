@@ -37,10 +37,10 @@ pub(crate) fn time(arguments: &[&str], files: &[&Path]) -> Result<Vec<u8>, Exit>
 }
 
 /// A folder that goes with the test.
-struct Folder(PathBuf);
+pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
-    fn new() -> Folder {
+    pub(crate) fn new() -> Folder {
         use std::sync::atomic::{AtomicU32, Ordering};
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let name = format!("ncc-time-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));

@@ -37,6 +37,8 @@ pub enum Fact {
     MFunction,
     /// Least seconds of a block with a move.
     Block,
+    /// Blocks that the control knows beyond the one that it carries out; infinite is the whole path.
+    LookAhead,
 }
 
 impl Fact {
@@ -53,6 +55,7 @@ impl Fact {
             Fact::SpindleStop => "time of a spindle stop",
             Fact::MFunction => "time of an M function",
             Fact::Block => "block processing time",
+            Fact::LookAhead => "look-ahead",
         }
     }
 
@@ -71,6 +74,7 @@ impl Fact {
             (Fact::Jerk, true) => "°/s³",
             (Fact::PathTolerance, _) => "mm",
             (Fact::ExactStop, _) => "",
+            (Fact::LookAhead, _) => "blocks",
             (
                 Fact::ToolChange | Fact::SpindleStart | Fact::SpindleStop | Fact::MFunction | Fact::Block,
                 _,
@@ -152,6 +156,13 @@ impl Machine {
                 if machine.exact_stop.is_none() {
                     machine.exact_stop = Some(false);
                     filling.told.push(AssumedFact { fact: Fact::ExactStop, axis: None, value: 0.0 });
+                }
+                if machine.look_ahead.is_none() {
+                    filling.told.push(AssumedFact {
+                        fact: Fact::LookAhead,
+                        axis: None,
+                        value: f64::INFINITY,
+                    });
                 }
                 filling.fill(&mut machine.m_function, Fact::MFunction, None, 0.0);
                 filling.fill(&mut machine.block, Fact::Block, None, 0.0);

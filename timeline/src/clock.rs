@@ -6,6 +6,8 @@
 use std::str::FromStr;
 
 use crate::act::Act;
+use crate::ahead::Ahead;
+use crate::corner::Corners;
 use crate::fixed::{fixed, turning};
 use crate::ideal;
 use crate::junction::Junctions;
@@ -116,6 +118,15 @@ impl Planner {
     }
 }
 
+/// Hands a leg to the planner, as far ahead as the control looks.
+#[inline]
+fn planned(ahead: &mut Option<Ahead>, planner: &mut Planner, leg: Leg, out: &mut impl FnMut(Profile)) {
+    match ahead {
+        None => planner.push(leg, out),
+        Some(ahead) => ahead.push(leg, &mut |leg| planner.push(leg, out)),
+    }
+}
+
 /// Functions in order; those that have their time stand first.
 #[derive(Clone, Debug)]
 struct Row {
@@ -156,7 +167,10 @@ impl Row {
 pub struct Clock {
     machine: Machine,
     limits: Limits,
+    corners: Corners,
     junctions: Junctions,
+    /// Where the control knows only some blocks of the path.
+    ahead: Option<Ahead>,
     planner: Planner,
     row: Row,
     most_waiting: usize,
@@ -182,10 +196,9 @@ impl Clock {
         };
         Clock {
             limits,
-            junctions: Junctions::new(
-                machine.path_tolerance.unwrap_or(0.0),
-                machine.exact_stop.unwrap_or(false),
-            ),
+            corners: Corners::new(&machine),
+            junctions: Junctions::default(),
+            ahead: machine.look_ahead.map(Ahead::new),
             planner,
             machine,
             row: Row { queue: Queue::default(), certain: 0, n: 0, now: 0.0 },
@@ -198,7 +211,7 @@ impl Clock {
 
     /// Takes the next function; [`Clock::certain`] has those whose time is certain now.
     pub fn push(&mut self, act: Act) {
-        let Clock { machine, limits, junctions, planner, row, .. } = self;
+        let Clock { machine, limits, corners, junctions, ahead, planner, row, .. } = self;
         if matches!(planner, Planner::Ideal) {
             let duration = ideal::duration(&act, machine);
             let profile = match act.event.kind.moves() {
@@ -213,9 +226,10 @@ impl Clock {
             let leg = &movement.leg;
             self.lower += leg.length / leg.speed;
             self.upper += stop_to_stop(leg);
+            let end = corners.of(&act.event);
             row.push(act);
             let mut settle = |profile: Profile| row.settle(profile.duration(), profile);
-            junctions.push(&movement, limits, |leg| planner.push(leg, &mut settle));
+            junctions.push(&movement, end, limits, |leg| planned(ahead, planner, leg, &mut settle));
             self.most_waiting = self.most_waiting.max(self.row.waiting());
             return;
         }
@@ -226,21 +240,24 @@ impl Clock {
         if time.stops {
             self.finish();
         }
-        let Clock { junctions, planner, row, .. } = self;
+        let Clock { junctions, ahead, planner, row, .. } = self;
         row.push(act);
         if row.waiting() == 1 {
             row.settle(time.seconds, Profile::default());
         } else {
             let mut settle = |profile: Profile| row.settle(profile.duration(), profile);
-            junctions.instant(|leg| planner.push(leg, &mut settle));
+            junctions.instant(|leg| planned(ahead, planner, leg, &mut settle));
         }
     }
 
     /// The program is over, or stops: the time of all functions is certain.
     pub fn finish(&mut self) {
-        let Clock { junctions, planner, row, .. } = self;
+        let Clock { junctions, ahead, planner, row, .. } = self;
         let mut settle = |profile: Profile| row.settle(profile.duration(), profile);
-        junctions.stop(|leg| planner.push(leg, &mut settle));
+        junctions.stop(|leg| planned(ahead, planner, leg, &mut settle));
+        if let Some(ahead) = ahead {
+            ahead.stop(&mut |leg| planner.push(leg, &mut settle));
+        }
         planner.stop(&mut settle);
     }
 

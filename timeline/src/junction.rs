@@ -16,6 +16,7 @@
 //! Between a move of linear axes and one of rotary axes alone is a stop: their speeds are not of one
 //! kind. In other moves a degree counts as a millimetre, as in grbl.
 
+use crate::corner;
 use crate::limits::{Heading, Leg, Limits, Move, Shape};
 
 /// Squared sine of half the change of direction up to which a line goes straight on: 2e-6 radians.
@@ -29,6 +30,8 @@ struct Last {
     speed: f64,
     /// Length of the straight line, or of the arc, that ends here.
     run: f64,
+    /// How the corner is taken.
+    corner: corner::Corner,
 }
 
 /// A corner that waits for the length of what comes after it.
@@ -41,11 +44,8 @@ struct Corner {
 }
 
 /// The junctions of a path: legs go in without a cap and come out with it, in order.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Junctions {
-    /// mm.
-    tolerance: f64,
-    exact_stop: bool,
     last: Option<Last>,
     /// Legs that came after the corner; the first is the one with it.
     held: Vec<Leg>,
@@ -53,23 +53,20 @@ pub(crate) struct Junctions {
 }
 
 impl Junctions {
-    pub(crate) fn new(tolerance: f64, exact_stop: bool) -> Junctions {
-        Junctions { tolerance, exact_stop, last: None, held: Vec::new(), corner: None }
-    }
-
-    /// Takes a move.
-    pub(crate) fn push(&mut self, m: &Move, limits: &Limits, mut out: impl FnMut(Leg)) {
+    /// Takes a move, and how the corner at its end is taken.
+    pub(crate) fn push(&mut self, m: &Move, end: corner::Corner, limits: &Limits, mut out: impl FnMut(Leg)) {
         let mut leg = m.leg;
         let mut run = leg.length;
+        let ends = Last { shape: m.shape, heading: m.headings[1], speed: leg.speed, run, corner: end };
         let Some(last) = self.last else {
             // From rest.
             leg.cap = 0.0;
-            self.last = Some(Last { shape: m.shape, heading: m.headings[1], speed: leg.speed, run });
+            self.last = Some(ends);
             return out(leg);
         };
         let slower = last.speed.min(leg.speed);
         leg.cap = slower * slower;
-        if self.exact_stop || (last.shape == Shape::Turning) != (m.shape == Shape::Turning) {
+        if last.corner.stop || (last.shape == Shape::Turning) != (m.shape == Shape::Turning) {
             leg.cap = 0.0;
         }
         let turn = turn(&last.heading, &m.headings[0], limits);
@@ -80,7 +77,7 @@ impl Junctions {
                 run += last.run;
                 after = run;
                 if self.corner.is_some_and(|corner| corner.by_length * run < corner.cap) {
-                    self.last = Some(Last { shape: m.shape, heading: m.headings[1], speed: leg.speed, run });
+                    self.last = Some(Last { run, ..ends });
                     return self.held.push(leg);
                 }
             }
@@ -88,14 +85,16 @@ impl Junctions {
         } else {
             self.resolve(last.run, &mut out);
             if leg.cap > 0.0 {
-                let (cap, by_length) = turn.caps(self.tolerance);
-                leg.cap = leg.cap.min(cap).min(by_length * last.run);
+                let (cap, by_length) = turn.caps(last.corner.tolerance);
+                // A circle that begins so far from the corner touches its moves as one of twice the length does.
+                let by_distance = by_length * 2.0 * last.corner.distance;
+                leg.cap = leg.cap.min(cap).min(by_distance).min(by_length * last.run);
                 if by_length * leg.length < leg.cap {
                     corner = Some(Corner { cap: leg.cap, by_length });
                 }
             }
         }
-        self.last = Some(Last { shape: m.shape, heading: m.headings[1], speed: leg.speed, run });
+        self.last = Some(Last { run, ..ends });
         self.corner = corner;
         match corner {
             Some(_) => self.held.push(leg),

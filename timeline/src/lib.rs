@@ -7,8 +7,10 @@
 //! Not here: reading programs, machine profiles as files, tables and pictures. No dialect's name.
 
 mod act;
+mod ahead;
 mod assumed;
 mod clock;
+mod corner;
 mod fixed;
 mod ideal;
 mod junction;

@@ -27,10 +27,14 @@ pub struct Machine {
     pub spindle_acceleration: Option<f64>,
     /// Highest speed, rev/min.
     pub spindle_max: Option<f64>,
-    /// How far the path may leave a corner, mm; 0 is an exact stop in every corner.
+    /// How far the path may leave a corner, mm; 0 is an exact stop in every corner. A length that the program
+    /// states wins over it.
     pub path_tolerance: Option<f64>,
-    /// Whether every move ends in a stop, in a straight line too: a control in exact-stop mode.
+    /// Whether every move ends in a stop, in a straight line too: a control in exact-stop mode. A path mode that the
+    /// program states wins over it.
     pub exact_stop: Option<bool>,
+    /// Blocks with a move that the control knows beyond the one that it carries out; `None` is the whole path.
+    pub look_ahead: Option<u32>,
     /// Seconds that an M function takes besides what it does.
     pub m_function: Option<f64>,
     /// Functions of the machine's own by name, with the seconds that each takes.

@@ -23,6 +23,17 @@ pub(crate) fn gain(from: f64, to: f64, softness: f64) -> f64 {
     (from + to) * half_time((to - from).abs(), softness)
 }
 
+/// The highest speed that so much gain gives room to stop from.
+pub(crate) fn stop_from(gain: f64, softness: f64) -> f64 {
+    if softness == 0.0 {
+        gain.sqrt()
+    } else if gain >= 2.0 * softness * softness {
+        ((softness * softness + 4.0 * gain).sqrt() - softness) / 2.0
+    } else {
+        (gain / (2.0 * softness.sqrt())).cbrt().powi(2)
+    }
+}
+
 /// Seconds of a leg from rest to rest.
 pub(crate) fn stop_to_stop(leg: &Leg) -> f64 {
     let Leg { length, acceleration, softness, .. } = *leg;
@@ -32,12 +43,7 @@ pub(crate) fn stop_to_stop(leg: &Leg) -> f64 {
         let whole = half >= speed * speed;
         return if whole { length / speed + speed / acceleration } else { 2.0 * half.sqrt() / acceleration };
     }
-    let peak = if half >= 2.0 * softness * softness {
-        ((softness * softness + 4.0 * half).sqrt() - softness) / 2.0
-    } else {
-        (half / (2.0 * softness.sqrt())).cbrt().powi(2)
-    };
-    let peak = peak.min(leg.speed);
+    let peak = stop_from(half, softness).min(leg.speed);
     let half_time = half_time(peak, softness);
     let rest = (length - peak * half_time / acceleration).max(0.0);
     2.0 * half_time / acceleration + rest / peak

@@ -26,7 +26,7 @@ use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::render::human::told;
 use crate::render::{About, json};
-use crate::{called, run, translate};
+use crate::{called, milling, run, translate};
 
 /// Highest number of a program.
 const MOST_NUMBER: u32 = 99_999_999;
@@ -129,6 +129,20 @@ impl Bench<'_> {
         let args = self.args;
         let mut source = files::open(&item.path)?;
         let say = !args.telling.quiet && args.format == Format::Human;
+        if let Some(refusal) = milling::refusal(&mut source, self.known)? {
+            done.row.result = Came::Refused;
+            done.row.exit = Exit::Refused;
+            done.row.reason = Some(refusal.reason());
+            match args.format {
+                // The summary and the exit code say so too.
+                Format::Human => drop(refusal.print(&mut done.told)),
+                Format::Json => done.row.messages.extend(serde_json::to_value(refusal.entry()).ok()),
+            }
+            return Ok(());
+        }
+        if let Some(note) = milling::note(&source).filter(|_| say) {
+            let _ = writeln!(done.told, "{note}");
+        }
         let from = match self.order.named {
             Some(dialect) => dialect,
             None => run::recognise(&mut source, say, self.known, &mut done.told)?,
@@ -143,6 +157,7 @@ impl Bench<'_> {
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
         called::gather(&mut source, &job.from, self.known.folders())?;
         job.called.clone_from(&source.called);
+        job.assumed.clone_from(&source.assumed);
         source.rewind()?;
         let asked = Asked { map: false, annotate: args.annotate };
         let (mut outcome, _) = translate::translate_recording(&job, asked, &mut source.file)

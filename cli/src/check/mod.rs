@@ -27,7 +27,7 @@ use self::args::{Check, Form};
 use self::told::Program;
 use crate::args::Color;
 use crate::files::{self, Destination, Source};
-use crate::guess::{Guess, guess};
+use crate::guess::better;
 use crate::job::Output;
 use crate::known::Known;
 use crate::machines::pair::Machines;
@@ -103,8 +103,7 @@ fn one(
     if say
         && doubtful
         && program.counts[0] > 0
-        && let Ok(Guess::Sure(other, reasons)) = guess(&mut source.file, known.all())
-        && other.id != job.from.dialect.id
+        && let Ok(Some((other, reasons))) = better(&mut source.file, &job.from, known.all())
     {
         let _ = writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "));
     }

@@ -25,6 +25,7 @@ use crate::files;
 use crate::job::{Job, Rest};
 use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
 use crate::render::About;
 use crate::render::human::{self, Loudness};
@@ -101,7 +102,8 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     if args.write_from.is_some() && args.write_from == args.write_to {
         return Err(Problem::usage("one file for two machines", "each has a profile of its own"));
     }
-    let mut source = files::open(&args.file)?;
+    let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
+    let mut source = milling::open(&args.file, voice, known, err)?;
     let from = match named {
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.telling.quiet, known, err)?,
@@ -109,7 +111,8 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
     let said = settings(machines.settings(Side::From, from), &args.from_option)?;
     let into = settings(machines.settings(Side::To, to), &args.to_option)?;
     let start = args.standing.start.unwrap_or_default();
-    let mut job = Job { machines, start, ..Job::new(said, into, &source.name) };
+    let assumed = source.assumed.clone();
+    let mut job = Job { machines, start, assumed, ..Job::new(said, into, &source.name) };
     source.rewind()?;
     let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
     let mut outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;

@@ -29,7 +29,7 @@ use self::events::Compared;
 use self::text::Refused;
 use crate::args::Eol;
 use crate::files::{self, Source};
-use crate::guess::{Guess, guess};
+use crate::guess::better;
 use crate::job::Job;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
@@ -185,10 +185,8 @@ fn laid_out(
         Compared::Different => return Err(not_same(&shown, None)),
         Compared::NotExecuted(_, true) => return Err(not_text(&shown, None)),
         Compared::NotExecuted(first, false) => {
-            let other = guess(&mut source.file, known.all()).map_err(read)?;
-            if let Guess::Sure(other, reasons) = other
-                && other.id != job.from.dialect.id
-            {
+            let other = better(&mut source.file, &job.from, known.all()).map_err(read)?;
+            if let Some((other, reasons)) = other {
                 let id = &job.from.dialect.id;
                 return Err(Problem {
                     exit: Exit::Refused,

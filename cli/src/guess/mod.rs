@@ -5,12 +5,15 @@
 //! better than all others, else nothing is chosen: a program read in the wrong dialect would cut
 //! another part.
 
+mod better;
 mod names;
 
 use std::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};
 
 use ncc_dialects::{Dialect, Family, Meaning, Role};
+
+pub(crate) use better::better;
 
 /// How much of the text is looked at.
 const BEGINNING: u64 = 1 << 16;

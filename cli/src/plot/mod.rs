@@ -13,11 +13,12 @@ use ncc_pictures::{Listing, Page, Record, Undrawn, charts, report, view};
 use ncc_timeline::Timed;
 
 use self::args::Plot;
-use crate::files::{self, Destination, Source};
+use crate::files::{Destination, Source};
 use crate::job::Output;
 use crate::known::Known;
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
-use crate::time::drive::{Said, Sink};
+use crate::time::drive::{Plan, Said, Sink};
 use crate::time::{self, Shop};
 
 /// What a file is.
@@ -48,7 +49,9 @@ impl Sink for Recorder {
 /// wrong with a program is told on `err`.
 pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let form = check(args)?;
-    let mut sources = args.files.iter().map(|path| files::open(path)).collect::<Result<Vec<_>, _>>()?;
+    let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
+    let opened = args.files.iter().map(|path| milling::open(path, voice, known, err));
+    let mut sources = opened.collect::<Result<Vec<_>, _>>()?;
     let name = args.output.as_ref().filter(|name| *name != Path::new("-"));
     for source in &sources {
         source.guard(name.map(PathBuf::as_path))?;
@@ -61,7 +64,8 @@ pub(crate) fn run(args: &Plot, known: &Known, err: &mut dyn WriteColor) -> Resul
         let asked = args.timed(n);
         let shop = Shop::of(&asked, known, err)?;
         let job = time::job(&asked, &shop, known, source, err)?;
-        let plan = time::plan(&asked, &shop, &job);
+        // The picture is that of the contour.
+        let plan = Plan { centre: false, ..time::plan(&asked, &shop, &job) };
         let mut recorder = Recorder(Record::new(&source.name));
         let course = time::execute(&asked, &plan, known, source, &mut recorder, err)?;
         if course.refused {

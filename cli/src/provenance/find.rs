@@ -20,6 +20,7 @@ use crate::called;
 use crate::files::{self, Source};
 use crate::job::Job;
 use crate::known::Known;
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
 use crate::render::About;
 use crate::report::hex;
@@ -167,7 +168,7 @@ fn again(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Found, Problem> {
-    let mut source = files::open(path)?;
+    let mut source = milling::open(path, Voice::Quiet, known, err)?;
     let dialect = |id: &Option<String>, of: &mut Source, err: &mut dyn WriteColor| match id.as_deref() {
         None | Some("auto") => recognise(of, false, known, err),
         Some(id) => known.dialect(id),

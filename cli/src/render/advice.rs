@@ -96,6 +96,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             Some(PathMode::Tapping) => own("leave feed hold and override alone in these blocks"),
             _ => own("check corners and their tolerance on the machine"),
         },
+        Fault::AssumedMilling { .. } => own("make sure that the program is for a mill"),
         Fault::AssumedTip => own(
             "check on the machine which rotary axes there are, their senses, and whether the zero turns with the work",
         ),

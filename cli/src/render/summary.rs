@@ -201,6 +201,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedRow { .. }
         | Fault::AssumedHoleOrder { .. }
         | Fault::AssumedContourEnds
+        | Fault::AssumedMilling { .. }
         | Fault::AssumedTip
         | Fault::AssumedTilt
         | Fault::AssumedContourPath

@@ -181,6 +181,9 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("corners taken by {} assumed", plain(path)),
             format!("{to} has no word for it, and is taken to do it always"),
         ),
+        Fault::AssumedMilling { looks_like, .. } => {
+            (format!("a milling program assumed; it looks like {}", plain(looks_like)), "the sign".into())
+        }
         Fault::AssumedTip => (
             "points of the tool's tip: rotary axes and zero as on the other control assumed".into(),
             "names, senses and zeros of the rotary axes are the machine's, and what the zero turns with"

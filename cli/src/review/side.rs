@@ -15,12 +15,13 @@ use ncc_machines::reading::Side as Whose;
 
 use crate::args::Start;
 use crate::called;
-use crate::files::{self, Source};
+use crate::files::Source;
 use crate::given::Given;
 use crate::guess::{Guess, guess};
 use crate::job::Job;
 use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
 use crate::run::{recognise, settings};
 use crate::sugar::is_name;
@@ -92,8 +93,8 @@ pub(crate) fn open(
     err: &mut dyn WriteColor,
 ) -> Result<[Side; 2], Problem> {
     let [a, b] = asked;
-    let mut first = Opened::of(a, known, err)?;
-    let mut second = Opened::of(b, known, err)?;
+    let mut first = Opened::of(a, say, known, err)?;
+    let mut second = Opened::of(b, say, known, err)?;
     if first.stdin && second.stdin {
         return Err(Problem::usage("stdin can be read only once", "name a file for one side"));
     }
@@ -127,7 +128,7 @@ pub(crate) fn open_one(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<Side, Problem> {
-    let mut opened = Opened::of(asked, known, err)?;
+    let mut opened = Opened::of(asked, say, known, err)?;
     opened.settle(None, say, known, err)?;
     opened.finish(asked, say, known, err)
 }
@@ -141,7 +142,7 @@ struct Opened {
 }
 
 impl Opened {
-    fn of(asked: &Asked, known: &Known, err: &mut dyn WriteColor) -> Result<Opened, Problem> {
+    fn of(asked: &Asked, say: bool, known: &Known, err: &mut dyn WriteColor) -> Result<Opened, Problem> {
         let (named, path) = operand(asked.operand, known)?;
         let path: PathBuf = path.to_owned();
         let from = asked.from.filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
@@ -151,7 +152,8 @@ impl Opened {
             // What holds for both sides gives way to a profile of one.
             None => profile.as_ref().map(|profile| profile.dialect).or(from),
         };
-        let source = files::open(&path)?;
+        let voice = if say { Voice::Human } else { Voice::Quiet };
+        let source = milling::open(&path, voice, known, err)?;
         Ok(Opened { source, named, profile: profile.map(Arc::new), stdin: path == Path::new("-") })
     }
 

@@ -6,6 +6,7 @@
 
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
+use std::path::Path;
 
 use clap::Args;
 use codespan_reporting::term::termcolor::WriteColor;
@@ -21,6 +22,7 @@ use crate::args::pair;
 use crate::files;
 use crate::job::Output;
 use crate::known::Known;
+use crate::milling;
 use crate::problem::{Exit, Problem};
 
 /// `ncc git-textconv`.
@@ -50,20 +52,32 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
     };
     let mut output = Output::new();
     let cannot = |e: &io::Error| Problem::file("read", &args.file, e);
-    let why = match open_one(&asked, false, known, err) {
-        Ok(mut side) => match listed(&mut side, &mut output).map_err(|e| cannot(&e))? {
-            true => None,
-            false => Some(format!("{} cannot be executed as {}", side.source.shown, side.dialect().id)),
+    let (_, path) = super::side::operand(&args.file, known)?;
+    // git ends with a driver that fails: what is no milling program is text to it.
+    let other = match path == Path::new("-") {
+        true => None,
+        false => milling::refusal(&mut files::open(path)?, known)?,
+    };
+    let opened = match other {
+        Some(other) => Err(format!("{} looks like {}", path.display(), other.kind)),
+        None => Ok(open_one(&asked, false, known, err)),
+    };
+    let why = match opened {
+        Err(why) => Some(why),
+        Ok(opened) => match opened {
+            Ok(mut side) => match listed(&mut side, &mut output).map_err(|e| cannot(&e))? {
+                true => None,
+                false => Some(format!("{} cannot be executed as {}", side.source.shown, side.dialect().id)),
+            },
+            // What cannot be recognised is text.
+            Err(problem) if problem.exit == Exit::Usage && args.from.is_none() => Some(problem.message),
+            Err(problem) => return Err(problem),
         },
-        // What cannot be recognised is text.
-        Err(problem) if problem.exit == Exit::Usage && args.from.is_none() => Some(problem.message),
-        Err(problem) => return Err(problem),
     };
     match why {
         None => files::to_stdout(&mut |out| output.write_to(out))?,
         Some(why) => {
             let _ = writeln!(err, "{why}; shown as it is");
-            let (_, path) = super::side::operand(&args.file, known)?;
             let mut source = files::open(path)?;
             source.file.seek(SeekFrom::Start(0)).map_err(|e| cannot(&e))?;
             let mut text = Vec::new();

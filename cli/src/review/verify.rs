@@ -22,7 +22,7 @@ use super::cert;
 use super::side::{Asked, Side, open, operand};
 use crate::args::{Format, pair};
 use crate::files::{self, Source};
-use crate::guess::{Guess, guess};
+use crate::guess::better;
 use crate::job::Job;
 use crate::known::Known;
 use crate::machines::pair::Machines;
@@ -248,9 +248,7 @@ fn say(
     human::print(err, &mut about, &course.diagnostics, args.telling.loudness())?;
     if course.refused {
         writeln!(err, "{shown}: not compared, because it cannot be executed as {}", dialect.id)?;
-        if let Guess::Sure(other, reasons) = guess(&mut side.source.file, known.all())?
-            && other.id != dialect.id
-        {
+        if let Some((other, reasons)) = better(&mut side.source.file, &side.job.from, known.all())? {
             writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
             writeln!(err, "  help: {}:{shown}", other.id)?;
         }

@@ -1,7 +1,7 @@
 //! What a timing takes for granted, in the few words of a summary.
 
 use ncc_ir::canon::{AXES, Axis};
-use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_machines::Profile;
 use ncc_timeline::{AssumedFact, Fact, Model};
 
@@ -54,8 +54,48 @@ pub(crate) fn of_run(plan: &Plan, course: &Course) -> Vec<String> {
     if course.tip {
         lines.push("points of the tool's tip are timed as points of the linear axes".to_owned());
     }
+    lines.extend(of_contours(plan, course));
     lines.extend(of_offsets(plan, course));
     lines.extend(of_lengths(plan, course));
+    lines
+}
+
+/// Of contours under cutter compensation: which are timed along what.
+fn of_contours(plan: &Plan, course: &Course) -> Vec<String> {
+    if !course.compensates {
+        return Vec::new();
+    }
+    if !plan.centre {
+        return vec!["contours under cutter compensation are timed along the programmed contour".to_owned()];
+    }
+    let mut lines: Vec<String> = Vec::new();
+    let mut unknown: Vec<String> = Vec::new();
+    for (line, fault) in &course.as_programmed {
+        match fault {
+            Fault::RadiusUnknown { entry: Some(entry) } => unknown.push(format!("entry {entry}")),
+            Fault::RadiusUnknown { entry: None } => unknown.push("an edge".to_owned()),
+            Fault::ContourUnreachable { why } => {
+                lines.push(format!("from line {line} on timed along the programmed contour: {why}"));
+            }
+            Fault::CannotSay { what } | Fault::NotExecuted { what } => {
+                lines.push(format!("from line {line} on timed along the programmed contour: {what}"));
+            }
+            _ => lines.push(format!("from line {line} on timed along the programmed contour")),
+        }
+    }
+    unknown.sort();
+    unknown.dedup();
+    if !unknown.is_empty() {
+        let radii = unknown.join(", ");
+        lines.insert(
+            0,
+            format!("timed along the programmed contour, for the radius of {radii} is not stated"),
+        );
+    }
+    lines.dedup();
+    if !plan.job.compensating().known && course.follows_centre {
+        lines.push("outer corners of compensated contours are gone round by an arc".to_owned());
+    }
     lines
 }
 
@@ -150,8 +190,21 @@ pub(crate) fn of_profile(profile: &Profile) -> Vec<String> {
 /// Of the machine: what its profile does not state, and neither does the model.
 pub(crate) fn of_machine(plan: &Plan, facts: &[AssumedFact], course: &Course) -> Vec<String> {
     let moved = &course.moved;
-    let mut lines = in_words(facts, moved);
     let machine = &plan.machine;
+    let needed = |fact: &&AssumedFact| match fact.fact {
+        Fact::ExactStop => course.corners.unsaid,
+        Fact::PathTolerance => course.corners.unsaid || course.corners.open,
+        _ => true,
+    };
+    let facts: Vec<AssumedFact> = facts.iter().filter(needed).copied().collect();
+    let mut lines = in_words(&facts, moved);
+    if plan.model != Model::Ideal && course.corners.open {
+        let tolerance = machine.path_tolerance.unwrap_or_default();
+        lines.push(format!(
+            "where the program rounds corners and does not say how far, {} mm",
+            short(tolerance, 3)
+        ));
+    }
     if plan.model == Model::Ideal && course.bounds.is_some() {
         // The upper bound needs more than the model does.
         let (_, all) = machine.assumed(Model::Trapezoidal);
@@ -171,6 +224,7 @@ fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
         let value = match fact.fact.unit(fact.axis) {
             "" if fact.value == 0.0 => "no".to_owned(),
             "" => "yes".to_owned(),
+            _ if fact.value.is_infinite() => "the whole path".to_owned(),
             unit => format!("{} {unit}", short(fact.value, 3)),
         };
         let axis = fact.axis.map(letter);

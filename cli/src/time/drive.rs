@@ -10,7 +10,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
 use ncc_frontends::{Batch, Reader};
-use ncc_ir::canon::{AXES, Modes};
+use ncc_ir::canon::{AXES, Modes, PathMode};
 use ncc_ir::cycle::{Clearance, CycleKind};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity};
 use ncc_ir::exec::{Event, Exec, Kind, Runner};
@@ -39,6 +39,9 @@ use crate::verify_run::fixed;
 /// After so many errors, reading more of the program would help nobody.
 const ENOUGH_ERRORS: usize = 200;
 
+/// So many blocks of a contour are remembered, of which an event may come late: one that does not move holds none up.
+const MOST_HELD: usize = 64;
+
 /// What is to be executed, and how it is timed.
 pub(crate) struct Plan<'p> {
     /// The program's dialect and options; as a translation into itself.
@@ -57,6 +60,8 @@ pub(crate) struct Plan<'p> {
     pub(crate) start_time: f64,
     /// Whether cycles are told as they are called, or as they are made.
     pub(crate) stage: Stage,
+    /// Whether compensated contours are gone along by the tool's centre, where its radius is known.
+    pub(crate) centre: bool,
 }
 
 /// What the source says of a function.
@@ -118,6 +123,15 @@ pub(crate) enum Length {
     Edge(i64, u32),
 }
 
+/// Corners that a program leaves to the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Corners {
+    /// No path mode is in force.
+    pub(crate) unsaid: bool,
+    /// One is in force that rounds, and no length says how far.
+    pub(crate) open: bool,
+}
+
 /// What became of a program.
 pub(crate) struct Course {
     /// What was found.
@@ -140,8 +154,16 @@ pub(crate) struct Course {
     pub(crate) in_machine: bool,
     /// Axes that move.
     pub(crate) moved: [bool; AXES],
+    /// Whether corners are taken as the program says nothing of, and as it says without a length.
+    pub(crate) corners: Corners,
     /// Seconds at least and at most, where the sink wants them.
     pub(crate) bounds: Option<[f64; 2]>,
+    /// Whether contours are compensated.
+    pub(crate) compensates: bool,
+    /// Whether a move was one of the tool's centre beside a contour.
+    pub(crate) follows_centre: bool,
+    /// Contours that the tool's centre was not followed along: in which line that was found, and why.
+    pub(crate) as_programmed: Vec<(u32, Fault)>,
     /// Blocks of the source that say something.
     pub(crate) blocks: u64,
     /// Seconds on the clock at the end.
@@ -214,6 +236,8 @@ struct Drive<'d> {
     events: Vec<Event>,
     /// Of functions whose time is not certain yet, in order.
     said: VecDeque<Said>,
+    /// Blocks whose events may wait for the next ones: a contour's end is not known before.
+    held: VecDeque<(Span, Place, Said)>,
     course: Course,
     errors: usize,
 }
@@ -223,6 +247,9 @@ impl<'d> Drive<'d> {
         let world = world(plan);
         let mut exec = Exec::new(&world, plan.skip);
         exec.narrate();
+        if plan.centre {
+            exec.compute_known_compensation(plan.job.compensating().rules);
+        }
         // Cycles that are not made have no time, so that nothing has.
         let model = if plan.stage == Stage::Before { Model::Ideal } else { plan.model };
         let wants_bounds = sink.wants_bounds();
@@ -247,6 +274,7 @@ impl<'d> Drive<'d> {
                 .then(|| Clock::new(Model::Trapezoidal, plan.machine.clone())),
             events: Vec::new(),
             said: VecDeque::new(),
+            held: VecDeque::new(),
             course: Course {
                 diagnostics: Vec::new(),
                 refused: false,
@@ -258,7 +286,11 @@ impl<'d> Drive<'d> {
                 lengths: BTreeSet::new(),
                 in_machine: false,
                 moved: [false; AXES],
+                corners: Corners::default(),
                 bounds: None,
+                compensates: false,
+                follows_centre: false,
+                as_programmed: Vec::new(),
                 blocks: 0,
                 end: 0.0,
             },
@@ -361,6 +393,8 @@ impl<'d> Drive<'d> {
         if self.plan.stage == Stage::Before && self.is_call(&stmt.op) {
             return self.call(stmt, text);
         }
+        let exact = self.plan.job.from.dialect.can.cycles_in_exact_path && self.is_call(&stmt.op);
+        let contour = self.plan.centre && self.exec.is_on_contour();
         let before = self.exec.offset_in_force();
         if let Err(refusal) = self.exec.step(stmt, &mut self.events) {
             return Ok(Err(refusal));
@@ -368,15 +402,35 @@ impl<'d> Drive<'d> {
         if !self.moved && self.exec.offset_in_force() != before {
             self.start_in(before);
         }
-        if self.events.is_empty() {
+        let contour = contour || self.plan.centre && self.exec.is_on_contour();
+        if self.events.is_empty() && !contour {
             return Ok(Ok(()));
         }
         let (place, mut said) = self.place(stmt.span, text);
         if let Op::Comment(remark) = &stmt.op {
             said.remark = Some(Rc::from(&**remark));
         }
+        if contour {
+            self.note_contour(stmt.span, place, &said);
+        }
+        if exact {
+            for event in &mut self.events {
+                event.state.path = Some(PathMode::ExactPath);
+            }
+        }
+        self.pass_on(contour, place, &said);
+        if contour && !self.exec.is_on_contour() {
+            self.held.clear();
+        }
+        self.deliver().map(Ok)
+    }
+
+    /// Passes on the events that were made; those of a contour may be of an earlier block.
+    fn pass_on(&mut self, contour: bool, place: Place, said: &Said) {
         let mut events = std::mem::take(&mut self.events);
         for event in events.drain(..) {
+            let held = self.held.iter().rev().find(|(span, ..)| contour && *span == event.span);
+            let (place, said) = held.map_or((place, said.clone()), |(_, place, said)| (*place, said.clone()));
             let act = Act::of(event, self.last, &self.exec, place);
             self.moves(&act);
             self.last = act.event.end;
@@ -384,7 +438,7 @@ impl<'d> Drive<'d> {
             let reach = if arc && self.wants_reach { reach(&act, &self.exec) } else { None };
             let turned = if arc && self.wants_turns { turned(&act, &self.exec) } else { None };
             let (reach, turned) = (reach.map(Box::new), turned.map(Box::new));
-            self.said.push_back(Said { reach, turned, ..said.clone() });
+            self.said.push_back(Said { reach, turned, ..said });
             if let Some(clock) = &mut self.beside {
                 clock.push(act.clone());
                 clock.forget();
@@ -392,7 +446,18 @@ impl<'d> Drive<'d> {
             self.clock.push(act);
         }
         self.events = events;
-        self.deliver().map(Ok)
+    }
+
+    /// Notes a block of a contour, and contours that the tool's centre is not followed along.
+    fn note_contour(&mut self, span: Span, place: Place, said: &Said) {
+        self.course.follows_centre |= self.exec.follows_centre();
+        let known = self.course.as_programmed.len();
+        let new = self.exec.as_programmed().get(known..).unwrap_or_default();
+        self.course.as_programmed.extend(new.iter().map(|left| (place.line, left.fault.clone())));
+        if self.held.len() >= MOST_HELD {
+            self.held.pop_front();
+        }
+        self.held.push_back((span, place, said.clone()));
     }
 
     /// Notes what a move depends on: whether it goes anywhere too.
@@ -401,6 +466,11 @@ impl<'d> Drive<'d> {
             return;
         }
         self.moved = true;
+        match act.event.state.path {
+            None => self.course.corners.unsaid = true,
+            Some(PathMode::ExactStop | PathMode::ExactPath | PathMode::Distance) => {}
+            Some(_) => self.course.corners.open |= act.event.state.within[..2] == [0; 2],
+        }
         for (moved, (from, to)) in self.course.moved.iter_mut().zip(act.from.iter().zip(&act.event.end)) {
             *moved |= from != to;
         }
@@ -469,6 +539,12 @@ impl<'d> Drive<'d> {
     /// The end.
     fn end(mut self) -> io::Result<Course> {
         if self.errors == 0 {
+            if self.plan.centre && self.exec.is_on_contour() {
+                // The text ends on the contour.
+                self.exec.end_of_text(&mut self.events);
+                self.events.retain(|event| event.kind != Kind::TextEnd);
+                self.pass_on(true, Place::default(), &Said::default());
+            }
             self.clock.finish();
             self.deliver()?;
         }
@@ -496,6 +572,7 @@ impl<'d> Drive<'d> {
                 Op::OrientToolAxis(_) => self.course.turns_onto_planes = true,
                 Op::UseToolCentrePoint(on) => self.course.tip |= on,
                 Op::UseMachineCoordinates { .. } | Op::GoToReference(_) => self.course.in_machine = true,
+                Op::StartCutterRadiusCompensation { .. } => self.course.compensates = true,
                 Op::StartCycle(cycle) => self.parameters(&cycle.kind, stmt.span),
                 _ => {}
             }

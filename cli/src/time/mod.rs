@@ -42,10 +42,11 @@ use self::summary::{Report, Timing};
 use self::tally::{Tallier, Tally};
 use crate::called;
 use crate::files::{self, Destination, Source};
-use crate::guess::{Guess, guess};
+use crate::guess::better;
 use crate::job::{Failure, Job, Output};
 use crate::known::Known;
 use crate::machines::pair::Machines;
+use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
@@ -93,8 +94,9 @@ pub fn run(args: &Time, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
     let shop = Shop::of(args, known, err)?;
     let mut lost = Lost { names: Vec::new(), exit: Exit::Done };
     let mut sources = Vec::new();
+    let voice = if args.telling.quiet { Voice::Quiet } else { Voice::Human };
     for path in &args.files {
-        match files::open(path) {
+        match milling::open(path, voice, known, err) {
             Ok(source) => sources.push(source),
             Err(problem) => lost.take(args, path.display().to_string(), problem, err)?,
         }
@@ -255,6 +257,8 @@ pub(crate) fn plan<'p>(args: &Time, shop: &Shop, job: &'p Job) -> Plan<'p> {
         skip: args.setting.switches.on(),
         start_time: args.setting.start_time,
         stage: args.stage,
+        // Cycles that are told as they are called have no times.
+        centre: args.stage == Stage::After,
     }
 }
 
@@ -297,12 +301,8 @@ fn tell(
     let shown = source.shown.clone();
     let other = match course.refused {
         false => None,
-        true => match guess(&mut source.file, known.all())? {
-            Guess::Sure(other, reasons) => Some((other, reasons)),
-            Guess::Unsure(_) => None,
-        },
+        true => better(&mut source.file, &plan.job.from, known.all())?,
     };
-    let other = other.filter(|(other, _)| other.id != plan.job.from.dialect.id);
     let mut about = About { job: plan.job, name: &shown, source: &mut source.file };
     // What is wrong with a text in another language is nothing that anybody wants to know.
     if other.is_none() || args.telling.quiet {
@@ -515,7 +515,9 @@ fn canonical(
     again.seek(SeekFrom::Start(0)).map_err(cannot)?;
     let mut text = Source::of(file, &source.name);
     let second = Job { from: to.clone(), to, start, called: None, ..first.job.clone() };
-    let plan = Plan { job: &second, machine: shop.machine.clone(), ..plan(args, shop, &second) };
+    // Each function of the text has its own line.
+    let plan =
+        Plan { job: &second, machine: shop.machine.clone(), centre: false, ..plan(args, shop, &second) };
     let mut sink = canon::Canon::new(BufReader::new(again), out);
     let mut course = execute(args, &plan, &known, &mut text, &mut sink, err)?;
     sink.finish().map_err(cannot)?;

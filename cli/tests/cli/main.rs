@@ -12,6 +12,7 @@ mod fmt;
 mod given;
 mod machines;
 mod messages;
+mod milling;
 mod plot;
 mod provenance;
 mod readme;

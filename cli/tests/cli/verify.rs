@@ -195,9 +195,13 @@ fn programs_that_cannot_be_compared() {
     std::fs::write(folder.path().join("binary.nc"), [0u8, 1, 2, 255, 0, 9]).unwrap();
     run(&["mach9:good.cn", "fanuc:binary.nc"]).exits(5);
     // A dialect that nobody names and nothing tells.
+    write(&folder, "words.nc", "hello world\n");
+    run(&["mach9:good.cn", "words.nc"]).exits(5).says("cannot be told");
+    ncc(folder.path(), &["diff", "mach9:good.cn", "words.nc"]).exits(5).says("cannot be told");
+    // Sentences are refused as such, as in every verb.
     write(&folder, "prose.nc", "Nothing of this is meant for a machine!\n");
-    run(&["mach9:good.cn", "prose.nc"]).exits(5).says("cannot be told");
-    ncc(folder.path(), &["diff", "mach9:good.cn", "prose.nc"]).exits(5).says("cannot be told");
+    run(&["mach9:good.cn", "prose.nc"]).exits(1).says("plain text, not a program");
+    ncc(folder.path(), &["diff", "mach9:good.cn", "prose.nc"]).exits(1).says("plain text, not a program");
     write(&folder, "cut.nc", &OTHER[..OTHER.len() - 30]);
     run(&["mach9:good.cn", "fanuc:cut.nc"]).exits(1);
     run(&["mach9:good.cn"]).exits(2).says("ncc verify SRC OUT");

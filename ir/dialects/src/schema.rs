@@ -479,6 +479,9 @@ pub struct Can {
     /// plane even if it has words of none of its axes. Of others it is taken for granted that every corner is gone
     /// round, and that the first move with such words leads there, where the path has to be worked out.
     pub contour_left_at_once: bool,
+    /// Canned cycles are driven through every point, whatever path mode is in force (LinuxCNC's G61): no corner of
+    /// theirs is rounded. It counts for times alone.
+    pub cycles_in_exact_path: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,
     /// Grids are written only up to this many columns and rows.

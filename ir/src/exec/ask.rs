@@ -13,6 +13,11 @@ use crate::source::Span;
 use crate::system::System;
 
 impl Exec {
+    /// Whether cutter radius compensation is on, or the move that leaves the contour has not come yet.
+    pub fn is_on_contour(&self) -> bool {
+        self.contour.watched
+    }
+
     /// A point of the machine in the program's coordinates, as the frames are now.
     pub fn in_program(&self, machine: &[Nanos; AXES]) -> [Nanos; AXES] {
         self.unplace(machine)

@@ -31,6 +31,17 @@ pub(super) struct CentrePath {
     held: Vec<Event>,
     /// The tool is beside the contour that it has to leave.
     leaving: bool,
+    /// Where a contour that the tool cannot be followed along is executed as it is programmed, what was left so.
+    left_out: Option<Vec<AsProgrammed>>,
+}
+
+/// A compensated contour that was executed as it is programmed, though the path of the tool's centre was wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AsProgrammed {
+    /// Why: the fault that stops a comparison there.
+    pub fault: Fault,
+    /// The block where that was found.
+    pub span: Span,
 }
 
 fn spot(point: &[Nanos; AXES], axes: [usize; 2]) -> Spot {
@@ -50,6 +61,39 @@ fn unreachable(why: Unreachable, span: Span) -> Diagnostic {
 impl Exec {
     /// Makes events of the path of the tool's centre where a contour is compensated.
     pub fn compute_compensation(&mut self, rules: Rules) {
+        self.follow_centre(rules, None);
+    }
+
+    /// The same for somebody who wants times: a contour whose radius nobody has stated, or along which the tool
+    /// cannot go, is executed as it is programmed, and [`Exec::as_programmed`] tells of it.
+    pub fn compute_known_compensation(&mut self, rules: Rules) {
+        self.follow_centre(rules, Some(Vec::new()));
+    }
+
+    /// Contours that were executed as they are programmed, the first first.
+    pub fn as_programmed(&self) -> &[AsProgrammed] {
+        let left_out = self.centre_path.as_ref().and_then(|path| path.left_out.as_deref());
+        left_out.unwrap_or_default()
+    }
+
+    /// Whether the tool is beside a contour, and its centre is followed.
+    pub fn follows_centre(&self) -> bool {
+        self.centre_path.as_ref().is_some_and(|path| path.path.is_some())
+    }
+
+    /// Whether what the control does beside a contour must be refused where nobody can follow the tool.
+    pub(super) fn must_follow_centre(&self) -> bool {
+        self.centre_path.as_ref().is_some_and(|path| path.left_out.is_none())
+    }
+
+    /// The contour goes on as it is programmed.
+    pub(super) fn execute_as_programmed(&mut self, fault: Fault, span: Span, out: &mut Vec<Event>) {
+        if let Some(path) = self.centre_path.as_mut().filter(|path| path.radius.is_some()) {
+            path.give_up(AsProgrammed { fault, span }, out);
+        }
+    }
+
+    fn follow_centre(&mut self, rules: Rules, left_out: Option<Vec<AsProgrammed>>) {
         self.centre_path = Some(Box::new(CentrePath {
             rules,
             radius: None,
@@ -60,6 +104,7 @@ impl Exec {
             tool: self.last,
             held: Vec::new(),
             leaving: false,
+            left_out,
         }));
     }
 
@@ -69,20 +114,30 @@ impl Exec {
             return Ok(());
         }
         let mm = |nanos: Nanos| nanos as f64 / ONE as f64;
-        let radius = match radius {
+        let known = match radius {
             CutterRadius::Diameter(diameter) => mm(self.value(diameter, span)?).abs() / 2.0,
             CutterRadius::Entry(_) | CutterRadius::Tool | CutterRadius::InForce => {
                 let entry = self.state.compensation.entry();
                 match entry.and_then(|entry| self.world.tables.radius(entry)) {
                     Some(radius) => mm(radius),
-                    None => return self.fault(Fault::RadiusUnknown { entry }, span),
+                    None => {
+                        let fault = Fault::RadiusUnknown { entry };
+                        match self.centre_path.as_mut().and_then(|path| path.left_out.as_mut()) {
+                            // A radius of nothing is the contour itself.
+                            Some(left_out) => {
+                                left_out.push(AsProgrammed { fault, span });
+                                0.0
+                            }
+                            None => return self.fault(fault, span),
+                        }
+                    }
                 }
             }
         };
         let (first, second, _) = self.modes.plane.axes();
         let (plane, here, last) = (self.modes.plane, self.machine(), self.last);
         if let Some(path) = &mut self.centre_path {
-            path.radius = (radius != 0.0).then_some(radius);
+            path.radius = (known != 0.0).then_some(known);
             (path.plane, path.axes) = (plane, [first as usize, second as usize]);
             (path.contour, path.tool) = (here, last);
         }
@@ -108,7 +163,7 @@ impl Exec {
         let moves = made.iter().any(|event| event.kind.moves().is_some());
         let named = of_the_plane || path.rules.left_at_once && moves;
         let done = made.into_iter().try_for_each(|event| match on {
-            true => path.along(event, out),
+            true => path.along_or_as_programmed(event, out),
             false => {
                 path.away(event, named, out);
                 Ok(())
@@ -128,7 +183,15 @@ impl Exec {
         let Some(path) = &mut self.centre_path else { return Ok(()) };
         path.radius = None;
         let Some(beside) = path.path.take() else { return Ok(()) };
-        let end = beside.leave().map_err(|why| unreachable(why, span))?;
+        let now = beside.now();
+        let end = match (beside.leave(), &mut path.left_out) {
+            (Ok(end), _) => end,
+            (Err(why), None) => return Err(unreachable(why, span)),
+            (Err(why), Some(left_out)) => {
+                left_out.push(AsProgrammed { fault: Fault::ContourUnreachable { why }, span });
+                now
+            }
+        };
         path.settle(end, out);
         path.leaving = true;
         self.last = path.tool;
@@ -168,12 +231,37 @@ impl CentrePath {
         out.push(event);
     }
 
+    /// An event on the contour; where the tool cannot be followed any further and need not be, as it is programmed.
+    fn along_or_as_programmed(&mut self, event: Event, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.left_out.is_none() {
+            return self.along(event, out);
+        }
+        let Err(refusal) = self.along(event.clone(), out) else { return Ok(()) };
+        self.give_up(AsProgrammed { fault: refusal.fault, span: refusal.span }, out);
+        self.along(event, out)
+    }
+
+    /// From here on, the contour counts.
+    fn give_up(&mut self, why: AsProgrammed, out: &mut Vec<Event>) {
+        if let Some(beside) = self.path.take() {
+            self.settle(beside.now(), out);
+        }
+        out.append(&mut self.held);
+        self.radius = None;
+        if let Some(left_out) = &mut self.left_out {
+            left_out.push(why);
+        }
+    }
+
     /// An event on the contour.
     fn along(&mut self, mut event: Event, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = event.span;
         let side = event.state.compensation.side;
         event.state.compensation = super::Compensation::default();
         let Some(radius) = self.radius else {
+            if event.kind.moves().is_some() {
+                (self.contour, self.tool) = (event.end, event.end);
+            }
             out.push(event);
             return Ok(());
         };

@@ -157,7 +157,11 @@ impl Exec {
             return not_told("a rapid move by a detour at a corner", span);
         }
         if self.centre_path.is_some() && self.contour.watched {
-            return not_told("a corner of a contour whose compensation is worked out", span);
+            let what = "a corner of a contour whose compensation is worked out";
+            if self.must_follow_centre() {
+                return not_told(what, span);
+            }
+            self.execute_as_programmed(Fault::NotExecuted { what: what.into() }, span, out);
         }
         if self.state.tip || self.state.tilted {
             return not_told("a corner with the tool's axis turned", span);

@@ -32,6 +32,7 @@ mod tools;
 
 pub(crate) use at_codes::cuts;
 pub use at_codes::touched;
+pub use centre_path::AsProgrammed;
 pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};

@@ -75,7 +75,7 @@ impl Exec {
             if framed || self.state.tip || self.state.tilted {
                 return self.not_executed("a constant surface speed in a frame of the program", span);
             }
-            if self.centre_path.is_some() {
+            if self.must_follow_centre() {
                 return self
                     .not_executed("a constant surface speed beside a contour that is worked out", span);
             }

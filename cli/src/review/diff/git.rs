@@ -3,6 +3,7 @@
 //! It prints the difference of what both versions do; of their texts, if one of them cannot be
 //! executed, and says so. The exit code is 0 always: git takes anything else for a driver that has died.
 
+use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write;
 use std::path::Path;
@@ -11,12 +12,13 @@ use clap::Args;
 use codespan_reporting::term::termcolor::{Buffer, WriteColor};
 
 use super::motion::motion;
-use super::tell::Account;
+use super::tell::{Account, decoded};
 use super::{SHOWN, plain, text, unified};
 use crate::args::pair;
 use crate::files;
 use crate::guess::{Guess, guess};
 use crate::known::Known;
+use crate::milling;
 use crate::problem::{Exit, Problem};
 use crate::review::side::{Asked, Side, open};
 
@@ -101,6 +103,9 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str) -> Strin
         options: &args.from_option,
         ..Asked::default()
     };
+    if let Some(told) = not_milling(known, versions, path) {
+        return told;
+    }
     let mut quiet = Buffer::no_color();
     let opened = open([&asked(&names[0]), &asked(&names[1])], false, known, &mut quiet);
     let mut sides = match opened {
@@ -112,6 +117,28 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str) -> Strin
     }
     let most = if args.all { usize::MAX } else { SHOWN };
     told(&mut sides, most).unwrap_or_else(|e| format!("not compared: {e}\n"))
+}
+
+/// The difference of the texts, where a version is no milling program.
+fn not_milling(known: &Known, versions: [&str; 2], path: &str) -> Option<String> {
+    let mut sources = versions.map(|file| files::open(Path::new(file)).ok());
+    let mut out = String::new();
+    for (source, version) in sources.iter_mut().zip(["old", "new"]) {
+        if let Some(other) = milling::refusal(source.as_mut()?, known).ok()? {
+            let _ = writeln!(out, "{path} ({version}) looks like {}; the texts are compared", other.kind);
+        }
+    }
+    if out.is_empty() {
+        return None;
+    }
+    let [old, new] = versions.map(|file| {
+        let text = std::fs::read(file).unwrap_or_default();
+        text.split_inclusive(|b| *b == b'\n').map(|line| decoded(line) + "\n").collect::<String>()
+    });
+    let names = ["old", "new"].map(|version| format!("{path} ({version})"));
+    let difference = similar::TextDiff::from_lines(&old, &new);
+    out += &difference.unified_diff().header(&names[0], &names[1]).to_string();
+    Some(out)
 }
 
 fn told(sides: &mut [Side; 2], most: usize) -> std::io::Result<String> {

@@ -292,11 +292,8 @@ fn say(
                 "{shown}: not compared, because it cannot be executed as {}",
                 side.job.from.dialect.id
             )?;
-            let dialect = side.job.from.dialect;
-            if let crate::guess::Guess::Sure(other, reasons) =
-                crate::guess::guess(&mut side.source.file, known.all())?
-                && other.id != dialect.id
-            {
+            let found = crate::guess::better(&mut side.source.file, &side.job.from, known.all())?;
+            if let Some((other, reasons)) = found {
                 writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
                 writeln!(err, "  help: {}:{shown}", other.id)?;
             }
