@@ -61,6 +61,11 @@ behaviours! {
     CoolantAtChange = "coolant-at-change", "coolant at a tool change", ["does-not", "stops"], Machine;
     /// Where Z goes before M06 changes the tool, and stays: nowhere, or to machine zero.
     ZAtChange = "z-at-change", "Z at a tool change", ["stays", "machine-zero"], Machine;
+    /// The length of the tool after a return to the reference point along Z: it counts again with the next move of Z, or
+    /// not before it is called up anew.
+    LengthAfterReturn = "length-after-return", "tool length after a reference point return", ["returns", "cancelled"], Machine;
+    /// The same after a move in machine coordinates along Z.
+    LengthAfterMachineMove = "length-after-machine-move", "tool length after a move in machine coordinates", ["returns", "cancelled"], Machine;
     /// The spindle at M02 and M30.
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
     /// Coolant at M02 and M30.

@@ -407,6 +407,8 @@ faults! {
     /// What the target's control does by itself at a code, and the source's does not, and what comes after it needs.
     DoneByTarget { behaviour: Behaviour } = 508, Error;
 
+    /// What the source's control does besides the name of a code decides the cut, and must be stated.
+    MustBeStated { behaviour: Behaviour } = 509, Error;
     /// A fact that the program leaves to what was in force before it, and that the target's control always
     /// begins with a value of its own for.
     FactUnsaid { fact: ModeName } = 507, Error;

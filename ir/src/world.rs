@@ -281,11 +281,6 @@ impl World {
         if self.seed == 0 { 0 } else { (self.odd(index, 3000) / ONE).unsigned_abs() as u32 }
     }
 
-    /// What a return to the reference point leaves of a tool's length.
-    pub fn left_length(&self) -> Nanos {
-        if self.seed == 0 { 0 } else { self.odd(90_000, 35) }
-    }
-
     /// Length of an entry of the tool-length table, in millimetres; entry 0 is none.
     pub fn tool_length(&self, entry: u32) -> Nanos {
         match self.tables.lengths.get(&entry) {

@@ -184,6 +184,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::OpenBehaviour { behaviour, source, .. } => {
             (if *source { Side::From } else { Side::To }, Place::Option(behaviour.option()))
         }
+        Fault::MustBeStated { behaviour } => (Side::From, Place::Option(behaviour.option())),
         Fault::AssumedContourPath => (Side::From, Place::Confirmed(CONTOUR_PATH.to_owned())),
         Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
         Fault::AssumedRadius { .. } => {

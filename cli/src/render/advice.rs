@@ -117,6 +117,11 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::OptionalStopDiffers => {
             own("say `M03` and `M08` after `M01` in the source, as the cut needs them")
         }
+        Fault::MustBeStated { behaviour } => {
+            let option = behaviour.option();
+            let values = behaviour.values().iter().map(|value| format!("`--from-option {option}={value}`"));
+            own(&format!("state it: {}", values.collect::<Vec<_>>().join(" or ")))
+        }
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {

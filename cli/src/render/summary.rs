@@ -325,6 +325,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::FactUnsaid { .. }
         | Fault::ArcVanishes
         | Fault::DoneByTarget { .. }
+        | Fault::MustBeStated { .. }
         | Fault::TargetRange { .. }
         | Fault::ProfileDenies { .. }
         | Fault::NotInMap { .. }

@@ -213,6 +213,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{}, written as words", behaviour.about()),
             format!("{from} does it by itself here"),
         ),
+        Fault::MustBeStated { behaviour } => (
+            format!("{}: what does {from} do here?", behaviour.about()),
+            format!("a parameter of the machine decides; {to} must be told"),
+        ),
         Fault::DoneByTarget { behaviour } => (
             format!("{}: {to} does more here than {from}", behaviour.about()),
             "the source cuts with what this control has switched or moved".into(),

@@ -5,7 +5,7 @@
 //!
 //! Not here: what the codes do by their names.
 
-use super::{Event, Exec, Kind, Z, by_control};
+use super::{Event, Exec, Kind, Length, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Spindle};
 use crate::diag::{Diagnostic, Fault};
@@ -79,6 +79,15 @@ impl Exec {
                 self.ended = true;
                 Ok(())
             }
+        }
+    }
+
+    /// The control has gone to a place of the machine along Z: the length in force may count no more.
+    #[cold]
+    pub(super) fn cancel_length(&mut self, behaviour: Behaviour) {
+        let standing = self.waiting.unwrap_or(self.modes.length);
+        if standing != Length::Entry(0) && self.does(behaviour) {
+            self.waiting = Some(Length::Entry(0));
         }
     }
 
@@ -162,6 +171,8 @@ pub fn touched(op: &Op) -> u64 {
         Op::ChangeTool => {
             bits(&[Behaviour::SpindleAtChange, Behaviour::CoolantAtChange, Behaviour::ZAtChange])
         }
+        Op::GoToReference(to) if to.axes[Z] && !to.keeps_length => bits(&[Behaviour::LengthAfterReturn]),
+        Op::UseMachineCoordinates { length: false } => bits(&[Behaviour::LengthAfterMachineMove]),
         Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
         _ => 0,
     }

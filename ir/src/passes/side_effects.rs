@@ -20,9 +20,11 @@
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Axis};
 use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
 use crate::kinds::{drilling, flow, moves, polar};
 use crate::num::Num;
 use crate::program::{Op, Point, Procedure, Reference, ReferencePoint, Stmt};
+use crate::source::Span;
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,9 +51,26 @@ pub struct SideEffects {
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
+    /// What calls up the length in force; `None` is none.
+    length: Option<Op>,
+    /// Whether the length in force is known.
+    length_known: bool,
+    /// What the length needs before the next move of Z.
+    length_next: Option<LengthNext>,
     /// The operation that starts the spindle, where a whole program has no other one: a spindle that may turn turns by
     /// this.
     only_sense: Option<Op>,
+}
+
+/// What the length of the tool needs before the next move of Z, after a place of the machine.
+#[derive(Clone, Debug)]
+enum LengthNext {
+    /// To be said, by this operation.
+    Say(Op),
+    /// To be asked of the source's control.
+    Ask(Behaviour, Span),
+    /// To be said, and it is not known which it is.
+    Lost(Span),
 }
 
 /// Spindle, coolant: what each does at a stop, at a change and at the end.
@@ -70,6 +89,9 @@ impl SideEffects {
             again: [None, None],
             z_home: true,
             machine: false,
+            length: None,
+            length_known: true,
+            length_next: None,
             only_sense: None,
         }
     }
@@ -77,7 +99,9 @@ impl SideEffects {
     /// Whether further statements would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
         self.source != self.target
-            && (self.again.iter().any(Option::is_some) || stmts.iter().any(|stmt| is_code(&stmt.op)))
+            && (self.again.iter().any(Option::is_some)
+                || self.length_next.is_some()
+                || stmts.iter().any(|stmt| is_code(&stmt.op)))
     }
 
     /// Rewrites further statements of the main procedure.
@@ -134,9 +158,11 @@ impl SideEffects {
         (self.spindle, self.coolant) = (Switch::Unknown, Switch::Unknown);
         self.again = [None, None];
         (self.z_home, self.machine) = (false, false);
+        (self.length, self.length_known, self.length_next) = (None, false, None);
     }
 
     fn statement(&mut self, mut stmt: Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        self.length_before(&mut stmt, made, diags);
         match &stmt.op {
             Op::ProgramStop => self.switch(STOP, false, &mut stmt, made, diags),
             Op::OptionalProgramStop => self.switch(STOP, true, &mut stmt, made, diags),
@@ -244,7 +270,7 @@ impl SideEffects {
         made: &mut Vec<Stmt>,
         joined: &mut bool,
         diags: &mut Vec<Diagnostic>,
-        span: crate::source::Span,
+        span: Span,
     ) {
         if self.again.iter().all(Option::is_none) {
             return;
@@ -263,6 +289,77 @@ impl SideEffects {
         }
         // The block keeps its number and its jump target at the first of its statements.
         made.splice(at..at, new);
+    }
+
+    /// The length of the tool before a statement that moves Z, and after one that goes to a place of the machine.
+    fn length_before(&mut self, stmt: &mut Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        if let Op::GoToReference(to) = &mut stmt.op
+            && to.axes[Axis::Z as usize]
+            && to.via.get(Axis::Z).is_none()
+            && !to.keeps_length
+        {
+            let next = self.length_after(Behaviour::LengthAfterReturn, stmt.span);
+            to.keeps_length =
+                matches!(next, Some(LengthNext::Say(_))) && !self.source.does(Behaviour::LengthAfterReturn);
+            self.length_next = next;
+            return;
+        }
+        let in_machine = self.machine && matches!(&stmt.op, Op::StraightTraverse(_));
+        if in_machine && commands_z(&stmt.op) {
+            self.length_next = self.length_after(Behaviour::LengthAfterMachineMove, stmt.span);
+            return;
+        }
+        if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } | Op::UseToolLength(_)) {
+            self.length_next = None;
+            (self.length, self.length_known) = (Some(stmt.op.clone()), stmt.skip.is_none());
+            return;
+        }
+        if !commands_z(&stmt.op) || matches!(stmt.op, Op::GoToReference(_)) {
+            return;
+        }
+        match self.length_next.take() {
+            None => {}
+            Some(LengthNext::Say(op)) => {
+                let mut at = made.len();
+                if stmt.joined {
+                    at = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
+                }
+                let mut said = Stmt::new(stmt.span, op);
+                // It takes effect in the block that moves Z: there most controls have it.
+                if let Some(first) = made.get_mut(at).or_else(|| Some(&mut *stmt)) {
+                    said.number = first.number.take();
+                    said.skip = first.skip;
+                    first.joined = true;
+                }
+                made.insert(at, said);
+            }
+            Some(LengthNext::Ask(behaviour, at)) => {
+                diags.push(Diagnostic::new(Fault::MustBeStated { behaviour }, at));
+            }
+            Some(LengthNext::Lost(at)) => {
+                let what = "a move of Z by a length that is not called up again after a place of the machine";
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+            }
+        }
+    }
+
+    /// What the length needs after a place of the machine along Z.
+    fn length_after(&self, behaviour: Behaviour, at: Span) -> Option<LengthNext> {
+        let none = matches!(&self.length, Some(Op::UseToolLengthOffset(entry)) if is_zero(entry))
+            || self.length.is_none() && self.length_known;
+        let (source, target) = (self.source.get(behaviour), self.target.get(behaviour));
+        let open = [self.source.is_open(behaviour), self.target.is_open(behaviour)];
+        if none || open == [false, false] && source == target || open == [true, true] {
+            return None;
+        }
+        if open[0] {
+            return Some(LengthNext::Ask(behaviour, at));
+        }
+        Some(match (source, &self.length) {
+            (0, Some(op)) if self.length_known => LengthNext::Say(op.clone()),
+            (0, _) => LengthNext::Lost(at),
+            (_, _) => LengthNext::Say(Op::UseToolLengthOffset(Expr::int(0))),
+        })
     }
 
     /// What a statement leaves on.
@@ -296,7 +393,10 @@ impl SideEffects {
                 self.coolant = if sure { Switch::Off } else { Switch::Unknown };
                 *coolant = coolant.take().filter(|_| !sure);
             }
-            Op::ProgramEnd if sure => (self.spindle, self.coolant) = (Switch::Off, Switch::Off),
+            Op::ProgramEnd if sure => {
+                (self.spindle, self.coolant) = (Switch::Off, Switch::Off);
+                self.length_next = None;
+            }
             flow!() => self.elsewhere(),
             _ => {}
         }
@@ -362,7 +462,12 @@ fn only_sense(procedures: &[Procedure]) -> Option<Op> {
 /// Whether a code does something besides its name on some control.
 fn is_code(op: &Op) -> bool {
     match op {
-        Op::ProgramStop | Op::OptionalProgramStop | Op::ChangeTool | Op::ProgramEnd => true,
+        Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ChangeTool
+        | Op::ProgramEnd
+        | Op::GoToReference(_)
+        | Op::UseMachineCoordinates { .. } => true,
         Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| is_code(&stmt.op))),
         _ => false,
     }
@@ -372,6 +477,10 @@ fn is_code(op: &Op) -> bool {
 fn cuts(op: &Op) -> bool {
     !matches!(op, Op::StraightTraverse(_) | Op::SetPole(_))
         && matches!(op, Op::Position(_) | drilling!() | moves!() | polar!() | flow!())
+}
+
+fn is_zero(entry: &Expr) -> bool {
+    entry.literal().is_some_and(|n| n.mantissa == 0)
 }
 
 /// Whether a statement commands Z, or may.
