@@ -299,8 +299,8 @@ impl SideEffects {
             && !to.keeps_length
         {
             let next = self.length_after(Behaviour::LengthAfterReturn, stmt.span);
-            to.keeps_length =
-                matches!(next, Some(LengthNext::Say(_))) && !self.source.does(Behaviour::LengthAfterReturn);
+            to.keeps_length = matches!(next, Some(LengthNext::Say(_) | LengthNext::Ask(..)))
+                && !self.source.does(Behaviour::LengthAfterReturn);
             self.length_next = next;
             return;
         }
