@@ -16,6 +16,7 @@ use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
+use crate::besides::{cuts, passed_over, switched};
 use crate::interpreter::setup::Counted;
 use crate::interpreter::{
     self, Beside, ByItself, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What,
@@ -548,35 +549,6 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
         ));
     }
     Ok(())
-}
-
-/// Whether coolant is switched by a word, where the other control did the same by itself, or this one had.
-fn switched(event: &Plain, other: &Plain) -> bool {
-    matches!(event.what, Happening::Coolant)
-        && (event.by_itself.coolant || other.by_itself.coolant && event.coolant == other.coolant)
-}
-
-/// Whether it is a cut.
-fn cuts(what: Happening) -> bool {
-    matches!(what, Happening::Feed | Happening::Arc { .. } | Happening::Thread { .. } | Happening::Probe(..))
-}
-
-/// What the second control alone has done by itself is as the first one has it, as long as nothing is cut.
-fn passed_over(a: &Plain, b: &Plain) -> Plain {
-    let mut b = *b;
-    if cuts(b.what) {
-        return b;
-    }
-    if b.by_itself.spindle && !a.by_itself.spindle {
-        (b.speed, b.surface) = (a.speed, a.surface);
-    }
-    if b.by_itself.coolant && !a.by_itself.coolant {
-        b.coolant = a.coolant;
-    }
-    if b.by_itself.z && !a.by_itself.z || a.by_itself.z && !b.by_itself.z_moved {
-        b.at[2] = a.at[2];
-    }
-    b
 }
 
 /// The events without straight moves that are no longer than this, in mm.

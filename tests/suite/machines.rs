@@ -264,7 +264,7 @@ fn what_is_not_in_the_map_is_refused_at_its_place() {
     assert_eq!(refused(&profile("fanuc", &more), &to, FANUC), [(506, 11)]);
     // In a program that is kept whole, in its subprograms too.
     let whole = FANUC.replace("T0 M06\nM30\n", "M98 P20\nM30\nO20\nT6 M06\nM99\n");
-    assert_eq!(refused(&from, &to, &whole), [(506, 18)]);
+    assert_eq!(refused(&from, &to, &whole), [(506, 19)]);
     // Between a table and edges.
     assert_eq!(refused(&ours("siemens", None), &to, &SIEMENS.replace("T4", "T9")), [(506, 9)]);
     // What one of them does not name at all stays as it is.

@@ -38,6 +38,9 @@ impl State {
                 diags.push(goes_on(at));
             }
             let sure = stmt.skip.is_none();
+            if up && sure && matches!(stmt.op, Op::ProgramEnd) {
+                self.open = None;
+            }
             let said = matches!(
                 stmt.op,
                 Op::StartSpindleClockwise
