@@ -43,6 +43,7 @@ fn write_all(out: &mut String, d: &Dialect) -> fmt::Result {
     if rows > 0 {
         writeln!(out, "{rows} rows, {unsure} of them unconfirmed (marked ?)")?;
     }
+    behaviours(out, d)?;
     options(out, d)?;
     capabilities(out, d)?;
     codes(out, d)?;
@@ -222,6 +223,19 @@ pub(crate) fn spaced(name: &str) -> String {
     text
 }
 
+fn behaviours(out: &mut String, d: &Dialect) -> fmt::Result {
+    if d.behaviour.is_empty() {
+        return Ok(());
+    }
+    heading(out, "What codes do besides their names (? is open: an option of the same name states it)")?;
+    for row in &d.behaviour {
+        let mark = if row.open { '?' } else { ' ' };
+        let codes = row.codes.join(" ");
+        writeln!(out, "{mark} {codes:<12}  {:<26}  {:<13}  {}", row.name, row.value, row.source)?;
+    }
+    Ok(())
+}
+
 fn power_on(out: &mut String, facts: &PowerOn) -> fmt::Result {
     let mut rows = Vec::new();
     fact(&mut rows, "unit of length", facts.units.as_ref());
@@ -233,6 +247,7 @@ fn power_on(out: &mut String, facts: &PowerOn) -> fmt::Result {
     fact(&mut rows, "work offset", facts.work_offset.as_ref());
     fact(&mut rows, "length offset", facts.length_offset.as_ref());
     fact(&mut rows, "no origin shift", facts.no_origin_shift.as_ref());
+    fact(&mut rows, "corners", facts.path.as_ref());
     if rows.is_empty() {
         return Ok(());
     }

@@ -99,6 +99,10 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             format!("{} = {taken} on {}", behaviour.option(), if *source { from } else { to })
         }
         Fault::OptionalStopDiffers => "the switch for optional stops is off".to_owned(),
+        Fault::PathAtStart { source, target } => {
+            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
+            format!("no path mode is programmed: corners {source} on {from}, {target} on {to}")
+        }
         Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),

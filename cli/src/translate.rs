@@ -147,6 +147,8 @@ struct Line<'j> {
     failed: bool,
     statements: u64,
     blocks: u64,
+    /// Whether the program says how corners are taken.
+    sets_path: bool,
 }
 
 impl<'j> Line<'j> {
@@ -195,6 +197,7 @@ impl<'j> Line<'j> {
             failed: false,
             statements: 0,
             blocks: 0,
+            sets_path: false,
         };
         line.open_frame();
         line.take(job.assumed.clone(), Told::Reader);
@@ -570,6 +573,8 @@ impl<'j> Line<'j> {
     }
 
     fn count(&mut self) {
+        let sets = |stmts: &[Stmt]| stmts.iter().any(|s| matches!(s.op, Op::SetMotionControlMode(_)));
+        self.sets_path |= sets(&self.batch.stmts) || self.batch.procedures.iter().any(|p| sets(&p.body));
         let blocks = self.batch.stmts.iter().filter(|s| !s.joined).count();
         self.blocks += blocks as u64;
         let told = |s: &&Stmt| !matches!(s.op, Op::Blank | Op::Comment(_));
@@ -613,6 +618,9 @@ impl<'j> Line<'j> {
             }
             _ => None,
         };
+        let path = as_there::path_at_start(self.job)
+            .filter(|_| !self.sets_path && verified.is_none_or(|verified| verified.events > 0));
+        self.take(path.into_iter().collect(), Told::Writer);
         let own = self.name();
         let renamed = own.number.filter(|_| own.number != self.batch.name.number);
         if let Some(number) = renamed.filter(|n| self.numbers.contains(n)) {

@@ -313,6 +313,8 @@ faults! {
     /// The program looks like something else than a milling program, and the user says that it is one; in
     /// which line the sign stands that decides.
     AssumedMilling { looks_like: Box<str>, line: u64 } = 330, verdict(Verdict::Assumed);
+    /// The program never says how corners are taken, and the two controls begin otherwise: how each does.
+    PathAtStart { source: &'static str, target: &'static str } = 326, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
 

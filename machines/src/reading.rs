@@ -109,6 +109,9 @@ pub const MOTION_AT_CYCLES: &str = "motion-at-cycles";
 /// Key of the reading that a control without a word for it always takes corners in one way.
 pub const CORNERS: &str = "corners";
 
+/// Key of the reading that corners of programs without a path mode may be taken as the control begins.
+pub const CORNERS_AT_START: &str = "corners-at-start";
+
 /// Key of the reading that the tool goes onto a compensated contour, and leaves it, as on the other control.
 pub const CONTOUR_ENDS: &str = "contour-ends";
 
@@ -178,6 +181,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         // Where the target wants the offset with a Z word, it is still the source that takes it up so.
         Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
         Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
+        Fault::PathAtStart { .. } => (Side::To, Place::Confirmed(CORNERS_AT_START.to_owned())),
         Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
         Fault::AssumedTip => (Side::To, Place::Confirmed(TIP.to_owned())),
         Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
@@ -275,6 +279,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
         CONTOUR_ENDS,
         CONTOUR_PATH,
         CORNERS,
+        CORNERS_AT_START,
         EDGE_IS_ENTRY,
         MOTION_AT_CYCLES,
         RADIUS_IS_ENTRY,

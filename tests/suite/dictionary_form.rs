@@ -62,6 +62,43 @@ const VALUES: &[(&str, &str)] = &[
     ("FunctionName", "[formula.functions]\n@ = \"zz\""),
 ];
 
+/// `docs/behaviours.md` is made from the dictionaries: what codes do besides their names, with source and how sure.
+#[test]
+fn what_codes_do_besides_is_documented() {
+    let mut text = String::from(concat!(
+        "# What codes do besides their names\n\n",
+        "Made from the dictionaries. ncc executes both programs with these values. An *open* value is decided by a\n",
+        "parameter, a machine datum or the machine builder: ncc runs the program with each value, the one of the\n",
+        "table first, and reports where they make another cut. State it with `--from-option` or `--to-option`, or\n",
+        "under `[options]` of a machine's profile; the name of the option has `_` for `-`.\n",
+    ));
+    for dialect in ncc_dialects::builtins().filter(|d| !d.behaviour.is_empty()) {
+        let _ = write!(
+            text,
+            "\n## {}\n\n| codes | behaviour | value | how sure | source |\n|---|---|---|---|---|\n",
+            dialect.id
+        );
+        for row in &dialect.behaviour {
+            let value = if row.open { format!("{} (open)", row.value) } else { row.value.clone() };
+            let sure = match row.sure {
+                ncc_dialects::Sureness::Read => "read",
+                ncc_dialects::Sureness::SecondHand => "second hand",
+                ncc_dialects::Sureness::Memory => "from memory",
+            };
+            let codes = row.codes.join(" ");
+            let _ = writeln!(
+                text,
+                "| {codes} | `{}` | {value} | {sure} | {} |",
+                row.name,
+                row.source.replace('|', "/")
+            );
+        }
+    }
+    let mut failures = Failures::default();
+    failures.check("docs/behaviours.md", expect::file(&root().join("docs/behaviours.md"), text.as_bytes()));
+    failures.finish();
+}
+
 /// A field, or a value.
 struct Entry {
     name: String,

@@ -122,6 +122,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             let values = behaviour.values().iter().map(|value| format!("`--from-option {option}={value}`"));
             own(&format!("state it: {}", values.collect::<Vec<_>>().join(" or ")))
         }
+        Fault::PathAtStart { .. } => {
+            own("program the path mode at the start: exact stop, or rounding with its tolerance")
+        }
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {

@@ -208,6 +208,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
         | Fault::MovedAtChange
+        | Fault::PathAtStart { .. }
         | Fault::OptionalStopDiffers
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }

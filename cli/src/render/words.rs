@@ -205,6 +205,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "check at the machine: the cut after an optional stop".into(),
             format!("with the switch on, {from} and {to} do not do the same here"),
         ),
+        Fault::PathAtStart { source, target } => (
+            "check at the machine: the program sets no path mode".into(),
+            format!("corners: {source} on {from}, {target} on {to}"),
+        ),
         Fault::MovedAtChange => (
             "check at the machine: this tool change takes Z to machine zero".into(),
             format!("{to} goes there by itself, {from} does not"),

@@ -7,7 +7,7 @@ use ncc_dialects::{CodeRow, Quantity, SystemRow};
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
-use ncc_ir::diag::Diagnostic;
+use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
@@ -17,6 +17,7 @@ use ncc_ir::passes::{
     own_distance, planes_checked, spindle_points, unit_in_force,
 };
 use ncc_ir::program::Program;
+use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
 use super::{BREAK_LIFT, PECK_CLEARANCE, parameter};
@@ -131,4 +132,13 @@ pub(super) fn target(job: &Job) -> Target {
         // What is asked for by name is done in the source's numbers.
         ..Target::default()
     }
+}
+
+/// How the two controls take corners that no program speaks of, where that is not the same.
+pub(super) fn path_at_start(job: &Job) -> Option<Diagnostic> {
+    let [from, to] =
+        [&job.from, &job.to].map(|side| side.dialect.power_on.path.as_ref().map(|fact| fact.value));
+    let (from, to) = (from?, to?);
+    let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
+    (job.between_controls() && from != to).then(|| Diagnostic::new(fault, Span::default()))
 }

@@ -19,6 +19,8 @@ pub struct PowerOn {
     pub work_offset: Option<PowerOnFact<u16>>,
     pub length_offset: Option<PowerOnFact<u32>>,
     pub no_origin_shift: Option<PowerOnFact<bool>>,
+    /// How corners are taken by a program that never says it.
+    pub path: Option<PowerOnFact<PathStart>>,
     /// From where the words of a centre are measured, where codes say it.
     pub centre: Option<PowerOnFact<CentreName>>,
 }
@@ -35,6 +37,32 @@ pub struct PowerOnFact<T> {
     pub always: bool,
     /// Who says so.
     pub source: String,
+}
+
+/// How a control takes corners that no program speaks of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PathStart {
+    /// Every block ends in an exact stop (G60 of a Sinumerik, G61 of others).
+    ExactStop,
+    /// Corners are rounded by what the axes lag behind, a fraction of a millimetre at usual feeds (G64 of a Fanuc).
+    Rounded,
+    /// Corners are rounded up to a limit that a setting has.
+    Within,
+    /// Corners are rounded as far as the acceleration asks for, without a tolerance, rapids too (G64 of LinuxCNC).
+    Blended,
+}
+
+impl PathStart {
+    /// In words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            PathStart::ExactStop => "exact stop",
+            PathStart::Rounded => "rounded by the lag of the axes",
+            PathStart::Within => "rounded within a setting",
+            PathStart::Blended => "blended without a tolerance",
+        }
+    }
 }
 
 /// What a written program states before its first event.
