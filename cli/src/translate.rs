@@ -152,6 +152,7 @@ impl<'j> Line<'j> {
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
+        legaliser.set_source_arcs(job.from.arc_rule());
         if job.between_controls() {
             legaliser.between_controls();
         }

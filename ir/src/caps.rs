@@ -11,6 +11,7 @@ use crate::kinds::{
 use crate::num::Num;
 use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
+use crate::round::ArcRule;
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -154,6 +155,8 @@ pub struct Caps {
     pub change_stops_spindle: bool,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub cycles_measured_anew: bool,
+    /// Which arcs it accepts.
+    pub arcs: ArcRule,
     /// Arcs by radius.
     pub arc_radius: bool,
     /// Arcs with a third axis.

@@ -208,8 +208,8 @@ faults! {
     ArcWithoutCentre = 211, Error;
     /// An arc with both.
     ArcCentreAndRadius = 212, Error;
-    /// The end of the arc is not on its circle; by how much (nanos).
-    ArcEndOffCircle { by: i64 } = 213, Error;
+    /// The radii of an arc at start and end differ by more than its control accepts; nanos of a millimetre.
+    ArcEndOffCircle { radii: [i64; 2], allowed: i64 } = 213, Error;
     /// The radius cannot reach the end point.
     ArcRadiusTooSmall = 214, Error;
     /// A radius and no way to go.
@@ -391,6 +391,8 @@ faults! {
     /// A fact that the program leaves to what was in force before it, and that the target's control always
     /// begins with a value of its own for.
     FactUnsaid { fact: ModeName } = 507, Error;
+    /// The radii of an arc at start and end differ by more than the target's control accepts; nanos of a millimetre.
+    ArcRadiiDiffer { radii: [i64; 2], allowed: i64 } = 520, Error;
 
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.

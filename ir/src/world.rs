@@ -9,6 +9,7 @@ use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, Ret
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 use crate::program::{ReferencePoint, ToolValue};
+use crate::round::ArcRule;
 use crate::system::Kept;
 
 /// One state of the machine and its tables before the program starts.
@@ -32,6 +33,8 @@ pub struct World {
     pub backs_off: Nanos,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Which arcs the control accepts.
+    pub arcs: ArcRule,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -165,6 +168,7 @@ impl World {
             peck_clearance: 0,
             backs_off: 0,
             feed_ends_with_mode: false,
+            arcs: ArcRule::default(),
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },

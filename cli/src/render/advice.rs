@@ -1,11 +1,11 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{DECIMAL_POINT, SPINDLE_AFTER_CHANGE};
+use ncc_dialects::{ARC_TOLERANCE, DECIMAL_POINT, Dialect, SPINDLE_AFTER_CHANGE};
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 
-use super::words::{Context, mode, plain, plain_upto};
+use super::words::{Context, millimetres, mode, plain, plain_upto};
 use crate::review::words::decimal;
 
 /// What to do. Empty where the message says it already.
@@ -63,10 +63,21 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             None => own("add the centre (I, J, K)"),
         },
         Fault::ArcCentreAndRadius => own("keep the centre, or the radius"),
-        Fault::ArcEndOffCircle { .. } => own(match at.from.arc.centre_absolute {
-            true => "check the centre: here it is measured from program zero, not from the start of the arc",
-            false => "check the centre: here it is measured from the start of the arc, not from program zero",
-        }),
+        Fault::ArcEndOffCircle { allowed, .. } => {
+            let check = match at.from.arc.centre_absolute {
+                true => {
+                    "check the centre: here it is measured from program zero, not from the start of the arc"
+                }
+                false => {
+                    "check the centre: here it is measured from the start of the arc, not from program zero"
+                }
+            };
+            vec![check.to_owned(), arc_tolerance(at.from, *allowed, "--from-option")]
+        }
+        Fault::ArcRadiiDiffer { allowed, .. } => {
+            let correct = "correct the centre so that both radii are equal";
+            vec![correct.to_owned(), arc_tolerance(at.to, *allowed, "--to-option")]
+        }
         Fault::ArcRadiusTooSmall => own("check the radius, the end point, and where the tool stands before"),
         Fault::NoArc => {
             own("check the angle (more than 0, less than 360), and that the points do not lie on a line")
@@ -251,6 +262,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } | Fault::ValueNotRead { .. } => {
             Vec::new()
         }
+    }
+}
+
+/// What a control accepts of the radii of an arc, and how a machine states another tolerance where its dialect has an
+/// option for that.
+fn arc_tolerance(dialect: &Dialect, allowed: i64, option: &str) -> String {
+    let accepts = format!("{} accepts a difference of {} mm here", dialect.id, millimetres(allowed));
+    match dialect.option.iter().find(|row| row.name == ARC_TOLERANCE) {
+        Some(row) => format!("{accepts}; if your machine accepts more: `{option} {}=MM`", row.name),
+        None => accepts,
     }
 }
 

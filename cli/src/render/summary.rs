@@ -317,6 +317,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::CannotSay { .. }
         | Fault::SecondWorkOffset { .. }
         | Fault::FactUnsaid { .. }
+        | Fault::ArcRadiiDiffer { .. }
         | Fault::ArcVanishes
         | Fault::TargetRange { .. }
         | Fault::ProfileDenies { .. }

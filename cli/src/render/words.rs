@@ -109,10 +109,12 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::ArcCentreAndRadius => {
             ("arc with both centre and radius".into(), "one of the two is too many".into())
         }
-        Fault::ArcEndOffCircle { by } => (
-            "the end of the arc is not on its circle".into(),
-            format!("the radius at the end differs by {} mm", millimetres(*by)),
-        ),
+        Fault::ArcEndOffCircle { radii, allowed: _ } => {
+            ("the end of the arc is not on its circle".into(), radii_of(*radii))
+        }
+        Fault::ArcRadiiDiffer { radii, allowed: _ } => {
+            (format!("{to} does not accept the two radii of this arc"), radii_of(*radii))
+        }
         Fault::ArcRadiusTooSmall => (
             "the radius is too small for this arc".into(),
             "less than half the distance from start to end".into(),
@@ -558,6 +560,11 @@ fn character(c: char) -> String {
     } else {
         format!("`{c}`")
     }
+}
+
+/// Both radii of an arc.
+fn radii_of([start, end]: [i64; 2]) -> String {
+    format!("radius {} mm at the start, {} mm at the end", millimetres(start), millimetres(end))
 }
 
 /// Nanos in millimetres, to four digits after the point.

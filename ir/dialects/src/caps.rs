@@ -8,6 +8,7 @@ use ncc_ir::caps::{
 use ncc_ir::computes::Computes;
 use ncc_ir::expr::Function;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
+use ncc_ir::round::ArcRule;
 use ncc_ir::system::System;
 
 use crate::cycles::{CycleRow, PatternRow};
@@ -261,6 +262,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         cycles_measured_anew: dialect.cycles.measured_anew,
         change_stops_spindle: dialect.can.change_stops_spindle,
         feed_ends_with_mode: dialect.can.feed_ends_with_mode,
+        // The options decide ([`crate::Settings::caps`]).
+        arcs: ArcRule::default(),
         arc_radius: everything
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),

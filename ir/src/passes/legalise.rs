@@ -18,12 +18,12 @@ use super::needs::{
 use super::walk::Walk;
 use super::write::EXACT;
 use super::{
-    Target, absolute_holes, approach, arc_form, at_once, convert_arcs, cutter_radius, expand_calls,
-    expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
-    flatten_facts, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
-    path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures,
-    spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
-    work_offset,
+    Target, absolute_holes, approach, arc_form, arc_radii, at_once, convert_arcs, cutter_radius,
+    expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats,
+    expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z, one_distance,
+    one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels,
+    specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
+    tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -31,6 +31,7 @@ use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, Data, Op, Procedure, Program, Stmt};
+use crate::round::ArcRule;
 use crate::track::Tracker;
 
 /// Brings a program within a target's capabilities.
@@ -41,6 +42,8 @@ pub struct Legaliser {
     lacks: u32,
     /// Whether words of the source may have a measure of their own that the target's cannot have.
     measures: bool,
+    /// Whether the source's control accepts arcs by another rule than the target's.
+    judges_arcs: bool,
     /// Whether any pass wants to know where the tool is.
     follow: bool,
     walk: Walk,
@@ -82,6 +85,7 @@ impl Legaliser {
             },
             lacks,
             measures: false,
+            judges_arcs: false,
             follow: lacks
                 & (THREAD
                     | PATTERN
@@ -157,6 +161,15 @@ impl Legaliser {
             self.lacks |= CONTROL;
         }
         self.lacks |= RADIUS | TOOL_AXIS;
+    }
+
+    /// Which arcs the source's control accepts: where the target's has another rule, each arc is judged by it.
+    pub fn set_source_arcs(&mut self, rule: ArcRule) {
+        self.judges_arcs = rule != self.target.caps.arcs;
+        if self.judges_arcs {
+            self.lacks |= ARC;
+            self.follow = true;
+        }
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
@@ -526,6 +539,15 @@ impl Legaliser {
             walk.enter(stmt.skip);
             if !caps.offset_turns {
                 work_offset::leave_straight(&mut stmt.op);
+            }
+            if let (Op::ArcFeed(arc), true) = (&mut stmt.op, self.judges_arcs) {
+                match arc_radii::over(arc, walk, &self.target) {
+                    arc_radii::Judged::Kept => {}
+                    arc_radii::Judged::ByCentre => {
+                        diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
+                    }
+                    arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+                }
             }
             let mut cannot = |what: &str| {
                 diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));

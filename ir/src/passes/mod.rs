@@ -9,6 +9,7 @@ pub mod absolute_holes;
 pub mod alarm_numbers;
 pub mod approach;
 pub mod arc_form;
+mod arc_radii;
 pub mod arithmetic;
 mod at_once;
 pub mod centres_from_start;
