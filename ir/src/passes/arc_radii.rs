@@ -17,6 +17,7 @@ use crate::diag::Fault;
 use crate::geometry::{self, ArcFault};
 use crate::num::Nanos;
 use crate::program::{Arc, Centre, CentreFrom};
+use crate::round::ArcRule;
 
 /// What becomes of an arc.
 pub(super) enum Judged {
@@ -28,13 +29,14 @@ pub(super) enum Judged {
     Refused(Fault),
 }
 
-/// Judges an arc by the target's rule, for the walk that stands before it.
-pub(super) fn over(arc: &mut Arc, walk: &Walk, target: &Target) -> Judged {
+/// Judges an arc by the target's rule, for the walk that stands before it. What the source's rule refuses is left to
+/// the source's execution.
+pub(super) fn over(arc: &mut Arc, walk: &Walk, source: &ArcRule, target: &Target) -> Judged {
     let Some(plane) = walk.at.plane(arc.plane) else { return Judged::Kept };
     let (first, second, _) = plane.axes();
     let unknown = |axis: Axis| walk.at.position[axis as usize].is_none();
     if !unknown(first) && !unknown(second) {
-        return judge(arc, walk, [first, second], target);
+        return judge(arc, walk, [first, second], source, target);
     }
     // Where all of its words count from its start, that may be anywhere.
     let counts_on = |axis: Axis| {
@@ -49,10 +51,10 @@ pub(super) fn over(arc: &mut Arc, walk: &Walk, target: &Target) -> Judged {
     for axis in [first, second] {
         own.at.position[axis as usize].get_or_insert(0);
     }
-    judge(arc, &own, [first, second], target)
+    judge(arc, &own, [first, second], source, target)
 }
 
-fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], target: &Target) -> Judged {
+fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], source: &ArcRule, target: &Target) -> Judged {
     let inch = walk.at.modes.units == Some(Units::Inch);
     let end = walk.at.target(&arc.to);
     let of = |place: &[Option<Nanos>]| Some([place[axes[0] as usize]?, place[axes[1] as usize]?]);
@@ -67,7 +69,11 @@ fn judge(arc: &mut Arc, walk: &Walk, axes: [Axis; 2], target: &Target) -> Judged
         };
     }
     let Some(centre) = walk.at.centre(arc) else { return Judged::Kept };
-    match target.caps.arcs.check(geometry::radii(start, end, centre), inch) {
+    let radii = geometry::radii(start, end, centre);
+    if source.check(radii, inch).is_err() {
+        return Judged::Kept;
+    }
+    match target.caps.arcs.check(radii, inch) {
         Err(ArcFault::EndOffCircle { radii, allowed }) => {
             Judged::Refused(Fault::ArcRadiiDiffer { radii, allowed })
         }

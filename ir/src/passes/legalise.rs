@@ -42,8 +42,8 @@ pub struct Legaliser {
     lacks: u32,
     /// Whether words of the source may have a measure of their own that the target's cannot have.
     measures: bool,
-    /// Whether the source's control accepts arcs by another rule than the target's.
-    judges_arcs: bool,
+    /// Which arcs the source's control accepts, if the target's has another rule.
+    source_arcs: Option<ArcRule>,
     /// Whether any pass wants to know where the tool is.
     follow: bool,
     walk: Walk,
@@ -85,7 +85,7 @@ impl Legaliser {
             },
             lacks,
             measures: false,
-            judges_arcs: false,
+            source_arcs: None,
             follow: lacks
                 & (THREAD
                     | PATTERN
@@ -165,8 +165,8 @@ impl Legaliser {
 
     /// Which arcs the source's control accepts: where the target's has another rule, each arc is judged by it.
     pub fn set_source_arcs(&mut self, rule: ArcRule) {
-        self.judges_arcs = rule != self.target.caps.arcs;
-        if self.judges_arcs {
+        self.source_arcs = (rule != self.target.caps.arcs).then_some(rule);
+        if self.source_arcs.is_some() {
             self.lacks |= ARC;
             self.follow = true;
         }
@@ -540,8 +540,8 @@ impl Legaliser {
             if !caps.offset_turns {
                 work_offset::leave_straight(&mut stmt.op);
             }
-            if let (Op::ArcFeed(arc), true) = (&mut stmt.op, self.judges_arcs) {
-                match arc_radii::over(arc, walk, &self.target) {
+            if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &self.source_arcs) {
+                match arc_radii::over(arc, walk, source, &self.target) {
                     arc_radii::Judged::Kept => {}
                     arc_radii::Judged::ByCentre => {
                         diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));

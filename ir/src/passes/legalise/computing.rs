@@ -79,7 +79,7 @@ impl Legaliser {
         let mut own = Legaliser::new(caps, *decimals, *peck_clearance);
         own.target.clone_from(&self.target);
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
-        own.judges_arcs = self.judges_arcs;
+        own.source_arcs = self.source_arcs;
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
