@@ -1,6 +1,7 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
+use crate::compensated::Refused;
 use crate::computes::Computes;
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
@@ -157,6 +158,8 @@ pub struct Caps {
     pub cycles_measured_anew: bool,
     /// Which arcs it accepts.
     pub arcs: ArcRule,
+    /// What it refuses while cutter radius compensation is on.
+    pub refused_compensated: Refused,
     /// Arcs by radius.
     pub arc_radius: bool,
     /// Arcs with a third axis.

@@ -253,6 +253,8 @@ faults! {
     Computes { what: Box<str> } = 233, Error;
     /// A loop that is never left: a turn of it changes nothing by which the program goes.
     Endless = 234, Error;
+    /// Its control refuses it while cutter radius compensation is on.
+    RefusedCompensated { what: Box<str> } = 235, Error;
 
     /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.
@@ -393,6 +395,8 @@ faults! {
     FactUnsaid { fact: ModeName } = 507, Error;
     /// The radii of an arc at start and end differ by more than the target's control accepts; nanos of a millimetre.
     ArcRadiiDiffer { radii: [i64; 2], allowed: i64 } = 520, Error;
+    /// The target's control refuses it while cutter radius compensation is on.
+    CompensatedThere { what: Box<str> } = 521, Error;
 
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.

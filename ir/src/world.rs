@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
+use crate::compensated::Refused;
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 use crate::program::{ReferencePoint, ToolValue};
@@ -35,6 +36,8 @@ pub struct World {
     pub feed_ends_with_mode: bool,
     /// Which arcs the control accepts.
     pub arcs: ArcRule,
+    /// What the control refuses while cutter radius compensation is on.
+    pub refused_compensated: Refused,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -169,6 +172,7 @@ impl World {
             backs_off: 0,
             feed_ends_with_mode: false,
             arcs: ArcRule::default(),
+            refused_compensated: Refused::default(),
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },

@@ -74,6 +74,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             };
             vec![check.to_owned(), arc_tolerance(at.from, *allowed, "--from-option")]
         }
+        Fault::RefusedCompensated { .. } | Fault::CompensatedThere { .. } => {
+            own("move it before the block that switches compensation on, or behind the one that ends it")
+        }
         Fault::ArcRadiiDiffer { allowed, .. } => {
             let correct = "correct the centre so that both radii are equal";
             vec![correct.to_owned(), arc_tolerance(at.to, *allowed, "--to-option")]

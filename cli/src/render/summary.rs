@@ -318,6 +318,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::SecondWorkOffset { .. }
         | Fault::FactUnsaid { .. }
         | Fault::ArcRadiiDiffer { .. }
+        | Fault::CompensatedThere { .. }
+        | Fault::RefusedCompensated { .. }
         | Fault::ArcVanishes
         | Fault::TargetRange { .. }
         | Fault::ProfileDenies { .. }

@@ -112,6 +112,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::ArcEndOffCircle { radii, allowed: _ } => {
             ("the end of the arc is not on its circle".into(), radii_of(*radii))
         }
+        Fault::RefusedCompensated { what } => (
+            format!("{from} refuses {} under cutter compensation", plain(what)),
+            "the control stops here: compensation is on".into(),
+        ),
+        Fault::CompensatedThere { what } => (
+            format!("{to} refuses {} under cutter compensation", plain(what)),
+            "compensation is on here, or may be".into(),
+        ),
         Fault::ArcRadiiDiffer { radii, allowed: _ } => {
             (format!("{to} does not accept the two radii of this arc"), radii_of(*radii))
         }

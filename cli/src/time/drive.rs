@@ -574,6 +574,7 @@ fn world(plan: &Plan) -> World {
         backs_off: 0,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         arcs: job.from.arc_rule(),
+        refused_compensated: job.from.dialect.caps.refused_compensated,
         break_lift: value(BREAK_LIFT),
         orientation: 0,
         bore_shift: Sideways::default(),

@@ -18,15 +18,16 @@ use super::needs::{
 use super::walk::Walk;
 use super::write::EXACT;
 use super::{
-    Target, absolute_holes, approach, arc_form, arc_radii, at_once, convert_arcs, cutter_radius,
-    expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats,
-    expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z, one_distance,
-    one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels,
-    specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
-    tool_change, tool_edge, work_offset,
+    Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
+    cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
+    expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
+    one_distance, one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways,
+    skip_levels, specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads,
+    tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
+use crate::compensated::Refused;
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
@@ -61,6 +62,7 @@ pub struct Legaliser {
     feed: feed_unit::State,
     edge: tool_edge::State,
     radius: cutter_radius::State,
+    compensated: compensated_modes::State,
     axis: tool_axis::State,
     frames: expand_frames::State,
     taps: taps::State,
@@ -119,6 +121,7 @@ impl Legaliser {
             feed: feed_unit::State::default(),
             edge: tool_edge::State::default(),
             radius: cutter_radius::State::default(),
+            compensated: compensated_modes::State::default(),
             axis: tool_axis::State::default(),
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
@@ -170,6 +173,11 @@ impl Legaliser {
             self.lacks |= ARC;
             self.follow = true;
         }
+    }
+
+    /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
+    pub fn set_source_refuses(&mut self, source: Refused) {
+        self.compensated.refused = self.target.caps.refused_compensated.without(source);
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
@@ -244,6 +252,12 @@ impl Legaliser {
         }
         if let Some(start) = start {
             self.mend(stmts, needs, &start, assumed, diags);
+        }
+        if self.compensated.refused.any() {
+            match self.compensated.concerns(stmts) {
+                true => compensated_modes::over(stmts, &mut self.compensated, diags),
+                false => self.compensated.note(stmts),
+            }
         }
     }
 

@@ -13,6 +13,7 @@ mod arc_radii;
 pub mod arithmetic;
 mod at_once;
 pub mod centres_from_start;
+mod compensated_modes;
 pub mod computed_frames;
 pub mod computed_holes;
 pub mod control_forms;

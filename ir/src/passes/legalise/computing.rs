@@ -81,6 +81,7 @@ impl Legaliser {
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
         own.source_arcs = self.source_arcs;
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
+        (own.compensated.on, own.compensated.refused) = (own.walk.at.compensated, self.compensated.refused);
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
         own
