@@ -32,6 +32,9 @@ pub struct World {
     /// How far the machine goes back by itself from where a probe has touched, in millimetres: nothing, but for a
     /// control that only plays its machine.
     pub backs_off: Nanos,
+    /// Whether the length of the tool in the spindle is that of the last tool change, and none before the first,
+    /// whatever number the program has set for it since: so on a control that only plays its machine.
+    pub length_by_change: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
     /// Which arcs the control accepts.
@@ -170,6 +173,7 @@ impl World {
             start: [0; AXES],
             peck_clearance: 0,
             backs_off: 0,
+            length_by_change: false,
             feed_ends_with_mode: false,
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),

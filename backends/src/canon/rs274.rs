@@ -82,6 +82,7 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String
     world.start = [0; AXES];
     world.tables = tables.clone();
     world.backs_off = BACKS_OFF;
+    world.length_by_change = true;
     world.arcs = ARCS;
     let mut exec = Exec::new(&world, 0);
     // The interpreter makes a call of a move that goes nowhere too.
@@ -106,7 +107,6 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String
         feed: None,
         limit: None,
         probing: false,
-        numbered: false,
         made: Vec::new(),
         ended: false,
     };
@@ -148,8 +148,6 @@ struct Printer<'p> {
     limit: Option<f64>,
     /// Whether the block's move is a probing one.
     probing: bool,
-    /// Whether the tool in the spindle is there by its number alone.
-    numbered: bool,
     /// What the statement at hand makes the machine do.
     made: Vec<Event>,
     /// Whether calls of moves wait in the interpreter's queue for what the next one is.
@@ -390,7 +388,7 @@ impl Printer<'_> {
             }
             Op::ChangeTool => {
                 self.call("STOP_SPINDLE_TURNING(0)");
-                (self.turning, self.numbered) = (Turning::Stopped, false);
+                self.turning = Turning::Stopped;
                 let _ = writeln!(self.out, "CHANGE_TOOL({})", self.at.selected.unwrap_or(0));
             }
             Op::StartSpindleClockwise => self.turn(Turning::Clockwise),
@@ -441,8 +439,6 @@ impl Printer<'_> {
             Op::Advise(advice) => self.switch(advice)?,
             Op::OrientSpindle(angle) => self.orient(angle.as_ref(), stmt)?,
             Op::UseToolLengthOffset(entry) => self.tool_offsets(entry)?,
-            // The interpreter by itself has no length of a tool of which it was told the number alone.
-            Op::UseToolEdge { .. } if self.numbered => return Err(cannot(stmt.op.name())),
             Op::UseToolEdge { .. } => {
                 let entry = self.exec.length_entry().ok_or_else(|| cannot(stmt.op.name()))?;
                 self.tool_offsets(&Expr::int(i64::from(entry)))?;

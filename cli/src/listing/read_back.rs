@@ -72,6 +72,7 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     world.start = [0; AXES];
     world.tables = super::tables(job);
     world.backs_off = BACKS_OFF;
+    world.length_by_change = true;
     world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     world.arcs = job.from.arc_rule();
     world.refused_compensated = job.from.dialect.caps.refused_compensated;

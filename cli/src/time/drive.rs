@@ -572,6 +572,7 @@ fn world(plan: &Plan) -> World {
         start: [0; AXES],
         peck_clearance: value(PECK_CLEARANCE),
         backs_off: 0,
+        length_by_change: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         arcs: job.from.arc_rule(),
         refused_compensated: job.from.dialect.caps.refused_compensated,

@@ -109,6 +109,8 @@ pub struct Exec {
     /// Whether it was said in inches, if it was said in either.
     feed_inch: Option<bool>,
     selected: i64,
+    /// The tool of the last change; -1 before the first.
+    changed_to: i64,
     /// Where the last probing move ended, in the coordinates that the program had then.
     touched: Option<Box<[[Nanos; AXES]; 2]>>,
     state: State,
@@ -200,6 +202,7 @@ impl Exec {
             feed: 0,
             feed_inch: None,
             selected: -1,
+            changed_to: -1,
             touched: None,
             state: State {
                 feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
@@ -632,6 +635,7 @@ impl Exec {
                     return self.fault(Fault::NoToolSelected, span);
                 }
                 self.state.tool = self.selected;
+                self.changed_to = self.selected;
                 self.emit(Kind::ToolChange, span, out)?;
             }
             Op::UseToolLength(length) => self.use_length(length, span)?,
