@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::compensated::Refused;
 use crate::maps::Renaming;
@@ -41,6 +42,10 @@ pub struct World {
     pub arcs: ArcRule,
     /// What the control refuses while cutter radius compensation is on.
     pub refused_compensated: Refused,
+    /// What codes of the control do besides their names.
+    pub behaviours: Behaviours,
+    /// Whether the operator's switch for optional stops is on.
+    pub optional_stop: bool,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -177,6 +182,8 @@ impl World {
             feed_ends_with_mode: false,
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),
+            behaviours: Behaviours::default(),
+            optional_stop: false,
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },

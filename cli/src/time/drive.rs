@@ -573,6 +573,8 @@ fn world(plan: &Plan) -> World {
         peck_clearance: value(PECK_CLEARANCE),
         backs_off: 0,
         length_by_change: false,
+        behaviours: job.from.behaviours(),
+        optional_stop: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         arcs: job.from.arc_rule(),
         refused_compensated: job.from.dialect.caps.refused_compensated,
