@@ -158,6 +158,7 @@ impl<'j> Line<'j> {
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
         legaliser.set_source_arcs(job.from.arc_rule());
+        legaliser.set_source_behaviours(job.from.behaviours());
         legaliser.set_source_refuses(job.from.dialect.caps.refused_compensated);
         if job.between_controls() {
             legaliser.between_controls();

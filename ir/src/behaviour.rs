@@ -63,6 +63,8 @@ behaviours! {
     ZAtChange = "z-at-change", "Z at a tool change", ["stays", "machine-zero"], Machine;
     /// The spindle at M02 and M30.
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
+    /// The active F behind a change between millimetres and inches: the same feed, or the same number in the new unit.
+    FeedAtUnits = "feed-at-units", "F after a change of units", ["same-feed", "same-number"], Machine;
     /// Coolant at M02 and M30.
     CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
 }

@@ -131,6 +131,8 @@ pub struct Caps {
     pub feed_apart: bool,
     /// A change of units leaves it open what a feed said before means.
     pub feed_again: bool,
+    /// A change of units within a program stands in a block of its own.
+    pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.

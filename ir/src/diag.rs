@@ -312,6 +312,9 @@ faults! {
     MovedAtChange = 324, verdict(Verdict::Assumed);
     /// The cut is another one where the switch for optional stops is on.
     OptionalStopDiffers = 325, verdict(Verdict::Assumed);
+    /// A cut at a feed that was stated before the units changed: what it was, and what the source's control makes of it;
+    /// nanos of a millimetre.
+    FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
 

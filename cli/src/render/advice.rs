@@ -127,6 +127,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             let option = behaviour.option();
             own(&format!("state what your machine does: `--{side}-option {option}={taken}` or `={other}`"))
         }
+        Fault::FeedAtUnits { .. } => own("state F behind the change of units in the source"),
         Fault::OptionalStopDiffers => {
             own("say `M03` and `M08` after `M01` in the source, as the cut needs them")
         }

@@ -206,6 +206,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedContourPath
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
+        | Fault::FeedAtUnits { .. }
         | Fault::MovedAtChange
         | Fault::OptionalStopDiffers
         | Fault::AssumedEdge { .. }

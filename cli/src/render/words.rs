@@ -208,6 +208,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("check at the machine: {}", behaviour.about()),
             format!("another cut where {} = {other} on {}", behaviour.option(), if *source { from } else { to }),
         ),
+        Fault::FeedAtUnits { before, now } => (
+            match before == now {
+                true => "check the feed: F was stated before the units changed".into(),
+                false => "check the feed: F counts in the new unit from here on".into(),
+            },
+            format!("{} mm/min before, {} mm/min here on {from}", millimetres(*before), millimetres(*now)),
+        ),
         Fault::OptionalStopDiffers => (
             "check at the machine: the cut after an optional stop".into(),
             format!("with the switch on, {from} and {to} do not do the same here"),

@@ -232,6 +232,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         arc_forms: everything || names(NameMeaning::ArcThrough),
         word_distance: everything || dialect.can.flat || dialect.block.qualifiers,
         feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
+        units_alone: dialect.can.units_alone,
         feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
         call_digits: if says(Meaning::Call) { dialect.program.number_digits as u32 } else { 0 },
         repeat_blocks: everything || names(NameMeaning::RepeatBlocks) || dialect.repeat.letters().is_some(),

@@ -487,6 +487,8 @@ pub struct Can {
     /// Z, a cycle, or a new zero of Z before the next absolute one is then not what it is on a control that
     /// takes the length up with the next Z, and is refused.
     pub length_at_once: bool,
+    /// A change of units within a program is written in a block of its own.
+    pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already: the next cut needs a new one.
     pub feed_ends_with_mode: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is

@@ -7,7 +7,7 @@
 
 use super::{Event, Exec, Kind, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, Spindle};
+use crate::canon::{AXES, FeedMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::num::Nanos;
 use crate::program::{Op, ReferencePoint, Stmt};
@@ -49,6 +49,20 @@ impl Exec {
         if (self.state.flood || self.state.mist) && self.does(coolant) {
             (self.state.flood, self.state.mist) = (false, false);
             self.state.by_control |= by_control::COOLANT;
+        }
+    }
+
+    /// A change of units: the active F counts as the control has it. A time of one block has no unit of length.
+    #[cold]
+    pub(super) fn feed_at_units(&mut self, inch: bool) {
+        if self.state.feed_mode == FeedMode::InverseTime || !self.does(Behaviour::FeedAtUnits) {
+            return;
+        }
+        let scaled = |feed: i128| if inch { feed * 127 / 5 } else { feed * 5 / 127 };
+        match Nanos::try_from(scaled(i128::from(self.feed))) {
+            Ok(feed) => (self.feed, self.feed_inch) = (feed, self.feed_inch.map(|_| inch)),
+            // Beyond every feed: the next cut needs another.
+            Err(_) => self.feed = 0,
         }
     }
 
@@ -161,6 +175,7 @@ pub fn touched(op: &Op) -> u64 {
             bits(&[Behaviour::SpindleAtChange, Behaviour::CoolantAtChange, Behaviour::ZAtChange])
         }
         Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
+        Op::UseLengthUnits(_) => bits(&[Behaviour::FeedAtUnits]),
         _ => 0,
     }
 }

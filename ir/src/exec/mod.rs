@@ -576,7 +576,11 @@ impl Exec {
             Op::StopCutterRadiusCompensation => self.stop_compensation(),
             Op::UseLengthUnits(units) => {
                 self.units_of_speed(*units);
-                self.modes.inch = *units == Units::Inch;
+                let inch = *units == Units::Inch;
+                if self.feed != 0 && inch != self.modes.inch {
+                    self.feed_at_units(inch);
+                }
+                self.modes.inch = inch;
                 self.said |= UNITS;
             }
             Op::SetDistanceMode(distance) => {

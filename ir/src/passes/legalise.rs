@@ -25,6 +25,7 @@ use super::{
     skip_levels, specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads,
     tool_axis, tool_change, tool_edge, work_offset,
 };
+use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
 use crate::compensated::Refused;
@@ -45,6 +46,8 @@ pub struct Legaliser {
     measures: bool,
     /// Which arcs the source's control accepts, if the target's has another rule.
     source_arcs: Option<ArcRule>,
+    /// Whether feeds are said again behind a change of units.
+    feed_again: bool,
     /// Whether any pass wants to know where the tool is.
     follow: bool,
     walk: Walk,
@@ -88,6 +91,7 @@ impl Legaliser {
             lacks,
             measures: false,
             source_arcs: None,
+            feed_again: feed_unit::says_again(&Target { caps: caps.clone(), ..Target::default() }),
             follow: lacks
                 & (THREAD
                     | PATTERN
@@ -175,6 +179,13 @@ impl Legaliser {
         }
     }
 
+    /// What codes of the source's control do besides their names.
+    pub fn set_source_behaviours(&mut self, source: Behaviours) {
+        self.target.source = source;
+        self.feed_again = feed_unit::says_again(&self.target);
+        self.follow |= self.feed_again;
+    }
+
     /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
     pub fn set_source_refuses(&mut self, source: Refused) {
         self.compensated.refused = self.target.caps.refused_compensated.without(source);
@@ -217,8 +228,13 @@ impl Legaliser {
         if self.target.caps.change_stops_spindle {
             self.change.over(stmts, diags);
         }
-        if self.target.caps.feed_ends_with_mode {
-            let changes = stmts.iter().any(|stmt| matches!(stmt.op, Op::SetFeedMode(_)));
+        let ends = self.target.caps.feed_ends_with_mode;
+        if ends || self.feed_again {
+            let changes = stmts.iter().any(|stmt| match stmt.op {
+                Op::SetFeedMode(_) => true,
+                Op::UseLengthUnits(_) => self.feed_again,
+                _ => false,
+            });
             match changes || self.feed.is_busy() {
                 true => {
                     feed_unit::again(stmts, &mut self.walk.clone(), &mut self.feed, &self.target, diags);
@@ -241,9 +257,6 @@ impl Legaliser {
         }
         if needs & FRAME == 0 && self.lacks & FRAME != 0 {
             self.frames.note(stmts);
-        }
-        if self.target.caps.feed_again && needs & MEASURE == 0 {
-            stmts.iter().for_each(|stmt| self.feed.note(&stmt.op));
         }
         if self.measures && !self.target.caps.arc_forms && needs & ARC == 0 {
             arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
@@ -280,7 +293,7 @@ impl Legaliser {
         needs |= if self.length.is_busy() { LENGTH } else { 0 };
         needs |= if self.cycles.is_busy() || self.taps.is_busy() { CYCLE } else { 0 };
         needs |= if self.threads.is_busy() { THREAD } else { 0 };
-        if self.target.caps.feed_again {
+        if self.feed_again {
             let changes = |stmt: &Stmt| matches!(stmt.op, Op::UseLengthUnits(_));
             needs |= if self.feed.is_busy() || stmts.iter().any(changes) { MEASURE } else { 0 };
         }
@@ -426,9 +439,6 @@ impl Legaliser {
             self.walk = start.clone();
             if needs & FRAME != 0 && needs & ARC == 0 {
                 self.arcs = arc_form::State::default();
-                if self.target.caps.feed_again {
-                    self.feed = feed_unit::State::default();
-                }
                 arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
             } else {
                 self.walk.pass(stmts);
@@ -445,9 +455,6 @@ impl Legaliser {
         let computed = self.measures && needs & (ARC | FRAME | CORNER) != 0;
         let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
         let mut needs = if mixed { needs | MEASURE } else { needs };
-        if needs & MEASURE != 0 && self.target.caps.feed_again {
-            feed_unit::again(stmts, &mut start.clone(), &mut self.feed, &self.target, diags);
-        }
         if needs & MEASURE != 0 && !self.target.caps.feed_apart {
             feed_unit::over(stmts, &mut start.clone(), &self.target);
         }

@@ -89,6 +89,7 @@ pub use path_control::seen_advice;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::behaviour::Behaviours;
 use crate::caps::Caps;
 use crate::diag::Diagnostic;
 use crate::num::{Num, Unit};
@@ -124,6 +125,8 @@ pub struct Target {
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.
     pub other_control: bool,
+    /// What codes of the source's control do besides their names.
+    pub source: Behaviours,
     /// Variables, by their names in lower case, that have a value before the program begins.
     pub given: BTreeMap<Text, f64>,
     /// How compensation is worked out, where that is asked for.
