@@ -158,11 +158,11 @@ impl<'j> Line<'j> {
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
         legaliser.set_source_arcs(job.from.arc_rule());
-        legaliser.set_source_behaviours(job.from.behaviours());
         legaliser.set_source_refuses(job.from.dialect.caps.refused_compensated);
         if job.between_controls() {
             legaliser.between_controls();
         }
+        legaliser.set_source_behaviours(job.from.behaviours());
         legaliser.stand_at(&job.start);
         let maps = job.machines.maps(job.to.dialect);
         legaliser.set_edge_entries(maps.edge_entries.clone());

@@ -131,6 +131,10 @@ pub struct Caps {
     pub feed_apart: bool,
     /// A change of units leaves it open what a feed said before means.
     pub feed_again: bool,
+    /// A feed by the time of a move.
+    pub feed_by_time: bool,
+    /// Digits after the point of F.
+    pub feed_decimals: u8,
     /// A change of units within a program stands in a block of its own.
     pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already.

@@ -387,6 +387,8 @@ faults! {
 
     /// A compensated contour written as the path of the tool's centre; the radius in nanos of a millimetre.
     CompensationExpanded { radius: i64 } = 440, verdict(Verdict::Expanded);
+    /// Linear and rotary axes together, written by the time that the move takes.
+    FeedByTime = 442, verdict(Verdict::Reformatted);
     /// A rounded or chamfered corner written as an arc or a line.
     CornerExpanded = 450, verdict(Verdict::Expanded);
 

@@ -260,6 +260,12 @@ impl World {
         })
     }
 
+    /// The radius at which rotary axes count in the feed, millimetres, where it is set on the machine; the plain world
+    /// does not say.
+    pub fn rotary_radius(&self) -> Option<f64> {
+        (self.seed != 0).then(|| 20.0 + self.odd(150_000_000, 60).abs() as f64 / ONE as f64)
+    }
+
     /// How far apart the zeros of the tool's tip (`true`), or of a tilted plane, and of the linear axes are:
     /// nobody knows but the machine.
     pub fn kinematic_shift(&self, tip: bool) -> [Nanos; 3] {

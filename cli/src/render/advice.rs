@@ -207,6 +207,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::PeckShortened
         | Fault::MacroApart { .. }
         | Fault::CornerExpanded
+        | Fault::FeedByTime
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
         | Fault::Flattened { .. }

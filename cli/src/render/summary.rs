@@ -235,6 +235,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CompensationExpanded { radius } => {
             format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))
         }
+        Fault::FeedByTime => "feed of linear and rotary axes together, by time".to_owned(),
         Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),

@@ -347,6 +347,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "point by radius and angle written by its coordinates".into(),
             format!("{to} does not say it so"),
         ),
+        Fault::FeedByTime => (
+            "feed of linear and rotary axes together, written by time".into(),
+            format!("{from} and {to} count F otherwise here"),
+        ),
         Fault::CornerExpanded => (
             "corner written out as an arc or a line".into(),
             format!("{to} has no word for it, or none for this one"),

@@ -232,6 +232,8 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         arc_forms: everything || names(NameMeaning::ArcThrough),
         word_distance: everything || dialect.can.flat || dialect.block.qualifiers,
         feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
+        feed_by_time: everything || says(Meaning::SetFeedMode(ncc_ir::canon::FeedMode::InverseTime)),
+        feed_decimals: dialect.numbers(crate::Quantity::Feed).decimals,
         units_alone: dialect.can.units_alone,
         feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
         call_digits: if says(Meaning::Call) { dialect.program.number_digits as u32 } else { 0 },

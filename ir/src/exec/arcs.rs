@@ -1,7 +1,7 @@
 //! Execution of arcs.
 
 use super::{Event, Exec, Kind, MOTION, Z};
-use crate::canon::{AXES, Axis, Motion, Plane, Turn};
+use crate::canon::{AXES, Axis, FeedMode, Motion, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
@@ -223,11 +223,15 @@ impl Exec {
                 for axis in [f, s] {
                     self.last[axis] = begin[axis];
                 }
+                self.pace = self.pace_of_arc(360.0);
                 self.emit(kind(true), span, out)?;
             }
         }
         self.heading = Heading::Bent(plane, geometry::tangent(end, centre, turn));
         self.last = self.machine();
+        if self.state.feed_mode == FeedMode::InverseTime {
+            self.pace = self.pace_of_arc(geometry::sweep_degrees(start, end, centre, turn, 0));
+        }
         self.emit(kind(start == end), span, out)
     }
 }

@@ -176,6 +176,7 @@ pub fn touched(op: &Op) -> u64 {
         }
         Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
         Op::UseLengthUnits(_) => bits(&[Behaviour::FeedAtUnits]),
+        Op::StraightFeed(m) if m.to.axes[3..].iter().any(Option::is_some) => bits(&[Behaviour::RotaryFeed]),
         _ => 0,
     }
 }

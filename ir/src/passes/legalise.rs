@@ -20,10 +20,10 @@ use super::write::EXACT;
 use super::{
     Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
     cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
-    expand_repeats, expand_turns, feed_unit, flatten_facts, machine_moves, number_names, offset_with_z,
-    one_distance, one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways,
-    skip_levels, specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads,
-    tool_axis, tool_change, tool_edge, work_offset,
+    expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, machine_moves, number_names,
+    offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, repeat_ends,
+    return_plane, rotary_ways, skip_levels, specialise_procedures, spindle_angle, state_clearance,
+    tapped_holes, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Modes};
@@ -48,6 +48,8 @@ pub struct Legaliser {
     source_arcs: Option<ArcRule>,
     /// Whether feeds are said again behind a change of units.
     feed_again: bool,
+    /// Whether the target counts F of some moves otherwise than the source.
+    times_differ: bool,
     /// Whether any pass wants to know where the tool is.
     follow: bool,
     walk: Walk,
@@ -63,6 +65,7 @@ pub struct Legaliser {
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
+    times: feed_time::State,
     edge: tool_edge::State,
     radius: cutter_radius::State,
     compensated: compensated_modes::State,
@@ -91,6 +94,7 @@ impl Legaliser {
             lacks,
             measures: false,
             source_arcs: None,
+            times_differ: false,
             feed_again: feed_unit::says_again(&Target { caps: caps.clone(), ..Target::default() }),
             follow: lacks
                 & (THREAD
@@ -123,6 +127,7 @@ impl Legaliser {
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
+            times: feed_time::State::default(),
             edge: tool_edge::State::default(),
             radius: cutter_radius::State::default(),
             compensated: compensated_modes::State::default(),
@@ -183,7 +188,8 @@ impl Legaliser {
     pub fn set_source_behaviours(&mut self, source: Behaviours) {
         self.target.source = source;
         self.feed_again = feed_unit::says_again(&self.target);
-        self.follow |= self.feed_again;
+        self.times_differ = feed_time::differs(&self.target);
+        self.follow |= self.feed_again || self.times_differ;
     }
 
     /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
@@ -242,6 +248,15 @@ impl Legaliser {
                 false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
             }
         }
+        if self.times_differ {
+            match self.times.concerns(stmts, &self.walk) {
+                true => {
+                    let mut walk = self.walk.clone();
+                    feed_time::over(stmts, &mut walk, &mut self.times, &self.target, diags);
+                }
+                false => self.times.note(stmts),
+            }
+        }
         let needs = self.needs(stmts);
         self.threads.said = self.taps.said;
         if needs & (CYCLE | THREAD) == 0 && self.target.caps.threads.turned {
@@ -276,7 +291,7 @@ impl Legaliser {
 
     /// Whether further statements of the main procedure would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
-        self.needs(stmts) != 0
+        self.needs(stmts) != 0 || self.times_differ && self.times.concerns(stmts, &self.walk)
     }
 
     /// What further statements need that the target lacks.

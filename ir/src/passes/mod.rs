@@ -32,6 +32,7 @@ pub mod expand_frames;
 pub mod expand_patterns;
 pub mod expand_repeats;
 pub mod expand_turns;
+pub mod feed_time;
 pub mod feed_unit;
 pub mod feed_with_cycle;
 pub mod flatten;
@@ -205,6 +206,11 @@ pub const PASSES: &[Pass] = &[
         run: rotary_ways::run,
     },
     Pass { name: "feed-unit", about: "writes feeds in the unit of length in force", run: feed_unit::run },
+    Pass {
+        name: "feed-time",
+        about: "says by their time moves whose feed the target counts otherwise",
+        run: feed_time::run,
+    },
     Pass { name: "one-distance", about: "measures the words of a block in one way", run: one_distance::run },
     Pass {
         name: "state-clearance",
