@@ -96,6 +96,24 @@ impl Exec {
         }
     }
 
+    /// The end of the text; an event only if the program has not ended before.
+    pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
+        if !self.ended {
+            self.ended = true;
+            if self.centre_path.is_some() {
+                self.end_open_path(out);
+            }
+            out.push(Event {
+                kind: Kind::TextEnd,
+                end: self.last,
+                rate: 0,
+                state: self.state,
+                inch: self.modes.inch,
+                span: Span::default(),
+            });
+        }
+    }
+
     /// A tool change.
     ///
     /// # Errors

@@ -239,24 +239,6 @@ impl Exec {
         self.ended
     }
 
-    /// The end of the text; an event only if the program has not ended before.
-    pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
-        if !self.ended {
-            self.ended = true;
-            if self.centre_path.is_some() {
-                self.end_open_path(out);
-            }
-            out.push(Event {
-                kind: Kind::TextEnd,
-                end: self.last,
-                rate: 0,
-                state: self.state,
-                inch: self.modes.inch,
-                span: Span::default(),
-            });
-        }
-    }
-
     /// Work offset in force, and whether the program or an assumption named it.
     pub fn work_offset(&self) -> Option<u16> {
         (self.said & WORK != 0).then_some(self.modes.work_offset)
