@@ -49,6 +49,8 @@ pub struct Plain {
     pub five: [bool; 2],
     /// What the control has done by itself.
     pub by_itself: ByItself,
+    /// Whether the feed is the time of this very move.
+    pub timed: bool,
 }
 
 /// What happened.
@@ -181,6 +183,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
         }),
         touched: mm(world.touched()),
         bore_shift: (usize::from(world.bore_shift.second), if world.bore_shift.minus { -1.0 } else { 1.0 }),
+        rotary_radius: world.rotary_radius(),
         orientation: mm(world.orientation),
         kinematics: Kinematics {
             tip: world.kinematic_shift(true).map(mm),
@@ -304,6 +307,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 beside: event.beside,
                 five: event.five,
                 by_itself: event.by_itself,
+                timed: event.timed,
             },
         );
     }
@@ -438,6 +442,7 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                     moves: event.state.by_control & by_control::MOVE != 0,
                     z_moved: event.state.by_control & by_control::Z_AT_START == 0,
                 },
+                timed: event.state.by_control & by_control::TIMED != 0,
             },
         );
     }
@@ -612,7 +617,9 @@ fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
     if !a.at.iter().zip(b.at).all(|(x, y)| near(*x, y, within.place)) {
         return Some("another end point");
     }
-    if a.per != b.per || !near(a.feed, b.feed, within.feed) {
+    // F of such a move has few digits.
+    let feeds = if a.timed || b.timed { (0.0053 * a.feed).max(within.feed) } else { within.feed };
+    if a.per != b.per || !near(a.feed, b.feed, feeds) {
         return Some("another feed");
     }
     let told = |corner: Corner| match (within.corners, corner) {

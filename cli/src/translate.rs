@@ -156,13 +156,15 @@ impl<'j> Line<'j> {
         let mut legaliser =
             Legaliser::new(&job.to.caps(), as_there::decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
-        legaliser.set_source(&job.source_behaviours());
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
+        legaliser.set_source_arcs(job.from.arc_rule());
+        legaliser.set_source_refuses(job.from.dialect.caps.refused_compensated);
         if job.between_controls() {
             legaliser.between_controls();
         }
+        legaliser.set_source_behaviours(job.source_behaviours());
         legaliser.stand_at(&job.start);
         let maps = job.machines.maps(job.to.dialect);
         legaliser.set_edge_entries(maps.edge_entries.clone());

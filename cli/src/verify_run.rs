@@ -202,11 +202,15 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     let mut source = World::generate(seed, &from).with_external();
     source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    source.arcs = job.from.arc_rule();
+    source.refused_compensated = job.from.dialect.caps.refused_compensated;
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to).with_external();
     target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
+    target.arcs = job.to.arc_rule();
+    target.refused_compensated = job.to.dialect.caps.refused_compensated;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
     let named = &target.renaming.tool_names;

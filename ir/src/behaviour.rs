@@ -68,6 +68,13 @@ behaviours! {
     LengthAfterMachineMove = "length-after-machine-move", "tool length after a move in machine coordinates", ["returns", "cancelled"], Machine;
     /// The spindle at M02 and M30.
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
+    /// The active F behind a change between millimetres and inches: the same feed, or the same number in the new unit.
+    FeedAtUnits = "feed-at-units", "F after a change of units", ["same-feed", "same-number"], Machine;
+    /// What F counts where linear and rotary axes move together: the way of X, Y and Z; a degree as a unit of length; or
+    /// the way of the rotary axis at a diameter that is set on the machine.
+    RotaryFeed = "rotary-feed", "feed of linear and rotary axes together", ["linear-axes", "degrees-as-lengths", "diameter"], Machine;
+    /// What F counts on an arc under inverse time: one over the minutes of the block, or the feed over the radius.
+    ArcByTime = "arc-by-time", "F on arcs under inverse time", ["time", "radius"], Machine;
     /// Coolant at M02 and M30.
     CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
 }

@@ -2,6 +2,7 @@
 
 use crate::behaviour::Behaviours;
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
+use crate::compensated::Refused;
 use crate::computes::Computes;
 use crate::cycle::{CycleKind, Shift, Tap};
 use crate::exec::Seen;
@@ -12,6 +13,7 @@ use crate::kinds::{
 use crate::num::Num;
 use crate::passes::seen_advice;
 use crate::program::{FrameSlot, Op, Pitch, Probe, ReferencePoint, Slot, ToolLength};
+use crate::round::ArcRule;
 
 /// Capabilities of a target, filled from its dictionary.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -129,6 +131,12 @@ pub struct Caps {
     pub feed_apart: bool,
     /// A change of units leaves it open what a feed said before means.
     pub feed_again: bool,
+    /// A feed by the time of a move.
+    pub feed_by_time: bool,
+    /// Digits after the point of F.
+    pub feed_decimals: u8,
+    /// A change of units within a program stands in a block of its own.
+    pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.
@@ -157,6 +165,10 @@ pub struct Caps {
     pub behaviours: Behaviours,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub cycles_measured_anew: bool,
+    /// Which arcs it accepts.
+    pub arcs: ArcRule,
+    /// What it refuses while cutter radius compensation is on.
+    pub refused_compensated: Refused,
     /// Arcs by radius.
     pub arc_radius: bool,
     /// Arcs with a third axis.

@@ -209,8 +209,8 @@ faults! {
     ArcWithoutCentre = 211, Error;
     /// An arc with both.
     ArcCentreAndRadius = 212, Error;
-    /// The end of the arc is not on its circle; by how much (nanos).
-    ArcEndOffCircle { by: i64 } = 213, Error;
+    /// The radii of an arc at start and end differ by more than its control accepts; nanos of a millimetre.
+    ArcEndOffCircle { radii: [i64; 2], allowed: i64 } = 213, Error;
     /// The radius cannot reach the end point.
     ArcRadiusTooSmall = 214, Error;
     /// A radius and no way to go.
@@ -254,6 +254,8 @@ faults! {
     Computes { what: Box<str> } = 233, Error;
     /// A loop that is never left: a turn of it changes nothing by which the program goes.
     Endless = 234, Error;
+    /// Its control refuses it while cutter radius compensation is on.
+    RefusedCompensated { what: Box<str> } = 235, Error;
 
     /// A contour is to be worked out beside which the tool goes, and nobody has said by which radius: that
     /// of an entry, or of an edge.
@@ -315,6 +317,9 @@ faults! {
     AssumedMilling { looks_like: Box<str>, line: u64 } = 330, verdict(Verdict::Assumed);
     /// The program never says how corners are taken, and the two controls begin otherwise: how each does.
     PathAtStart { source: &'static str, target: &'static str } = 326, verdict(Verdict::Assumed);
+    /// A cut at a feed that was stated before the units changed: what it was, and what the source's control makes of it;
+    /// nanos of a millimetre.
+    FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
 
@@ -387,6 +392,8 @@ faults! {
 
     /// A compensated contour written as the path of the tool's centre; the radius in nanos of a millimetre.
     CompensationExpanded { radius: i64 } = 440, verdict(Verdict::Expanded);
+    /// Linear and rotary axes together, written by the time that the move takes.
+    FeedByTime = 442, verdict(Verdict::Reformatted);
     /// A rounded or chamfered corner written as an arc or a line.
     CornerExpanded = 450, verdict(Verdict::Expanded);
 
@@ -414,6 +421,10 @@ faults! {
     /// A fact that the program leaves to what was in force before it, and that the target's control always
     /// begins with a value of its own for.
     FactUnsaid { fact: ModeName } = 507, Error;
+    /// The radii of an arc at start and end differ by more than the target's control accepts; nanos of a millimetre.
+    ArcRadiiDiffer { radii: [i64; 2], allowed: i64 } = 520, Error;
+    /// The target's control refuses it while cutter radius compensation is on.
+    CompensatedThere { what: Box<str> } = 521, Error;
 
     // NC06xx: verification.
     /// Source and output do not make the same events: a fault of this compiler.

@@ -12,8 +12,13 @@ pub enum ArcFault {
     RadiusTooSmall,
     /// A radius, and end = start.
     NoWay,
-    /// The end is off the circle by this much.
-    EndOffCircle(Nanos),
+    /// The radii at start and end differ by more than is allowed.
+    EndOffCircle {
+        /// Both radii.
+        radii: [Nanos; 2],
+        /// The greatest difference that the control accepts for them.
+        allowed: Nanos,
+    },
     /// Start and centre are the same point.
     NoRadius,
     /// A tangent arc whose end lies straight ahead: a line.
@@ -21,15 +26,16 @@ pub enum ArcFault {
 }
 
 /// Centre of an arc by its radius: positive for at most half a turn, negative for more (Fanuc,
-/// NIST RS274/NGC 3.5.3.1).
+/// NIST RS274/NGC 3.5.3.1). Half the chord may exceed the radius by `short`: that is half a turn.
 ///
 /// # Errors
-/// [`ArcFault::NoWay`], [`ArcFault::RadiusTooSmall`] (by more than a micrometre; less is half a turn).
+/// [`ArcFault::NoWay`], [`ArcFault::RadiusTooSmall`].
 pub fn centre_by_radius(
     start: [Nanos; 2],
     end: [Nanos; 2],
     radius: Nanos,
     turn: Turn,
+    short: Nanos,
 ) -> Result<[Nanos; 2], ArcFault> {
     let (dx, dy) = ((end[0] - start[0]) as f64, (end[1] - start[1]) as f64);
     let chord = dx.hypot(dy);
@@ -38,7 +44,7 @@ pub fn centre_by_radius(
     }
     let r = (radius as f64).abs();
     let half = chord / 2.0;
-    if half > r + 1000.0 {
+    if half > r + short as f64 {
         return Err(ArcFault::RadiusTooSmall);
     }
     let rise = (r * r - half * half).max(0.0).sqrt();
@@ -51,23 +57,11 @@ pub fn centre_by_radius(
     ])
 }
 
-/// Checks that the end of an arc lies on its circle.
-///
-/// # Errors
-/// [`ArcFault::NoRadius`], [`ArcFault::EndOffCircle`] by more than `tolerance`.
-pub fn check_on_circle(
-    start: [Nanos; 2],
-    end: [Nanos; 2],
-    centre: [Nanos; 2],
-    tolerance: Nanos,
-) -> Result<(), ArcFault> {
-    let radius = |p: [Nanos; 2]| ((p[0] - centre[0]) as f64).hypot((p[1] - centre[1]) as f64);
-    let (r1, r2) = (radius(start), radius(end));
-    if r1 < 1000.0 {
-        return Err(ArcFault::NoRadius);
-    }
-    let off = (r1 - r2).abs();
-    if off > tolerance as f64 { Err(ArcFault::EndOffCircle(off as Nanos)) } else { Ok(()) }
+/// Radii of an arc at its start and at its end, to a nano.
+pub fn radii(start: [Nanos; 2], end: [Nanos; 2], centre: [Nanos; 2]) -> [Nanos; 2] {
+    [start, end].map(|p| {
+        ((p[0].wrapping_sub(centre[0])) as f64).hypot((p[1].wrapping_sub(centre[1])) as f64).round() as Nanos
+    })
 }
 
 /// Signed sweep in degrees, counter-clockwise positive: more than 0, and at most 360 plus the full
@@ -223,11 +217,11 @@ mod tests {
     #[test]
     fn a_positive_radius_is_the_short_way() {
         // Quarter circle from (10, 0) to (0, 10), counter-clockwise about the origin.
-        let c = centre_by_radius([10 * MM, 0], [0, 10 * MM], 10 * MM, Turn::Counterclockwise);
+        let c = centre_by_radius([10 * MM, 0], [0, 10 * MM], 10 * MM, Turn::Counterclockwise, 0);
         assert_eq!(c, Ok([0, 0]));
-        let far = centre_by_radius([10 * MM, 0], [0, 10 * MM], -10 * MM, Turn::Counterclockwise);
+        let far = centre_by_radius([10 * MM, 0], [0, 10 * MM], -10 * MM, Turn::Counterclockwise, 0);
         assert_eq!(far, Ok([10 * MM, 10 * MM]));
-        let cw = centre_by_radius([10 * MM, 0], [0, 10 * MM], 10 * MM, Turn::Clockwise);
+        let cw = centre_by_radius([10 * MM, 0], [0, 10 * MM], 10 * MM, Turn::Clockwise, 0);
         assert_eq!(cw, Ok([10 * MM, 10 * MM]));
     }
 

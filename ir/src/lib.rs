@@ -16,6 +16,7 @@ pub mod canon;
 pub mod caps;
 pub mod changed;
 pub mod code_of;
+pub mod compensated;
 pub mod computes;
 pub mod corner;
 pub mod cycle;

@@ -24,7 +24,7 @@ use crate::polar::{self, Pole};
 use crate::program::{
     Arc, ArcForm, Coord, Data, FrameSlot, Move, Op, Point, Polar, SetPole, Shape, Stmt, ToolLength, ToolValue,
 };
-use crate::round::round;
+use crate::round::{MOST_SHORT, round};
 
 /// State of the abstract execution.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -189,7 +189,7 @@ impl Tracker {
                 let end = self.target(&arc.to);
                 let start = [at(first)?, at(second)?];
                 let end = [end[first as usize]?, end[second as usize]?];
-                geometry::centre_by_radius(start, end, self.nanos(radius)?, arc.turn).ok()
+                geometry::centre_by_radius(start, end, self.nanos(radius)?, arc.turn, MOST_SHORT).ok()
             }
         }
     }

@@ -71,9 +71,11 @@ pub fn same_plain(a: &Stmt, b: &Stmt) -> bool {
         return false;
     }
     match (&a.op, &b.op) {
-        (Op::StraightFeed(a), Op::StraightFeed(b)) | (Op::StraightTraverse(a), Op::StraightTraverse(b)) => {
-            words(&a.to, &b.to)
+        // How long a cut with rotary axes takes, each control counts for itself.
+        (Op::StraightFeed(a), Op::StraightFeed(b)) => {
+            words(&a.to, &b.to) && a.to.axes[3..].iter().all(Option::is_none)
         }
+        (Op::StraightTraverse(a), Op::StraightTraverse(b)) => words(&a.to, &b.to),
         (Op::SetFeedRate(a), Op::SetFeedRate(b)) => value(a, b),
         _ => false,
     }
@@ -629,7 +631,7 @@ impl Comparison {
         }
         let synchronised = matches!(a.kind, Kind::Synchronised { .. });
         let most = self.resolution.feeds(b.inch || self.as_inches);
-        if a.rate != b.rate && !synchronised && !near(a.rate, b.rate, most) {
+        if a.rate != b.rate && !synchronised && !near(a.rate, b.rate, most) && !same_time(a, b) {
             return Some(Aspect::Feed);
         }
         if a.rate != 0 && !synchronised && a.state.feed_mode != b.state.feed_mode {
@@ -644,6 +646,14 @@ impl Comparison {
         };
         (!same).then_some(Aspect::State)
     }
+}
+
+/// Whether two moves take the same time, where one of their controls counts the feed in a way of its own: to half a per
+/// cent, because F of such a move has few digits.
+fn same_time(source: &Event, target: &Event) -> bool {
+    let timed = (source.state.by_control | target.state.by_control) & by_control::TIMED != 0;
+    let apart = i128::from(source.rate.abs_diff(target.rate));
+    timed && apart * 190 <= i128::from(source.rate)
 }
 
 /// Whether Z is where the control or the operator has left it, on one side alone.

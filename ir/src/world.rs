@@ -7,9 +7,11 @@ use std::collections::BTreeMap;
 
 use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
+use crate::compensated::Refused;
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 use crate::program::{ReferencePoint, ToolValue};
+use crate::round::ArcRule;
 use crate::system::Kept;
 
 /// One state of the machine and its tables before the program starts.
@@ -31,8 +33,15 @@ pub struct World {
     /// How far the machine goes back by itself from where a probe has touched, in millimetres: nothing, but for a
     /// control that only plays its machine.
     pub backs_off: Nanos,
+    /// Whether the length of the tool in the spindle is that of the last tool change, and none before the first,
+    /// whatever number the program has set for it since: so on a control that only plays its machine.
+    pub length_by_change: bool,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Which arcs the control accepts.
+    pub arcs: ArcRule,
+    /// What the control refuses while cutter radius compensation is on.
+    pub refused_compensated: Refused,
     /// What codes of the control do besides their names.
     pub behaviours: Behaviours,
     /// Whether the operator's switch for optional stops is on.
@@ -169,7 +178,10 @@ impl World {
             start: [0; AXES],
             peck_clearance: 0,
             backs_off: 0,
+            length_by_change: false,
             feed_ends_with_mode: false,
+            arcs: ArcRule::default(),
+            refused_compensated: Refused::default(),
             behaviours: Behaviours::default(),
             optional_stop: false,
             break_lift: 0,
@@ -246,6 +258,12 @@ impl World {
             None if self.seed == 0 || point == ReferencePoint::Home => 0,
             None => self.odd(80_000 + index * 8 + axis as u32, 90),
         })
+    }
+
+    /// The radius at which rotary axes count in the feed, millimetres, where it is set on the machine; the plain world
+    /// does not say.
+    pub fn rotary_radius(&self) -> Option<f64> {
+        (self.seed != 0).then(|| 20.0 + self.odd(150_000_000, 60).abs() as f64 / ONE as f64)
     }
 
     /// How far apart the zeros of the tool's tip (`true`), or of a tilted plane, and of the linear axes are:

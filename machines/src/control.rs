@@ -124,6 +124,7 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
         own_tool: false,
         dwell: Vec::new(),
         on: None,
+        refused_under_compensation: None,
         write: true,
         sure: true,
         source: "the machine's profile".to_owned(),

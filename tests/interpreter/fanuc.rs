@@ -13,7 +13,7 @@ mod words;
 use macro_b::{Go, Modal, Variables, jump, loops};
 use programs::{Program, programs, without_name};
 
-use super::{Corner, Cut, Halt, Hole, Machine, Per, Setup, Spindle, What, characters};
+use super::{Corner, Cut, Feeds, Halt, Hole, Machine, Per, Rotary, Setup, Spindle, What, characters};
 
 /// Runs the first program of a text.
 ///
@@ -57,6 +57,8 @@ fn run_on(text: &[u8], setup: Setup, haas: bool) -> Result<Machine, Halt> {
         in_modal: false,
         moved: false,
     };
+    let rotary = if haas { Rotary::Diameter } else { Rotary::Degrees };
+    control.m.feeds = Feeds { rotary, arcs_by_radius: !haas };
     let main = programs.first().map_or(&[][..], |p| &p.blocks[..]);
     if !control.program(main, &programs)? {
         control.m.record(What::TextEnd);
@@ -241,8 +243,7 @@ impl Control {
                 15 if !self.haas => self.polar = None,
                 16 if !self.haas => self.polar = Some(self.polar.flatten()),
                 g @ 17..=19 => self.m.plane = g,
-                20 => self.m.inch = true,
-                21 => self.m.inch = false,
+                code @ (20 | 21) => self.m.units(code == 20, !self.haas),
                 // Every call of its kind is over.
                 67 if !self.haas => self.modal = None,
                 40 => self.m.go_on(),

@@ -15,6 +15,7 @@ mod hole;
 pub mod ir;
 pub mod linuxcnc;
 pub mod mach9;
+mod pace;
 pub mod setup;
 pub mod siemens;
 mod slots;
@@ -27,6 +28,7 @@ pub use beside::Beside;
 pub use corner::Cut;
 use corner::Planned;
 pub use hole::Hole;
+pub use pace::{Feeds, Rotary};
 pub use setup::{PowerOn, Setup};
 use siemens::frame::Frame;
 use slots::Slots;
@@ -164,6 +166,8 @@ pub struct Event {
     pub five: [bool; 2],
     /// What the control has done by itself, and no word since.
     pub by_itself: ByItself,
+    /// The feed is the time of this very move.
+    pub timed: bool,
 }
 
 /// What a control has done besides the name of a code, and no word of the program since.
@@ -192,6 +196,8 @@ pub struct Halt {
 
 /// The machine, as far as programs see it.
 pub struct Machine {
+    /// What F counts, where controls differ.
+    pub feeds: Feeds,
     /// Its tables and switches.
     pub setup: Setup,
     /// What the program has put into its tables.
@@ -300,6 +306,7 @@ impl Machine {
             tip: false,
             plane_set: false,
             by_itself: ByItself::default(),
+            feeds: Feeds::default(),
             line: 0,
             asked: None,
             cuts: Vec::new(),
@@ -443,6 +450,7 @@ impl Machine {
             beside: self.beside,
             five: [self.tip, self.plane_set],
             by_itself: self.by_itself,
+            timed: false,
         });
     }
 
@@ -464,8 +472,12 @@ impl Machine {
         }
         self.lead_straight(to);
         let moved = (to[2] - self.at[2]).abs() > 1e-6;
+        let minutes = self.minutes(self.at, to);
         self.at = to;
         self.record(What::Feed);
+        if let Some(minutes) = minutes {
+            self.take(minutes);
+        }
         if moved {
             self.by_itself.z = false;
             self.by_itself.z_moved = true;
@@ -541,6 +553,7 @@ impl Machine {
         full[normal] = self.at[normal];
         self.at = to;
         self.record(What::Arc { normal, centre: full, sweep });
+        self.time_of_arc(sweep);
         Ok(())
     }
 

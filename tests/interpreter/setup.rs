@@ -35,6 +35,8 @@ pub struct Setup {
     pub touched: f64,
     /// Where a Fanuc shifts a tool off the wall of a bore: which axis of the plane, and its sign.
     pub bore_shift: (usize, f64),
+    /// The radius of the rotary axes that is set on a Haas (settings 34 and 79), millimetres.
+    pub rotary_radius: Option<f64>,
     /// Where M19 stops the spindle, degrees.
     pub orientation: f64,
     /// How the machine is built, as far as it shows.
@@ -123,6 +125,7 @@ impl Setup {
             counted: Box::new(|_, _| 0.0),
             touched: 1.0,
             bore_shift: (0, 1.0),
+            rotary_radius: None,
             orientation: 0.0,
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),

@@ -8,6 +8,7 @@ mod beside;
 mod check;
 mod computing;
 mod computing_pages;
+mod controls;
 mod cycles;
 mod dialects;
 mod dictionary_form;

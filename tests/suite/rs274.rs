@@ -238,3 +238,19 @@ fn the_corpus_is_printed() {
     }
     failures.finish();
 }
+
+/// The interpreter by itself keeps the length of the last tool change, whatever number M61 sets, and has none before the
+/// first: its own print of this program with a table of these lengths.
+#[test]
+fn the_length_of_the_last_tool_change() {
+    let lengths = [(7, 70), (8, 80), (9, 90)].map(|(tool, length)| (tool, length * ncc_ir::num::ONE)).into();
+    let offsets = [7, 8, 9].map(|tool| (tool, [0; 2])).into();
+    let tables = Tables { lengths, offsets, ..Tables::default() };
+    let text = "G21 G90 G17 G94\nM61 Q7\nG43\nG0 Z9\nT8 M6\nG43\nM61 Q9\nG43\nG0 Z8\nM2\n";
+    let printed = printed(text.as_bytes(), &tables).expect("a listing");
+    let offsets: Vec<&str> = printed.lines().filter(|line| line.starts_with("USE_TOOL_LENGTH")).collect();
+    let offset = |z: &str| {
+        format!("USE_TOOL_LENGTH_OFFSET(0.0000 0.0000 {z}, 0.0000 0.0000 0.0000, 0.0000 0.0000 0.0000)")
+    };
+    assert_eq!(offsets, [offset("0.0000"), offset("80.0000"), offset("80.0000")]);
+}

@@ -6,6 +6,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, Num, POW10, Unit};
 use ncc_ir::program::{Arc, Centre, Coord, Point, Stmt};
+use ncc_ir::round::MOST_SHORT;
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
@@ -75,10 +76,12 @@ pub(super) fn centre(at: &Tracker, arc: &Arc, axes: [Axis; 2]) -> Result<[Nanos;
             let [Some(x), Some(y)] = start else { return Err(unknown(start)) };
             let [Some(to_x), Some(to_y)] = end else { return Err(unknown(end)) };
             let radius = at.nanos(radius).ok_or(Fault::CannotSay { what: "an expression".into() })?;
-            geometry::centre_by_radius([x, y], [to_x, to_y], radius, arc.turn).map_err(|fault| match fault {
-                ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-                ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
-                ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
+            geometry::centre_by_radius([x, y], [to_x, to_y], radius, arc.turn, MOST_SHORT).map_err(|fault| {
+                match fault {
+                    ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
+                    ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
+                    ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },
+                }
             })
         }
         Centre::Point { .. } => at.centre(arc).ok_or_else(|| match start {

@@ -29,15 +29,21 @@ use ncc_ir::geometry::{self, ArcFault};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::passes::{Compensating, Target, expand_compensation, flatten, polar_words};
 use ncc_ir::program::{Arc, Centre, Data, FrameSlot, Op, Point, Program, Slot, Stmt, ToolLength};
+use ncc_ir::round::ArcRule;
 use ncc_ir::track::Tracker;
 use ncc_ir::valid::leads_nowhere;
 use ncc_ir::world::{Tables, World};
 
-/// Least radius of an arc: 0.00005 inch.
-const LEAST_RADIUS: f64 = 0.00127;
-
-/// Most difference of an arc's two radii that is not judged by the radius, in mm and in inch.
-const APART: [f64; 2] = [0.02 * std::f64::consts::SQRT_2, 0.002 * std::f64::consts::SQRT_2 * 25.4];
+/// Which arcs the interpreter takes (interp_arc.cc): 0.02 mm or 0.002 in, times the root of two, or a thousandth of the
+/// larger radius, and never a hundred times that; no radius below 0.00005 in.
+const ARCS: ArcRule = ArcRule {
+    tolerance: Some([28_284_271, 71_842_048]),
+    relative: ONE / 1000,
+    of_larger: true,
+    limit: 100,
+    least: 1_270_000,
+    short: [1_270_000; 2],
+};
 
 /// How far the interpreter stands before where it takes a probe to have touched: 0.01 inch.
 pub const BACKS_OFF: Nanos = 254 * ONE / 1000;
@@ -76,6 +82,8 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String
     world.start = [0; AXES];
     world.tables = tables.clone();
     world.backs_off = BACKS_OFF;
+    world.length_by_change = true;
+    world.arcs = ARCS;
     let mut exec = Exec::new(&world, 0);
     // The interpreter makes a call of a move that goes nowhere too.
     exec.every_move();
@@ -99,7 +107,6 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String
         feed: None,
         limit: None,
         probing: false,
-        numbered: false,
         made: Vec::new(),
         ended: false,
     };
@@ -141,8 +148,6 @@ struct Printer<'p> {
     limit: Option<f64>,
     /// Whether the block's move is a probing one.
     probing: bool,
-    /// Whether the tool in the spindle is there by its number alone.
-    numbered: bool,
     /// What the statement at hand makes the machine do.
     made: Vec<Event>,
     /// Whether calls of moves wait in the interpreter's queue for what the next one is.
@@ -383,7 +388,7 @@ impl Printer<'_> {
             }
             Op::ChangeTool => {
                 self.call("STOP_SPINDLE_TURNING(0)");
-                (self.turning, self.numbered) = (Turning::Stopped, false);
+                self.turning = Turning::Stopped;
                 let _ = writeln!(self.out, "CHANGE_TOOL({})", self.at.selected.unwrap_or(0));
             }
             Op::StartSpindleClockwise => self.turn(Turning::Clockwise),
@@ -434,8 +439,6 @@ impl Printer<'_> {
             Op::Advise(advice) => self.switch(advice)?,
             Op::OrientSpindle(angle) => self.orient(angle.as_ref(), stmt)?,
             Op::UseToolLengthOffset(entry) => self.tool_offsets(entry)?,
-            // The interpreter by itself has no length of a tool of which it was told the number alone.
-            Op::UseToolEdge { .. } if self.numbered => return Err(cannot(stmt.op.name())),
             Op::UseToolEdge { .. } => {
                 let entry = self.exec.length_entry().ok_or_else(|| cannot(stmt.op.name()))?;
                 self.tool_offsets(&Expr::int(i64::from(entry)))?;
@@ -608,25 +611,23 @@ impl Printer<'_> {
             Centre::Point { .. } => self.at.centre(arc).ok_or_else(|| cannot("this centre"))?,
             Centre::Radius(radius) => {
                 let radius = self.at.nanos(radius).ok_or_else(|| cannot("this radius"))?;
-                geometry::centre_by_radius(start, end, radius, arc.turn).map_err(|fault| match fault {
-                    ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
-                    ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
-                    ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
-                })?
+                geometry::centre_by_radius(start, end, radius, arc.turn, ARCS.short(self.inch())).map_err(
+                    |fault| match fault {
+                        ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
+                        ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
+                        ArcFault::EndOffCircle { radii, allowed } => {
+                            Fault::ArcEndOffCircle { radii, allowed }
+                        }
+                    },
+                )?
             }
         };
-        let mm = |p: [Nanos; 2]| {
-            let [x, y] = [0, 1].map(|i| (p[i] - centre[i]) as f64 / ONE as f64);
-            x.hypot(y)
-        };
-        let (r1, r2) = (mm(start), mm(end));
-        let (apart, most) = ((r1 - r2).abs(), APART[usize::from(self.inch())]);
-        if r1 < LEAST_RADIUS || r2 < LEAST_RADIUS {
-            return Err(Fault::ArcRadiusTooSmall);
-        }
-        if apart > 100.0 * most || apart > most && apart / r1.max(r2) > 0.001 {
-            return Err(Fault::ArcEndOffCircle { by: (apart * ONE as f64) as Nanos });
-        }
+        ARCS.check(geometry::radii(start, end, centre), self.inch()).map_err(|fault| match fault {
+            ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },
+            ArcFault::RadiusTooSmall | ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => {
+                Fault::ArcRadiusTooSmall
+            }
+        })?;
         let turns = i64::from(arc.turns) + 1;
         let turns = if arc.turn == Turn::Clockwise { -turns } else { turns };
         self.rate_of_arc([start, end, centre], turns, to[normal as usize] - here[normal as usize])?;

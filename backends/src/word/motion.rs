@@ -10,6 +10,7 @@ use ncc_ir::expr::Expr;
 use ncc_ir::geometry;
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::program::{Arc, Centre, CentreFrom, Coord, Move, Point, Reference, ReferencePoint, Stmt};
+use ncc_ir::round::MOST_SHORT;
 use ncc_ir::source::Span;
 
 use super::block::{Need, Part, Rank};
@@ -425,11 +426,11 @@ impl Writer {
                 let radius = self.length(radius, span)?;
                 let start = [self.stands(first)?, self.stands(second)?];
                 let end = [self.arrives(arc, first)?, self.arrives(arc, second)?];
-                let centre = geometry::centre_by_radius(start, end, radius, arc.turn);
+                let centre = geometry::centre_by_radius(start, end, radius, arc.turn, MOST_SHORT);
                 let centre = centre.map_err(|fault| match fault {
                     geometry::ArcFault::NoWay | geometry::ArcFault::Straight => Fault::ArcRadiusNoWay,
                     geometry::ArcFault::RadiusTooSmall
-                    | geometry::ArcFault::EndOffCircle(_)
+                    | geometry::ArcFault::EndOffCircle { .. }
                     | geometry::ArcFault::NoRadius => Fault::ArcRadiusTooSmall,
                 })?;
                 match absolute {

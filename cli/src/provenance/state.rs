@@ -124,8 +124,9 @@ struct Walk<'s> {
 
 impl Walk<'_> {
     fn new(settings: &Settings, line: (u32, u32)) -> Walk<'_> {
-        let world =
+        let mut world =
             World { behaviours: settings.behaviours(), ..World::generate(1, &fixed(settings.dialect)) };
+        world.arcs = settings.arc_rule();
         Walk {
             settings,
             line,

@@ -1,12 +1,12 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::DECIMAL_POINT;
+use ncc_dialects::{ARC_TOLERANCE, DECIMAL_POINT, Dialect};
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
 
-use super::words::{Context, mode, plain, plain_upto};
+use super::words::{Context, millimetres, mode, plain, plain_upto};
 use crate::review::words::decimal;
 
 /// What to do. Empty where the message says it already.
@@ -64,10 +64,24 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             None => own("add the centre (I, J, K)"),
         },
         Fault::ArcCentreAndRadius => own("keep the centre, or the radius"),
-        Fault::ArcEndOffCircle { .. } => own(match at.from.arc.centre_absolute {
-            true => "check the centre: here it is measured from program zero, not from the start of the arc",
-            false => "check the centre: here it is measured from the start of the arc, not from program zero",
-        }),
+        Fault::ArcEndOffCircle { allowed, .. } => {
+            let check = match at.from.arc.centre_absolute {
+                true => {
+                    "check the centre: here it is measured from program zero, not from the start of the arc"
+                }
+                false => {
+                    "check the centre: here it is measured from the start of the arc, not from program zero"
+                }
+            };
+            vec![check.to_owned(), arc_tolerance(at.from, *allowed, "--from-option")]
+        }
+        Fault::RefusedCompensated { .. } | Fault::CompensatedThere { .. } => {
+            own("move it before the block that switches compensation on, or behind the one that ends it")
+        }
+        Fault::ArcRadiiDiffer { allowed, .. } => {
+            let correct = "correct the centre so that both radii are equal";
+            vec![correct.to_owned(), arc_tolerance(at.to, *allowed, "--to-option")]
+        }
         Fault::ArcRadiusTooSmall => own("check the radius, the end point, and where the tool stands before"),
         Fault::NoArc => {
             own("check the angle (more than 0, less than 360), and that the points do not lie on a line")
@@ -114,6 +128,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             let option = behaviour.option();
             own(&format!("state what your machine does: `--{side}-option {option}={taken}` or `={other}`"))
         }
+        Fault::FeedAtUnits { .. } => own("state F behind the change of units in the source"),
         Fault::OptionalStopDiffers => {
             own("say `M03` and `M08` after `M01` in the source, as the cut needs them")
         }
@@ -201,6 +216,7 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         | Fault::PeckShortened
         | Fault::MacroApart { .. }
         | Fault::CornerExpanded
+        | Fault::FeedByTime
         | Fault::CycleExpanded { .. }
         | Fault::CallExpanded { .. }
         | Fault::Flattened { .. }
@@ -277,6 +293,16 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::SkipSettingsSampled { .. } | Fault::VariableGiven { .. } | Fault::ValueNotRead { .. } => {
             Vec::new()
         }
+    }
+}
+
+/// What a control accepts of the radii of an arc, and how a machine states another tolerance where its dialect has an
+/// option for that.
+fn arc_tolerance(dialect: &Dialect, allowed: i64, option: &str) -> String {
+    let accepts = format!("{} accepts a difference of {} mm here", dialect.id, millimetres(allowed));
+    match dialect.option.iter().find(|row| row.name == ARC_TOLERANCE) {
+        Some(row) => format!("{accepts}; if your machine accepts more: `{option} {}=MM`", row.name),
+        None => accepts,
     }
 }
 

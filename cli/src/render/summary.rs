@@ -207,6 +207,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedContourPath
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
+        | Fault::FeedAtUnits { .. }
         | Fault::MovedAtChange
         | Fault::PathAtStart { .. }
         | Fault::OptionalStopDiffers
@@ -236,6 +237,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::CompensationExpanded { radius } => {
             format!("a compensated contour into the tool's path, by {} mm", millimetres(*radius))
         }
+        Fault::FeedByTime => "feed of linear and rotary axes together, by time".to_owned(),
         Fault::CornerExpanded => "rounded and chamfered corners into arcs and lines".to_owned(),
         Fault::CycleExpanded { kind } => format!("{} cycle into its moves", plain(kind)),
         Fault::CallExpanded { name, .. } => format!("program {} where it is called", plain(name)),
@@ -324,6 +326,9 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::CannotSay { .. }
         | Fault::SecondWorkOffset { .. }
         | Fault::FactUnsaid { .. }
+        | Fault::ArcRadiiDiffer { .. }
+        | Fault::CompensatedThere { .. }
+        | Fault::RefusedCompensated { .. }
         | Fault::ArcVanishes
         | Fault::DoneByTarget { .. }
         | Fault::MustBeStated { .. }

@@ -109,10 +109,20 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::ArcCentreAndRadius => {
             ("arc with both centre and radius".into(), "one of the two is too many".into())
         }
-        Fault::ArcEndOffCircle { by } => (
-            "the end of the arc is not on its circle".into(),
-            format!("the radius at the end differs by {} mm", millimetres(*by)),
+        Fault::ArcEndOffCircle { radii, allowed: _ } => {
+            ("the end of the arc is not on its circle".into(), radii_of(*radii))
+        }
+        Fault::RefusedCompensated { what } => (
+            format!("{from} refuses {} under cutter compensation", plain(what)),
+            "the control stops here: compensation is on".into(),
         ),
+        Fault::CompensatedThere { what } => (
+            format!("{to} refuses {} under cutter compensation", plain(what)),
+            "compensation is on here, or may be".into(),
+        ),
+        Fault::ArcRadiiDiffer { radii, allowed: _ } => {
+            (format!("{to} does not accept the two radii of this arc"), radii_of(*radii))
+        }
         Fault::ArcRadiusTooSmall => (
             "the radius is too small for this arc".into(),
             "less than half the distance from start to end".into(),
@@ -200,6 +210,13 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::OpenBehaviour { behaviour, source, other, .. } => (
             format!("check at the machine: {}", behaviour.about()),
             format!("another cut where {} = {other} on {}", behaviour.option(), if *source { from } else { to }),
+        ),
+        Fault::FeedAtUnits { before, now } => (
+            match before == now {
+                true => "check the feed: F was stated before the units changed".into(),
+                false => "check the feed: F counts in the new unit from here on".into(),
+            },
+            format!("{} mm/min before, {} mm/min here on {from}", millimetres(*before), millimetres(*now)),
         ),
         Fault::OptionalStopDiffers => (
             "check at the machine: the cut after an optional stop".into(),
@@ -340,6 +357,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         Fault::PolarExpanded => (
             "point by radius and angle written by its coordinates".into(),
             format!("{to} does not say it so"),
+        ),
+        Fault::FeedByTime => (
+            "feed of linear and rotary axes together, written by time".into(),
+            format!("{from} and {to} count F otherwise here"),
         ),
         Fault::CornerExpanded => (
             "corner written out as an arc or a line".into(),
@@ -593,6 +614,11 @@ fn character(c: char) -> String {
     } else {
         format!("`{c}`")
     }
+}
+
+/// Both radii of an arc.
+fn radii_of([start, end]: [i64; 2]) -> String {
+    format!("radius {} mm at the start, {} mm at the end", millimetres(start), millimetres(end))
 }
 
 /// Nanos in millimetres, to four digits after the point.

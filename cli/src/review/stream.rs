@@ -145,6 +145,8 @@ pub(crate) fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
     for world in &mut worlds {
         world.behaviours = job.from.behaviours();
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+        world.arcs = job.from.arc_rule();
+        world.refused_compensated = job.from.dialect.caps.refused_compensated;
         let [clearance, lift] = clearances;
         world.peck_clearance = clearance.unwrap_or(world.peck_clearance);
         world.break_lift = lift.unwrap_or(world.break_lift);

@@ -7,7 +7,7 @@
 use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Exec, Progress, Runner};
+use ncc_ir::exec::{Event, Exec, Kind, Progress, Runner};
 use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
 use ncc_ir::passes::otherwise::{Taken, There, compares_nearly, otherwise, places};
@@ -189,6 +189,20 @@ struct Came {
     through: bool,
     /// Which start, and the first set with it, with which it is longer than the run of a set may be.
     goes_on: Option<(usize, u32)>,
+}
+
+/// What the target's control refuses of an arc that the source's has made: no pass knows the size of a computed one.
+fn target_arc(fault: &Fault) -> Option<Fault> {
+    match fault {
+        Fault::ArcEndOffCircle { radii, allowed } => {
+            Some(Fault::ArcRadiiDiffer { radii: *radii, allowed: *allowed })
+        }
+        Fault::ArcRadiusTooSmall => {
+            let what = "a computed radius below half the distance from start to end".into();
+            Some(Fault::CannotSay { what })
+        }
+        _ => None,
+    }
 }
 
 /// Bits well mixed (splitmix64).
@@ -483,7 +497,15 @@ impl Verifier {
             };
             let more_b = match b.run(&mut run.target, PIECE, &mut run.target_events) {
                 Ok(more) => more,
-                Err(fault) => break Err(Ended::target(unreadable(&fault, self.last))),
+                Err(fault) => {
+                    let place = run.source_events.get(run.target_events.len());
+                    break Err(match (target_arc(&fault.fault), place) {
+                        (Some(refused), Some(Event { kind: Kind::Arc { .. }, span, .. })) => {
+                            Ended::NotSo(Diagnostic::new(refused, *span))
+                        }
+                        _ => Ended::target(unreadable(&fault, self.last)),
+                    });
+                }
             };
             let over = more_a == Progress::Done && more_b == Progress::Done;
             if run.comparison.events - first > set.most {

@@ -6,7 +6,7 @@
 //! the length in force. Codes of their own have the tool's diameter in that word. Not here: what controls refuse under
 //! compensation; that is execution's.
 
-use ncc_dialects::{Meaning, Quantity};
+use ncc_dialects::{BesideCompensation, Meaning, Quantity};
 use ncc_ir::canon::Side;
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::{Expr, Node, Var};
@@ -62,6 +62,28 @@ impl Lower {
             },
         };
         self.push(code.span, Op::StartCutterRadiusCompensation { side, radius }, out);
+    }
+
+    /// Refuses a code that the control does not take while compensation is on, as far as the text says that it is.
+    pub(super) fn refused_under_compensation(&mut self, codes: &[Code], out: &mut Batch) {
+        let on = self.state.compensated == Know::Said(true);
+        let has = |start: bool| {
+            codes.iter().any(|code| match code.meaning {
+                Meaning::StartCutterRadiusCompensation(_) | Meaning::StartCompensationByDiameter(_) => start,
+                Meaning::StopCutterRadiusCompensation => !start,
+                _ => false,
+            })
+        };
+        let stops = |code: &&Code| match code.row.refused_under_compensation {
+            Some(BesideCompensation::Before) => on,
+            Some(BesideCompensation::After) => on && !has(false) || has(true),
+            None => false,
+        };
+        if let Some(code) = codes.iter().find(stops) {
+            self.now.refused = true;
+            let what = code.row.code.as_str().into();
+            self.fault(Fault::RefusedCompensated { what }, code.span, out);
+        }
     }
 
     /// Compensation by a diameter that the block states.

@@ -264,6 +264,7 @@ impl Lower {
         } else if !self.now.refused {
             self.sort_words(block, &mut codes, &mut words, src, out);
             self.check_tail(block, &codes, out);
+            self.refused_under_compensation(&codes, out);
         }
         if called.is_some() || by_words.is_some() {
             // It is all that its block says.

@@ -6,11 +6,14 @@ use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, S
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
 };
+use ncc_ir::compensated::{Kind, Refused};
 use ncc_ir::computes::Computes;
 use ncc_ir::expr::Function;
 use ncc_ir::program::{Detour, FrameSlot, PoleFrom, Probe, ReferencePoint};
+use ncc_ir::round::ArcRule;
 use ncc_ir::system::System;
 
+use crate::codes::BesideCompensation;
 use crate::cycles::{CycleRow, PatternRow};
 use crate::formula::{Handing, Statement};
 use crate::meaning::{Meaning, Thread};
@@ -229,6 +232,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         arc_forms: everything || names(NameMeaning::ArcThrough),
         word_distance: everything || dialect.can.flat || dialect.block.qualifiers,
         feed_apart: everything || dialect.can.flat || dialect.code.iter().any(|row| row.feed_stays),
+        feed_by_time: everything || says(Meaning::SetFeedMode(ncc_ir::canon::FeedMode::InverseTime)),
+        feed_decimals: dialect.numbers(crate::Quantity::Feed).decimals,
+        units_alone: dialect.can.units_alone,
         feed_again: !everything && dialect.code.iter().any(|row| row.feed_stays),
         call_digits: if says(Meaning::Call) { dialect.program.number_digits as u32 } else { 0 },
         repeat_blocks: everything || names(NameMeaning::RepeatBlocks) || dialect.repeat.letters().is_some(),
@@ -263,6 +269,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         change_stops_spindle: dialect.behaviours().surely(Behaviour::SpindleAtChange),
         behaviours: dialect.behaviours(),
         feed_ends_with_mode: dialect.can.feed_ends_with_mode,
+        // The options decide ([`crate::Settings::caps`]).
+        arcs: ArcRule::default(),
+        refused_compensated: refused_compensated(dialect),
         arc_radius: everything
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),
@@ -415,6 +424,30 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         }),
         approach: if everything { None } else { Some(dialect.cycles.approach.into()) },
     }
+}
+
+/// What the codes of a dialect that its control refuses under compensation come to.
+fn refused_compensated(dialect: &Dialect) -> Refused {
+    let mut refused = Refused::default();
+    for row in &dialect.code {
+        let Some((order, meaning)) = row.refused_under_compensation.zip(row.means) else { continue };
+        let kind = match meaning {
+            Meaning::SetMotionControlMode(_) => Some(Kind::Path),
+            Meaning::SetReturnLevel(_) => Some(Kind::ReturnLevel),
+            Meaning::SetOriginOffsets(_) => Some(Kind::WorkOffset),
+            Meaning::UseToolLengthOffset
+            | Meaning::CancelToolLengthOffset
+            | Meaning::UseToolLength { .. } => Some(Kind::Length),
+            Meaning::SetShift(false) => Some(Kind::LocalShift),
+            Meaning::Overrides(_) => Some(Kind::Overrides),
+            Meaning::Advise(kind, _) => Kind::of_advice(kind),
+            _ => None,
+        };
+        if let Some(kind) = kind {
+            refused.add(kind, order == BesideCompensation::Before);
+        }
+    }
+    refused
 }
 
 /// Values of the control's own that a program of the dialect can ask for.

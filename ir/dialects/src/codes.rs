@@ -83,6 +83,10 @@ pub struct CodeRow {
     /// Of advice that a word of the block switches, the number that switches it on; 0 switches it off.
     #[serde(default)]
     pub on: Option<u32>,
+    /// Whether the control refuses it while cutter radius compensation is on, and if so, whether in one block it acts
+    /// after the codes of compensation (and is refused beside the one that switches it on) or before them.
+    #[serde(default)]
+    pub refused_under_compensation: Option<BesideCompensation>,
     /// Whether it is written when several codes mean the same.
     #[serde(default = "yes")]
     pub write: bool,
@@ -100,6 +104,16 @@ impl CodeRow {
         let axes: Vec<Axis> = self.turns.bytes().filter_map(linear).collect();
         axes.try_into().ok().filter(|_| self.turns.len() == 3 && self.words.len() == 3)
     }
+}
+
+/// When a code acts that is refused under cutter radius compensation, in a block with a code of compensation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum BesideCompensation {
+    /// Before it.
+    Before,
+    /// After it.
+    After,
 }
 
 /// Words of a stop of the spindle at an angle.

@@ -398,8 +398,23 @@ pub struct ArcRules {
     pub turns: Option<char>,
     /// Whether a centre from program zero needs both its words; else one that is missing is zero.
     pub centre_complete: bool,
-    /// Greatest difference of the two radii, in mm; more is an error.
+    /// Difference of the radii at start and end, in mm, that is always accepted; 0 is the control's own way, which is not
+    /// known, unless `zero_untested`. The option `arc_tolerance` states another.
     pub tolerance: f64,
+    /// The same in a program in inches, in inches; `None` if it is the same length. Option `arc_tolerance_inch`.
+    pub tolerance_inch: Option<f64>,
+    /// A difference up to this part of a radius is accepted too; 0 is none. Option `arc_tolerance_part`.
+    pub relative: f64,
+    /// Whether that is a part of the larger radius; else of the one at the start.
+    pub relative_to_larger: bool,
+    /// A difference above so many times the tolerance is never accepted; 0 is no such limit.
+    pub limit: u32,
+    /// Whether a tolerance of 0 means that the control does not test the radii.
+    pub zero_untested: bool,
+    /// Least radius at either end, in mm; 0 is a millionth.
+    pub least_radius: f64,
+    /// By how much half the chord may exceed a stated radius, in mm; `None` is the tolerance.
+    pub short_radius: Option<f64>,
     /// Who says so.
     pub source: String,
 }
@@ -472,6 +487,8 @@ pub struct Can {
     /// Z, a cycle, or a new zero of Z before the next absolute one is then not what it is on a control that
     /// takes the length up with the next Z, and is refused.
     pub length_at_once: bool,
+    /// A change of units within a program is written in a block of its own.
+    pub units_alone: bool,
     /// A code of what the feed counts ends the feed even where it counts that already: the next cut needs a new one.
     pub feed_ends_with_mode: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
+use ncc_ir::num::{Nanos, ONE};
+use ncc_ir::round::{ArcRule, MOST_SHORT};
 
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::repeats::REPEAT_COUNT;
@@ -36,6 +38,15 @@ pub const REPEAT_WORD: &str = "repeat_word";
 
 /// Option of a dictionary: how subprograms with a name are written, by `numbers` or by `names`.
 pub const PROGRAM_NAMES: &str = "program_names";
+
+/// Option of a dictionary: the difference of an arc's radii at start and end that the control accepts, in mm.
+pub const ARC_TOLERANCE: &str = "arc_tolerance";
+
+/// Option of a dictionary: the same in a program in inches, in inches.
+pub const ARC_TOLERANCE_INCH: &str = "arc_tolerance_inch";
+
+/// Option of a dictionary: the part of a radius up to which that difference is accepted too.
+pub const ARC_TOLERANCE_PART: &str = "arc_tolerance_part";
 
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
@@ -111,6 +122,34 @@ impl Settings {
         self.get(REPEAT_WORD).chars().next().or(self.dialect.cycles.repeat)
     }
 
+    /// Which arcs the control accepts, as the options are.
+    pub fn arc_rule(&self) -> ArcRule {
+        let rules = &self.dialect.arc;
+        let stated = |option, otherwise: f64| self.get(option).parse::<f64>().unwrap_or(otherwise);
+        let nanos = |mm: f64| (mm * ONE as f64).round() as Nanos;
+        let mm = stated(ARC_TOLERANCE, rules.tolerance);
+        let inch = match rules.tolerance_inch {
+            Some(inch) => stated(ARC_TOLERANCE_INCH, inch) * 25.4,
+            None => mm,
+        };
+        let tolerance = match (mm == 0.0, rules.zero_untested) {
+            (true, true) => None,
+            (true, false) => ArcRule::default().tolerance,
+            (false, _) => Some([nanos(mm), nanos(inch)]),
+        };
+        ArcRule {
+            tolerance,
+            relative: nanos(stated(ARC_TOLERANCE_PART, rules.relative)),
+            of_larger: rules.relative_to_larger,
+            limit: i64::from(rules.limit),
+            least: nanos(rules.least_radius).max(ArcRule::UNTESTED.least),
+            short: match rules.short_radius {
+                Some(short) => [nanos(short).min(MOST_SHORT); 2],
+                None => tolerance.unwrap_or([MOST_SHORT; 2]).map(|t| t.min(MOST_SHORT)),
+            },
+        }
+    }
+
     /// Whether a subprogram with a name is written by it.
     pub fn writes_names(&self) -> bool {
         self.dialect.program.names && self.get(PROGRAM_NAMES) == "names"
@@ -152,6 +191,7 @@ impl Settings {
         caps.behaviours = self.behaviours();
         caps.change_stops_spindle = self.change_stops_spindle();
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
+        caps.arcs = self.arc_rule();
         caps
     }
 

@@ -1,13 +1,13 @@
 //! Execution of arcs.
 
 use super::{Event, Exec, Kind, MOTION, Z};
-use crate::canon::{AXES, Axis, Motion, Plane, Turn};
+use crate::canon::{AXES, Axis, FeedMode, Motion, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
 use crate::num::Nanos;
 use crate::program::{Arc, ArcForm, Centre, CentreFrom, Point, Shape};
-use crate::round::{ARC_TOLERANCE, Around, Round, round};
+use crate::round::{ArcRule, Around, Round, round};
 use crate::source::Span;
 
 /// Most turns of one arc; more is a slip of the pen.
@@ -80,6 +80,10 @@ impl Around for Now<'_> {
             Heading::Bent(..) => [0.0; 2],
         })
     }
+
+    fn rule(&self) -> (ArcRule, bool) {
+        (self.exec.world.arcs, self.exec.modes.inch)
+    }
 }
 
 impl Exec {
@@ -106,10 +110,12 @@ impl Exec {
                         (None, CentreFrom::Zero) => return self.fault(Fault::ArcWithoutCentre, span),
                     };
                 }
-                geometry::check_on_circle(start, end, centre, ARC_TOLERANCE).map(|()| centre)
+                let rule = &self.world.arcs;
+                rule.check(geometry::radii(start, end, centre), self.modes.inch).map(|()| centre)
             }
             Centre::Radius(radius) => {
-                geometry::centre_by_radius(start, end, self.value(radius, span)?, arc.turn)
+                let short = self.world.arcs.short(self.modes.inch);
+                geometry::centre_by_radius(start, end, self.value(radius, span)?, arc.turn, short)
             }
         };
         let centre = self.shaped(centre, span)?;
@@ -171,7 +177,7 @@ impl Exec {
             let fault = match fault {
                 ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
                 ArcFault::NoWay | ArcFault::Straight => Fault::ArcRadiusNoWay,
-                ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
+                ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },
                 ArcFault::NoRadius => Fault::ArcWithoutCentre,
             };
             self.fault(fault, span)
@@ -217,11 +223,15 @@ impl Exec {
                 for axis in [f, s] {
                     self.last[axis] = begin[axis];
                 }
+                self.pace = self.pace_of_arc(360.0);
                 self.emit(kind(true), span, out)?;
             }
         }
         self.heading = Heading::Bent(plane, geometry::tangent(end, centre, turn));
         self.last = self.machine();
+        if self.state.feed_mode == FeedMode::InverseTime {
+            self.pace = self.pace_of_arc(geometry::sweep_degrees(start, end, centre, turn, 0));
+        }
         self.emit(kind(start == end), span, out)
     }
 }

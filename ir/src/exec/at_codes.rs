@@ -7,7 +7,7 @@
 
 use super::{Event, Exec, Kind, Length, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::{AXES, Spindle};
+use crate::canon::{AXES, FeedMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::num::Nanos;
 use crate::program::{Op, ReferencePoint, Stmt};
@@ -52,6 +52,20 @@ impl Exec {
         }
     }
 
+    /// A change of units: the active F counts as the control has it. A time of one block has no unit of length.
+    #[cold]
+    pub(super) fn feed_at_units(&mut self, inch: bool) {
+        if self.state.feed_mode == FeedMode::InverseTime || !self.does(Behaviour::FeedAtUnits) {
+            return;
+        }
+        let scaled = |feed: i128| if inch { feed * 127 / 5 } else { feed * 5 / 127 };
+        match Nanos::try_from(scaled(i128::from(self.feed))) {
+            Ok(feed) => (self.feed, self.feed_inch) = (feed, self.feed_inch.map(|_| inch)),
+            // Beyond every feed: the next cut needs another.
+            Err(_) => self.feed = 0,
+        }
+    }
+
     /// A stop, or the end of the program.
     ///
     /// # Errors
@@ -91,6 +105,24 @@ impl Exec {
         }
     }
 
+    /// The end of the text; an event only if the program has not ended before.
+    pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
+        if !self.ended {
+            self.ended = true;
+            if self.centre_path.is_some() {
+                self.end_open_path(out);
+            }
+            out.push(Event {
+                kind: Kind::TextEnd,
+                end: self.last,
+                rate: 0,
+                state: self.state,
+                inch: self.modes.inch,
+                span: Span::default(),
+            });
+        }
+    }
+
     /// A tool change.
     ///
     /// # Errors
@@ -102,6 +134,7 @@ impl Exec {
         }
         self.before_change(span, out)?;
         self.state.tool = self.selected;
+        self.changed_to = self.selected;
         let emitted = self.emit(Kind::ToolChange, span, out);
         if self.state.by_control & by_control::Z == 0 {
             // With Z where the program has put it, every move may need the spindle.
@@ -174,6 +207,8 @@ pub fn touched(op: &Op) -> u64 {
         Op::GoToReference(to) if to.axes[Z] && !to.keeps_length => bits(&[Behaviour::LengthAfterReturn]),
         Op::UseMachineCoordinates { length: false } => bits(&[Behaviour::LengthAfterMachineMove]),
         Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
+        Op::UseLengthUnits(_) => bits(&[Behaviour::FeedAtUnits]),
+        Op::StraightFeed(m) if m.to.axes[3..].iter().any(Option::is_some) => bits(&[Behaviour::RotaryFeed]),
         _ => 0,
     }
 }

@@ -211,6 +211,9 @@ impl Exec {
     pub(super) fn step_on_contour(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         let span = stmt.span;
         let on = self.state.compensation.side.is_some();
+        if on && let Some(kind) = self.world.refused_compensated.kind(&stmt.op) {
+            return self.fault(Fault::RefusedCompensated { what: kind.name().into() }, span);
+        }
         if on && let Some(what) = self.refused_on_contour(&stmt.op, span)? {
             return self.not_executed(what, span);
         }

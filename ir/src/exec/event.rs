@@ -243,6 +243,8 @@ pub mod by_control {
     pub const MOVE: u8 = 8;
     /// Z stands where the operator left it: the program has not moved it yet.
     pub const Z_AT_START: u8 = 16;
+    /// The event's feed is a time, because its control counts F in a way of its own there.
+    pub const TIMED: u8 = 32;
 }
 
 /// What is on while an event happens.

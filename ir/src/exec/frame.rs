@@ -462,10 +462,12 @@ impl Exec {
 
     /// The length of an edge: one and the same thing has one name only.
     pub(super) fn edge(&self, edge: u32) -> Length {
-        match (u32::try_from(self.state.tool), edge) {
+        let tool = if self.world.length_by_change { self.changed_to } else { self.state.tool };
+        match (u32::try_from(tool), edge) {
             (_, 0) => Length::Entry(0),
+            (Err(_), _) if self.world.length_by_change => Length::Entry(0),
             (Ok(tool), 1) if tool != 0 => Length::Entry(self.world.edge_entry(tool)),
-            _ => Length::Edge(self.state.tool, edge),
+            _ => Length::Edge(tool, edge),
         }
     }
 }

@@ -20,6 +20,7 @@ mod holes;
 mod message;
 mod needed;
 mod nesting;
+mod pace;
 mod polar;
 mod rounds;
 mod run;
@@ -37,6 +38,7 @@ pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub(crate) use frame::Chain;
+pub(crate) use pace::{DEGREES, LINEAR};
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
@@ -110,9 +112,13 @@ pub struct Exec {
     /// A corner that is to be made.
     corner: Option<Box<corner::Corner>>,
     feed: Nanos,
+    /// The time of the move at hand, where its feed says it in a way of the control.
+    pace: pace::Pace,
     /// Whether it was said in inches, if it was said in either.
     feed_inch: Option<bool>,
     selected: i64,
+    /// The tool of the last change; -1 before the first.
+    changed_to: i64,
     /// Where the last probing move ended, in the coordinates that the program had then.
     touched: Option<Box<[[Nanos; AXES]; 2]>>,
     state: State,
@@ -204,8 +210,10 @@ impl Exec {
             centre_path: None,
             corner: None,
             feed: 0,
+            pace: None,
             feed_inch: None,
             selected: -1,
+            changed_to: -1,
             touched: None,
             state: State {
                 feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
@@ -230,24 +238,6 @@ impl Exec {
     /// Whether the program has ended.
     pub fn ended(&self) -> bool {
         self.ended
-    }
-
-    /// The end of the text; an event only if the program has not ended before.
-    pub fn end_of_text(&mut self, out: &mut Vec<Event>) {
-        if !self.ended {
-            self.ended = true;
-            if self.centre_path.is_some() {
-                self.end_open_path(out);
-            }
-            out.push(Event {
-                kind: Kind::TextEnd,
-                end: self.last,
-                rate: 0,
-                state: self.state,
-                inch: self.modes.inch,
-                span: Span::default(),
-            });
-        }
     }
 
     /// Work offset in force, and whether the program or an assumption named it.
@@ -426,6 +416,7 @@ impl Exec {
             return self.emit_first_of_z(feed, end, span, out);
         }
         let kind = if feed { Kind::Feed } else { Kind::Traverse };
+        self.pace = if feed { self.pace_of_line(&end) } else { None };
         self.last = end;
         self.emit(kind, span, out)
     }
@@ -442,16 +433,23 @@ impl Exec {
         if self.quiet {
             self.counted += 1;
         } else {
+            let mut state = self.state;
             let rate = match kind {
                 Kind::Synchronised { pitch, .. } => {
                     let rate = i128::from(pitch) * i128::from(self.state.speed) / i128::from(ONE);
                     Nanos::try_from(rate).unwrap_or(Nanos::MAX)
                 }
+                _ if cutting && self.pace.is_some() => {
+                    let (rate, timed) = self.paced(self.pace);
+                    state = timed;
+                    rate
+                }
                 _ if cutting => self.feed,
                 _ => 0,
             };
-            out.push(Event { kind, end: self.last, rate, state: self.state, inch: self.modes.inch, span });
+            out.push(Event { kind, end: self.last, rate, state, inch: self.modes.inch, span });
         }
+        self.pace = None;
         if cutting && self.state.feed_mode == FeedMode::InverseTime {
             // The time of one move says nothing of the next.
             self.feed = 0;
@@ -574,7 +572,11 @@ impl Exec {
             Op::StopCutterRadiusCompensation => self.stop_compensation(),
             Op::UseLengthUnits(units) => {
                 self.units_of_speed(*units);
-                self.modes.inch = *units == Units::Inch;
+                let inch = *units == Units::Inch;
+                if self.feed != 0 && inch != self.modes.inch {
+                    self.feed_at_units(inch);
+                }
+                self.modes.inch = inch;
                 self.said |= UNITS;
             }
             Op::SetDistanceMode(distance) => {

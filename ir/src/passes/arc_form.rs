@@ -14,7 +14,7 @@ use crate::geometry::{self, ArcFault};
 use crate::kinds::{conduct, miscellaneous};
 use crate::num::Nanos;
 use crate::program::{Arc, ArcForm, Centre, CentreFrom, Move, Op, Point, Program, Shape, Stmt};
-use crate::round::{Around, Round, round};
+use crate::round::{ArcRule, Around, Round, round};
 use crate::track::Tracker;
 
 /// What the pass remembers from piece to piece: which way the tool came.
@@ -201,6 +201,11 @@ impl Around for Known<'_> {
             }
         }
     }
+
+    /// The arc that is made of it is judged by the target's rule ([`super::arc_radii`]).
+    fn rule(&self) -> (ArcRule, bool) {
+        (ArcRule::UNTESTED, false)
+    }
 }
 
 /// How an arc ends before its words are rounded.
@@ -228,7 +233,7 @@ fn by_centre(arc: &ArcForm, walk: &Walk, heading: Heading, decimals: u8) -> Resu
     let Round { centre, end, turn } = found.map_err(|fault| match fault {
         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
         ArcFault::NoWay | ArcFault::Straight => Fault::NoArc,
-        ArcFault::EndOffCircle(by) => Fault::ArcEndOffCircle { by },
+        ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },
         ArcFault::NoRadius => Fault::ArcWithoutCentre,
     })?;
     let unit = walk.unit();

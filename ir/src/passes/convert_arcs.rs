@@ -85,7 +85,7 @@ pub fn by_radius(program: &mut Program, target: &Target, entry: &Tracker, diags:
                 POW10[9 - decimals.min(9) as usize] / 2
             }
         };
-        if let Ok(again) = geometry::centre_by_radius(start, end, said, arc.turn)
+        if let Ok(again) = geometry::centre_by_radius(start, end, said, arc.turn, 0)
             && start != end
             && again.iter().zip(centre).all(|(a, b)| a.abs_diff(b) <= half as u64)
         {

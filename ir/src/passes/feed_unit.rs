@@ -1,9 +1,9 @@
 //! `feed-unit`: feeds are written in the unit of length in force.
 //!
-//! Likewise a feed is said again before the first cut after a change of units, for targets of which
-//! it is not known what a feed said before means then, and behind a code of what the feed counts, for targets
-//! on which such a code ends the feed even where it counts that already. Refused is a feed that would have to be said
-//! again and is not known.
+//! Likewise a feed is said again before the first cut after a change of units, where it is not known that both controls
+//! take the feed before for the same then (`F100.`, then `G20`: 100 mm or 100 in a minute), and behind a code of what the
+//! feed counts, for targets on which such a code ends the feed even where it counts that already. Refused is a feed that
+//! would have to be said again and is not known.
 //!
 //! For targets whose feed counts what their lengths count. To inches a feed is rounded to one digit
 //! more than a length in millimetres has.
@@ -11,6 +11,7 @@
 use super::walk::Walk;
 use super::write::{exact, rebuild, rounded};
 use super::{Target, each_body};
+use crate::behaviour::Behaviour;
 use crate::canon::{FeedMode, Motion, Units};
 use crate::cycle::CycleKind;
 use crate::diag::{Diagnostic, Fault};
@@ -19,10 +20,24 @@ use crate::num::{Num, Unit};
 use crate::program::{Op, Program, Stmt};
 use crate::track::Tracker;
 
+/// Whether feeds are said again behind a change of units: it is not known what the target makes of them, or it makes
+/// something else of them than the source.
+pub(super) fn says_again(target: &Target) -> bool {
+    let fact = Behaviour::FeedAtUnits;
+    let (own, there) = (target.source, target.caps.behaviours);
+    let open = own.is_open(fact) || there.is_open(fact);
+    target.caps.feed_again || target.other_control && open || own.get(fact) != there.get(fact)
+}
+
 /// Feed in force, and whether the units have changed since it was said, or a code has ended it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct State {
+    /// The feed of the source, in the unit in which its number counts now.
     feed: Option<Num>,
+    /// What it was before the units changed, if that made it another.
+    before: Option<Num>,
+    /// Whether it counts by time.
+    by_time: bool,
     stale: bool,
     ended: bool,
 }
@@ -45,7 +60,24 @@ impl State {
             _ => return,
         };
         self.feed = feed.literal();
-        (self.stale, self.ended) = (false, false);
+        (self.stale, self.ended, self.before) = (false, false, None);
+    }
+
+    /// The units change.
+    fn units(&mut self, units: Units, known: Option<Units>, target: &Target) {
+        if known == Some(units) || self.feed.is_none() || self.by_time {
+            return;
+        }
+        self.stale = true;
+        let Some(feed) = &mut self.feed else { return };
+        let unit = if units == Units::Inch { Unit::Inch } else { Unit::Mm };
+        if target.source.does(Behaviour::FeedAtUnits)
+            && matches!(feed.unit, Unit::Mm | Unit::Inch)
+            && feed.unit != unit
+        {
+            self.before = Some(self.before.unwrap_or(*feed));
+            feed.unit = unit;
+        }
     }
 }
 
@@ -57,8 +89,10 @@ pub(super) fn again(
     target: &Target,
     diags: &mut Vec<Diagnostic>,
 ) {
+    let mut split = false;
     rebuild(body, |mut stmt, made| {
         walk.enter(stmt.skip);
+        stmt.joined &= !std::mem::take(&mut split);
         let cuts = match stmt.op.unwrapped() {
             Op::StraightFeed(_) | Op::SynchronisedFeed(_) | Op::ArcFeed(_) | Op::ArcForm(_) => true,
             Op::Position(_) => walk.at.modes.motion == Some(Motion::Feed),
@@ -72,6 +106,11 @@ pub(super) fn again(
             state.ended = false;
         }
         if let (true, true, Some(feed), Some(units)) = (cuts, again, state.feed, walk.at.modes.units) {
+            if state.stale {
+                let before = state.before.unwrap_or(feed).nanos(false).unwrap_or(0);
+                let now = feed.nanos(false).unwrap_or(0);
+                diags.push(Diagnostic::new(Fault::FeedAtUnits { before, now }, stmt.span));
+            }
             let feed = in_unit(feed, units, target).unwrap_or(feed);
             let mut said = Stmt::new(stmt.span, Op::SetFeedRate(feed.into()));
             (said.number, said.skip, said.joined) = (stmt.number.take(), stmt.skip, stmt.joined);
@@ -82,7 +121,13 @@ pub(super) fn again(
             made.push(said);
         }
         if let Op::UseLengthUnits(units) = &stmt.op {
-            state.stale |= state.feed.is_some() && walk.at.modes.units != Some(*units);
+            state.units(*units, walk.at.modes.units, target);
+            if target.caps.units_alone && walk.at.modes.units.is_some_and(|now| now != *units) {
+                (stmt.joined, split) = (false, true);
+            }
+        }
+        if let Op::SetFeedMode(mode) = &stmt.op {
+            state.by_time = *mode == FeedMode::InverseTime;
         }
         if let (Op::SetFeedMode(mode), true) = (&stmt.op, target.caps.feed_ends_with_mode) {
             // Another mode ends it on every control.

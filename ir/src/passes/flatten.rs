@@ -18,6 +18,7 @@ use crate::expr::Expr;
 use crate::kinds::{flow, variables};
 use crate::num::{Num, POW10, Unit};
 use crate::program::{Op, Procedure, Program, Stmt};
+use crate::round::ArcRule;
 use crate::track::Tracker;
 use crate::valid;
 use crate::value::Value;
@@ -32,7 +33,10 @@ pub fn run(program: &mut Program, target: &Target, entry: &Tracker, diags: &mut 
     // What two machines that differ in all that the program has not said agree about, it has said itself.
     let modes = walk.at.modes;
     let control = |seed, skip| {
-        let mut exec = Exec::new(&World::generate(seed, &modes).with_external(), skip);
+        let mut world = World::generate(seed, &modes).with_external();
+        // The source is judged by its own execution.
+        world.arcs = ArcRule::UNTESTED;
+        let mut exec = Exec::new(&world, skip);
         exec.assume(&modes);
         exec
     };

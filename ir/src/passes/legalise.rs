@@ -18,20 +18,22 @@ use super::needs::{
 use super::walk::Walk;
 use super::write::EXACT;
 use super::{
-    Target, absolute_holes, approach, arc_form, at_once, convert_arcs, cutter_radius, expand_calls,
-    expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
-    flatten_facts, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
-    path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures,
-    spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
-    work_offset,
+    Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
+    cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
+    expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, machine_moves, number_names,
+    offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, repeat_ends,
+    return_plane, rotary_ways, skip_levels, specialise_procedures, spindle_angle, state_clearance,
+    tapped_holes, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
+use crate::compensated::Refused;
 use crate::diag::{Diagnostic, Fault, Gravity};
 use crate::kinds::moves;
 use crate::num::{Nanos, Num};
 use crate::program::{Arc, Data, Op, Procedure, Program, Stmt};
+use crate::round::ArcRule;
 use crate::track::Tracker;
 
 /// Brings a program within a target's capabilities.
@@ -42,6 +44,12 @@ pub struct Legaliser {
     lacks: u32,
     /// Whether words of the source may have a measure of their own that the target's cannot have.
     measures: bool,
+    /// Which arcs the source's control accepts, if the target's has another rule.
+    source_arcs: Option<ArcRule>,
+    /// Whether feeds are said again behind a change of units.
+    feed_again: bool,
+    /// Whether the target counts F of some moves otherwise than the source.
+    times_differ: bool,
     /// Whether any pass wants to know where the tool is.
     follow: bool,
     walk: Walk,
@@ -57,8 +65,10 @@ pub struct Legaliser {
     skip: skip_levels::State,
     arcs: arc_form::State,
     feed: feed_unit::State,
+    times: feed_time::State,
     edge: tool_edge::State,
     radius: cutter_radius::State,
+    compensated: compensated_modes::State,
     axis: tool_axis::State,
     frames: expand_frames::State,
     taps: taps::State,
@@ -83,6 +93,9 @@ impl Legaliser {
             },
             lacks,
             measures: false,
+            source_arcs: None,
+            times_differ: false,
+            feed_again: feed_unit::says_again(&Target { caps: caps.clone(), ..Target::default() }),
             follow: lacks
                 & (THREAD
                     | PATTERN
@@ -114,8 +127,10 @@ impl Legaliser {
             skip: skip_levels::State::default(),
             arcs: arc_form::State::default(),
             feed: feed_unit::State::default(),
+            times: feed_time::State::default(),
             edge: tool_edge::State::default(),
             radius: cutter_radius::State::default(),
+            compensated: compensated_modes::State::default(),
             axis: tool_axis::State::default(),
             frames: expand_frames::State::default(),
             taps: taps::State::default(),
@@ -160,12 +175,30 @@ impl Legaliser {
         self.lacks |= RADIUS | TOOL_AXIS;
     }
 
+    /// Which arcs the source's control accepts: where the target's has another rule, each arc is judged by it.
+    pub fn set_source_arcs(&mut self, rule: ArcRule) {
+        self.source_arcs = (rule != self.target.caps.arcs).then_some(rule);
+        if self.source_arcs.is_some() {
+            self.lacks |= ARC;
+            self.follow = true;
+        }
+    }
+
     /// What codes of the source's control do besides their names: a spindle that it stops at a tool change does not go on
     /// turning.
-    pub fn set_source(&mut self, source: &Behaviours) {
+    pub fn set_source_behaviours(&mut self, source: Behaviours) {
         let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
-        self.walk.at.z_lost_at_change = up(source) || up(&self.target.caps.behaviours);
+        self.walk.at.z_lost_at_change = up(&source) || up(&self.target.caps.behaviours);
         self.target.caps.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
+        self.target.source = source;
+        self.feed_again = feed_unit::says_again(&self.target);
+        self.times_differ = feed_time::differs(&self.target);
+        self.follow |= self.feed_again || self.times_differ;
+    }
+
+    /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
+    pub fn set_source_refuses(&mut self, source: Refused) {
+        self.compensated.refused = self.target.caps.refused_compensated.without(source);
     }
 
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
@@ -206,13 +239,27 @@ impl Legaliser {
             let up = self.target.caps.behaviours.surely(Behaviour::ZAtChange);
             self.change.over(stmts, up, diags);
         }
-        if self.target.caps.feed_ends_with_mode {
-            let changes = stmts.iter().any(|stmt| matches!(stmt.op, Op::SetFeedMode(_)));
+        let ends = self.target.caps.feed_ends_with_mode;
+        if ends || self.feed_again {
+            let changes = stmts.iter().any(|stmt| match stmt.op {
+                Op::SetFeedMode(_) => true,
+                Op::UseLengthUnits(_) => self.feed_again,
+                _ => false,
+            });
             match changes || self.feed.is_busy() {
                 true => {
                     feed_unit::again(stmts, &mut self.walk.clone(), &mut self.feed, &self.target, diags);
                 }
                 false => stmts.iter().for_each(|stmt| self.feed.note(&stmt.op)),
+            }
+        }
+        if self.times_differ {
+            match self.times.concerns(stmts, &self.walk) {
+                true => {
+                    let mut walk = self.walk.clone();
+                    feed_time::over(stmts, &mut walk, &mut self.times, &self.target, diags);
+                }
+                false => self.times.note(stmts),
             }
         }
         let needs = self.needs(stmts);
@@ -231,9 +278,6 @@ impl Legaliser {
         if needs & FRAME == 0 && self.lacks & FRAME != 0 {
             self.frames.note(stmts);
         }
-        if self.target.caps.feed_again && needs & MEASURE == 0 {
-            stmts.iter().for_each(|stmt| self.feed.note(&stmt.op));
-        }
         if self.measures && !self.target.caps.arc_forms && needs & ARC == 0 {
             arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
         } else if self.follow {
@@ -242,11 +286,17 @@ impl Legaliser {
         if let Some(start) = start {
             self.mend(stmts, needs, &start, assumed, diags);
         }
+        if self.compensated.refused.any() {
+            match self.compensated.concerns(stmts) {
+                true => compensated_modes::over(stmts, &mut self.compensated, diags),
+                false => self.compensated.note(stmts),
+            }
+        }
     }
 
     /// Whether further statements of the main procedure would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
-        self.needs(stmts) != 0
+        self.needs(stmts) != 0 || self.times_differ && self.times.concerns(stmts, &self.walk)
     }
 
     /// What further statements need that the target lacks.
@@ -263,7 +313,7 @@ impl Legaliser {
         needs |= if self.length.is_busy() { LENGTH } else { 0 };
         needs |= if self.cycles.is_busy() || self.taps.is_busy() { CYCLE } else { 0 };
         needs |= if self.threads.is_busy() { THREAD } else { 0 };
-        if self.target.caps.feed_again {
+        if self.feed_again {
             let changes = |stmt: &Stmt| matches!(stmt.op, Op::UseLengthUnits(_));
             needs |= if self.feed.is_busy() || stmts.iter().any(changes) { MEASURE } else { 0 };
         }
@@ -409,9 +459,6 @@ impl Legaliser {
             self.walk = start.clone();
             if needs & FRAME != 0 && needs & ARC == 0 {
                 self.arcs = arc_form::State::default();
-                if self.target.caps.feed_again {
-                    self.feed = feed_unit::State::default();
-                }
                 arc_form::follow(stmts, &mut self.walk, &mut self.arcs);
             } else {
                 self.walk.pass(stmts);
@@ -428,9 +475,6 @@ impl Legaliser {
         let computed = self.measures && needs & (ARC | FRAME | CORNER) != 0;
         let mixed = computed && stmts.iter().any(|stmt| one_distance::may_mix(&stmt.op));
         let mut needs = if mixed { needs | MEASURE } else { needs };
-        if needs & MEASURE != 0 && self.target.caps.feed_again {
-            feed_unit::again(stmts, &mut start.clone(), &mut self.feed, &self.target, diags);
-        }
         if needs & MEASURE != 0 && !self.target.caps.feed_apart {
             feed_unit::over(stmts, &mut start.clone(), &self.target);
         }
@@ -536,6 +580,15 @@ impl Legaliser {
             walk.enter(stmt.skip);
             if !caps.offset_turns {
                 work_offset::leave_straight(&mut stmt.op);
+            }
+            if let (Op::ArcFeed(arc), Some(source)) = (&mut stmt.op, &self.source_arcs) {
+                match arc_radii::over(arc, walk, source, &self.target) {
+                    arc_radii::Judged::Kept => {}
+                    arc_radii::Judged::ByCentre => {
+                        diags.push(Diagnostic::new(Fault::ArcReformatted, stmt.span));
+                    }
+                    arc_radii::Judged::Refused(fault) => diags.push(Diagnostic::new(fault, stmt.span)),
+                }
             }
             let mut cannot = |what: &str| {
                 diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, stmt.span));

@@ -9,9 +9,11 @@ pub mod absolute_holes;
 pub mod alarm_numbers;
 pub mod approach;
 pub mod arc_form;
+mod arc_radii;
 pub mod arithmetic;
 mod at_once;
 pub mod centres_from_start;
+mod compensated_modes;
 pub mod computed_frames;
 pub mod computed_holes;
 pub mod control_forms;
@@ -30,6 +32,7 @@ pub mod expand_frames;
 pub mod expand_patterns;
 pub mod expand_repeats;
 pub mod expand_turns;
+pub mod feed_time;
 pub mod feed_unit;
 pub mod feed_with_cycle;
 pub mod flatten;
@@ -87,6 +90,7 @@ pub use path_control::seen_advice;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::behaviour::Behaviours;
 use crate::caps::Caps;
 use crate::diag::Diagnostic;
 use crate::num::{Num, Unit};
@@ -122,6 +126,8 @@ pub struct Target {
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.
     pub other_control: bool,
+    /// What codes of the source's control do besides their names.
+    pub source: Behaviours,
     /// Variables, by their names in lower case, that have a value before the program begins.
     pub given: BTreeMap<Text, f64>,
     /// How compensation is worked out, where that is asked for.
@@ -200,6 +206,11 @@ pub const PASSES: &[Pass] = &[
         run: rotary_ways::run,
     },
     Pass { name: "feed-unit", about: "writes feeds in the unit of length in force", run: feed_unit::run },
+    Pass {
+        name: "feed-time",
+        about: "says by their time moves whose feed the target counts otherwise",
+        run: feed_time::run,
+    },
     Pass { name: "one-distance", about: "measures the words of a block in one way", run: one_distance::run },
     Pass {
         name: "state-clearance",

@@ -92,6 +92,12 @@ impl Rebuild {
         self.open
     }
 
+    /// The statements of the block that is open, the last one first.
+    pub(super) fn block_mut(&mut self) -> impl Iterator<Item = &mut Stmt> {
+        let first = (0..self.out.len()).rev().find(|at| !self.out[*at].joined).unwrap_or(0);
+        self.out[first..].iter_mut().rev()
+    }
+
     /// Passes a statement on.
     pub(super) fn push(&mut self, mut stmt: Stmt) {
         if !stmt.joined {

@@ -7,7 +7,7 @@ use crate::num::Nanos;
 use crate::places::Here;
 use crate::polar::{About, Pole};
 use crate::program::{Coord, Point};
-use crate::round::Around;
+use crate::round::{ArcRule, Around};
 
 /// What is known of where holes are.
 pub(super) struct Known<'t> {
@@ -53,6 +53,10 @@ impl Around for Turning<'_> {
 
     fn heading(&self) -> Result<[f64; 2], ()> {
         Err(())
+    }
+
+    fn rule(&self) -> (ArcRule, bool) {
+        (ArcRule::UNTESTED, false)
     }
 }
 

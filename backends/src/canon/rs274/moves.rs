@@ -64,7 +64,6 @@ impl Printer<'_> {
 
     /// The number of the tool in the spindle, which exchanges nothing.
     pub(super) fn tool_in_spindle(&mut self) {
-        self.numbered = true;
         let tool = self.exec.state().tool;
         let _ = writeln!(self.out, "CHANGE_TOOL_NUMBER({tool})");
     }

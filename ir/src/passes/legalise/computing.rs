@@ -79,8 +79,11 @@ impl Legaliser {
         let mut own = Legaliser::new(caps, *decimals, *peck_clearance);
         own.target.clone_from(&self.target);
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
+        (own.source_arcs, own.feed_again, own.times_differ) =
+            (self.source_arcs, self.feed_again, self.times_differ);
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.walk.at.z_lost_at_change = self.walk.at.z_lost_at_change;
+        (own.compensated.on, own.compensated.refused) = (own.walk.at.compensated, self.compensated.refused);
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
         own

@@ -1,0 +1,108 @@
+//! Codes that the target refuses while cutter radius compensation is on.
+//!
+//! A path mode, a return level or a work offset that is active already is left out. `G41 D1 G64` becomes two blocks
+//! where the target would take G64 after G41. Anything else is refused at its block: it cannot be moved without another
+//! cut.
+//!
+//! Not here: what every control refuses there, and what the source's does, which are execution's.
+
+use super::write::{Rebuild, rebuild};
+use crate::canon::ReturnLevel;
+use crate::compensated::Refused;
+use crate::diag::{Diagnostic, Fault};
+use crate::kinds::flow;
+use crate::program::{Op, PathControl, Stmt};
+
+/// What the pass remembers from piece to piece.
+#[derive(Clone, Debug, Default)]
+pub(super) struct State {
+    /// Whether compensation is on, or may be.
+    pub(super) on: bool,
+    /// What the target refuses there, and the source does not.
+    pub(super) refused: Refused,
+    /// The active path mode, return level and work offset, where they are known.
+    path: Option<PathControl>,
+    level: Option<ReturnLevel>,
+    work: Option<u16>,
+    /// Whether the block at hand has a code that acts behind those of compensation, or has switched it off.
+    acts_behind: bool,
+    stopped: bool,
+}
+
+impl State {
+    /// Whether a statement states what is active already; notes what it states.
+    fn states_again(&mut self, stmt: &Stmt) -> bool {
+        let sure = stmt.skip.is_none();
+        fn set<T: PartialEq + Clone>(known: &mut Option<T>, value: &T, sure: bool) -> bool {
+            let same = known.as_ref() == Some(value);
+            *known = if sure || same { Some(value.clone()) } else { None };
+            same
+        }
+        match &stmt.op {
+            Op::SetMotionControlMode(control) => set(&mut self.path, control, sure),
+            Op::SetReturnLevel(level) => set(&mut self.level, level, sure),
+            Op::SetOriginOffsets(offset) => set(&mut self.work, offset, sure),
+            Op::ExactStop => {
+                self.path = None;
+                false
+            }
+            flow!() => {
+                (self.path, self.level, self.work) = (None, None, None);
+                false
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether statements may concern it.
+    pub(super) fn concerns(&self, stmts: &[Stmt]) -> bool {
+        self.on || stmts.iter().any(|stmt| matches!(stmt.op, Op::StartCutterRadiusCompensation { .. }))
+    }
+
+    /// Follows statements that do not concern it.
+    pub(super) fn note(&mut self, stmts: &[Stmt]) {
+        for stmt in stmts {
+            self.states_again(stmt);
+        }
+    }
+}
+
+/// Brings statements into a form that the target takes.
+pub(super) fn over(stmts: &mut Vec<Stmt>, state: &mut State, diags: &mut Vec<Diagnostic>) {
+    let refused = state.refused;
+    rebuild(stmts, |mut stmt, made: &mut Rebuild| {
+        if !stmt.joined {
+            (state.acts_behind, state.stopped) = (false, false);
+        }
+        match &stmt.op {
+            Op::StartCutterRadiusCompensation { .. } => {
+                if state.acts_behind {
+                    (stmt.joined, state.acts_behind) = (false, false);
+                }
+                state.on = true;
+                return made.push(stmt);
+            }
+            Op::StopCutterRadiusCompensation => {
+                // In a block that may be skipped it may stay on.
+                state.on &= stmt.skip.is_some();
+                state.stopped = true;
+                return made.push(stmt);
+            }
+            _ => {}
+        }
+        let again = state.states_again(&stmt);
+        let Some(kind) = refused.kind(&stmt.op) else { return made.push(stmt) };
+        if state.on {
+            if again {
+                return made.leave_out(stmt);
+            }
+            let what = kind.name();
+            diags.push(Diagnostic::new(Fault::CompensatedThere { what: what.into() }, stmt.span));
+        } else if !refused.acts_before(kind) {
+            state.acts_behind = true;
+        } else if state.stopped {
+            (stmt.joined, state.stopped) = (false, false);
+        }
+        made.push(stmt);
+    });
+}
