@@ -16,6 +16,8 @@ use ncc_dialects::{
     Dialect, DialectError, DialectFault, Place, Text, builtin, builtin_ids, builtin_text, builtins, load,
 };
 
+use ncc_ir::canon::Units;
+
 use crate::problem::{Exit, Problem};
 
 /// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
@@ -26,6 +28,8 @@ pub struct Known {
     texts: Vec<(PathBuf, String)>,
     /// Folders in which called programs are looked for.
     folders: Vec<PathBuf>,
+    /// Units of lengths of sources that never state them, as far as the user has stated them.
+    units: Option<Units>,
 }
 
 impl Known {
@@ -92,6 +96,16 @@ impl Known {
         }
         self.folders = folders.to_vec();
         Ok(())
+    }
+
+    /// Says in which units sources are that never state them.
+    pub fn state_units(&mut self, units: Option<Units>) {
+        self.units = units;
+    }
+
+    /// Units of sources that never state them, as far as the user has stated them.
+    pub fn units(&self) -> Option<Units> {
+        self.units
     }
 
     /// Folders in which called programs are looked for.

@@ -16,7 +16,7 @@ use crate::called;
 use crate::job::{Failure, Job, Outcome};
 use crate::render::json::Entry;
 use crate::render::words::Context;
-use crate::render::{About, summary};
+use crate::render::{About, questions, summary};
 
 #[derive(Serialize)]
 struct Source<'a> {
@@ -185,6 +185,9 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     map.serialize_entry("result", summary.result)?;
     map.serialize_entry("verification", &summary.verification)?;
     let names = |verdicts: &[Verdict]| verdicts.iter().map(|v| v.name()).collect::<Vec<_>>();
+    // The most dangerous first; they stop the translation but under `--assume`.
+    let questions = questions::ask(about, &outcome.questions)?;
+    map.serialize_entry("questions", &questions)?;
     map.serialize_entry("allow", &names(&job.allow))?;
     map.serialize_entry("deny", &names(&job.deny))?;
     map.serialize_entry("verdicts", &summary.verdicts)?;

@@ -8,7 +8,7 @@ mod alone;
 mod as_there;
 
 use std::collections::{BTreeSet, HashMap};
-use std::io::{self, Read};
+use std::io;
 
 use ncc_backends::{Head, Origin, Writer};
 use ncc_frontends::{Batch, Reader};
@@ -32,6 +32,8 @@ use crate::job::{Failure, Job, Outcome, Output, Rest};
 use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Recorded, Trace};
+use crate::questions::{self, Policy, Question};
+use crate::render::source::Source;
 use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
 
@@ -55,7 +57,7 @@ const ENOUGH_ERRORS: usize = 200;
 /// # Errors
 /// Reading the source or writing the anonymous file of the output failed. What is wrong with the
 /// program itself is in the outcome.
-pub fn translate(job: &Job, source: &mut dyn Read) -> io::Result<Outcome> {
+pub fn translate(job: &Job, source: &mut dyn Source) -> io::Result<Outcome> {
     Ok(translate_keeping(job, source)?.0)
 }
 
@@ -67,19 +69,19 @@ pub fn translate(job: &Job, source: &mut dyn Read) -> io::Result<Outcome> {
 pub fn translate_recording(
     job: &Job,
     asked: Asked,
-    source: &mut dyn Read,
+    source: &mut dyn Source,
 ) -> io::Result<(Outcome, Option<Recorded>)> {
     let (outcome, _, record) = run(job, asked, source)?;
     Ok((outcome, record))
 }
 
 /// Translates a program; tells also which assumed facts the output does not state itself.
-pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Read) -> io::Result<(Outcome, Modes)> {
+pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Source) -> io::Result<(Outcome, Modes)> {
     let (outcome, inherited, _) = run(job, Asked::default(), source)?;
     Ok((outcome, inherited))
 }
 
-fn run(job: &Job, asked: Asked, source: &mut dyn Read) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
+fn run(job: &Job, asked: Asked, source: &mut dyn Source) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
     let mut chunks = Chunks::new(source);
     let mut line = Line::new(job);
     line.record(asked);
@@ -104,6 +106,13 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Read) -> io::Result<(Outcome, M
         (_, Some(called)) => (called.sha256, called.bytes),
         (own, None) => own,
     };
+    let questions = match job.questions {
+        Policy::Skip => Vec::new(),
+        Policy::Ask | Policy::Assume => {
+            questions::find(job, source, &line.diagnostics, line.errors == 0)?
+        }
+    };
+    line.answer(questions);
     let inherited = line.inherited(&line.batch.assumed);
     let record = line.trace.take();
     let outcome = line.outcome(hash, bytes);
@@ -133,6 +142,7 @@ struct Line<'j> {
     written: u64,
     diagnostics: Vec<Diagnostic>,
     rests: Vec<Rest>,
+    questions: Vec<Question>,
     /// Numbers of the output's subprograms.
     numbers: BTreeSet<u32>,
     /// Whether the shop's lines before the end of the program are written.
@@ -181,6 +191,7 @@ impl<'j> Line<'j> {
             written: 0,
             diagnostics: Vec::new(),
             rests: Vec::new(),
+            questions: Vec::new(),
             footed: false,
             numbers: BTreeSet::new(),
             errors: 0,
@@ -585,6 +596,17 @@ impl<'j> Line<'j> {
         }
     }
 
+    /// Takes the questions. Those about the control are assumptions that no reader knows of.
+    fn answer(&mut self, questions: Vec<Question>) {
+        for question in &questions {
+            if let Some((taken, other)) = question.controls() {
+                let fault = Fault::AssumedControl { taken: taken.into(), other: other.into() };
+                self.take(vec![Diagnostic::new(fault, question.span)], Told::Reader);
+            }
+        }
+        self.questions = questions;
+    }
+
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
         let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
@@ -618,6 +640,8 @@ impl<'j> Line<'j> {
             Err(Failure::Refused)
         } else if self.failed {
             Err(Failure::VerificationFailed)
+        } else if self.job.questions == Policy::Ask && !self.questions.is_empty() {
+            Err(Failure::Refused)
         } else {
             Ok(())
         };
@@ -634,6 +658,7 @@ impl<'j> Line<'j> {
             program_number,
             renumbered: self.renumbering.used().clone(),
             rests: self.rests,
+            questions: self.questions,
             verified,
             release,
             output: self.output,
@@ -662,7 +687,7 @@ impl<'j> Line<'j> {
 
     fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
         let mut lines = match self.job.head {
-            true => head::lines(self.job, hash, &self.diagnostics, self.renumbering.used()),
+            true => head::lines(self.job, hash, &self.questions, &self.diagnostics, self.renumbering.used()),
             false => Vec::new(),
         };
         lines.extend(self.job.machines.layout().header);

@@ -299,6 +299,8 @@ faults! {
     AssumedTip = 320, verdict(Verdict::Assumed);
     /// The tool is turned onto a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
+    /// The source's control was recognised by its text, which fits another one as well, and that one reads it otherwise.
+    AssumedControl { taken: Box<str>, other: Box<str> } = 330, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
 

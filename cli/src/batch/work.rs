@@ -129,9 +129,9 @@ impl Bench<'_> {
         let args = self.args;
         let mut source = files::open(&item.path)?;
         let say = !args.telling.quiet && args.format == Format::Human;
-        let from = match self.order.named {
-            Some(dialect) => dialect,
-            None => run::recognise(&mut source, say, self.known, &mut done.told)?,
+        let (from, rivals) = match self.order.named {
+            Some(dialect) => (dialect, Vec::new()),
+            None => run::recognise_all(&mut source, say, self.known, &mut done.told)?,
         };
         done.row.from = Some(from.id.clone());
         let crlf = match self.order.eol(args) {
@@ -141,6 +141,7 @@ impl Bench<'_> {
         };
         let mut job = self.order.job(args, from, &source.name, crlf)?;
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
+        job.rivals = rivals;
         called::gather(&mut source, &job.from, self.known.folders())?;
         job.called.clone_from(&source.called);
         source.rewind()?;
@@ -161,7 +162,7 @@ impl Bench<'_> {
                 done.row.messages = entries.iter().filter_map(|e| serde_json::to_value(e).ok()).collect();
             }
         }
-        if outcome.release == Err(Failure::Refused) && say {
+        if outcome.release == Err(Failure::Refused) && !outcome.is_asked(&job) && say {
             let _ = run::doubt_dialect(&mut source, &job, self.known, &mut done.told);
         }
         Ok(())

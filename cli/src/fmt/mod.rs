@@ -33,6 +33,7 @@ use crate::guess::{Guess, guess};
 use crate::job::Job;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
 use crate::review::side::{Asked, Side, open_one, operand};
@@ -176,7 +177,12 @@ fn laid_out(
         done.executed = true;
         return Ok(done);
     }
-    let compared = events::compare(job, &mut source.file, &mut done.file).map_err(read)?;
+    let mut assumed = Vec::new();
+    let compared = events::compare(job, &mut source.file, &mut done.file, &mut assumed).map_err(read)?;
+    if loudness != Loudness::Quiet {
+        let sound = !matches!(compared, Compared::NotExecuted(..));
+        questions::note(job, source, &assumed, sound, err)?;
+    }
     match compared {
         Compared::Same(events) => {
             done.executed = true;
@@ -186,7 +192,7 @@ fn laid_out(
         Compared::NotExecuted(_, true) => return Err(not_text(&shown, None)),
         Compared::NotExecuted(first, false) => {
             let other = guess(&mut source.file, known.all()).map_err(read)?;
-            if let Guess::Sure(other, reasons) = other
+            if let Guess::Sure(other, reasons, _) = other
                 && other.id != job.from.dialect.id
             {
                 let id = &job.from.dialect.id;

@@ -21,6 +21,7 @@ use crate::files::{self, Source};
 use crate::job::Job;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
+use crate::questions::Policy;
 use crate::render::About;
 use crate::report::hex;
 use crate::run::{recognise, settings};
@@ -177,7 +178,7 @@ fn again(
     let crlf = output.is_crlf()?;
     let own = |dialect: &'static Dialect| settings(ncc_dialects::Settings::new(dialect), &[]);
     let job =
-        Job { layout: Layout { crlf, ..Layout::default() }, ..Job::new(own(from)?, own(to)?, &source.name) };
+        Job { layout: Layout { crlf, ..Layout::default() }, questions: Policy::Skip, ..Job::new(own(from)?, own(to)?, &source.name) };
     source.rewind()?;
     let wrong = |e: &io::Error| Problem::file("translate", &path.display().to_string(), e);
     let asked = Asked { map: true, annotate: false };

@@ -104,6 +104,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
+        Fault::AssumedControl { taken, other } => {
+            vec![format!("name the control: `--from {}` or `--from {}`", plain(taken), plain(other))]
+        }
         Fault::AssumedContourPath => own("look at corners, and at both ends of the contour, on the machine"),
         Fault::RadiusUnknown { .. } => own(
             "state the tool's diameter in the profile of the source's machine, or the radius in the program",

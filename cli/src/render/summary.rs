@@ -106,6 +106,7 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
     let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
     let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
     let losses = stopping.len() as u64 - errors;
+    let questions = outcome.questions.len() as u64;
     match outcome.release {
         Err(Failure::VerificationFailed) => {
             coloured(out, Color::Red, "verification failed")?;
@@ -115,7 +116,7 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
             coloured(out, Color::Red, "not translated")?;
             let count = |n: u64, noun: &str| (n > 0).then(|| format!("{n} {}", plural(n, noun)));
             let losses = count(losses, "verdict").map(|verdicts| format!("{verdicts} that may not pass"));
-            let reasons: Vec<String> = [count(errors, "error"), losses].into_iter().flatten().collect();
+            let reasons: Vec<String> = [count(questions, "question"), count(errors, "error"), losses].into_iter().flatten().collect();
             writeln!(out, ": {}; nothing was written", reasons.join(", "))
         }
     }
@@ -204,6 +205,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedTip
         | Fault::AssumedTilt
         | Fault::AssumedContourPath
+        | Fault::AssumedControl { .. }
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }
         | Fault::AssumedPath { .. }

@@ -22,6 +22,7 @@ use crate::files;
 use crate::job::Output;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 
 /// `ncc git-textconv`.
 #[derive(Debug, Args)]
@@ -51,7 +52,7 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
     let mut output = Output::new();
     let cannot = |e: &io::Error| Problem::file("read", &args.file, e);
     let why = match open_one(&asked, false, known, err) {
-        Ok(mut side) => match listed(&mut side, &mut output).map_err(|e| cannot(&e))? {
+        Ok(mut side) => match listed(&mut side, &mut output, err).map_err(|e| cannot(&e))? {
             true => None,
             false => Some(format!("{} cannot be executed as {}", side.source.shown, side.dialect().id)),
         },
@@ -75,7 +76,11 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
 }
 
 /// Writes the events; whether the program could be executed.
-fn listed(side: &mut super::side::Side, output: &mut Output) -> io::Result<bool> {
+fn listed(
+    side: &mut super::side::Side,
+    output: &mut Output,
+    err: &mut dyn WriteColor,
+) -> io::Result<bool> {
     let settings = Settings { clearances: clearances(&side.job), ..Settings::default() };
     let mut styles: Vec<Style> = Vec::new();
     let mut texts: Vec<Text> = Vec::new();
@@ -100,6 +105,8 @@ fn listed(side: &mut super::side::Side, output: &mut Output) -> io::Result<bool>
         if written.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     written?;
+    // What cannot be told changes nothing about what was listed.
+    let _ = questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err);
     Ok(!course.refused)
 }
 

@@ -27,6 +27,7 @@ use crate::job::Job;
 use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::render::{About, human};
 use crate::setting::{Holding, Nearness, Standing, Telling};
 
@@ -225,6 +226,9 @@ pub(crate) fn compare(
     let found = pair::compare(sides, call.tolerance.unwrap_or_default()).map_err(cannot)?;
     if args.format == Format::Human {
         for (side, course) in sides.iter_mut().zip(&found.courses) {
+            if !args.telling.quiet {
+                questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err)?;
+            }
             if course.refused || args.telling.verbose {
                 // Messages that cannot be written change nothing about what was found.
                 let _ = say(args, side, course, call.known, err);
@@ -248,7 +252,7 @@ fn say(
     human::print(err, &mut about, &course.diagnostics, args.telling.loudness())?;
     if course.refused {
         writeln!(err, "{shown}: not compared, because it cannot be executed as {}", dialect.id)?;
-        if let Guess::Sure(other, reasons) = guess(&mut side.source.file, known.all())?
+        if let Guess::Sure(other, reasons, _) = guess(&mut side.source.file, known.all())?
             && other.id != dialect.id
         {
             writeln!(err, "{shown} reads like {}: {}", other.id, reasons.join(", "))?;
