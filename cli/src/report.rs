@@ -8,6 +8,7 @@ use std::io::{self, Write};
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_ir::rank::Rank;
 use ncc_machines::reading::key_of;
 use serde::Serialize;
 use serde::ser::{SerializeMap, SerializeSeq, Serializer};
@@ -133,6 +134,8 @@ struct Renumbered<'a> {
 struct Assumption {
     code: String,
     text: String,
+    /// As of a diagnostic.
+    rank: Option<&'static str>,
     uses: usize,
 }
 
@@ -220,10 +223,14 @@ fn assumptions(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Assumption> {
         match list.iter_mut().find(|a| a.text == text) {
             Some(assumption) => assumption.uses += 1,
             None => {
-                list.push(Assumption { code: format!("NC{:04}", diagnostic.fault.code()), text, uses: 1 })
+                let code = format!("NC{:04}", diagnostic.fault.code());
+                list.push(Assumption { code, text, rank: diagnostic.fault.rank().map(Rank::name), uses: 1 });
             }
         }
     }
+    // The most dangerous first; those of one rank as they were met.
+    let place = |assumption: &Assumption| Rank::ALL.iter().position(|rank| Some(rank.name()) == assumption.rank);
+    list.sort_by_key(place);
     list
 }
 

@@ -35,6 +35,7 @@ pub mod passes;
 pub mod places;
 pub mod polar;
 pub mod program;
+pub mod rank;
 pub mod round;
 pub mod shown;
 pub mod source;

@@ -26,6 +26,7 @@ mod pages;
 mod pairs;
 mod passes;
 mod provenance;
+mod questions;
 mod rows;
 mod rs274;
 mod schema;

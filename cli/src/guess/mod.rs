@@ -37,6 +37,8 @@ struct Evidence {
     codes: bool,
     /// Whether a block with words was met.
     begun: bool,
+    /// Whether the program's number has other digits than the control writes: a custom alone.
+    digits: bool,
     speaks_for: BTreeMap<String, usize>,
     against: BTreeMap<String, usize>,
 }
@@ -100,7 +102,8 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     match found.first() {
         Some((dialect, evidence)) if clear => {
             let as_well = |(other, own): &&(&'static Dialect, Evidence)| {
-                other.base.as_ref() == Some(&dialect.id) && own.against.len() <= evidence.against.len()
+                other.base.as_ref() == Some(&dialect.id)
+                    && own.against.len() - usize::from(own.digits) <= evidence.against.len()
             };
             let rivals = built_on.iter().filter(as_well).map(|(other, _)| *other).collect();
             Guess::Sure(dialect, Evidence::list(&evidence.speaks_for), rivals)
@@ -300,6 +303,7 @@ fn program_number(dialect: &Dialect, line: usize, word: &str, value: &str, evide
     evidence.pro(line, format!("`{letter}` begins the program's number"));
     let digits = value.len();
     if value.starts_with('0') && digits != dialect.program.number_digits {
+        evidence.digits = true;
         evidence.con(line, format!("`{word}` has {digits} digits"));
     }
 }

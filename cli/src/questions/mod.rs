@@ -16,7 +16,7 @@ use std::io::{self, SeekFrom};
 
 use codespan_reporting::term::termcolor::WriteColor;
 
-use ncc_dialects::{DECIMAL_POINT, Dialect, Settings};
+use ncc_dialects::{CALCULATOR, DECIMAL_POINT, Dialect, Settings};
 use ncc_frontends::{BareNumber, Batch};
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
@@ -25,7 +25,7 @@ use ncc_ir::source::Span;
 
 pub use self::race::Made;
 
-use self::race::{Difference, Finish, MICROMETRE, Measure, TENTH, race};
+use self::race::{Difference, Finish, GENERATED, MICROMETRE, Measure, PLAIN, TENTH, race};
 use crate::chunks::{Chunk, Chunks};
 use crate::files;
 use crate::job::Job;
@@ -35,9 +35,6 @@ use crate::render::source::Source;
 
 /// Value of the option `decimal_point`: least increments.
 const INCREMENT: &str = "increment";
-
-/// Value of the option `decimal_point`: whole units.
-const CALCULATOR: &str = "calculator";
 
 /// What a translation does about questions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -172,6 +169,18 @@ pub(crate) fn find(
     Ok(questions)
 }
 
+/// The questions of a text, which is read for it.
+///
+/// # Errors
+/// As of [`find`]; a text in memory gives none.
+pub fn of_text(job: &Job, text: &[u8]) -> io::Result<Vec<Question>> {
+    let (mut reader, mut batch) = (job.reader(true), Batch::default());
+    reader.read(text, 0, &mut batch);
+    reader.finish(&mut batch);
+    let sound = batch.diagnostics.iter().all(|d| d.fault.gravity() != Gravity::Error);
+    find(job, &mut io::Cursor::new(text), &batch.diagnostics, sound)
+}
+
 /// Tells in one line of the questions of a source that a verb answers with ncc's readings.
 ///
 /// # Errors
@@ -241,10 +250,9 @@ fn lengths(job: &Job, span: Span) -> Option<Candidate> {
 
 /// What numbers without a decimal point count.
 fn points(job: &Job, span: Span) -> Option<Candidate> {
-    let option = job.from.dialect.option.iter().find(|option| option.name == DECIMAL_POINT)?;
-    let takes = |value: &str| option.values.iter().any(|own| own == value);
+    job.from.takes(DECIMAL_POINT, INCREMENT).then_some(())?;
     let own = job.from.get(DECIMAL_POINT);
-    let answer = |value: &'static str| match takes(value) {
+    let answer = |value: &'static str| match job.from.takes(DECIMAL_POINT, value) {
         true => Answer::Option(DECIMAL_POINT, value),
         false => Answer::WritePoints,
     };
@@ -272,18 +280,18 @@ fn decide(
     let cuts = candidate.fact == Fact::Control;
     let watch = candidate.fact == Fact::DecimalPoint;
     let measure = Measure { length, cuts };
-    let mut finish = race(jobs, source, measure, 0, watch)?;
-    if cuts {
-        // Lengths and offsets are nothing in the plain world.
-        if let Finish::Same = finish {
-            finish = hidden(race(jobs, source, measure, 1, watch)?);
-        }
-        if let Finish::Apart(difference) = &finish
-            && (difference.made.iter().any(|made| matches!(made, Made::Refused(_))) || !reads(jobs[1], source)?)
-        {
-            return Ok(None);
-        }
-    }
+    let finish = match cuts {
+        false => race(jobs, source, measure, PLAIN, watch)?,
+        // Lengths and offsets are nothing in the plain world, in which numbers can be shown.
+        true => match race(jobs, source, measure, GENERATED, watch)? {
+            Finish::Apart(difference) if is_refused(&difference) || !reads(jobs[1], source)? => return Ok(None),
+            Finish::Apart(difference) => match race(jobs, source, measure, PLAIN, watch)? {
+                Finish::Apart(plain) if !is_refused(&plain) => Finish::Apart(plain),
+                Finish::Same | Finish::Unknown(_) | Finish::Apart(_) => hidden(Finish::Apart(difference)),
+            },
+            other => other,
+        },
+    };
     let (span, shown) = match finish {
         Finish::Same => return Ok(None),
         Finish::Apart(difference) => match candidate.fact {
@@ -300,12 +308,14 @@ fn decide(
             Fact::Control | Fact::Units | Fact::DecimalPoint => return Ok(None),
         },
     };
+    // The greater value is shown first.
+    let order = if candidate.fact == Fact::DecimalPoint { [1, 0] } else { [0, 1] };
     let reading = |at: usize| Reading {
         answer: candidate.answers[at].clone(),
         taken: candidate.taken == at,
         result: shown[at],
     };
-    Ok(Some(Question { fact: candidate.fact, span, readings: [reading(0), reading(1)] }))
+    Ok(Some(Question { fact: candidate.fact, span, readings: order.map(reading) }))
 }
 
 /// A difference of which the numbers are those of a made-up world.
@@ -321,6 +331,10 @@ fn hidden(finish: Finish) -> Finish {
         }
         other => other,
     }
+}
+
+fn is_refused(difference: &Difference) -> bool {
+    difference.made.iter().any(|made| matches!(made, Made::Refused(_)))
 }
 
 fn made(made: Made) -> Shown {

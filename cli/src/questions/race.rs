@@ -28,7 +28,7 @@ use crate::render::source::Source;
 use crate::review::stream::{clearances, worlds};
 
 /// A program that executes more statements than this is given up.
-const MOST_STEPS: u64 = 20_000_000;
+const MOST_STEPS: u64 = 1_000_000;
 
 /// Numbers without a point that are remembered before an event that differs.
 const MOST_BARE: usize = 256;
@@ -41,6 +41,12 @@ pub(super) struct Measure {
     /// Whether only moves that cut are held against each other: by their ends, feed, spindle and tool.
     pub(super) cuts: bool,
 }
+
+/// The world in which coordinates are the program's own.
+pub(super) const PLAIN: usize = 0;
+
+/// A world in which every offset and length is another one.
+pub(super) const GENERATED: usize = 1;
 
 /// A tenth of a millimetre: what two readings may be apart without a question.
 pub(super) const TENTH: Nanos = ONE / 10;
@@ -231,8 +237,7 @@ impl<'j> Run<'j> {
     }
 }
 
-/// Holds two readings of a source against each other in one of the worlds of a comparison: 0 is the plain one, in
-/// which coordinates are the program's own. With `watch`, numbers without a point are kept, for the message.
+/// Holds two readings of a source against each other in one of the worlds of a comparison. With `watch`, numbers without a point are kept, for the message.
 ///
 /// # Errors
 /// Reading the source.
@@ -287,6 +292,7 @@ fn whole(programs: &[Option<Program>; 2], runs: &mut [Run; 2]) -> Option<Finish>
     });
     let mut steps = 0;
     while runners.iter().any(Option::is_some) {
+        let before = steps;
         for (runner, run) in runners.iter_mut().zip(&mut *runs) {
             // The one that has events the other has not made waits.
             while let Some(own) = runner.as_mut().filter(|_| run.events.is_empty()) {
@@ -307,6 +313,10 @@ fn whole(programs: &[Option<Program>; 2], runs: &mut [Run; 2]) -> Option<Finish>
         }
         if let Some(found) = compare(runs) {
             return Some(found);
+        }
+        if steps == before {
+            // One is refused, and the other has gone on.
+            return None;
         }
         if steps > MOST_STEPS {
             return Some(Finish::Unknown(runs[0].bare.iter().cloned().collect()));

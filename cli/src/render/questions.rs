@@ -1,8 +1,8 @@
 //! Questions in words: what is asked, both results in numbers, and what answers it.
 //!
 //! ```text
-//! question[NC0303]: is Z100 0.1 mm or 100 mm?
-//!   7 │ G43 H1 Z100 M8        answer: `--from-option decimal_point=increment` (0.1 mm) or `…=calculator` (100 mm)
+//! question[NC0303]: is Z100 100 mm or 0.1 mm?
+//!   7 │ G43 H1 Z100 M8        answer: `--from-option decimal_point=calculator` (100 mm) or `=increment` (0.1 mm)
 //! ```
 
 use std::io;
@@ -30,6 +30,8 @@ const COLUMN: usize = 20;
 pub struct Asked {
     /// `NC0303`.
     pub code: String,
+    /// `question`.
+    pub severity: &'static str,
     /// What is asked.
     pub question: String,
     /// Where both readings differ first.
@@ -78,6 +80,7 @@ pub fn ask(about: &mut About, questions: &[Question]) -> io::Result<Vec<Asked>> 
         });
         all.push(Asked {
             code: format!("NC{:04}", question.fact.code()),
+            severity: "question",
             question: headline(question, &text),
             place: JsonPlace {
                 start: question.span.start,
@@ -169,7 +172,19 @@ fn answers(both: &[AskedAnswer; 2]) -> String {
             None => option,
         }
     };
-    format!("{} or {}", one(&both[0]), one(&both[1]))
+    let first = one(&both[0]);
+    // The second one leaves out what both begin with.
+    let shared = |option: &String| option.split_once('=').map(|(name, _)| name.len());
+    let short = match (&both[0].option, &both[1].option) {
+        (Some(a), Some(b)) => shared(a).filter(|n| shared(b) == Some(*n) && a[..*n] == b[..*n]).map(|n| b[n..].to_owned()),
+        (None, _) | (_, None) => None,
+    };
+    let second = AskedAnswer {
+        option: short.or_else(|| both[1].option.clone()),
+        result: both[1].result.clone(),
+        taken: both[1].taken,
+    };
+    format!("{first} or {}", one(&second))
 }
 
 fn option(answer: &Answer) -> Option<String> {

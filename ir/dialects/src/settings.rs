@@ -30,6 +30,9 @@ pub const COMPUTED_DWELL: &str = "computed_dwell";
 /// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
 pub const DECIMAL_POINT: &str = "decimal_point";
 
+/// Value of [`DECIMAL_POINT`]: whole units.
+pub const CALCULATOR: &str = "calculator";
+
 /// Option of a dictionary: what the spindle does after a tool change that says nothing of it, `open` or `stopped`.
 pub const SPINDLE_AFTER_CHANGE: &str = "spindle_after_change";
 
@@ -86,6 +89,12 @@ impl Settings {
         }
         self.chosen.insert(option.to_owned(), value.to_owned());
         Ok(())
+    }
+
+    /// Whether the dictionary has this value for an option.
+    pub fn takes(&self, option: &str, value: &str) -> bool {
+        let mut rows = self.dialect.option.iter().filter(|row| row.name == option);
+        rows.any(|row| row.values.iter().any(|own| own == value))
     }
 
     /// Chooses a value for an option of which the dictionary may not take it: to see what a program would be under it.
