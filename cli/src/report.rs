@@ -229,7 +229,8 @@ fn assumptions(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Assumption> {
         }
     }
     // The most dangerous first; those of one rank as they were met.
-    let place = |assumption: &Assumption| Rank::ALL.iter().position(|rank| Some(rank.name()) == assumption.rank);
+    let place =
+        |assumption: &Assumption| Rank::ALL.iter().position(|rank| Some(rank.name()) == assumption.rank);
     list.sort_by_key(place);
     list
 }

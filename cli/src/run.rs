@@ -256,7 +256,11 @@ fn translated(
     }
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, &mut about, &outcome, err);
-    if outcome.release == Err(Failure::Refused) && !outcome.is_asked(&job) && !args.telling.quiet && args.format == Format::Human {
+    if outcome.release == Err(Failure::Refused)
+        && !outcome.is_asked(&job)
+        && !args.telling.quiet
+        && args.format == Format::Human
+    {
         let _ = doubt_dialect(&mut source, &job, known, err);
     }
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.telling.quiet) {

@@ -108,9 +108,7 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Source) -> io::Result<(Outcome,
     };
     let questions = match job.questions {
         Policy::Skip => Vec::new(),
-        Policy::Ask | Policy::Assume => {
-            questions::find(job, source, &line.diagnostics, line.errors == 0)?
-        }
+        Policy::Ask | Policy::Assume => questions::find(job, source, &line.diagnostics, line.errors == 0)?,
     };
     line.answer(questions);
     let inherited = line.inherited(&line.batch.assumed);

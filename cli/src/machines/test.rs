@@ -14,10 +14,10 @@ use ncc_machines::reading::Side;
 
 use super::pair::Machines;
 use crate::job::Job;
+use crate::questions::Policy;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
 use crate::render::words::plural;
-use crate::questions::Policy;
 use crate::translate::translate;
 
 /// What most programs have.

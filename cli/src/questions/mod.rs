@@ -284,7 +284,9 @@ fn decide(
         false => race(jobs, source, measure, PLAIN, watch)?,
         // Lengths and offsets are nothing in the plain world, in which numbers can be shown.
         true => match race(jobs, source, measure, GENERATED, watch)? {
-            Finish::Apart(difference) if is_refused(&difference) || !reads(jobs[1], source)? => return Ok(None),
+            Finish::Apart(difference) if is_refused(&difference) || !reads(jobs[1], source)? => {
+                return Ok(None);
+            }
             Finish::Apart(difference) => match race(jobs, source, measure, PLAIN, watch)? {
                 Finish::Apart(plain) if !is_refused(&plain) => Finish::Apart(plain),
                 Finish::Same | Finish::Unknown(_) | Finish::Apart(_) => hidden(Finish::Apart(difference)),
@@ -347,7 +349,8 @@ fn made(made: Made) -> Shown {
 /// The number without a point that makes a difference, and its two values; else what the machine does.
 fn in_words(candidate: &Candidate, difference: &Difference) -> (Span, [Shown; 2]) {
     let feed = matches!(difference.made[0], Made::Feed(..));
-    let own = |bare: &&BareNumber| bare.span.start >= difference.at.start && bare.feed == feed && matters(bare);
+    let own =
+        |bare: &&BareNumber| bare.span.start >= difference.at.start && bare.feed == feed && matters(bare);
     let before = |bare: &&BareNumber| bare.feed == feed && matters(bare);
     let found = difference.bare.iter().find(own).or_else(|| difference.bare.iter().rev().find(before));
     match found {

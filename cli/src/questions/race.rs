@@ -378,10 +378,7 @@ fn differ(a: &Event, b: &Event, measure: Measure) -> Option<[Made; 2]> {
         }
     }
     let same = match (&a.kind, &b.kind) {
-        (
-            Kind::Arc { plane, turn, centre, .. },
-            Kind::Arc { plane: own, turn: way, centre: other, .. },
-        ) => {
+        (Kind::Arc { plane, turn, centre, .. }, Kind::Arc { plane: own, turn: way, centre: other, .. }) => {
             let (first, second, _) = plane.axes();
             for (i, axis) in [first, second].into_iter().enumerate() {
                 if far(centre[i], other[i]) {
@@ -412,7 +409,8 @@ fn differ(a: &Event, b: &Event, measure: Measure) -> Option<[Made; 2]> {
     if !same {
         return Some([Made::Otherwise; 2]);
     }
-    if a.kind.moves().is_some_and(|way| way != Movement::Rapid) && !matches!(a.kind, Kind::Synchronised { .. })
+    if a.kind.moves().is_some_and(|way| way != Movement::Rapid)
+        && !matches!(a.kind, Kind::Synchronised { .. })
         && ratio(a.rate, b.rate)
     {
         let made = |event: &Event| Made::Feed(event.rate, event.state.feed_mode);
@@ -431,7 +429,8 @@ fn states(a: &State, b: &State) -> Option<[Made; 2]> {
         return Some([Made::Tool(a.tool), Made::Tool(b.tool)]);
     }
     let speeds = a.spindle == b.spindle && a.spindle_mode == b.spindle_mode && !ratio(a.speed, b.speed);
-    let same = (speeds || !turns(a)) && a.feed_mode == b.feed_mode && a.compensation.side == b.compensation.side;
+    let same =
+        (speeds || !turns(a)) && a.feed_mode == b.feed_mode && a.compensation.side == b.compensation.side;
     (!same).then_some([Made::Otherwise; 2])
 }
 

@@ -150,7 +150,9 @@ fn headline(question: &Question, text: &str) -> String {
             format!("{own} or {other}? The text fits both")
         }
         (Fact::DecimalPoint, ..) => match (result(first.result), result(second.result)) {
-            (Some(one), Some(two)) if is_word(first) => format!("is {} {one} or {two}?", plain_upto(text, 20)),
+            (Some(one), Some(two)) if is_word(first) => {
+                format!("is {} {one} or {two}?", plain_upto(text, 20))
+            }
             _ => "numbers without a decimal point: least increments or units?".to_owned(),
         },
         (Fact::Units | Fact::Control, ..) => "mm or inch? The program never states its unit".to_owned(),
@@ -176,7 +178,9 @@ fn answers(both: &[AskedAnswer; 2]) -> String {
     // The second one leaves out what both begin with.
     let shared = |option: &String| option.split_once('=').map(|(name, _)| name.len());
     let short = match (&both[0].option, &both[1].option) {
-        (Some(a), Some(b)) => shared(a).filter(|n| shared(b) == Some(*n) && a[..*n] == b[..*n]).map(|n| b[n..].to_owned()),
+        (Some(a), Some(b)) => {
+            shared(a).filter(|n| shared(b) == Some(*n) && a[..*n] == b[..*n]).map(|n| b[n..].to_owned())
+        }
         (None, _) | (_, None) => None,
     };
     let second = AskedAnswer {

@@ -192,7 +192,10 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
             coloured(out, Color::Red, "not translated")?;
             let count = |n: u64, noun: &str| (n > 0).then(|| format!("{n} {}", plural(n, noun)));
             let losses = count(losses, "verdict").map(|verdicts| format!("{verdicts} that may not pass"));
-            let reasons: Vec<String> = [count(questions, "question"), count(errors, "error"), losses].into_iter().flatten().collect();
+            let reasons: Vec<String> = [count(questions, "question"), count(errors, "error"), losses]
+                .into_iter()
+                .flatten()
+                .collect();
             writeln!(out, ": {}; nothing was written", reasons.join(", "))
         }
     }

@@ -154,7 +154,13 @@ impl Opened {
             None => profile.as_ref().map(|profile| profile.dialect).or(from),
         };
         let source = files::open(&path)?;
-        Ok(Opened { source, named, profile: profile.map(Arc::new), rivals: Vec::new(), stdin: path == Path::new("-") })
+        Ok(Opened {
+            source,
+            named,
+            profile: profile.map(Arc::new),
+            rivals: Vec::new(),
+            stdin: path == Path::new("-"),
+        })
     }
 
     /// Finds the dialect, if the text or the other side tells it.

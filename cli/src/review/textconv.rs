@@ -76,11 +76,7 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
 }
 
 /// Writes the events; whether the program could be executed.
-fn listed(
-    side: &mut super::side::Side,
-    output: &mut Output,
-    err: &mut dyn WriteColor,
-) -> io::Result<bool> {
+fn listed(side: &mut super::side::Side, output: &mut Output, err: &mut dyn WriteColor) -> io::Result<bool> {
     let settings = Settings { clearances: clearances(&side.job), ..Settings::default() };
     let mut styles: Vec<Style> = Vec::new();
     let mut texts: Vec<Text> = Vec::new();

@@ -92,13 +92,7 @@ fn dialect<'a>(args: &'a GitDiff, known: &'a Known, versions: [&str; 2]) -> Opti
     })
 }
 
-fn both(
-    args: &GitDiff,
-    known: &Known,
-    versions: [&str; 2],
-    path: &str,
-    err: &mut dyn WriteColor,
-) -> String {
+fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mut dyn WriteColor) -> String {
     // Files of git have names of their own: they are never taken for `DIALECT:PATH`.
     let names = versions
         .map(|file| if Path::new(file).is_absolute() { file.to_owned() } else { format!("./{file}") });
