@@ -25,7 +25,7 @@ use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::render::human::told;
-use crate::render::{About, json};
+use crate::render::{About, json, questions};
 use crate::{called, run, translate};
 
 /// Highest number of a program.
@@ -186,6 +186,11 @@ impl Bench<'_> {
         row.exit = Exit::of(outcome.release);
         row.events = outcome.verified.filter(|_| outcome.release.is_ok()).map(|v| v.events);
         row.program_number = outcome.program_number.filter(|_| outcome.release.is_ok());
+        let shown = source.shown.clone();
+        let unread = |e: io::Error| Problem::file("read", &shown, &e);
+        let mut about = About { job, name: &shown, source: &mut source.file };
+        let asked = questions::ask(&mut about, &outcome.questions).map_err(unread)?;
+        row.questions = asked.iter().filter_map(|asked| serde_json::to_value(asked).ok()).collect();
         let warns = |gravity: Gravity| match gravity {
             Gravity::Error => false,
             Gravity::Warning => true,
@@ -202,12 +207,13 @@ impl Bench<'_> {
                 row.missing.push(Missing { name: name.to_string(), beside: beside(&item.path, name) });
             }
         }
+        if let Some(asked) = asked.first().filter(|_| outcome.is_asked(job)) {
+            row.reason = Some(format!("line {}: {}", asked.place.line, asked.question));
+            return Ok(());
+        }
         let first = told(job, &outcome.diagnostics, crate::render::human::Loudness::Quiet);
         let first = first.first().copied().or(outcome.diagnostics.last());
         let Some(first) = first else { return Ok(()) };
-        let shown = source.shown.clone();
-        let unread = |e: io::Error| Problem::file("read", &shown, &e);
-        let mut about = About { job, name: &shown, source: &mut source.file };
         let lines = about.lines(std::iter::once(first)).map_err(unread)?;
         let told = about.tell(&lines, first).map_err(unread)?;
         row.reason = Some(format!("line {}: {}", told.place.start.0, told.message));

@@ -268,9 +268,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::AssumedBareNumber { .. } => {
             "numbers without a decimal point, read by the control's usual setting".to_owned()
         }
-        Fault::AssumedOption { option, value } => {
-            format!("{} = {}, a question that the sources leave open", plain(option), plain(value))
-        }
+        Fault::AssumedOption { option, value } => format!("{} = {}", plain(option), plain(value)),
         Fault::AssumedWorkOffset { offset } => {
             format!("the only work offset is {}", work_offset(*offset, [at.to, at.from]))
         }

@@ -18,19 +18,19 @@ fn a_sinumerik_knows_a_subprogram_by_its_extension() {
     assert!(sub.contains("\nM99\n") && !sub.contains("M30") && !sub.contains("\nG54"), "{sub}");
     let main = ncc(folder, &["siemens", "to", "fanuc", "slot.mpf", "--units", "mm"]).exits(0).out;
     assert!(main.contains("\nM30\n") && main.contains("\nG54\n"), "{main}");
-    let told = ncc(folder, &["siemens", "to", "fanuc", "slot.txt"]).exits(0);
+    let told = ncc(folder, &["siemens", "to", "fanuc", "slot.txt", "--units", "mm"]).exits(0);
     assert!(told.out.contains("\nM30\n"), "{}", told.out);
     told.says("M17 ends a main program = yes");
     // Back again, and into a control that calls a file by its name.
-    let again = ncc(folder, &["siemens", "to", "siemens", "slot.spf"]).exits(0).out;
+    let again = ncc(folder, &["siemens", "to", "siemens", "slot.spf", "--units", "mm"]).exits(0).out;
     assert!(again.ends_with("\nM17\n") && !again.contains("\nG54"), "{again}");
-    let called = ncc(folder, &["siemens", "to", "linuxcnc", "slot.spf"]).exits(0).out;
+    let called = ncc(folder, &["siemens", "to", "linuxcnc", "slot.spf", "--units", "mm"]).exits(0).out;
     let whole = "\no<slot> sub\nG90 G0 X5 Y5\nG1 X10 F100\no<slot> endsub\nM2\n%\n";
     assert!(called.ends_with(whole) && !called.contains("G54\n"), "{called}");
     ncc(folder, &["siemens", "to", "mach9", "slot.spf"]).exits(1).says("without its main program");
     // One of a Fanuc goes back too.
     fs::write(folder.join("slot.nc"), "%\nO9001\nG90 G0 X5. Y5.\nG1 X10. F100.\nM99\n%\n").unwrap();
-    let other = ncc(folder, &["fanuc", "to", "siemens", "slot.nc"]).exits(0).out;
+    let other = ncc(folder, &["fanuc", "to", "siemens", "slot.nc", "--units", "mm"]).exits(0).out;
     assert!(other.ends_with("\nM17\n") && !other.contains("\nG54"), "{other}");
 }
 

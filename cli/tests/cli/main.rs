@@ -14,6 +14,7 @@ mod machines;
 mod messages;
 mod plot;
 mod provenance;
+mod questions;
 mod readme;
 mod time;
 mod usage;
