@@ -6,6 +6,7 @@
 
 mod alone;
 mod as_there;
+mod heading;
 
 use std::collections::{BTreeSet, HashMap};
 use std::io;
@@ -27,7 +28,6 @@ use ncc_ir::valid::{anything, computing, leads_nowhere};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
-use crate::head;
 use crate::job::{Failure, Job, Outcome, Output, Rest};
 use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
@@ -594,17 +594,6 @@ impl<'j> Line<'j> {
         }
     }
 
-    /// Takes the questions. Those about the control are assumptions that no reader knows of.
-    fn answer(&mut self, questions: Vec<Question>) {
-        for question in &questions {
-            if let Some((taken, other)) = question.controls() {
-                let fault = Fault::AssumedControl { taken: taken.into(), other: other.into() };
-                self.take(vec![Diagnostic::new(fault, question.span)], Told::Reader);
-            }
-        }
-        self.questions = questions;
-    }
-
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
         let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
@@ -665,31 +654,6 @@ impl<'j> Line<'j> {
             source_bytes: bytes,
             blocks: self.blocks,
         }
-    }
-
-    /// The output's program name: the source's own; where the target needs one and the source has
-    /// none, one made from the file's name.
-    fn name(&mut self) -> ProgramName {
-        let mut name = self.renumbering.name(&self.batch.name);
-        if self.job.to.dialect.program.main_number().is_some() {
-            // The lowest number that no subprogram has.
-            let free = (1..).find(|n| !self.numbers.contains(n));
-            name.number = self.job.program_number.or(name.number).or(free);
-            if name.title.is_none() {
-                let stem = self.job.source_name.rsplit_once('.').map_or(&*self.job.source_name, |n| n.0);
-                name.title = (stem != "-" && !stem.is_empty()).then(|| stem.to_uppercase().into());
-            }
-        }
-        name
-    }
-
-    fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
-        let mut lines = match self.job.head {
-            true => head::lines(self.job, hash, &self.questions, &self.diagnostics, self.renumbering.used()),
-            false => Vec::new(),
-        };
-        lines.extend(self.job.machines.layout().header);
-        lines
     }
 }
 

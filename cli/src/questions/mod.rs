@@ -237,7 +237,8 @@ fn control(job: &Job, rival: &'static Dialect) -> Candidate {
 
 /// The units of lengths.
 fn lengths(job: &Job, span: Span) -> Option<Candidate> {
-    let own: Units = job.from.dialect.power_on.units.as_ref()?.value.into();
+    let row = job.from.dialect.power_on.units.as_ref().filter(|row| !row.of_the_machine)?;
+    let own: Units = row.value.into();
     let both = [Units::Mm, Units::Inch];
     let settings = both.map(|units| {
         let mut settings = job.from.clone();
