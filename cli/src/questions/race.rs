@@ -19,6 +19,7 @@ use ncc_ir::exec::{Event, Exec, Kind, Movement, Runner, State, Stored};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{Program, Stmt};
 use ncc_ir::source::Span;
+use ncc_ir::verify::same_plain;
 use ncc_machines::reading::Told;
 
 use crate::chunks::{Chunk, Chunks};
@@ -108,6 +109,8 @@ struct Run<'j> {
     events: VecDeque<Event>,
     /// Numbers without a point, the last ones.
     bare: VecDeque<BareNumber>,
+    /// Whether there are statements to execute.
+    fresh: bool,
     /// Whether the tool has been put where it starts.
     stood: bool,
     /// Why it goes no further.
@@ -131,6 +134,7 @@ impl<'j> Run<'j> {
             exec: Exec::new(&world, 0),
             events: VecDeque::new(),
             bare: VecDeque::new(),
+            fresh: false,
             stood: false,
             refused: None,
             over: false,
@@ -138,18 +142,20 @@ impl<'j> Run<'j> {
         }
     }
 
-    fn piece(&mut self, text: &[u8], base: u32) {
+    /// Reads a piece.
+    fn read(&mut self, text: &[u8], base: u32) {
         if self.refused.is_none() {
             self.reader.read(text, base, &mut self.batch);
             self.take_diagnostics();
-            if !self.batch.whole {
-                self.execute();
-            }
+            self.fresh = !self.batch.whole;
         }
     }
 
     /// Executes what was read, up to the first block that is refused.
     fn execute(&mut self) {
+        if !std::mem::take(&mut self.fresh) {
+            return;
+        }
         self.assume();
         let mut stmts = std::mem::take(&mut self.batch.stmts);
         let upto = self.refused.map_or(u32::MAX, |(_, at)| at.start);
@@ -213,9 +219,8 @@ impl<'j> Run<'j> {
             self.take_diagnostics();
         }
         if self.refused.is_some() || !self.batch.whole {
-            if !self.batch.whole {
-                self.execute();
-            }
+            self.fresh = !self.batch.whole;
+            self.execute();
             self.end();
             return None;
         }
@@ -254,7 +259,10 @@ pub(super) fn race(
     loop {
         match chunks.next()? {
             Chunk::Lines(base, range) => {
-                runs.iter_mut().for_each(|run| run.piece(chunks.text(range.clone()), base));
+                runs.iter_mut().for_each(|run| run.read(chunks.text(range.clone()), base));
+                if !pass(&mut runs) {
+                    runs.iter_mut().for_each(Run::execute);
+                }
             }
             Chunk::TooLong(start, end) => {
                 for run in &mut runs {
@@ -279,6 +287,36 @@ pub(super) fn race(
         return Ok(found);
     }
     Ok(whole(&programs, &mut runs).or_else(|| compare(&mut runs)).unwrap_or_else(|| undecided(&runs)))
+}
+
+/// Executes a piece once for both, where both readings are the same plain moves and both controls are in one state;
+/// whether that was done.
+fn pass(runs: &mut [Run; 2]) -> bool {
+    let [a, b] = runs;
+    let (said, own) = (&a.batch.stmts, &b.batch.stmts);
+    let ready = |run: &Run| run.fresh && run.refused.is_none() && run.events.is_empty();
+    if !ready(a)
+        || !ready(b)
+        || said.len() != own.len()
+        || !said.iter().zip(own).all(|(x, y)| same_plain(x, y))
+    {
+        return false;
+    }
+    a.assume();
+    b.assume();
+    if !a.exec.agrees(&b.exec) {
+        return false;
+    }
+    if let Err(refusal) = a.exec.pass(&a.batch.stmts) {
+        a.refuse(&refusal);
+        b.refuse(&refusal);
+    }
+    b.exec.follow(&a.exec);
+    for run in [a, b] {
+        run.batch.stmts.clear();
+        run.fresh = false;
+    }
+    true
 }
 
 /// Runs what is kept whole, so that none of the two is far ahead.
