@@ -56,6 +56,10 @@ impl Fault {
             | Fault::AssumedContourPath
             | Fault::AssumedTip
             | Fault::AssumedTilt
+            | Fault::StartedAgain { .. }
+            | Fault::OpenBehaviour { .. }
+            | Fault::MovedAtChange
+            | Fault::OptionalStopDiffers
             | Fault::PathRelaxed { .. }
             // A loss that was allowed.
             | Fault::SkipLevelLost { .. }
@@ -108,6 +112,7 @@ impl Fault {
             | Fault::Flattened { .. }
             | Fault::VariablesRenamed { .. }
             | Fault::AlarmsRenumbered { .. }
+            | Fault::SideEffectWritten { .. }
             | Fault::ValuesInFull { .. }
             | Fault::MacroApart { .. }
             | Fault::MachineCutExpanded { .. }
@@ -168,6 +173,7 @@ impl Fault {
             | Fault::SecondWorkOffset { .. }
             | Fault::FactUnsaid { .. }
             | Fault::ArcVanishes
+            | Fault::DoneByTarget { .. }
             | Fault::TargetRange { .. }
             | Fault::ProfileDenies { .. }
             | Fault::NotInMap { .. }

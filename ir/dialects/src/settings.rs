@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
+use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
@@ -32,9 +33,6 @@ pub const DECIMAL_POINT: &str = "decimal_point";
 
 /// Value of [`DECIMAL_POINT`]: whole units.
 pub const CALCULATOR: &str = "calculator";
-
-/// Option of a dictionary: what the spindle does after a tool change that says nothing of it, `open` or `stopped`.
-pub const SPINDLE_AFTER_CHANGE: &str = "spindle_after_change";
 
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
@@ -147,7 +145,18 @@ impl Settings {
 
     /// Whether a tool change leaves the spindle stopped, as the control or this machine has it.
     pub fn change_stops_spindle(&self) -> bool {
-        self.dialect.can.change_stops_spindle || self.get(SPINDLE_AFTER_CHANGE) == "stopped"
+        self.behaviours().surely(Behaviour::SpindleAtChange)
+    }
+
+    /// What codes do besides their names, as the control or this machine has it.
+    pub fn behaviours(&self) -> Behaviours {
+        let mut all = self.dialect.caps.behaviours;
+        for behaviour in Behaviour::ALL.iter().copied().filter(|b| self.dialect.caps.behaviours.is_open(*b)) {
+            if let Some(value) = behaviour.value(self.get(&behaviour.option())) {
+                all.set(behaviour, value, false);
+            }
+        }
+        all
     }
 
     /// What the dialect can say, as its options are.
@@ -167,6 +176,7 @@ impl Settings {
         if let Some(computes) = &mut caps.computes {
             computes.turn = self.get(ANGLE_RANGE) == "turn";
         }
+        caps.behaviours = self.behaviours();
         caps.change_stops_spindle = self.change_stops_spindle();
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps
