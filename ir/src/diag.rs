@@ -431,4 +431,8 @@ faults! {
     /// A macro stands alone, and every call must give it an argument that its own control lets a call leave out; where
     /// calls give their arguments one after the other, in which place (from 1; else 0).
     ArgumentNeeded { name: Box<str>, place: u32, check: ArgumentCheck } = 608, Warning;
+
+    // NC08xx: what a check of a program finds, and a translation reports too.
+    /// A move at feed with the spindle stopped, of a program that has said a speed before.
+    CutStanding = 805, Warning;
 }

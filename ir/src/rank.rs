@@ -75,7 +75,8 @@ impl Fault {
             | Fault::OutputNotTaken { .. }
             | Fault::ValueNotRead { .. }
             | Fault::NotCalled { .. }
-            | Fault::ArgumentNeeded { .. } => Rank::Check,
+            | Fault::ArgumentNeeded { .. }
+            | Fault::CutStanding => Rank::Check,
 
             Fault::AssumedMode {
                 fact:

@@ -414,6 +414,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::OutputNotTaken { .. }
         | Fault::NotCalled { .. }
         | Fault::ArgumentNeeded { .. }
+        | Fault::CutStanding
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
     }
 }

@@ -218,6 +218,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "cutter radius compensation: the same way onto the contour and off it assumed".into(),
             "each control has a way of its own; the contour between is the same".into(),
         ),
+        Fault::CutStanding => (
+            "feed move with the spindle stopped".into(),
+            "no M03 or M04 is active at this move".into(),
+        ),
         Fault::AssumedControl { taken, other } => (
             format!("read as {}; {} reads it otherwise", plain(taken), plain(other)),
             "both readings differ here first".into(),
