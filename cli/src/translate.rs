@@ -162,6 +162,7 @@ impl<'j> Line<'j> {
         let mut legaliser =
             Legaliser::new(&job.to.caps(), as_there::decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
+        legaliser.set_source(&job.source_behaviours());
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
@@ -183,7 +184,7 @@ impl<'j> Line<'j> {
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),
-            side_effects: SideEffects::new(job.from.behaviours(), job.to.behaviours()),
+            side_effects: SideEffects::new(job.source_behaviours(), job.target_behaviours()),
             legaliser,
             writer,
             text: Vec::new(),

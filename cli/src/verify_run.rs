@@ -4,7 +4,8 @@
 mod facts;
 mod whole;
 
-use facts::{Other, done_by_target, looked_at, stops_differ};
+pub(crate) use facts::stops_differ;
+use facts::{Other, done_by_target, looked_at};
 
 use std::collections::BTreeMap;
 
@@ -199,12 +200,12 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
         (None, _) | (_, None) => BTreeMap::new(),
     };
     let mut source = World::generate(seed, &from).with_external();
-    source.behaviours = job.from.behaviours();
+    source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to).with_external();
-    target.behaviours = job.to.behaviours();
+    target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;

@@ -253,8 +253,11 @@ impl Control {
         }
         if m.contains(&60) {
             // The spindle stands for the change.
+            let turning = self.m.spindle != Spindle::Stopped;
             self.m.turn(Spindle::Stopped);
+            self.m.by_itself.spindle = turning;
             self.m.change_tool()?;
+            self.m.by_itself.spindle = false;
         }
         if m.contains(&610) {
             match words.get('Q') {

@@ -449,7 +449,7 @@ impl Machine {
     /// Rapid.
     pub fn traverse(&mut self, to: Place) {
         self.lead_straight(to);
-        if to[2] != self.at[2] && !self.by_itself.moves {
+        if (to[2] - self.at[2]).abs() > 1e-6 && !self.by_itself.moves {
             self.by_itself.z = false;
             self.by_itself.z_moved = true;
         }
@@ -463,7 +463,7 @@ impl Machine {
             return self.halt("a move at feed and no F");
         }
         self.lead_straight(to);
-        let moved = to[2] != self.at[2];
+        let moved = (to[2] - self.at[2]).abs() > 1e-6;
         self.at = to;
         self.record(What::Feed);
         if moved {
@@ -642,7 +642,6 @@ impl Machine {
     /// The tool change of a Haas: spindle and coolant off, Z to machine zero, then the change (reference guide, M06).
     pub fn change_up_there(&mut self) -> Result<(), Halt> {
         self.switch_off();
-        self.by_itself.spindle = false;
         let mut up = self.at;
         up[2] = 0.0;
         (self.by_itself.z, self.by_itself.moves) = (true, true);

@@ -192,7 +192,7 @@ pub fn words(fault: &Fault, at: Context) -> Words {
         ),
         Fault::StartedAgain { behaviour } => (
             format!("{}: started again before this cut", behaviour.about()),
-            format!("{to} switches it off by itself, {from} does not"),
+            format!("{to} may have switched it off by itself, {from} has not"),
         ),
         Fault::OpenBehaviour { behaviour, source, other, .. } => (
             format!("check at the machine: {}", behaviour.about()),

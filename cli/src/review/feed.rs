@@ -3,7 +3,7 @@
 use std::io;
 use std::ops::ControlFlow;
 
-use ncc_ir::behaviour::Behaviour;
+use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Fact};
 use ncc_ir::exec::Exec;
 use ncc_ir::num::Nanos;
@@ -25,8 +25,8 @@ pub(crate) struct Settings {
     pub(crate) mute: Option<bool>,
     /// The control's own parameters of cycles.
     pub(crate) clearances: [Option<Nanos>; 2],
-    /// Whether both controls take Z to machine zero for a tool change: one of them does. Else each as it does.
-    pub(crate) change_at_zero: bool,
+    /// What codes do besides their names, if both controls are taken to do the same; else each does as it does.
+    pub(crate) behaviours: Option<Behaviours>,
 }
 
 /// Executes a side and hands out its records, piece by piece; `take` may break off.
@@ -39,8 +39,10 @@ pub(crate) fn records(
     take: &mut dyn FnMut(Batch) -> ControlFlow<()>,
 ) -> io::Result<Course> {
     let mut worlds = worlds(&side.job, settings.clearances);
-    if settings.change_at_zero {
-        worlds.iter_mut().for_each(|world| world.behaviours.set(Behaviour::ZAtChange, 1, false));
+    if let Some(behaviours) = settings.behaviours {
+        for world in &mut worlds {
+            (world.behaviours, world.optional_stop) = (behaviours, true);
+        }
     }
     let controls: Vec<Exec> = worlds
         .iter()

@@ -174,11 +174,12 @@ pub(super) fn looked_at(job: &Job) -> [u64; 2] {
 }
 
 /// Whether the switch for optional stops makes a difference: spindle and coolant stop there on one of the controls.
-pub(super) fn stops_differ(job: &Job) -> bool {
+pub(crate) fn stops_differ(job: &Job) -> bool {
     let stops = |behaviours: Behaviours| {
         behaviours.does(Behaviour::SpindleAtStop) || behaviours.does(Behaviour::CoolantAtStop)
     };
-    job.between_controls() && [&job.from, &job.to].into_iter().any(|side| stops(side.behaviours()))
+    let [from, to] = [job.from.behaviours(), job.target_behaviours()].map(stops);
+    from != to || job.between_controls() && from
 }
 
 /// Behaviours that statements come to, a bit each, and whether an optional stop is among them.

@@ -93,7 +93,12 @@ impl Exec {
         }
         self.before_change(span, out)?;
         self.state.tool = self.selected;
-        self.emit(Kind::ToolChange, span, out)
+        let emitted = self.emit(Kind::ToolChange, span, out);
+        if self.state.by_control & by_control::Z == 0 {
+            // With Z where the program has put it, every move may need the spindle.
+            self.said_by_program(by_control::SPINDLE);
+        }
+        emitted
     }
 
     /// A tool change, before its event: the control may take Z to machine zero, where it stays.
@@ -103,8 +108,6 @@ impl Exec {
     #[cold]
     fn before_change(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         self.switch_off(Behaviour::SpindleAtChange, Behaviour::CoolantAtChange);
-        // A spindle that the program needs after the change, it says there: nobody starts it again by itself.
-        self.said_by_program(by_control::SPINDLE);
         if !self.does(Behaviour::ZAtChange) {
             return Ok(());
         }

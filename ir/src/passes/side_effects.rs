@@ -49,6 +49,9 @@ pub struct SideEffects {
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
+    /// The operation that starts the spindle, where a whole program has no other one: a spindle that may turn turns by
+    /// this.
+    only_sense: Option<Op>,
 }
 
 /// Spindle, coolant: what each does at a stop, at a change and at the end.
@@ -67,6 +70,7 @@ impl SideEffects {
             again: [None, None],
             z_home: true,
             machine: false,
+            only_sense: None,
         }
     }
 
@@ -85,11 +89,18 @@ impl SideEffects {
         for mut stmt in std::mem::take(stmts) {
             if let Op::Control(control) = &mut stmt.op {
                 self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
+                let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
+                let mut left = [None, None];
                 for body in control.bodies_mut() {
-                    self.elsewhere();
+                    self.enter(keeps);
                     self.over(body, diags);
+                    // What a stop in a body has switched off may be off after it.
+                    for (left, own) in left.iter_mut().zip(&mut self.again) {
+                        *left = left.take().or(own.take());
+                    }
                 }
-                self.elsewhere();
+                self.enter(keeps);
+                self.again = left;
                 made.push(stmt);
                 continue;
             }
@@ -100,11 +111,21 @@ impl SideEffects {
 
     /// Rewrites the bodies of procedures; what their callers have switched on is not known.
     pub fn run(&mut self, procedures: &mut [Procedure], diags: &mut Vec<Diagnostic>) {
+        self.only_sense = only_sense(procedures);
         for (at, procedure) in procedures.iter_mut().enumerate() {
             if at > 0 {
                 self.elsewhere();
             }
             self.over(&mut procedure.body, diags);
+        }
+    }
+
+    /// A body begins, or ends, that may be executed several times or not at all; `keeps`: it switches nothing.
+    fn enter(&mut self, keeps: bool) {
+        if keeps {
+            (self.z_home, self.machine) = (false, false);
+        } else {
+            self.elsewhere();
         }
     }
 
@@ -168,8 +189,14 @@ impl SideEffects {
             let other = target_stops && !source_stops
                 || self.target.is_open(behaviour) && !self.source.is_open(behaviour) && !source_stops;
             let restarts = behaviour != Behaviour::SpindleAtChange && both != END;
-            if let (true, true, Switch::On(ops)) = (other, restarts, &*state) {
-                self.again[at] = Some((behaviour, ops.clone()));
+            let ops = match &*state {
+                Switch::On(ops) => Some(ops.clone()),
+                Switch::Unknown if at == 0 => self.only_sense.clone().map(|op| vec![op]),
+                Switch::Unknown => None,
+                Switch::Off => None,
+            };
+            if let (true, true, Some(ops)) = (other, restarts, ops) {
+                self.again[at] = Some((behaviour, ops));
             }
         }
         let at = insertion(made, stmt);
@@ -188,7 +215,7 @@ impl SideEffects {
     /// Whether Z goes to machine zero in words before a tool change.
     fn goes_home(&self) -> bool {
         let behaviour = Behaviour::ZAtChange;
-        self.source.surely(behaviour) && !self.target.surely(behaviour) && !self.z_home
+        self.source.surely(behaviour) && !self.target.does(behaviour) && !self.z_home
     }
 
     /// Z at a tool change.
@@ -298,6 +325,40 @@ impl SideEffects {
     }
 }
 
+/// Whether an operation switches spindle or coolant, or may.
+fn switches(op: &Op) -> bool {
+    match op {
+        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op))),
+        Op::StartCycle(cycle) => cycle.kind.drives_spindle(),
+        Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::OrientSpindle(_)
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff => true,
+        op => is_code(op) || matches!(op, flow!()),
+    }
+}
+
+/// The operation that starts the spindle of a program, if there is but one.
+fn only_sense(procedures: &[Procedure]) -> Option<Op> {
+    fn find(body: &[Stmt], found: &mut Vec<Op>) {
+        for stmt in body {
+            let starts = matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise);
+            if starts && !found.contains(&stmt.op) {
+                found.push(stmt.op.clone());
+            }
+            if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| find(body, found));
+            }
+        }
+    }
+    let mut found = Vec::new();
+    procedures.iter().for_each(|procedure| find(&procedure.body, &mut found));
+    found.pop().filter(|_| found.is_empty())
+}
+
 /// Whether a code does something besides its name on some control.
 fn is_code(op: &Op) -> bool {
     match op {
@@ -329,8 +390,17 @@ fn insertion(made: &[Stmt], stmt: &Stmt) -> usize {
         return made.len();
     }
     let first = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
-    let selects =
-        |op: &Op| matches!(op, Op::SelectTool(_) | Op::SelectToolByName(_) | Op::Comment(_) | Op::Blank);
+    let selects = |op: &Op| {
+        matches!(
+            op,
+            Op::SelectTool(_)
+                | Op::SelectToolByName(_)
+                | Op::Comment(_)
+                | Op::Blank
+                | Op::Message(_)
+                | Op::MessageOf(_)
+        )
+    };
     match made[first..].iter().all(|stmt| selects(&stmt.op)) {
         true => first,
         false => made.len(),
