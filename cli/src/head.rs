@@ -31,7 +31,7 @@ pub(crate) fn lines(
         lines.push(format!("called: {name} sha256 {hash}"));
     }
     if !questions.is_empty() {
-        let own: Vec<String> = questions.iter().map(|question| questions::taken(question)).collect();
+        let own: Vec<String> = questions.iter().map(questions::taken).collect();
         lines.push(format!("not answered: {}", own.join("; ")));
     }
     let dialects = [job.to.dialect, job.from.dialect];
