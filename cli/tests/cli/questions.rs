@@ -57,7 +57,7 @@ fn answers_make_what_they_say() {
     // A program that states its unit keeps it.
     assert!(made("fanuc to siemens plain.nc --units inch").contains("G710 "));
     // A profile answers for good; a command line that contradicts it is wrong.
-    let profile = "id = \"shop\"\ndialect = \"fanuc\"\n[power_on]\nunits = \"inch\"\n[options]\ndecimal_point = \"calculator\"\n";
+    let profile = "id = \"shop\"\ntitle = \"Shop\"\ndialect = \"fanuc\"\n[power_on]\nunits = \"inch\"\n[options]\ndecimal_point = \"calculator\"\n";
     fs::write(at.join("shop.toml"), profile).unwrap();
     let both = made("translate --machine-from shop.toml --to siemens both.nc");
     assert!(both.contains("G700 ") && both.contains(" Z100\n"), "{both}");
