@@ -5,6 +5,7 @@ use std::io::Cursor;
 
 use codespan_reporting::term::termcolor::NoColor;
 use ncc::job::{Job, Outcome};
+use ncc::questions::Policy;
 use ncc::render::About;
 use ncc::render::human::{self, Loudness};
 use ncc::rewrite::pass;
@@ -29,6 +30,8 @@ pub fn settings(id: &str) -> Settings {
 pub fn job(from: &str, to: &str, file: &str) -> Job {
     Job {
         layout: ncc_backends::Layout { numbering: ncc_backends::Numbering::Keep, crlf: false },
+        // `suite/questions.rs` has which programs have two readings.
+        questions: Policy::Assume,
         ..Job::new(settings(from), settings(to), file)
     }
 }
@@ -55,7 +58,7 @@ pub fn computes(program: &corpus::Program) -> bool {
 /// # Panics
 /// The anonymous file of the output fails.
 pub fn translate(job: &Job, text: &[u8]) -> (Outcome, Vec<u8>) {
-    let mut outcome = ncc::translate::translate(job, &mut &text[..]).expect("an output in memory");
+    let mut outcome = ncc::translate::translate(job, &mut Cursor::new(text)).expect("an output in memory");
     let written = match outcome.release {
         Ok(()) => outcome.output.to_vec().expect("an output in memory"),
         Err(_) => Vec::new(),

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ncc_backends::Numbering;
-use ncc_ir::canon::{AXES, Axis};
+use ncc_ir::canon::{AXES, Axis, Units};
 use ncc_ir::diag::Verdict;
 use ncc_ir::num::{Nanos, Num, Unit};
 use ncc_ir::passes::Pass;
@@ -37,7 +37,8 @@ pub struct Cli {
     /// POCKET.SPF [may be repeated]
     #[arg(short = 'I', long = "include", global = true, value_name = "DIR")]
     pub include: Vec<PathBuf>,
-    /// Read every program as a milling program, even one that looks like a lathe's: `--assume milling`
+    /// Go on where a program has two readings, with ncc's own; head and report name the questions first.
+    /// `--assume milling`: read every program as a milling program too, even one that looks like a lathe's
     #[arg(
         long,
         global = true,
@@ -50,6 +51,9 @@ pub struct Cli {
         display_order = 999
     )]
     pub assume: Option<Option<Assumed>>,
+    /// The unit of lengths of a source that never states it
+    #[arg(long, global = true, value_name = "mm|inch", value_enum, hide_possible_values = true)]
+    pub units: Option<UnitsArg>,
     /// Colour of the messages; `auto` is if stderr is a terminal and NO_COLOR is not set
     #[arg(
         long,
@@ -353,6 +357,24 @@ pub enum Eol {
     Lf,
     /// CR LF
     Crlf,
+}
+
+/// The unit of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum UnitsArg {
+    /// Millimetres
+    Mm,
+    /// Inches
+    Inch,
+}
+
+impl From<UnitsArg> for Units {
+    fn from(units: UnitsArg) -> Units {
+        match units {
+            UnitsArg::Mm => Units::Mm,
+            UnitsArg::Inch => Units::Inch,
+        }
+    }
 }
 
 /// Form of the messages.

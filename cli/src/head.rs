@@ -9,12 +9,14 @@ use ncc_ir::maps::Numbered;
 use ncc_ir::program::Text;
 
 use crate::job::Job;
-use crate::render::words;
+use crate::questions::Question;
+use crate::render::{questions, words};
 
 /// The lines of the comment.
 pub(crate) fn lines(
     job: &Job,
     hash: &[u8; 32],
+    questions: &[Question],
     diagnostics: &[Diagnostic],
     renumbered: &BTreeSet<(Numbered, Text, Text)>,
 ) -> Vec<String> {
@@ -27,6 +29,10 @@ pub(crate) fn lines(
         let name = std::path::Path::new(&file.name).file_name();
         let name = name.map_or(file.name.clone().into(), |name| name.to_string_lossy());
         lines.push(format!("called: {name} sha256 {hash}"));
+    }
+    if !questions.is_empty() {
+        let own: Vec<String> = questions.iter().map(questions::taken).collect();
+        lines.push(format!("not answered: {}", own.join("; ")));
     }
     let dialects = [job.to.dialect, job.from.dialect];
     let mut seen = BTreeSet::new();
@@ -89,6 +95,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::AssumedTip => {
             "rotary axes, and the zero of the tool's tip, as on the other control".to_owned()
         }
+        Fault::AssumedControl { taken, other } => format!("control = {taken}, not {other}"),
         Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
         Fault::AssumedContourPath => "compensation worked out as RS274/NGC has it".to_owned(),
         Fault::StartedAgain { behaviour } => {

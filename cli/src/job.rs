@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use ncc_backends::Layout;
-use ncc_dialects::Settings;
+use ncc_dialects::{Dialect, Settings};
 use ncc_frontends::Reader;
 use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::beside::Rules;
@@ -23,6 +23,7 @@ use tempfile::SpooledTempFile;
 use crate::called::Called;
 use crate::given::Given;
 use crate::machines::pair::Machines;
+use crate::questions::{Policy, Question};
 
 /// The pass that writes the path of the tool's centre.
 const EXPAND_COMPENSATION: &str = "expand-compensation";
@@ -60,6 +61,10 @@ pub struct Job {
     pub called: Option<Called>,
     /// What is taken for granted of the source before it is read.
     pub assumed: Vec<Diagnostic>,
+    /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
+    pub rivals: Vec<&'static Dialect>,
+    /// What is done about questions: facts that the program does not state and that change its cut.
+    pub questions: Policy,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
     /// Verdicts that would not stop a translation, and shall.
@@ -85,6 +90,8 @@ impl Job {
             source_name: source_name.into(),
             called: None,
             assumed: Vec::new(),
+            rivals: Vec::new(),
+            questions: Policy::default(),
             allow: Vec::new(),
             deny: Vec::new(),
         }
@@ -176,6 +183,9 @@ pub struct Outcome {
     pub renumbered: BTreeSet<(Numbered, Text, Text)>,
     /// Which facts of the machines the assumptions among them rest on.
     pub rests: Vec<Rest>,
+    /// Facts that the program does not state and that change its cut, the most dangerous first. They stop the
+    /// translation, or were answered with ncc's own readings.
+    pub questions: Vec<Question>,
     /// What the verification covered; `None` if it was not asked for or did not come to its end.
     pub verified: Option<Verified>,
     /// Whether the output may be used, and if not, why.
@@ -193,6 +203,13 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// Whether open questions alone stop the translation.
+    pub fn is_asked(&self, job: &Job) -> bool {
+        self.release == Err(Failure::Refused)
+            && !self.questions.is_empty()
+            && !self.diagnostics.iter().any(|diagnostic| job.refuses(diagnostic))
+    }
+
     /// How many constructs came through with a verdict.
     pub fn count(&self, verdict: Verdict) -> u64 {
         self.counts[verdict as usize]
@@ -224,7 +241,7 @@ pub struct Verified {
 /// Why an output is not released.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// The program has errors, or a loss is not allowed: exit code 1.
+    /// The program has errors, a loss is not allowed, or a question is open: exit code 1.
     Refused,
     /// Source and output were not shown to do the same: exit code 3.
     VerificationFailed,

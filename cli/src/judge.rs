@@ -29,7 +29,7 @@ impl<'j> Judge<'j> {
     /// # Errors
     /// As of [`crate::translate::translate`].
     pub fn new(job: &'j Job, source: &[u8]) -> io::Result<Judge<'j>> {
-        let (outcome, inherited) = translate_keeping(job, &mut &source[..])?;
+        let (outcome, inherited) = translate_keeping(job, &mut io::Cursor::new(source))?;
         let mut reader = job.reader(true);
         let mut batch = Batch::default();
         reader.read(source, 0, &mut batch);

@@ -16,6 +16,8 @@ use ncc_dialects::{
     Dialect, DialectError, DialectFault, Place, Text, builtin, builtin_ids, builtin_text, builtins, load,
 };
 
+use ncc_ir::canon::Units;
+
 use crate::problem::{Exit, Problem};
 
 /// Every dialect that can be named in this call. Of the built-in ones, those are read that are asked for.
@@ -28,6 +30,10 @@ pub struct Known {
     folders: Vec<PathBuf>,
     /// Whether every program is taken for a milling program.
     all_for_mills: bool,
+    /// Whether ncc's own readings are taken where a program has two.
+    assumes: bool,
+    /// Units of lengths of sources that never state them, as far as the user has stated them.
+    units: Option<Units>,
 }
 
 impl Known {
@@ -96,6 +102,16 @@ impl Known {
         Ok(())
     }
 
+    /// Says in which units sources are that never state them.
+    pub fn state_units(&mut self, units: Option<Units>) {
+        self.units = units;
+    }
+
+    /// Units of sources that never state them, as far as the user has stated them.
+    pub fn units(&self) -> Option<Units> {
+        self.units
+    }
+
     /// Folders in which called programs are looked for.
     pub fn folders(&self) -> &[PathBuf] {
         &self.folders
@@ -104,6 +120,16 @@ impl Known {
     /// Takes every program for a milling program, whatever it looks like.
     pub fn assume_milling(&mut self) {
         self.all_for_mills = true;
+    }
+
+    /// Takes ncc's own readings where a program has two.
+    pub fn assume_readings(&mut self) {
+        self.assumes = true;
+    }
+
+    /// Whether ncc's own readings are taken where a program has two.
+    pub fn assumes(&self) -> bool {
+        self.assumes
     }
 
     /// Whether every program is taken for a milling program.

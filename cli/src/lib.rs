@@ -29,6 +29,7 @@ mod order;
 pub mod plot;
 pub mod problem;
 pub mod provenance;
+pub mod questions;
 pub mod render;
 pub mod report;
 pub mod review;

@@ -161,6 +161,7 @@ impl Refusal {
             code: format!("NC{CODE:04}"),
             severity: Severity::Error,
             verdict: None,
+            rank: None,
             message: headline(finding),
             place: Place { span: spans[0], start, end, text, label },
             related: Vec::new(),

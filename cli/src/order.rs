@@ -6,6 +6,7 @@
 use codespan_reporting::term::termcolor::WriteColor;
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
+use ncc_ir::canon::Units;
 use ncc_machines::reading::Side;
 
 use crate::args::{Eol, Translate};
@@ -15,7 +16,8 @@ use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
 use crate::problem::Problem;
 use crate::provenance::annotate;
-use crate::run::{INTO_WHAT, settings};
+use crate::questions::Policy;
+use crate::run::{INTO_WHAT, settings, state_units};
 
 /// What all programs of a command have in common.
 #[derive(Debug)]
@@ -30,6 +32,10 @@ pub(crate) struct Order {
     pub(crate) named: Option<&'static Dialect>,
     /// The same with what was chosen of it. What a profile states is put in once: it is kept for good.
     from: Option<Settings>,
+    /// The units of sources that never state them.
+    units: Option<Units>,
+    /// Whether ncc's own readings are taken where a program has two.
+    assumes: bool,
 }
 
 impl Order {
@@ -61,8 +67,12 @@ impl Order {
             args.from.as_deref().filter(|id| *id != "auto").map(|id| known.dialect(id)).transpose()?;
         let named = agreed(named, machines.from.as_deref(), "from")?;
         let from = named.map(|from| settings(machines.settings(Side::From, from), &args.from_option));
+        let mut from = from.transpose()?;
+        if let Some(from) = &mut from {
+            state_units(from, known.units())?;
+        }
         let given = args.args.as_deref().map(Given::read).transpose()?.unwrap_or_default();
-        Ok(Order { from: from.transpose()?, machines, to, given, named })
+        Ok(Order { from, machines, to, given, named, units: known.units(), assumes: known.assumes() })
     }
 
     /// Line ends, as far as they are the same for all.
@@ -83,7 +93,11 @@ impl Order {
     ) -> Result<Job, Problem> {
         let from = match &self.from {
             Some(settings) => settings.clone(),
-            None => settings(self.machines.settings(Side::From, from), &args.from_option)?,
+            None => {
+                let mut own = settings(self.machines.settings(Side::From, from), &args.from_option)?;
+                state_units(&mut own, self.units)?;
+                own
+            }
         };
         Ok(Job {
             from,
@@ -100,6 +114,8 @@ impl Order {
             source_name: source_name.to_owned(),
             called: None,
             assumed: Vec::new(),
+            rivals: Vec::new(),
+            questions: if self.assumes { Policy::Assume } else { Policy::Ask },
             allow: args.allow.clone(),
             deny: args.deny.clone(),
         })

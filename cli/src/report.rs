@@ -8,6 +8,7 @@ use std::io::{self, Write};
 
 use ncc_dialects::Settings;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_ir::rank::Rank;
 use ncc_machines::reading::key_of;
 use serde::Serialize;
 use serde::ser::{SerializeMap, SerializeSeq, Serializer};
@@ -16,7 +17,7 @@ use crate::called;
 use crate::job::{Failure, Job, Outcome};
 use crate::render::json::Entry;
 use crate::render::words::Context;
-use crate::render::{About, summary};
+use crate::render::{About, questions, summary};
 
 #[derive(Serialize)]
 struct Source<'a> {
@@ -133,6 +134,8 @@ struct Renumbered<'a> {
 struct Assumption {
     code: String,
     text: String,
+    /// As of a diagnostic.
+    rank: Option<&'static str>,
     uses: usize,
 }
 
@@ -185,6 +188,9 @@ pub fn write(out: &mut dyn Write, about: &mut About, outcome: &Outcome) -> io::R
     map.serialize_entry("result", summary.result)?;
     map.serialize_entry("verification", &summary.verification)?;
     let names = |verdicts: &[Verdict]| verdicts.iter().map(|v| v.name()).collect::<Vec<_>>();
+    // The most dangerous first; they stop the translation but under `--assume`.
+    let questions = questions::ask(about, &outcome.questions)?;
+    map.serialize_entry("questions", &questions)?;
     map.serialize_entry("allow", &names(&job.allow))?;
     map.serialize_entry("deny", &names(&job.deny))?;
     map.serialize_entry("verdicts", &summary.verdicts)?;
@@ -217,10 +223,15 @@ fn assumptions(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Assumption> {
         match list.iter_mut().find(|a| a.text == text) {
             Some(assumption) => assumption.uses += 1,
             None => {
-                list.push(Assumption { code: format!("NC{:04}", diagnostic.fault.code()), text, uses: 1 })
+                let code = format!("NC{:04}", diagnostic.fault.code());
+                list.push(Assumption { code, text, rank: diagnostic.fault.rank().map(Rank::name), uses: 1 });
             }
         }
     }
+    // The most dangerous first; those of one rank as they were met.
+    let place =
+        |assumption: &Assumption| Rank::ALL.iter().position(|rank| Some(rank.name()) == assumption.rank);
+    list.sort_by_key(place);
     list
 }
 

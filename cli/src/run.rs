@@ -8,6 +8,7 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser};
 use codespan_reporting::term::termcolor::{Buffer, ColorChoice, StandardStream, WriteColor};
 use ncc_dialects::{Dialect, SettingError, Settings};
+use ncc_ir::canon::Units;
 use ncc_ir::passes::PASSES;
 
 use crate::args::{Cli, Color, DialectsWhat, Eol, Format, Style, Translate, Verb};
@@ -21,7 +22,7 @@ use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::provenance::{map, why};
 use crate::render::human::Loudness;
-use crate::render::{About, human, json, summary};
+use crate::render::{About, human, json, questions, summary};
 use crate::sugar::{Said, rewrite};
 use crate::{
     arrow, batch, called, check, dialect_test, dialects, doctor, explain, fmt, listing, machines, plot,
@@ -54,11 +55,9 @@ pub fn run(arguments: Vec<OsString>) -> Exit {
     match cli.assume {
         None => {}
         Some(Some(Assumed::Milling)) => known.assume_milling(),
-        Some(None) => {
-            let problem = Problem::usage("--assume takes what for granted?", "write `--assume milling`");
-            return fail(&problem, &mut err, as_json);
-        }
+        Some(None) => known.assume_readings(),
     }
+    known.state_units(cli.units.map(Units::from));
     if let Err(problem) = known.look_in(&cli.include) {
         return fail(&problem, &mut err, as_json);
     }
@@ -218,9 +217,9 @@ fn translated(
     if let Some(map) = args.map.as_ref().filter(|map| args.report.as_ref() == Some(map)) {
         return Err(both(map, "report and map"));
     }
-    let from = match order.named {
-        Some(dialect) => dialect,
-        None => recognise(&mut source, !args.telling.quiet && args.format == Format::Human, known, err)?,
+    let (from, rivals) = match order.named {
+        Some(dialect) => (dialect, Vec::new()),
+        None => recognise_all(&mut source, !args.telling.quiet && args.format == Format::Human, known, err)?,
     };
     let crlf = match order.eol(args) {
         Eol::Lf => false,
@@ -228,6 +227,7 @@ fn translated(
         Eol::Keep => source.is_crlf()?,
     };
     let mut job = order.job(args, from, &source.name, crlf)?;
+    job.rivals = rivals;
     called::gather(&mut source, &job.from, known.folders())?;
     job.called.clone_from(&source.called);
     job.assumed.clone_from(&source.assumed);
@@ -269,7 +269,11 @@ fn translated(
     }
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, &mut about, &outcome, err);
-    if outcome.release == Err(Failure::Refused) && !args.telling.quiet && args.format == Format::Human {
+    if outcome.release == Err(Failure::Refused)
+        && !outcome.is_asked(&job)
+        && !args.telling.quiet
+        && args.format == Format::Human
+    {
         let _ = doubt_dialect(&mut source, &job, known, err);
     }
     if let (Some(to), Ok(()), false) = (arrow, outcome.release, args.telling.quiet) {
@@ -292,12 +296,18 @@ pub(crate) fn tell(
     match args.format {
         Format::Json => {
             let mut out = crate::problem::as_write(err);
+            for asked in questions::ask(about, &outcome.questions)? {
+                json::line(&mut out, &asked)?;
+            }
             json::print(&mut out, about, &outcome.diagnostics, loudness)?;
             if loudness != Loudness::Quiet {
                 json::line(&mut out, &report::Summary::of(outcome))?;
             }
         }
         Format::Human => {
+            if loudness != Loudness::Quiet || outcome.release.is_err() {
+                questions::print(err, about, &outcome.questions)?;
+            }
             human::print(err, about, &outcome.diagnostics, loudness)?;
             if loudness != Loudness::Quiet {
                 summary::print(err, about, outcome)?;
@@ -349,13 +359,26 @@ pub(crate) fn recognise(
     known: &Known,
     err: &mut dyn WriteColor,
 ) -> Result<&'static Dialect, Problem> {
+    recognise_all(source, say, known, err).map(|(dialect, _)| dialect)
+}
+
+/// The same, and the dialects that explain the source as well.
+///
+/// # Errors
+/// As of [`recognise`].
+pub(crate) fn recognise_all(
+    source: &mut Source,
+    say: bool,
+    known: &Known,
+    err: &mut dyn WriteColor,
+) -> Result<(&'static Dialect, Vec<&'static Dialect>), Problem> {
     let found = guess(&mut source.file, known.all()).map_err(|e| Problem::file("read", &source.shown, &e))?;
     match found {
-        Guess::Sure(dialect, reasons) => {
+        Guess::Sure(dialect, reasons, rivals) => {
             if say {
                 let _ = writeln!(err, "{}: read as {}: {}", source.shown, dialect.id, reasons.join(", "));
             }
-            Ok(dialect)
+            Ok((dialect, rivals))
         }
         Guess::Unsure(_) if source.is_blank()? => Err(Problem {
             exit: Exit::Refused,
@@ -388,6 +411,25 @@ pub(crate) fn recognise(
 fn passes() -> String {
     let wide = PASSES.iter().map(|pass| pass.name.len()).max().unwrap_or(0);
     PASSES.iter().map(|pass| format!("{:wide$}  {}\n", pass.name, pass.about)).collect()
+}
+
+/// States the units at power-on of a source, as far as the user has.
+///
+/// # Errors
+/// Its control always has others, or its machine's profile states them.
+pub(crate) fn state_units(settings: &mut Settings, units: Option<Units>) -> Result<(), Problem> {
+    let Some(units) = units else { return Ok(()) };
+    if settings.state_units(units) {
+        return Ok(());
+    }
+    let own = match units {
+        Units::Mm => "inch",
+        Units::Inch => "mm",
+    };
+    Err(Problem::usage(
+        format!("--units contradicts what is known: {} begins in {own}", settings.dialect.id),
+        "leave --units out, or correct the profile of the machine",
+    ))
 }
 
 /// Settings with what the user has chosen.

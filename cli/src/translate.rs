@@ -6,11 +6,12 @@
 
 mod alone;
 mod as_there;
+mod heading;
 
 use as_there::target;
 
 use std::collections::{BTreeSet, HashMap};
-use std::io::{self, Read};
+use std::io;
 
 use ncc_backends::{Head, Origin, Writer};
 use ncc_frontends::{Batch, Reader};
@@ -30,11 +31,12 @@ use ncc_ir::valid::{anything, computing, leads_nowhere};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
-use crate::head;
 use crate::job::{Failure, Job, Outcome, Output, Rest};
 use crate::machines::pair::Answer;
 use crate::provenance::annotate::Annotator;
 use crate::provenance::trace::{Asked, Recorded, Trace};
+use crate::questions::{self, Policy, Question};
+use crate::render::source::Source;
 use crate::rewrite::{self, Folder};
 use crate::verify_run::{Stop, Verifier, fixed};
 
@@ -58,7 +60,7 @@ const ENOUGH_ERRORS: usize = 200;
 /// # Errors
 /// Reading the source or writing the anonymous file of the output failed. What is wrong with the
 /// program itself is in the outcome.
-pub fn translate(job: &Job, source: &mut dyn Read) -> io::Result<Outcome> {
+pub fn translate(job: &Job, source: &mut dyn Source) -> io::Result<Outcome> {
     Ok(translate_keeping(job, source)?.0)
 }
 
@@ -70,19 +72,19 @@ pub fn translate(job: &Job, source: &mut dyn Read) -> io::Result<Outcome> {
 pub fn translate_recording(
     job: &Job,
     asked: Asked,
-    source: &mut dyn Read,
+    source: &mut dyn Source,
 ) -> io::Result<(Outcome, Option<Recorded>)> {
     let (outcome, _, record) = run(job, asked, source)?;
     Ok((outcome, record))
 }
 
 /// Translates a program; tells also which assumed facts the output does not state itself.
-pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Read) -> io::Result<(Outcome, Modes)> {
+pub(crate) fn translate_keeping(job: &Job, source: &mut dyn Source) -> io::Result<(Outcome, Modes)> {
     let (outcome, inherited, _) = run(job, Asked::default(), source)?;
     Ok((outcome, inherited))
 }
 
-fn run(job: &Job, asked: Asked, source: &mut dyn Read) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
+fn run(job: &Job, asked: Asked, source: &mut dyn Source) -> io::Result<(Outcome, Modes, Option<Recorded>)> {
     let mut chunks = Chunks::new(source);
     let mut line = Line::new(job);
     line.record(asked);
@@ -107,6 +109,11 @@ fn run(job: &Job, asked: Asked, source: &mut dyn Read) -> io::Result<(Outcome, M
         (_, Some(called)) => (called.sha256, called.bytes),
         (own, None) => own,
     };
+    let questions = match job.questions {
+        Policy::Skip => Vec::new(),
+        Policy::Ask | Policy::Assume => questions::find(job, source, &line.diagnostics, line.errors == 0)?,
+    };
+    line.answer(questions);
     let inherited = line.inherited(&line.batch.assumed);
     let record = line.trace.take();
     let outcome = line.outcome(hash, bytes);
@@ -138,6 +145,7 @@ struct Line<'j> {
     written: u64,
     diagnostics: Vec<Diagnostic>,
     rests: Vec<Rest>,
+    questions: Vec<Question>,
     /// Numbers of the output's subprograms.
     numbers: BTreeSet<u32>,
     /// Whether the shop's lines before the end of the program are written.
@@ -192,6 +200,7 @@ impl<'j> Line<'j> {
             written: 0,
             diagnostics: Vec::new(),
             rests: Vec::new(),
+            questions: Vec::new(),
             footed: false,
             numbers: BTreeSet::new(),
             errors: 0,
@@ -644,6 +653,8 @@ impl<'j> Line<'j> {
             Err(Failure::Refused)
         } else if self.failed {
             Err(Failure::VerificationFailed)
+        } else if self.job.questions == Policy::Ask && !self.questions.is_empty() {
+            Err(Failure::Refused)
         } else {
             Ok(())
         };
@@ -660,6 +671,7 @@ impl<'j> Line<'j> {
             program_number,
             renumbered: self.renumbering.used().clone(),
             rests: self.rests,
+            questions: self.questions,
             verified,
             release,
             output: self.output,
@@ -668,31 +680,6 @@ impl<'j> Line<'j> {
             source_bytes: bytes,
             blocks: self.blocks,
         }
-    }
-
-    /// The output's program name: the source's own; where the target needs one and the source has
-    /// none, one made from the file's name.
-    fn name(&mut self) -> ProgramName {
-        let mut name = self.renumbering.name(&self.batch.name);
-        if self.job.to.dialect.program.main_number().is_some() {
-            // The lowest number that no subprogram has.
-            let free = (1..).find(|n| !self.numbers.contains(n));
-            name.number = self.job.program_number.or(name.number).or(free);
-            if name.title.is_none() {
-                let stem = self.job.source_name.rsplit_once('.').map_or(&*self.job.source_name, |n| n.0);
-                name.title = (stem != "-" && !stem.is_empty()).then(|| stem.to_uppercase().into());
-            }
-        }
-        name
-    }
-
-    fn head_lines(&self, hash: &[u8; 32]) -> Vec<String> {
-        let mut lines = match self.job.head {
-            true => head::lines(self.job, hash, &self.diagnostics, self.renumbering.used()),
-            false => Vec::new(),
-        };
-        lines.extend(self.job.machines.layout().header);
-        lines
     }
 }
 

@@ -302,6 +302,8 @@ faults! {
     AssumedTip = 320, verdict(Verdict::Assumed);
     /// The tool is turned onto a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
+    /// The source's control was recognised by its text, which fits another one as well, and that one reads it otherwise.
+    AssumedControl { taken: Box<str>, other: Box<str> } = 332, verdict(Verdict::Assumed);
     /// A stop or a tool change of the target's control switches something off that the source's control lets go on:
     /// it is started again before the next cut.
     StartedAgain { behaviour: Behaviour } = 322, verdict(Verdict::Assumed);
@@ -447,4 +449,8 @@ faults! {
     /// A macro stands alone, and every call must give it an argument that its own control lets a call leave out; where
     /// calls give their arguments one after the other, in which place (from 1; else 0).
     ArgumentNeeded { name: Box<str>, place: u32, check: ArgumentCheck } = 608, Warning;
+
+    // NC08xx: what a check of a program finds, and a translation reports too.
+    /// A move at feed with the spindle stopped, of a program that has said a speed before.
+    CutStanding = 805, Warning;
 }

@@ -37,6 +37,7 @@ pub mod passes;
 pub mod places;
 pub mod polar;
 pub mod program;
+pub mod rank;
 pub mod round;
 pub mod shown;
 pub mod source;

@@ -134,6 +134,11 @@ fn machine_function(row: &MCodeRow, dialect: &mut Dialect) {
 /// Puts a stated fact in, as one that always holds.
 fn put<T: Copy, U>(row: &mut Option<PowerOnFact<U>>, said: &Fact<T>, as_row: impl Fn(T) -> Option<U>) {
     if let Some(value) = said.value.and_then(as_row) {
-        *row = Some(PowerOnFact { value, always: true, source: "the machine's profile".to_owned() });
+        *row = Some(PowerOnFact {
+            value,
+            always: true,
+            of_the_machine: false,
+            source: "the machine's profile".to_owned(),
+        });
     }
 }

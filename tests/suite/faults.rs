@@ -7,7 +7,8 @@ use ncc_tests::expect::{self, Failures};
 use ncc_tests::translate::{job, stopping, told, translate};
 
 /// Programs that are only warned of; all others must be refused.
-const ONLY_WARNED: [&str; 4] = ["no-end", "nobody-calls", "text-after-end", "no-percent-end"];
+const ONLY_WARNED: [&str; 6] =
+    ["no-end", "nobody-calls", "text-after-end", "no-percent-end", "spindle-stands", "spindle-stopped"];
 
 #[test]
 fn wrong_programs_and_their_diagnostics() {

@@ -27,6 +27,7 @@ mod pages;
 mod pairs;
 mod passes;
 mod provenance;
+mod questions;
 mod recognise;
 mod rows;
 mod rs274;

@@ -36,7 +36,8 @@ struct Mapped {
 fn recorded(job: &Job, asked: Asked, program: &Program) -> Option<(Outcome, Vec<u8>, Option<Value>)> {
     let text = &program.text;
     let (mut outcome, record) =
-        ncc::translate::translate_recording(job, asked, &mut &text[..]).expect("an output in memory");
+        ncc::translate::translate_recording(job, asked, &mut std::io::Cursor::new(text))
+            .expect("an output in memory");
     outcome.release.ok()?;
     let written = outcome.output.to_vec().expect("an output in memory");
     let map = record.map(|record| {

@@ -74,6 +74,8 @@ pub(super) struct Row {
     pub(super) missing: Vec<Missing>,
     /// Why there is no output, in one line.
     pub(super) reason: Option<String>,
+    /// What is asked, the most dangerous first.
+    pub(super) questions: Vec<Value>,
     pub(super) messages: Vec<Value>,
     pub(super) seconds: f64,
     #[serde(serialize_with = "code")]
@@ -93,6 +95,7 @@ impl Row {
             outputs: Vec::new(),
             missing: Vec::new(),
             reason: None,
+            questions: Vec::new(),
             messages: Vec::new(),
             seconds: 0.0,
             exit: Exit::Done,

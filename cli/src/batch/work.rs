@@ -25,7 +25,7 @@ use crate::order::Order;
 use crate::problem::{Exit, Problem};
 use crate::provenance::trace::Asked;
 use crate::render::human::told;
-use crate::render::{About, json};
+use crate::render::{About, json, questions};
 use crate::{called, milling, run, translate};
 
 /// Highest number of a program.
@@ -143,9 +143,9 @@ impl Bench<'_> {
         if let Some(note) = milling::note(&source).filter(|_| say) {
             let _ = writeln!(done.told, "{note}");
         }
-        let from = match self.order.named {
-            Some(dialect) => dialect,
-            None => run::recognise(&mut source, say, self.known, &mut done.told)?,
+        let (from, rivals) = match self.order.named {
+            Some(dialect) => (dialect, Vec::new()),
+            None => run::recognise_all(&mut source, say, self.known, &mut done.told)?,
         };
         done.row.from = Some(from.id.clone());
         let crlf = match self.order.eol(args) {
@@ -155,6 +155,7 @@ impl Bench<'_> {
         };
         let mut job = self.order.job(args, from, &source.name, crlf)?;
         job.program_number = args.program_number.map(|first| number(first, at)).transpose()?;
+        job.rivals = rivals;
         called::gather(&mut source, &job.from, self.known.folders())?;
         job.called.clone_from(&source.called);
         job.assumed.clone_from(&source.assumed);
@@ -176,7 +177,7 @@ impl Bench<'_> {
                 done.row.messages = entries.iter().filter_map(|e| serde_json::to_value(e).ok()).collect();
             }
         }
-        if outcome.release == Err(Failure::Refused) && say {
+        if outcome.release == Err(Failure::Refused) && !outcome.is_asked(&job) && say {
             let _ = run::doubt_dialect(&mut source, &job, self.known, &mut done.told);
         }
         Ok(())
@@ -200,6 +201,11 @@ impl Bench<'_> {
         row.exit = Exit::of(outcome.release);
         row.events = outcome.verified.filter(|_| outcome.release.is_ok()).map(|v| v.events);
         row.program_number = outcome.program_number.filter(|_| outcome.release.is_ok());
+        let shown = source.shown.clone();
+        let unread = |e: io::Error| Problem::file("read", &shown, &e);
+        let mut about = About { job, name: &shown, source: &mut source.file };
+        let asked = questions::ask(&mut about, &outcome.questions).map_err(unread)?;
+        row.questions = asked.iter().filter_map(|asked| serde_json::to_value(asked).ok()).collect();
         let warns = |gravity: Gravity| match gravity {
             Gravity::Error => false,
             Gravity::Warning => true,
@@ -216,12 +222,13 @@ impl Bench<'_> {
                 row.missing.push(Missing { name: name.to_string(), beside: beside(&item.path, name) });
             }
         }
+        if let Some(asked) = asked.first().filter(|_| outcome.is_asked(job)) {
+            row.reason = Some(format!("line {}: {}", asked.place.line, asked.question));
+            return Ok(());
+        }
         let first = told(job, &outcome.diagnostics, crate::render::human::Loudness::Quiet);
         let first = first.first().copied().or(outcome.diagnostics.last());
         let Some(first) = first else { return Ok(()) };
-        let shown = source.shown.clone();
-        let unread = |e: io::Error| Problem::file("read", &shown, &e);
-        let mut about = About { job, name: &shown, source: &mut source.file };
         let lines = about.lines(std::iter::once(first)).map_err(unread)?;
         let told = about.tell(&lines, first).map_err(unread)?;
         row.reason = Some(format!("line {}: {}", told.place.start.0, told.message));

@@ -18,6 +18,7 @@ use codespan_reporting::term::termcolor::{Ansi, NoColor, WriteColor};
 use ncc_check::Limits;
 use ncc_dialects::Settings;
 use ncc_ir::canon::AXES;
+use ncc_ir::diag::Gravity;
 use ncc_ir::num::{Nanos, ONE};
 use ncc_machines::Profile;
 
@@ -32,6 +33,7 @@ use crate::job::Output;
 use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::review::side::{Asked, Side, open_one};
 
 /// Runs the verb.
@@ -98,6 +100,10 @@ fn one(
     let shown = source.shown.clone();
     let wrong = |e: io::Error| Problem::file("read", &shown, &e);
     let course = drive::drive(&job, limits.clone(), args.switches.on(), &mut source).map_err(wrong)?;
+    if say {
+        let sound = course.diagnostics.iter().all(|d| d.fault.gravity() != Gravity::Error);
+        questions::note(&job, &mut source, &course.diagnostics, sound, err)?;
+    }
     let doubtful = course.diagnostics.len() > 2;
     let program = told::tell(args, &job, &mut source, course).map_err(wrong)?;
     if say

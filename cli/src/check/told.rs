@@ -193,6 +193,7 @@ fn of_finding(
         code: format!("NC{:04}", finding.what.rule().code()),
         severity: heading(severity),
         verdict: None,
+        rank: None,
         message: words.message,
         place: place(finding.span, &words.label),
         related,

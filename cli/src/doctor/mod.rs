@@ -27,9 +27,10 @@ use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
+use crate::questions::Policy;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
-use crate::run::{INTO_WHAT, recognise, settings};
+use crate::run::{INTO_WHAT, recognise, settings, state_units};
 use crate::setting::{Standing, Telling};
 use crate::translate;
 use question::{Question, questions};
@@ -108,11 +109,13 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
         Some(dialect) => dialect,
         None => recognise(&mut source, !args.telling.quiet, known, err)?,
     };
-    let said = settings(machines.settings(Side::From, from), &args.from_option)?;
+    let mut said = settings(machines.settings(Side::From, from), &args.from_option)?;
+    state_units(&mut said, known.units())?;
     let into = settings(machines.settings(Side::To, to), &args.to_option)?;
     let start = args.standing.start.unwrap_or_default();
     let assumed = source.assumed.clone();
-    let mut job = Job { machines, start, assumed, ..Job::new(said, into, &source.name) };
+    let mut job =
+        Job { machines, start, assumed, questions: Policy::Skip, ..Job::new(said, into, &source.name) };
     source.rewind()?;
     let cannot_read = |e: io::Error| Problem::file("examine", &args.file.display().to_string(), &e);
     let mut outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
@@ -130,6 +133,7 @@ pub fn run(args: &Doctor, known: &Known, err: &mut StandardStream) -> Result<Exi
         let mut profile = job.machines.from.as_deref().cloned().unwrap_or_else(|| Profile::empty(from));
         codes.iter().for_each(|code| profile.add_code(code, &stand_in(code)));
         job.from = settings(profile.settings(), &args.from_option)?;
+        state_units(&mut job.from, known.units())?;
         source.rewind()?;
         outcome = translate::translate(&job, &mut source.file).map_err(cannot_read)?;
         for (rest, diagnostic) in unknown {

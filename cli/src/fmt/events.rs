@@ -27,27 +27,32 @@ pub(super) enum Compared {
     NotExecuted(Box<Option<Diagnostic>>, bool),
 }
 
-/// Executes and compares.
+/// Executes and compares; what the first text is found to assume goes to `assumed`.
 ///
 /// # Errors
 /// Reading.
-pub(super) fn compare(job: &Job, before: &mut File, after: &mut File) -> io::Result<Compared> {
-    let (done, levels) = digest(job, before, 0)?;
+pub(super) fn compare(
+    job: &Job,
+    before: &mut File,
+    after: &mut File,
+    assumed: &mut Vec<Diagnostic>,
+) -> io::Result<Compared> {
+    let (done, levels) = digest(job, before, 0, assumed)?;
     let mut events = match &done {
         Done::Executed(_, events) => *events,
         Done::Refused(first, no_text) => return Ok(Compared::NotExecuted(first.clone(), *no_text)),
     };
-    if done != digest(job, after, 0)?.0 {
+    if done != digest(job, after, 0, &mut Vec::new())?.0 {
         return Ok(Compared::Different);
     }
     if levels != 0 {
-        let skipped = digest(job, before, levels)?.0;
+        let skipped = digest(job, before, levels, &mut Vec::new())?.0;
         match &skipped {
             Done::Executed(_, more) => events += more,
             // With blocks skipped the program may have no sense; then nothing is known of that way.
             Done::Refused(..) => return Ok(Compared::Same(events)),
         }
-        if skipped != digest(job, after, levels)?.0 {
+        if skipped != digest(job, after, levels, &mut Vec::new())?.0 {
             return Ok(Compared::Different);
         }
     }
@@ -71,7 +76,7 @@ impl PartialEq for Done {
 }
 
 /// The digest of what a text does, and the skip levels that occur in it.
-fn digest(job: &Job, file: &mut File, skip: u16) -> io::Result<(Done, u16)> {
+fn digest(job: &Job, file: &mut File, skip: u16, assumed: &mut Vec<Diagnostic>) -> io::Result<(Done, u16)> {
     let controls: Vec<Exec> =
         worlds(job, clearances(job)).iter().map(|world| Exec::new(world, skip)).collect();
     let mut hashers = vec![DefaultHasher::new(); controls.len()];
@@ -83,6 +88,7 @@ fn digest(job: &Job, file: &mut File, skip: u16) -> io::Result<(Done, u16)> {
         }
         ControlFlow::Continue(())
     })?;
+    assumed.extend(course.diagnostics.iter().cloned());
     if course.refused {
         let no_text = course.diagnostics.iter().any(|d| d.fault == Fault::NotText);
         let is_error = |d: &&Diagnostic| d.fault.gravity() == ncc_ir::diag::Gravity::Error;

@@ -33,6 +33,7 @@ use crate::guess::better;
 use crate::job::Job;
 use crate::known::Known;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
 use crate::review::side::{Asked, Side, open_one, operand};
@@ -176,7 +177,12 @@ fn laid_out(
         done.executed = true;
         return Ok(done);
     }
-    let compared = events::compare(job, &mut source.file, &mut done.file).map_err(read)?;
+    let mut assumed = Vec::new();
+    let compared = events::compare(job, &mut source.file, &mut done.file, &mut assumed).map_err(read)?;
+    if loudness != Loudness::Quiet {
+        let sound = !matches!(compared, Compared::NotExecuted(..));
+        questions::note(job, source, &assumed, sound, err)?;
+    }
     match compared {
         Compared::Same(events) => {
             done.executed = true;

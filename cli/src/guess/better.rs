@@ -22,7 +22,7 @@ pub(crate) fn better(
     refused_as: &Settings,
     dialects: impl IntoIterator<Item = &'static Dialect>,
 ) -> io::Result<Option<(&'static Dialect, Vec<String>)>> {
-    let Guess::Sure(other, reasons) = guess(source, dialects)? else { return Ok(None) };
+    let Guess::Sure(other, reasons, _) = guess(source, dialects)? else { return Ok(None) };
     if other.id == refused_as.dialect.id {
         return Ok(None);
     }

@@ -25,8 +25,8 @@ const WORDS_OF_A_TEXT: u32 = 5;
 /// What was found out.
 #[derive(Debug)]
 pub enum Guess {
-    /// One dialect, and the reasons.
-    Sure(&'static Dialect, Vec<String>),
+    /// One dialect, the reasons, and others that explain the text as well: those that build on it.
+    Sure(&'static Dialect, Vec<String>, Vec<&'static Dialect>),
     /// None; for every dialect that something speaks for, what speaks against it.
     Unsure(Vec<(&'static Dialect, Vec<String>)>),
 }
@@ -40,6 +40,8 @@ struct Evidence {
     codes: bool,
     /// Whether a block with words was met.
     begun: bool,
+    /// Whether the program's number has other digits than the control writes: a custom alone.
+    digits: bool,
     speaks_for: BTreeMap<String, usize>,
     against: BTreeMap<String, usize>,
 }
@@ -82,7 +84,7 @@ pub fn guess(
 
 fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     if let Some((dialect, evidence)) = found.iter().find(|(_, evidence)| evidence.conclusive) {
-        return Guess::Sure(dialect, Evidence::list(&evidence.speaks_for));
+        return Guess::Sure(dialect, Evidence::list(&evidence.speaks_for), Vec::new());
     }
     found.retain(|(_, evidence)| !evidence.speaks_for.is_empty());
     // Where a dialect explains all that one that builds on it explains, it is the plainer reading.
@@ -90,7 +92,8 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
     let plainer = |d: &Dialect, e: &Evidence| {
         d.base.as_ref().is_some_and(|base| fits.iter().any(|(id, n)| id == base && *n <= e.against.len()))
     };
-    found.retain(|(dialect, evidence)| !plainer(dialect, evidence));
+    let (others, rest) = found.into_iter().partition(|(dialect, evidence)| plainer(dialect, evidence));
+    let (built_on, mut found): (Vec<(&'static Dialect, Evidence)>, Vec<_>) = (others, rest);
     found.sort_by_key(|(_, e)| (e.against.len(), usize::MAX - e.speaks_for.len()));
     let others = found.get(1).map_or(usize::MAX, |(_, next)| next.against.len());
     let clear = found.first().is_some_and(|(_, best)| match best.against.len() {
@@ -100,7 +103,14 @@ fn judge(mut found: Vec<(&'static Dialect, Evidence)>) -> Guess {
         _ => false,
     });
     match found.first() {
-        Some((dialect, evidence)) if clear => Guess::Sure(dialect, Evidence::list(&evidence.speaks_for)),
+        Some((dialect, evidence)) if clear => {
+            let as_well = |(other, own): &&(&'static Dialect, Evidence)| {
+                other.base.as_ref() == Some(&dialect.id)
+                    && own.against.len() - usize::from(own.digits) <= evidence.against.len()
+            };
+            let rivals = built_on.iter().filter(as_well).map(|(other, _)| *other).collect();
+            Guess::Sure(dialect, Evidence::list(&evidence.speaks_for), rivals)
+        }
         Some(_) | None => {
             Guess::Unsure(found.into_iter().map(|(d, e)| (d, Evidence::list(&e.against))).collect())
         }
@@ -296,6 +306,7 @@ fn program_number(dialect: &Dialect, line: usize, word: &str, value: &str, evide
     evidence.pro(line, format!("`{letter}` begins the program's number"));
     let digits = value.len();
     if value.starts_with('0') && digits != dialect.program.number_digits {
+        evidence.digits = true;
         evidence.con(line, format!("`{word}` has {digits} digits"));
     }
 }
@@ -399,7 +410,7 @@ mod tests {
 
     fn id(text: &str) -> Option<&'static str> {
         match guess(&mut Cursor::new(text.as_bytes()), ncc_dialects::builtins()).unwrap() {
-            Guess::Sure(dialect, reasons) => {
+            Guess::Sure(dialect, reasons, _) => {
                 assert!(!reasons.is_empty());
                 Some(&dialect.id)
             }

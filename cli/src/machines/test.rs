@@ -14,6 +14,7 @@ use ncc_machines::reading::Side;
 
 use super::pair::Machines;
 use crate::job::Job;
+use crate::questions::Policy;
 use crate::render::About;
 use crate::render::human::{self, Loudness};
 use crate::render::words::plural;
@@ -123,9 +124,9 @@ fn translated(text: &str, from: Settings, machines: Machines) -> Result<(u64, St
     let Some(to) = &machines.to else { return Err("no machine".to_owned()) };
     let to = machines.settings(Side::To, to.dialect);
     let layout = Layout { numbering: machines.numbering(), crlf: false };
-    let job = Job { machines, layout, head: false, ..Job::new(from, to, "sample") };
+    let job = Job { machines, layout, head: false, questions: Policy::Skip, ..Job::new(from, to, "sample") };
     let cannot = |error: std::io::Error| error.to_string();
-    let mut outcome = translate(&job, &mut text.as_bytes()).map_err(cannot)?;
+    let mut outcome = translate(&job, &mut std::io::Cursor::new(text.as_bytes())).map_err(cannot)?;
     if outcome.release.is_err() {
         let mut source = Cursor::new(text.as_bytes());
         let mut about = About { job: &job, name: "sample", source: &mut source };

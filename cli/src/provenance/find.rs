@@ -22,6 +22,7 @@ use crate::job::Job;
 use crate::known::Known;
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
+use crate::questions::Policy;
 use crate::render::About;
 use crate::report::hex;
 use crate::run::{recognise, settings};
@@ -177,8 +178,11 @@ fn again(
     let to: &'static Dialect = dialect(&args.to, output, err)?;
     let crlf = output.is_crlf()?;
     let own = |dialect: &'static Dialect| settings(ncc_dialects::Settings::new(dialect), &[]);
-    let job =
-        Job { layout: Layout { crlf, ..Layout::default() }, ..Job::new(own(from)?, own(to)?, &source.name) };
+    let job = Job {
+        layout: Layout { crlf, ..Layout::default() },
+        questions: Policy::Skip,
+        ..Job::new(own(from)?, own(to)?, &source.name)
+    };
     source.rewind()?;
     let wrong = |e: &io::Error| Problem::file("translate", &path.display().to_string(), e);
     let asked = Asked { map: true, annotate: false };

@@ -120,6 +120,10 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
+        Fault::CutStanding => own("write `M03` before this block"),
+        Fault::AssumedControl { taken, other } => {
+            vec![format!("name the control: `--from {}` or `--from {}`", plain(taken), plain(other))]
+        }
         Fault::StartedAgain { .. } => {
             own("check at the machine that it runs before the tool touches the part")
         }

@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use codespan_reporting::diagnostic::Severity;
 use ncc_ir::diag::Diagnostic;
+use ncc_ir::rank::Rank;
 use serde::Serialize;
 
 use super::human::{Loudness, choose, told};
@@ -18,6 +19,9 @@ pub struct Entry {
     pub severity: &'static str,
     /// The verdict, if it is one.
     pub verdict: Option<&'static str>,
+    /// What a user has to do about it, if it is no error: `dangerous`, `check-at-the-machine`, `usual-default` or
+    /// `no-effect-on-the-cut`.
+    pub rank: Option<&'static str>,
     /// What is wrong, or what became of the place.
     pub message: String,
     /// Its place.
@@ -60,6 +64,7 @@ impl From<Told> for Entry {
                 Severity::Note | Severity::Help => "note",
             },
             verdict: told.verdict.map(|v| v.name()),
+            rank: told.rank.map(Rank::name),
             message: told.message,
             place: told.place.into(),
             related: told.related.into_iter().map(JsonPlace::from).collect(),

@@ -6,6 +6,7 @@
 pub mod advice;
 pub mod human;
 pub mod json;
+pub mod questions;
 pub mod source;
 pub mod summary;
 pub mod words;
@@ -14,6 +15,7 @@ use std::io;
 
 use codespan_reporting::diagnostic::Severity;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
+use ncc_ir::rank::Rank;
 use ncc_ir::source::Span;
 
 use crate::job::Job;
@@ -39,6 +41,8 @@ pub struct Told {
     pub severity: Severity,
     /// Its verdict, if it is one.
     pub verdict: Option<Verdict>,
+    /// What a user has to do about it; an error has none.
+    pub rank: Option<Rank>,
     /// What is wrong, or what became of the place.
     pub message: String,
     /// Its place.
@@ -148,6 +152,7 @@ impl About<'_> {
             code: format!("NC{:04}", fault.code()),
             severity,
             verdict,
+            rank: fault.rank(),
             place: place(diagnostic.span, &said.label),
             message: said.message,
             related,

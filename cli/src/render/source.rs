@@ -213,6 +213,12 @@ impl Excerpt {
         Ok(())
     }
 
+    /// The line of a place as it is shown.
+    pub fn line(&self, lines: &Lines, place: u32) -> &str {
+        let shown = lines.line(place).and_then(|line| self.lines.get(&(line.number as usize)));
+        shown.and_then(|shown| self.text.get(shown.range.clone())).unwrap_or("")
+    }
+
     /// Place of a span in the excerpt's text, cut to its first line.
     pub fn range(&self, lines: &Lines, span: Span) -> Option<Range<usize>> {
         let shown = self.lines.get(&(lines.line(span.start)?.number as usize))?;

@@ -5,37 +5,74 @@ use std::io;
 
 use codespan_reporting::term::termcolor::{Color, ColorSpec, WriteColor};
 use ncc_ir::canon::PathMode;
-use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
+use ncc_ir::diag::{Fault, Gravity};
+use ncc_ir::rank::Rank;
 
 use super::About;
 use super::human::{Loudness, told};
+use super::questions::taken;
 use super::source::Lines;
 use super::words::{Context, millimetres, plain, plural, words, work_offset};
 use crate::called::Called;
 use crate::head::{assumption, by_name};
 use crate::job::{Failure, Outcome};
+use crate::questions::Question;
 
 /// Of one phrase, so many line numbers are named.
 const MOST_LINES: usize = 6;
 /// Of one verdict, so many phrases are named.
 const MOST_PHRASES: usize = 12;
 
-/// The headings, in the order of the account.
-const HEADINGS: [&str; 6] = ["assumed", "expanded", "rounded", "corners", "reformatted", "lost"];
+/// Headings are filled up with blanks to so many characters.
+const HEADING: usize = 23;
+/// Lists of phrases are broken before so many characters.
+const WIDTH: usize = 100;
 
-/// The heading under which a fault is named, if it has a place in the account.
-fn heading(fault: &Fault) -> Option<&'static str> {
+/// Under which heading something is named, in the order of the account.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Heading {
+    /// A loss that was allowed.
+    Lost,
+    Check,
+    Usual,
+    NoEffect,
+}
+
+impl Heading {
+    const ALL: [Heading; 4] = [Heading::Lost, Heading::Check, Heading::Usual, Heading::NoEffect];
+
+    fn words(self) -> &'static str {
+        match self {
+            Heading::Lost => "lost",
+            Heading::Check => "check at the machine",
+            Heading::Usual => "usual defaults",
+            Heading::NoEffect => "no effect on the cut",
+        }
+    }
+
+    /// Whether each phrase has a line, with its places; else they share one.
+    fn each(self) -> bool {
+        match self {
+            Heading::Lost | Heading::Check => true,
+            Heading::Usual | Heading::NoEffect => false,
+        }
+    }
+}
+
+/// The heading under which a fault is named, if it has a place in the account. What was asked has one of its own.
+fn heading(fault: &Fault, questions: &[Question]) -> Option<Heading> {
     let Gravity::Verdict(verdict) = fault.gravity() else { return None };
-    Some(match verdict {
-        Verdict::Exact => return None,
-        Verdict::Assumed => "assumed",
-        Verdict::Expanded => "expanded",
-        // What is another way of taking corners is no rounding of numbers.
-        Verdict::WithinTolerance if matches!(fault, Fault::PathRelaxed { .. }) => "corners",
-        Verdict::WithinTolerance => "rounded",
-        Verdict::Reformatted => "reformatted",
-        Verdict::Changed | Verdict::Manual | Verdict::Dropped => "lost",
-    })
+    if verdict.stops() {
+        return Some(Heading::Lost);
+    }
+    let asked = || questions.iter().any(|question| question.fact.code() == fault.code());
+    match fault.rank()? {
+        Rank::Dangerous if asked() => None,
+        // Both values make the same cut.
+        Rank::Dangerous | Rank::Usual => Some(Heading::Usual),
+        Rank::Check => Some(Heading::Check),
+        Rank::NoEffect => Some(Heading::NoEffect),
+    }
 }
 
 /// Diagnostics that one phrase covers.
@@ -76,29 +113,68 @@ pub fn print(out: &mut dyn WriteColor, about: &mut About, outcome: &Outcome) -> 
     }
     let at =
         Context { from: about.job.from.dialect, to: about.job.to.dialect, snippet: "", beside: ("", "") };
-    let groups: Vec<(&str, Vec<Group>)> = HEADINGS
-        .iter()
-        .map(|heading| (*heading, groups(&outcome.diagnostics, heading, at)))
+    let groups: Vec<(Heading, Vec<Group>)> = Heading::ALL
+        .into_iter()
+        .map(|heading| (heading, groups(outcome, heading, at)))
         .filter(|(_, groups)| !groups.is_empty())
         .collect();
-    let places =
-        groups.iter().flat_map(|(_, groups)| groups).flat_map(|g| g.places.iter().copied()).collect();
+    let places = groups.iter().flat_map(|(_, groups)| groups).flat_map(|g| g.places.iter().copied());
+    let places = places.chain(outcome.questions.iter().map(|question| question.span.start)).collect();
     let mut lines = Lines::find(about.source, places)?;
     lines.own_numbers(about.job.called.as_ref());
     let called = about.job.called.as_ref();
+    for (i, question) in outcome.questions.iter().enumerate() {
+        let own = Group { phrase: taken(question), count: 1, places: vec![question.span.start] };
+        headed(out, Color::Red, if i == 0 { "not answered" } else { "" })?;
+        writeln!(out, "{} ({})", own.phrase, line_list(&own, &lines, called))?;
+    }
     for (heading, groups) in groups {
+        let colour = if heading == Heading::Lost { Color::Red } else { Color::Yellow };
+        if !heading.each() {
+            headed(out, colour, heading.words())?;
+            writeln!(out, "{}", list(&groups))?;
+            continue;
+        }
         for (i, group) in groups.iter().take(MOST_PHRASES).enumerate() {
-            let heading = if i == 0 { heading } else { "" };
-            let colour = if heading == "lost" { Color::Red } else { Color::Yellow };
-            write!(out, "  ")?;
-            coloured(out, colour, &format!("{heading:<13}"))?;
+            headed(out, colour, if i == 0 { heading.words() } else { "" })?;
             writeln!(out, "{} ({})", group.phrase, line_list(group, &lines, called))?;
         }
         if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
-            writeln!(out, "  {:<13}… and {more} more; --verbose or --report says all", "")?;
+            headed(out, colour, "")?;
+            writeln!(out, "… and {more} more; --verbose or --report says all")?;
         }
     }
     Ok(())
+}
+
+fn headed(out: &mut dyn WriteColor, colour: Color, heading: &str) -> io::Result<()> {
+    write!(out, "  ")?;
+    coloured(out, colour, &format!("{heading:<HEADING$}"))
+}
+
+/// Phrases that share a line: how many, and what they are.
+fn list(groups: &[Group]) -> String {
+    let mut text = format!("{}: ", groups.len());
+    let mut column = HEADING + 2 + text.len();
+    let mut phrases: Vec<String> = groups.iter().take(MOST_PHRASES).map(|g| g.phrase.clone()).collect();
+    if let Some(more) = groups.len().checked_sub(MOST_PHRASES).filter(|n| *n > 0) {
+        phrases.push(format!("… and {more} more"));
+    }
+    let last = phrases.len().saturating_sub(1);
+    for (i, phrase) in phrases.iter().enumerate() {
+        let end = if i == last { " (`-v` lists them)" } else { ";" };
+        let wide = phrase.chars().count() + end.len() + 1;
+        if i > 0 && column + wide > WIDTH {
+            text += &format!("\n{:1$}", "", HEADING + 2);
+            column = HEADING + 2;
+        } else if i > 0 {
+            text.push(' ');
+        }
+        text += phrase;
+        text += end;
+        column += wide;
+    }
+    text
 }
 
 fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> io::Result<()> {
@@ -106,6 +182,7 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
     let stopping = told(about.job, &outcome.diagnostics, Loudness::Quiet);
     let errors = stopping.iter().filter(|d| d.fault.gravity() == Gravity::Error).count() as u64;
     let losses = stopping.len() as u64 - errors;
+    let questions = outcome.questions.len() as u64;
     match outcome.release {
         Err(Failure::VerificationFailed) => {
             coloured(out, Color::Red, "verification failed")?;
@@ -115,7 +192,10 @@ fn print_failure(out: &mut dyn WriteColor, about: &About, outcome: &Outcome) -> 
             coloured(out, Color::Red, "not translated")?;
             let count = |n: u64, noun: &str| (n > 0).then(|| format!("{n} {}", plural(n, noun)));
             let losses = count(losses, "verdict").map(|verdicts| format!("{verdicts} that may not pass"));
-            let reasons: Vec<String> = [count(errors, "error"), losses].into_iter().flatten().collect();
+            let reasons: Vec<String> = [count(questions, "question"), count(errors, "error"), losses]
+                .into_iter()
+                .flatten()
+                .collect();
             writeln!(out, ": {}; nothing was written", reasons.join(", "))
         }
     }
@@ -127,11 +207,11 @@ fn coloured(out: &mut dyn WriteColor, colour: Color, text: &str) -> io::Result<(
     out.reset()
 }
 
-fn groups(diagnostics: &[Diagnostic], under: &str, at: Context) -> Vec<Group> {
+fn groups(outcome: &Outcome, under: Heading, at: Context) -> Vec<Group> {
     let mut groups: Vec<Group> = Vec::new();
     let mut by_phrase: HashMap<String, usize> = HashMap::new();
-    for diagnostic in diagnostics {
-        if heading(&diagnostic.fault) != Some(under) {
+    for diagnostic in &outcome.diagnostics {
+        if heading(&diagnostic.fault, &outcome.questions) != Some(under) {
             continue;
         }
         let phrase = phrase(&diagnostic.fault, at);
@@ -188,9 +268,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         Fault::AssumedBareNumber { .. } => {
             "numbers without a decimal point, read by the control's usual setting".to_owned()
         }
-        Fault::AssumedOption { option, value } => {
-            format!("{} = {}, a question that the sources leave open", plain(option), plain(value))
-        }
+        Fault::AssumedOption { option, value } => format!("{} = {}", plain(option), plain(value)),
         Fault::AssumedWorkOffset { offset } => {
             format!("the only work offset is {}", work_offset(*offset, [at.to, at.from]))
         }
@@ -205,6 +283,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedTip
         | Fault::AssumedTilt
         | Fault::AssumedContourPath
+        | Fault::AssumedControl { .. }
         | Fault::StartedAgain { .. }
         | Fault::OpenBehaviour { .. }
         | Fault::FeedAtUnits { .. }
@@ -343,6 +422,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::OutputNotTaken { .. }
         | Fault::NotCalled { .. }
         | Fault::ArgumentNeeded { .. }
+        | Fault::CutStanding
         | Fault::SkipSettingsSampled { .. } => words(fault, at).message,
     }
 }

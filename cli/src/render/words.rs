@@ -246,6 +246,14 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "cutter radius compensation: the same way onto the contour and off it assumed".into(),
             "each control has a way of its own; the contour between is the same".into(),
         ),
+        Fault::CutStanding => (
+            "feed move with the spindle stopped".into(),
+            "no M03 or M04 is active at this move".into(),
+        ),
+        Fault::AssumedControl { taken, other } => (
+            format!("read as {}; {} reads it otherwise", plain(taken), plain(other)),
+            "both readings differ here first".into(),
+        ),
         Fault::AssumedContourPath => (
             "cutter radius compensation worked out as RS274/NGC describes it".into(),
             "corners, the way onto the contour and off it are each control's own".into(),

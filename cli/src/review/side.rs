@@ -23,7 +23,7 @@ use crate::known::Known;
 use crate::machines::pair::{Machines, agreed};
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
-use crate::run::{recognise, settings};
+use crate::run::{recognise, settings, state_units};
 use crate::sugar::is_name;
 
 /// What a command says of one side.
@@ -138,6 +138,8 @@ struct Opened {
     source: Source,
     named: Option<&'static Dialect>,
     profile: Option<Arc<Profile>>,
+    /// Dialects that explain a text as well which was recognised.
+    rivals: Vec<&'static Dialect>,
     stdin: bool,
 }
 
@@ -154,7 +156,13 @@ impl Opened {
         };
         let voice = if say { Voice::Human } else { Voice::Quiet };
         let source = milling::open(&path, voice, known, err)?;
-        Ok(Opened { source, named, profile: profile.map(Arc::new), stdin: path == Path::new("-") })
+        Ok(Opened {
+            source,
+            named,
+            profile: profile.map(Arc::new),
+            rivals: Vec::new(),
+            stdin: path == Path::new("-"),
+        })
     }
 
     /// Finds the dialect, if the text or the other side tells it.
@@ -172,7 +180,10 @@ impl Opened {
         let found =
             guess(&mut self.source.file, known.all()).map_err(|e| Problem::file("read", &shown, &e))?;
         let (dialect, why) = match found {
-            Guess::Sure(dialect, reasons) => (dialect, reasons.join(", ")),
+            Guess::Sure(dialect, reasons, rivals) => {
+                self.rivals = rivals;
+                (dialect, reasons.join(", "))
+            }
             Guess::Unsure(fits) => {
                 let fits = |d: &Dialect| {
                     fits.is_empty() || fits.iter().any(|(f, con)| f.id == d.id && con.is_empty())
@@ -206,11 +217,18 @@ impl Opened {
             Some(profile) => Machines { from: Some(Arc::clone(&profile)), to: Some(profile) },
             None => Machines::default(),
         };
-        let from = settings(machines.settings(Whose::From, dialect), asked.options)?;
+        let stated = machines.from.is_some();
+        let mut from = settings(machines.settings(Whose::From, dialect), asked.options)?;
+        // Of two sides, one may be in a language that has its own.
+        let fixed = !stated && dialect.power_on.units.as_ref().is_some_and(|row| row.always);
+        if !fixed {
+            state_units(&mut from, known.units())?;
+        }
         called::gather(&mut self.source, &from, known.folders())?;
         self.source.rewind()?;
         let mut side = Side::of(self.source, from, machines, asked.start);
         side.job.given = asked.given.clone();
+        side.job.rivals = self.rivals;
         Ok(side)
     }
 }

@@ -24,6 +24,7 @@ use crate::job::Output;
 use crate::known::Known;
 use crate::milling;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 
 /// `ncc git-textconv`.
 #[derive(Debug, Args)]
@@ -65,7 +66,7 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
     let why = match opened {
         Err(why) => Some(why),
         Ok(opened) => match opened {
-            Ok(mut side) => match listed(&mut side, &mut output).map_err(|e| cannot(&e))? {
+            Ok(mut side) => match listed(&mut side, &mut output, err).map_err(|e| cannot(&e))? {
                 true => None,
                 false => Some(format!("{} cannot be executed as {}", side.source.shown, side.dialect().id)),
             },
@@ -89,7 +90,7 @@ pub fn run(args: &Textconv, known: &Known, err: &mut dyn WriteColor) -> Result<E
 }
 
 /// Writes the events; whether the program could be executed.
-fn listed(side: &mut super::side::Side, output: &mut Output) -> io::Result<bool> {
+fn listed(side: &mut super::side::Side, output: &mut Output, err: &mut dyn WriteColor) -> io::Result<bool> {
     let settings = Settings { clearances: clearances(&side.job), ..Settings::default() };
     let mut styles: Vec<Style> = Vec::new();
     let mut texts: Vec<Text> = Vec::new();
@@ -114,6 +115,8 @@ fn listed(side: &mut super::side::Side, output: &mut Output) -> io::Result<bool>
         if written.is_err() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     written?;
+    // What cannot be told changes nothing about what was listed.
+    let _ = questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err);
     Ok(!course.refused)
 }
 

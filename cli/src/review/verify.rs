@@ -27,6 +27,7 @@ use crate::job::Job;
 use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::render::{About, human};
 use crate::setting::{Holding, Nearness, Standing, Telling};
 
@@ -225,6 +226,9 @@ pub(crate) fn compare(
     let found = pair::compare(sides, call.tolerance.unwrap_or_default()).map_err(cannot)?;
     if args.format == Format::Human {
         for (side, course) in sides.iter_mut().zip(&found.courses) {
+            if !args.telling.quiet {
+                questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err)?;
+            }
             if course.refused || args.telling.verbose {
                 // Messages that cannot be written change nothing about what was found.
                 let _ = say(args, side, course, call.known, err);

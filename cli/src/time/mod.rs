@@ -48,9 +48,10 @@ use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::milling::{self, Voice};
 use crate::problem::{Exit, Problem};
+use crate::questions::{self, Policy};
 use crate::render::human::Loudness;
 use crate::render::{About, human, summary as account};
-use crate::run::{recognise, settings};
+use crate::run::{recognise_all, settings, state_units};
 use crate::translate::{BREAK_LIFT, PECK_CLEARANCE, translate};
 
 /// The machine of a call, as the model sees it.
@@ -223,9 +224,9 @@ pub(crate) fn job(
         (Some(id), _) => Some(known.dialect(id)?),
         (None, Some(profile)) => Some(profile.dialect),
     };
-    let dialect = match named {
-        Some(dialect) => dialect,
-        None => recognise(source, !args.telling.quiet, known, err)?,
+    let (dialect, rivals) = match named {
+        Some(dialect) => (dialect, Vec::new()),
+        None => recognise_all(source, !args.telling.quiet, known, err)?,
     };
     // What a profile states of its control holds for programs in that control's language.
     let machines = match own.filter(|profile| profile.dialect.id == dialect.id) {
@@ -235,12 +236,14 @@ pub(crate) fn job(
         }
         None => Machines::default(),
     };
-    let from = settings(machines.settings(Side::From, dialect), &args.reading.from_option)?;
+    let mut from = settings(machines.settings(Side::From, dialect), &args.reading.from_option)?;
+    state_units(&mut from, known.units())?;
     called::gather(source, &from, known.folders())?;
     source.rewind()?;
     Ok(Job {
         machines,
         called: source.called.clone(),
+        rivals,
         start: args.setting.standing.start.unwrap_or_default(),
         given: args.setting.holding.read()?,
         ..Job::new(from.clone(), from, &source.name)
@@ -284,6 +287,9 @@ pub(crate) fn execute(
         let mut progress = Progress::new(&source.name, bytes, !args.telling.quiet);
         drive(plan, source, sink, &mut progress).map_err(|e| Problem::file("time", &source.shown, &e))?
     };
+    if !args.telling.quiet {
+        questions::note(plan.job, source, &course.diagnostics, !course.refused, err)?;
+    }
     // Messages that cannot be written change nothing about what was done.
     let _ = tell(args, plan, known, source, &course, err);
     Ok(course)
@@ -498,8 +504,11 @@ fn canonical(
     for axis in Axis::ALL.into_iter().filter(|axis| !axis.is_rotary()) {
         start[axis as usize].get_or_insert(0);
     }
-    let job = Job { to: to.clone(), start, ..first.job.clone() };
+    let job = Job { to: to.clone(), start, questions: Policy::Skip, ..first.job.clone() };
     let mut outcome = translate(&job, &mut source.file).map_err(cannot)?;
+    if !args.telling.quiet {
+        questions::note(first.job, source, &outcome.diagnostics, outcome.release.is_ok(), err)?;
+    }
     if let Err(failure) = outcome.release {
         let mut about = About { job: &job, name: &shown, source: &mut source.file };
         let _ = human::print(err, &mut about, &outcome.diagnostics, Loudness::Usual);

@@ -68,6 +68,8 @@ impl Verifier {
         let told: Vec<Diagnostic> = told.collect();
         let mut notes = std::mem::take(&mut self.notes);
         notes.extend(told);
+        let standing = self.runs.first().and_then(|run| run.source.cut_standing());
+        notes.extend(standing.map(|at| Diagnostic::new(Fault::CutStanding, at)));
         notes
     }
 

@@ -14,23 +14,23 @@ fn a_sinumerik_knows_a_subprogram_by_its_extension() {
         fs::write(folder.join(name), SLOT).unwrap();
     }
     // It says nothing that would be its caller's, and goes back to that.
-    let sub = ncc(folder, &["siemens", "to", "fanuc", "slot.spf"]).exits(0).out;
+    let sub = ncc(folder, &["siemens", "to", "fanuc", "slot.spf", "--units", "mm"]).exits(0).out;
     assert!(sub.contains("\nM99\n") && !sub.contains("M30") && !sub.contains("\nG54"), "{sub}");
-    let main = ncc(folder, &["siemens", "to", "fanuc", "slot.mpf"]).exits(0).out;
+    let main = ncc(folder, &["siemens", "to", "fanuc", "slot.mpf", "--units", "mm"]).exits(0).out;
     assert!(main.contains("\nM30\n") && main.contains("\nG54\n"), "{main}");
-    let told = ncc(folder, &["siemens", "to", "fanuc", "slot.txt"]).exits(0);
+    let told = ncc(folder, &["siemens", "to", "fanuc", "slot.txt", "--units", "mm"]).exits(0);
     assert!(told.out.contains("\nM30\n"), "{}", told.out);
     told.says("M17 ends a main program = yes");
     // Back again, and into a control that calls a file by its name.
-    let again = ncc(folder, &["siemens", "to", "siemens", "slot.spf"]).exits(0).out;
+    let again = ncc(folder, &["siemens", "to", "siemens", "slot.spf", "--units", "mm"]).exits(0).out;
     assert!(again.ends_with("\nM17\n") && !again.contains("\nG54"), "{again}");
-    let called = ncc(folder, &["siemens", "to", "linuxcnc", "slot.spf"]).exits(0).out;
+    let called = ncc(folder, &["siemens", "to", "linuxcnc", "slot.spf", "--units", "mm"]).exits(0).out;
     let whole = "\no<slot> sub\nG90 G0 X5 Y5\nG1 X10 F100\no<slot> endsub\nM2\n%\n";
     assert!(called.ends_with(whole) && !called.contains("G54\n"), "{called}");
     ncc(folder, &["siemens", "to", "mach9", "slot.spf"]).exits(1).says("without its main program");
     // One of a Fanuc goes back too.
     fs::write(folder.join("slot.nc"), "%\nO9001\nG90 G0 X5. Y5.\nG1 X10. F100.\nM99\n%\n").unwrap();
-    let other = ncc(folder, &["fanuc", "to", "siemens", "slot.nc"]).exits(0).out;
+    let other = ncc(folder, &["fanuc", "to", "siemens", "slot.nc", "--units", "mm"]).exits(0).out;
     assert!(other.ends_with("\nM17\n") && !other.contains("\nG54"), "{other}");
 }
 
@@ -85,16 +85,16 @@ fn parameters_of_a_sinumerik_are_the_places_of_a_call() {
     let text = "PROC RUNS(REAL LENGTH, INT TIMES)\nDEF INT NUM\nG90\nFOR NUM=1 TO TIMES\n\
         G1 X=LENGTH*NUM F500\nENDFOR\nG0 X0\nRET\n";
     fs::write(folder.join("RUNS.SPF"), text).unwrap();
-    let kept = ncc(folder, &["siemens", "to", "linuxcnc", "RUNS.SPF"]).exits(0);
+    let kept = ncc(folder, &["siemens", "to", "linuxcnc", "RUNS.SPF", "--units", "mm"]).exits(0);
     assert!(kept.out.contains("\no<runs> sub\n#<times> = #2\n#<length> = #1\n"), "{}", kept.out);
     assert!(kept.out.contains("G1 X[#<length> * #<num>] F500\n"), "{}", kept.out);
     // Its caller's variables are not its own: a name of its own stays one, and a number of a Fanuc's too.
     let scratch = "%\nO9\n#33=#24+1.\nG90 G0 X#33\nM99\n%\n";
     fs::write(folder.join("9.nc"), scratch).unwrap();
-    let own = ncc(folder, &["fanuc", "to", "linuxcnc", "9.nc"]).exits(0).out;
+    let own = ncc(folder, &["fanuc", "to", "linuxcnc", "9.nc", "--units", "mm"]).exits(0).out;
     assert!(!own.contains("#133") && !own.contains("#33"), "{own}");
     fs::write(folder.join("8.nc"), scratch.replace("#24+1.", "4.")).unwrap();
-    let own = ncc(folder, &["fanuc", "to", "linuxcnc", "8.nc"]).exits(0).out;
+    let own = ncc(folder, &["fanuc", "to", "linuxcnc", "8.nc", "--units", "mm"]).exits(0).out;
     assert!(!own.contains("#133") && !own.contains("#33"), "{own}");
 }
 
@@ -119,22 +119,23 @@ fn a_subprogram_has_the_name_that_it_is_called_by() {
         ("fanuc", ["main.nc", "slot.nc", "lib/part.nc"]),
     ] {
         let out = format!("out-{to}");
-        ncc(folder, &["fanuc", "to", to, "in", "-o", &out]).exits(0);
+        ncc(folder, &["fanuc", "to", to, "in", "-o", &out, "--units", "mm"]).exits(0);
         names.iter().for_each(|name| drop(there(&format!("{out}/{name}"))));
     }
-    ncc(folder, &["fanuc", "to", "linuxcnc", "in/lib/part.nc", "-o", "one"]).exits(0);
+    ncc(folder, &["fanuc", "to", "linuxcnc", "in/lib/part.nc", "-o", "one", "--units", "mm"]).exits(0);
     assert!(there("one/300.ngc").contains("\no300 sub\n"));
-    ncc(folder, &["fanuc", "to", "siemens", "in/lib/part.nc", "-o", "one"]).exits(0);
+    ncc(folder, &["fanuc", "to", "siemens", "in/lib/part.nc", "-o", "one", "--units", "mm"]).exits(0);
     there("one/L300.SPF");
     fs::write(folder.join("L300.SPF"), SLOT).unwrap();
-    ncc(folder, &["siemens", "to", "linuxcnc", "L300.SPF", "-o", "one"]).exits(0);
+    ncc(folder, &["siemens", "to", "linuxcnc", "L300.SPF", "-o", "one", "--units", "mm"]).exits(0);
     assert!(there("one/300.ngc").contains("\no300 sub\nG90 G0 X5 Y5\n"));
-    let number = ncc(folder, &["siemens", "to", "fanuc", "L300.SPF"]).exits(0).out;
+    let number = ncc(folder, &["siemens", "to", "fanuc", "L300.SPF", "--units", "mm"]).exits(0).out;
     assert!(number.contains("\nO0300"), "{number}");
     // Where a program of the same command has it itself, that one is kept: it was verified with it.
     fs::write(folder.join("in/lib/calls.nc"), "%\nO2\nG21 G90 G54 G0 X1.\nM98 P300\nM30\n%\n").unwrap();
     fs::rename(folder.join("in/lib/part.nc"), folder.join("in/lib/O0300.nc")).unwrap();
-    ncc(folder, &["fanuc", "to", "siemens", "in/lib", "-I", "in/lib", "-o", "both"]).exits(0);
+    ncc(folder, &["fanuc", "to", "siemens", "in/lib", "-I", "in/lib", "-o", "both", "--units", "mm"])
+        .exits(0);
     assert!(!there("both/L300.SPF").contains("ncc:") && there("both/O0300.MPF").contains("ncc:"));
 }
 

@@ -139,7 +139,7 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
     assert!(placed.out.contains("\no9012 sub\n#26 = #6\n#24 = #5\n"), "{}", placed.out);
     // It is read again as what it is.
     std::fs::write(folder.path().join("row.spf"), &kept.out).unwrap();
-    run("siemens to fanuc row.spf").exits(0);
+    run("siemens to fanuc row.spf --units mm").exits(0);
     // Whether an argument is there is answered by what is told; by what it was put into, nobody is told.
     let asking = |ask: &str| {
         write(&folder, "asks.nc", &text.replace("#30=0\n", &format!("#30=0\n{ask}\n")));
@@ -179,7 +179,7 @@ fn a_macro_by_itself_has_its_arguments_as_parameters() {
 fn a_subprogram_by_itself_goes_back() {
     let folder = folder();
     write(&folder, "sub.nc", "%\nO1000\nG90 G0 X10. Y10.\nG1 Z-5. F100.\nG0 Z5.\nM99\n%\n");
-    let run = |to: &str| ncc(folder.path(), &["fanuc", "to", to, "sub.nc"]);
+    let run = |to: &str| ncc(folder.path(), &["fanuc", "to", to, "sub.nc", "--units", "mm"]);
     let kept = run("siemens").exits(0);
     assert!(kept.out.ends_with("\nMCALL\nG90 G0 X10 Y10\nG1 Z-5 F100\nG0 Z5\nM17\n"), "{}", kept.out);
     let named = run("linuxcnc").exits(0).out;
@@ -232,8 +232,9 @@ fn an_elseif_that_may_stop_its_control_is_told() {
     };
     fs::write(folder.join("stops.ngc"), program("4 / #1")).unwrap();
     fs::write(folder.join("goes.ngc"), program("4 * #1")).unwrap();
-    let told = "elseif can be worked out where it is passed over = yes (line 5)";
+    let told = "elseif can be worked out where it is passed over = yes";
     ncc(folder, &["linuxcnc", "to", "fanuc", "stops.ngc"]).exits(0).says(told);
+    ncc(folder, &["linuxcnc", "to", "fanuc", "stops.ngc", "-v"]).exits(0).says("stops.ngc:5:");
     let goes = ncc(folder, &["linuxcnc", "to", "fanuc", "goes.ngc"]).exits(0).err;
     assert!(!goes.contains("elseif"), "{goes}");
 }

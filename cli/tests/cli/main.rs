@@ -15,6 +15,7 @@ mod messages;
 mod milling;
 mod plot;
 mod provenance;
+mod questions;
 mod readme;
 mod time;
 mod usage;

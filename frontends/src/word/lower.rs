@@ -7,7 +7,7 @@
 //! Not here: which word is what (`sort`), and what the functions, moves, cycles, patterns and calls
 //! of a block mean; they have files of their own beside this one.
 
-use ncc_dialects::{Address, CodeRow, DECIMAL_POINT, NumberRules, Quantity, Role, Settings};
+use ncc_dialects::{Address, CALCULATOR, CodeRow, DECIMAL_POINT, NumberRules, Quantity, Role, Settings};
 use ncc_ir::canon::{Axis, FeedMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::num::Num;
@@ -41,6 +41,9 @@ pub(super) struct Lower {
     pub(super) rules: [NumberRules; 8],
     /// Whether a number without a point counts whole units where the dictionary says increments.
     pub(super) calculator: bool,
+    /// Whether that holds for seconds too: not where the dictionary has no such value of its option, because there the
+    /// point of a dwell is a rule of the control.
+    pub(super) calculator_seconds: bool,
     /// Rows of the address letters.
     pub(super) letters: [Option<&'static Address>; 26],
     pub(super) roles: Roles,
@@ -191,7 +194,8 @@ impl Lower {
             table[quantity as usize] = dialect.numbers(quantity);
         }
         let mut lower = Lower {
-            calculator: settings.get(DECIMAL_POINT) == "calculator",
+            calculator: settings.get(DECIMAL_POINT) == CALCULATOR,
+            calculator_seconds: settings.takes(DECIMAL_POINT, CALCULATOR),
             rules: table,
             letters: std::array::from_fn(|i| dialect.address_row(b'A' + i as u8)),
             roles: Roles::new(dialect),

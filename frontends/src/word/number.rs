@@ -112,7 +112,7 @@ impl Lower {
                                 feed: quantity == Quantity::Feed,
                             });
                         }
-                        if !self.calculator {
+                        if !self.calculator || timed && !self.calculator_seconds {
                             num.scale = shift;
                             num.point = true;
                         }

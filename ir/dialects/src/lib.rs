@@ -36,7 +36,8 @@ pub use power_on::*;
 pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
 pub use settings::{
-    ANGLE_RANGE, ARC_TOLERANCE, ARC_TOLERANCE_INCH, ARC_TOLERANCE_PART, COMPUTED_DWELL, CYCLE_APPROACH,
-    DECIMAL_POINT, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
+    ANGLE_RANGE, ARC_TOLERANCE, ARC_TOLERANCE_INCH, ARC_TOLERANCE_PART, CALCULATOR, COMPUTED_DWELL,
+    CYCLE_APPROACH, DECIMAL_POINT, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings,
+    TAPPING,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};

@@ -35,6 +35,10 @@ pub struct PowerOnFact<T> {
     /// program that relies on it is told so.
     #[serde(default)]
     pub always: bool,
+    /// Of units: whether the sources know it of the machine, though not as its state at power-on, so that a program
+    /// which never states them is not asked about them.
+    #[serde(default)]
+    pub of_the_machine: bool,
     /// Who says so.
     pub source: String,
 }

@@ -1,14 +1,17 @@
 //! A dialect with the choices made for its options.
 
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use ncc_ir::behaviour::{Behaviour, Behaviours};
+use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::round::{ArcRule, MOST_SHORT};
 
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
+use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
 use crate::schema::Dialect;
 
@@ -29,6 +32,9 @@ pub const COMPUTED_DWELL: &str = "computed_dwell";
 
 /// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
 pub const DECIMAL_POINT: &str = "decimal_point";
+
+/// Value of [`DECIMAL_POINT`]: whole units.
+pub const CALCULATOR: &str = "calculator";
 
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
@@ -92,6 +98,27 @@ impl Settings {
         }
         self.chosen.insert(option.to_owned(), value.to_owned());
         Ok(())
+    }
+
+    /// Whether the dictionary has this value for an option.
+    pub fn takes(&self, option: &str, value: &str) -> bool {
+        let mut rows = self.dialect.option.iter().filter(|row| row.name == option);
+        rows.any(|row| row.values.iter().any(|own| own == value))
+    }
+
+    /// Chooses a value for an option of which the dictionary may not take it: to see what a program would be under it.
+    pub fn suppose(&mut self, option: &str, value: &str) {
+        self.chosen.insert(option.to_owned(), value.to_owned());
+    }
+
+    /// States the units at power-on, as a profile does: a fact of the machine, which is not assumed. Gives `false`
+    /// where every such control has others.
+    pub fn state_units(&mut self, units: Units) -> bool {
+        if let Some(row) = self.dialect.power_on.units.as_ref().filter(|row| row.always) {
+            return Units::from(row.value) == units;
+        }
+        self.dialect = with_units(self.dialect, units);
+        true
     }
 
     /// The value of an option: the chosen one, else the working choice; empty if there is no such
@@ -199,4 +226,28 @@ impl Settings {
     pub fn is_chosen(&self, option: &str) -> bool {
         self.chosen.contains_key(option)
     }
+}
+
+/// A dictionary of which the units at power-on are stated. Each is made once and lives as long as the process.
+fn with_units(dialect: &'static Dialect, units: Units) -> &'static Dialect {
+    static MADE: Mutex<Vec<(&'static Dialect, Units, &'static Dialect)>> = Mutex::new(Vec::new());
+    let mut made = MADE.lock().unwrap_or_else(PoisonError::into_inner);
+    let found = made.iter().find(|(own, stated, _)| std::ptr::eq(*own, dialect) && *stated == units);
+    if let Some((.., derived)) = found {
+        return derived;
+    }
+    let value = match units {
+        Units::Mm => UnitsName::Mm,
+        Units::Inch => UnitsName::Inch,
+    };
+    let mut derived = dialect.clone();
+    derived.power_on.units = Some(PowerOnFact {
+        value,
+        always: true,
+        of_the_machine: false,
+        source: "stated for this run".to_owned(),
+    });
+    let derived: &'static Dialect = Box::leak(Box::new(derived));
+    made.push((dialect, units, derived));
+    derived
 }

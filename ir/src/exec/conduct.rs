@@ -155,6 +155,9 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         self.state.spindle = to;
+        if to != Spindle::Stopped {
+            self.turns();
+        }
         self.said_by_program(by_control::SPINDLE);
         self.within_limit(span)?;
         let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };

@@ -26,6 +26,7 @@ mod rounds;
 mod run;
 mod slots;
 mod speed;
+mod standing;
 mod term;
 mod thread;
 mod tilt;
@@ -138,6 +139,8 @@ pub struct Exec {
     /// Whether straight moves that go nowhere make events.
     every_move: bool,
     counted: u64,
+    /// Cuts with the spindle stopped.
+    standing: standing::Standing,
 }
 
 /// Modes in force; a control always has a value for each.
@@ -230,6 +233,7 @@ impl Exec {
             narrating: false,
             every_move: false,
             counted: 0,
+            standing: standing::Standing::default(),
         };
         exec.reframe(world.start);
         exec
@@ -429,6 +433,9 @@ impl Exec {
         }
         if self.speed_watched {
             self.watch_speed(&kind, span)?;
+        }
+        if self.state.spindle == Spindle::Stopped {
+            self.stands_at(&kind, span);
         }
         if self.quiet {
             self.counted += 1;

@@ -11,7 +11,7 @@ fuzz_target!(|data: &[u8]| {
     let dialects: Vec<_> = builtins().collect();
     let pick = |byte: u8| Settings::new(dialects[usize::from(byte) % dialects.len()]);
     let job = Job::new(pick(*from), pick(*to), "fuzz");
-    let outcome = ncc::translate::translate(&job, &mut &text[..]).expect("reading from memory");
+    let outcome = ncc::translate::translate(&job, &mut std::io::Cursor::new(text)).expect("reading from memory");
     assert_ne!(
         outcome.release,
         Err(Failure::VerificationFailed),

@@ -20,6 +20,7 @@ use crate::guess::{Guess, guess};
 use crate::known::Known;
 use crate::milling;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::review::side::{Asked, Side, open};
 
 /// `ncc git-diff`.
@@ -46,7 +47,7 @@ pub struct GitDiff {
 ///
 /// # Errors
 /// The arguments are not those of git, or stdout cannot be written.
-pub fn run(args: &GitDiff, known: &Known, _err: &mut dyn WriteColor) -> Result<Exit, Problem> {
+pub fn run(args: &GitDiff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit, Problem> {
     let word = |i: usize| args.git.get(i).map_or("", String::as_str);
     if args.git.len() == 1 {
         return print(&format!("{}: unmerged\n", word(0)));
@@ -67,7 +68,7 @@ pub fn run(args: &GitDiff, known: &Known, _err: &mut dyn WriteColor) -> Result<E
         (true, true) => {}
         (true, false) => out += &format!("new program: {}\n", extent(new)),
         (false, true) => out += &format!("deleted program: {}\n", extent(old)),
-        (false, false) => out += &both(args, known, [old, new], path),
+        (false, false) => out += &both(args, known, [old, new], path, err),
     }
     print(&out)
 }
@@ -88,12 +89,12 @@ fn dialect<'a>(args: &'a GitDiff, known: &'a Known, versions: [&str; 2]) -> Opti
         return Some(from);
     }
     versions.iter().rev().find_map(|file| match guess(&mut File::open(file).ok()?, known.all()).ok()? {
-        Guess::Sure(dialect, _) => Some(dialect.id.as_str()),
+        Guess::Sure(dialect, ..) => Some(dialect.id.as_str()),
         Guess::Unsure(_) => None,
     })
 }
 
-fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str) -> String {
+fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str, err: &mut dyn WriteColor) -> String {
     // Files of git have names of their own: they are never taken for `DIALECT:PATH`.
     let names = versions
         .map(|file| if Path::new(file).is_absolute() { file.to_owned() } else { format!("./{file}") });
@@ -116,7 +117,7 @@ fn both(args: &GitDiff, known: &Known, versions: [&str; 2], path: &str) -> Strin
         side.source.shown = format!("{path} ({version})");
     }
     let most = if args.all { usize::MAX } else { SHOWN };
-    told(&mut sides, most).unwrap_or_else(|e| format!("not compared: {e}\n"))
+    told(&mut sides, most, err).unwrap_or_else(|e| format!("not compared: {e}\n"))
 }
 
 /// The difference of the texts, where a version is no milling program.
@@ -141,8 +142,12 @@ fn not_milling(known: &Known, versions: [&str; 2], path: &str) -> Option<String>
     Some(out)
 }
 
-fn told(sides: &mut [Side; 2], most: usize) -> std::io::Result<String> {
+fn told(sides: &mut [Side; 2], most: usize, err: &mut dyn WriteColor) -> std::io::Result<String> {
     let found = motion(sides, None)?;
+    for (side, course) in sides.iter_mut().zip(&found.courses) {
+        // What cannot be told changes nothing about what was found.
+        let _ = questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err);
+    }
     let mut out = Vec::new();
     if !found.refused() {
         plain::write(&mut out, &Account::of(&found, sides)?, most)?;

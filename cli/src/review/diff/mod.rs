@@ -30,6 +30,7 @@ use crate::files::{self, Source};
 use crate::known::Known;
 use crate::machines::pair::Machines;
 use crate::problem::{Exit, Problem};
+use crate::questions;
 use crate::render::{About, human};
 use crate::setting::{Holding, Nearness, Standing, Telling};
 
@@ -200,6 +201,11 @@ pub fn run(args: &Diff, known: &Known, err: &mut dyn WriteColor) -> Result<Exit,
         account
     } else {
         let found = motion(&mut sides, args.nearness.tolerance).map_err(|e| cannot(&e))?;
+        if !args.telling.quiet {
+            for (side, course) in sides.iter_mut().zip(&found.courses) {
+                questions::note(&side.job, &mut side.source, &course.diagnostics, !course.refused, err)?;
+            }
+        }
         let _ = say(args, &mut sides, &found, known, err);
         if found.refused() {
             return Ok(Exit::NotCompared);

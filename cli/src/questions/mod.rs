@@ -1,0 +1,396 @@
+//! Questions: facts of a source's control that the program does not state and that change its cut.
+//!
+//! A fact is asked only if its two values, executed, make two different cuts of this program. [`find`] takes the
+//! facts that a reading has assumed, runs the source under both values ([`race`]), and keeps those that differ.
+//!
+//! ```text
+//! G43 H1 Z100     → is Z100 100 mm or 0.1 mm?   answer: `--from-option decimal_point=…`
+//! ```
+//!
+//! A program that touches no such fact is not read again. Not here: the words (`render::questions`), and what a
+//! verb does with a question.
+
+mod race;
+
+use std::io::{self, SeekFrom};
+
+use codespan_reporting::term::termcolor::WriteColor;
+
+use ncc_dialects::{CALCULATOR, DECIMAL_POINT, Dialect, Settings};
+use ncc_frontends::{BareNumber, Batch};
+use ncc_ir::canon::Units;
+use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
+use ncc_ir::num::{Nanos, Num};
+use ncc_ir::source::Span;
+
+pub use self::race::Made;
+
+use self::race::{Difference, Finish, GENERATED, MICROMETRE, Measure, PLAIN, TENTH, race};
+use crate::chunks::{Chunk, Chunks};
+use crate::files;
+use crate::job::Job;
+use crate::problem::Problem;
+use crate::render::questions as words;
+use crate::render::source::Source;
+
+/// Value of the option `decimal_point`: least increments.
+const INCREMENT: &str = "increment";
+
+/// What a translation does about questions.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Policy {
+    /// It stops with all of them.
+    #[default]
+    Ask,
+    /// It goes on with ncc's readings; head and report name the questions first.
+    Assume,
+    /// It looks for none.
+    Skip,
+}
+
+/// A fact that may be asked, from the most dangerous one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fact {
+    /// For which control the program was written, where its text fits several.
+    Control,
+    /// The unit of lengths, which the program never states.
+    Units,
+    /// What a number without a decimal point counts.
+    DecimalPoint,
+}
+
+impl Fact {
+    /// The number of the message's code.
+    pub fn code(self) -> u16 {
+        match self {
+            Fact::Control => 332,
+            Fact::Units => 301,
+            Fact::DecimalPoint => 303,
+        }
+    }
+}
+
+/// What a user writes to choose a reading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// `--from fanuc`.
+    From(&'static str),
+    /// `--units mm`.
+    Units(Units),
+    /// `--from-option decimal_point=increment`.
+    Option(&'static str, &'static str),
+    /// No option: decimal points in the program.
+    WritePoints,
+}
+
+/// One of the two readings of a fact.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reading {
+    /// What chooses it.
+    pub answer: Answer,
+    /// Whether it is ncc's own.
+    pub taken: bool,
+    /// What it makes, in numbers.
+    pub result: Shown,
+}
+
+/// A result of a reading that can be shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shown {
+    /// The value of the word at the place: a length, or a feed a minute.
+    Word {
+        /// In its unit.
+        value: Num,
+        /// Whether it is a feed.
+        feed: bool,
+    },
+    /// What the machine does there.
+    Made(Made),
+    /// Nothing but that the two readings differ.
+    Nothing,
+}
+
+/// A fact of which two values make two different cuts of the program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// Which fact.
+    pub fact: Fact,
+    /// The first place where both readings differ: a word, or a block.
+    pub span: Span,
+    /// Both readings.
+    pub readings: [Reading; 2],
+}
+
+impl Question {
+    /// The control that was recognised, and the other one.
+    pub fn controls(&self) -> Option<(&'static str, &'static str)> {
+        match self.readings.each_ref().map(|reading| &reading.answer) {
+            [Answer::From(taken), Answer::From(other)] => Some((taken, other)),
+            _ => None,
+        }
+    }
+
+    /// ncc's own reading.
+    pub fn taken(&self) -> &Reading {
+        let [first, second] = &self.readings;
+        if second.taken { second } else { first }
+    }
+}
+
+/// A fact that is open, with the readings to be tried.
+struct Candidate {
+    fact: Fact,
+    /// Where the reading relies on it first.
+    span: Span,
+    answers: [Answer; 2],
+    /// The source under each value.
+    settings: [Settings; 2],
+    /// Which of them is ncc's own.
+    taken: usize,
+}
+
+/// The questions of a source, from the most dangerous one. `diagnostics` are those of its reading, in which the facts
+/// that it assumes stand; `sound` is whether nothing was refused there.
+///
+/// # Errors
+/// Reading the source.
+pub(crate) fn find(
+    job: &Job,
+    source: &mut dyn Source,
+    diagnostics: &[Diagnostic],
+    sound: bool,
+) -> io::Result<Vec<Question>> {
+    let mut questions = Vec::new();
+    for candidate in candidates(job, diagnostics) {
+        let jobs = candidate.settings.clone().map(|from| Job { from, ..job.clone() });
+        questions.extend(decide(&candidate, [&jobs[0], &jobs[1]], source, sound)?);
+    }
+    questions.sort_by_key(|question| question.fact);
+    Ok(questions)
+}
+
+/// The questions of a text, which is read for it.
+///
+/// # Errors
+/// As of [`find`]; a text in memory gives none.
+pub fn of_text(job: &Job, text: &[u8]) -> io::Result<Vec<Question>> {
+    let (mut reader, mut batch) = (job.reader(true), Batch::default());
+    reader.read(text, 0, &mut batch);
+    reader.finish(&mut batch);
+    let sound = batch.diagnostics.iter().all(|d| d.fault.gravity() != Gravity::Error);
+    find(job, &mut io::Cursor::new(text), &batch.diagnostics, sound)
+}
+
+/// Tells in one line of the questions of a source that a verb answers with ncc's readings.
+///
+/// # Errors
+/// Reading the source.
+pub(crate) fn note(
+    job: &Job,
+    source: &mut files::Source,
+    diagnostics: &[Diagnostic],
+    sound: bool,
+    err: &mut dyn WriteColor,
+) -> Result<(), Problem> {
+    let found = find(job, &mut source.file, diagnostics, sound);
+    let found = found.map_err(|e| Problem::file("read", &source.shown, &e))?;
+    if !found.is_empty() {
+        // What cannot be told changes nothing about what is done.
+        let _ = writeln!(err, "{}: {}", source.shown, words::note(&found));
+    }
+    Ok(())
+}
+
+/// The facts that are open, and touched.
+fn candidates(job: &Job, diagnostics: &[Diagnostic]) -> Vec<Candidate> {
+    let mut all: Vec<Candidate> = job.rivals.iter().map(|rival| control(job, rival)).collect();
+    let units = |d: &&Diagnostic| matches!(d.fault, Fault::AssumedMode { fact: ModeName::Units, .. });
+    if let Some(assumed) = diagnostics.iter().find(units) {
+        all.extend(lengths(job, assumed.span));
+    }
+    let bare = |d: &&Diagnostic| matches!(d.fault, Fault::AssumedBareNumber { .. });
+    if let Some(assumed) = diagnostics.iter().find(bare) {
+        all.extend(points(job, assumed.span));
+    }
+    all
+}
+
+/// The control: that which was recognised, or one that explains the text as well.
+fn control(job: &Job, rival: &'static Dialect) -> Candidate {
+    let mut other = Settings::new(rival);
+    // The units are a question of their own.
+    if let Some(row) = &job.from.dialect.power_on.units {
+        other.state_units(row.value.into());
+    }
+    for option in rival.option.iter().filter(|option| job.from.is_chosen(&option.name)) {
+        // A value that the rival does not take is none of its.
+        let _ = other.choose(&option.name, job.from.get(&option.name));
+    }
+    Candidate {
+        fact: Fact::Control,
+        span: Span::default(),
+        answers: [Answer::From(&job.from.dialect.id), Answer::From(&rival.id)],
+        settings: [job.from.clone(), other],
+        taken: 0,
+    }
+}
+
+/// The units of lengths.
+fn lengths(job: &Job, span: Span) -> Option<Candidate> {
+    let row = job.from.dialect.power_on.units.as_ref().filter(|row| !row.of_the_machine)?;
+    let own: Units = row.value.into();
+    let both = [Units::Mm, Units::Inch];
+    let settings = both.map(|units| {
+        let mut settings = job.from.clone();
+        settings.state_units(units);
+        settings
+    });
+    let taken = usize::from(own == Units::Inch);
+    Some(Candidate { fact: Fact::Units, span, answers: both.map(Answer::Units), settings, taken })
+}
+
+/// What numbers without a decimal point count.
+fn points(job: &Job, span: Span) -> Option<Candidate> {
+    job.from.takes(DECIMAL_POINT, INCREMENT).then_some(())?;
+    let own = job.from.get(DECIMAL_POINT);
+    let answer = |value: &'static str| match job.from.takes(DECIMAL_POINT, value) {
+        true => Answer::Option(DECIMAL_POINT, value),
+        false => Answer::WritePoints,
+    };
+    let settings = [INCREMENT, CALCULATOR].map(|value| {
+        let mut settings = job.from.clone();
+        settings.suppose(DECIMAL_POINT, value);
+        settings
+    });
+    let taken = usize::from(own == CALCULATOR);
+    let answers = [INCREMENT, CALCULATOR].map(answer);
+    Some(Candidate { fact: Fact::DecimalPoint, span, answers, settings, taken })
+}
+
+/// Runs both readings; a question if they make two different cuts.
+fn decide(
+    candidate: &Candidate,
+    jobs: [&Job; 2],
+    source: &mut dyn Source,
+    sound: bool,
+) -> io::Result<Option<Question>> {
+    let length = match candidate.fact {
+        Fact::Control | Fact::Units => MICROMETRE,
+        Fact::DecimalPoint => TENTH,
+    };
+    let cuts = candidate.fact == Fact::Control;
+    let watch = candidate.fact == Fact::DecimalPoint;
+    let measure = Measure { length, cuts };
+    let finish = match cuts {
+        false => race(jobs, source, measure, PLAIN, watch)?,
+        // Lengths and offsets are nothing in the plain world, in which numbers can be shown.
+        true => match race(jobs, source, measure, GENERATED, watch)? {
+            Finish::Apart(difference) if is_refused(&difference) || !reads(jobs[1], source)? => {
+                return Ok(None);
+            }
+            Finish::Apart(difference) => match race(jobs, source, measure, PLAIN, watch)? {
+                Finish::Apart(plain) if !is_refused(&plain) => Finish::Apart(plain),
+                Finish::Same | Finish::Unknown(_) | Finish::Apart(_) => hidden(Finish::Apart(difference)),
+            },
+            other => other,
+        },
+    };
+    let (span, shown) = match finish {
+        Finish::Same => return Ok(None),
+        Finish::Apart(difference) => match candidate.fact {
+            Fact::DecimalPoint => in_words(candidate, &difference),
+            Fact::Control | Fact::Units => (difference.at, difference.made.map(made)),
+        },
+        Finish::Unknown(bare) => match candidate.fact {
+            // What cannot be executed here may be by a caller.
+            Fact::Units if sound => (candidate.span, [Shown::Nothing; 2]),
+            Fact::DecimalPoint if sound => match bare.iter().find(|bare| matters(bare)) {
+                Some(bare) => (bare.span, values(bare)),
+                None => return Ok(None),
+            },
+            Fact::Control | Fact::Units | Fact::DecimalPoint => return Ok(None),
+        },
+    };
+    // The greater value is shown first.
+    let order = if candidate.fact == Fact::DecimalPoint { [1, 0] } else { [0, 1] };
+    let reading = |at: usize| Reading {
+        answer: candidate.answers[at].clone(),
+        taken: candidate.taken == at,
+        result: shown[at],
+    };
+    Ok(Some(Question { fact: candidate.fact, span, readings: order.map(reading) }))
+}
+
+/// A difference of which the numbers are those of a made-up world.
+fn hidden(finish: Finish) -> Finish {
+    match finish {
+        Finish::Apart(mut difference) => {
+            let numbers = |made: Made| match made {
+                Made::End(..) | Made::Centre(..) => Made::Otherwise,
+                other => other,
+            };
+            difference.made = difference.made.map(numbers);
+            Finish::Apart(difference)
+        }
+        other => other,
+    }
+}
+
+fn is_refused(difference: &Difference) -> bool {
+    difference.made.iter().any(|made| matches!(made, Made::Refused(_)))
+}
+
+fn made(made: Made) -> Shown {
+    match made {
+        Made::Otherwise => Shown::Nothing,
+        made => Shown::Made(made),
+    }
+}
+
+/// The number without a point that makes a difference, and its two values; else what the machine does.
+fn in_words(candidate: &Candidate, difference: &Difference) -> (Span, [Shown; 2]) {
+    let feed = matches!(difference.made[0], Made::Feed(..));
+    let own =
+        |bare: &&BareNumber| bare.span.start >= difference.at.start && bare.feed == feed && matters(bare);
+    let before = |bare: &&BareNumber| bare.feed == feed && matters(bare);
+    let found = difference.bare.iter().find(own).or_else(|| difference.bare.iter().rev().find(before));
+    match found {
+        Some(bare) => (bare.span, values(bare)),
+        None if difference.at == Span::default() => (candidate.span, difference.made.map(made)),
+        None => (difference.at, difference.made.map(made)),
+    }
+}
+
+fn values(bare: &BareNumber) -> [Shown; 2] {
+    [bare.read, bare.with_point].map(|value| Shown::Word { value: value.trimmed(), feed: bare.feed })
+}
+
+/// Whether a number without a point is another one with it: by more than a tenth of a millimetre, or as a feed.
+fn matters(bare: &BareNumber) -> bool {
+    let nanos = |num: Num| num.nanos(false).unwrap_or(Nanos::MAX);
+    bare.feed || nanos(bare.read).abs_diff(nanos(bare.with_point)) > TENTH.unsigned_abs()
+}
+
+/// Whether a source can be read to its end.
+fn reads(job: &Job, source: &mut dyn Source) -> io::Result<bool> {
+    source.seek(SeekFrom::Start(0))?;
+    let (mut reader, mut batch) = (job.reader(true), Batch::default());
+    let mut chunks = Chunks::new(source);
+    let refused = |batch: &Batch| batch.diagnostics.iter().any(|d| d.fault.gravity() == Gravity::Error);
+    loop {
+        match chunks.next()? {
+            Chunk::Lines(base, range) => reader.read(chunks.text(range), base, &mut batch),
+            Chunk::TooLong(..) => return Ok(false),
+            Chunk::End => break,
+        }
+        if refused(&batch) {
+            return Ok(false);
+        }
+        batch.diagnostics.clear();
+        if !batch.whole {
+            batch.stmts.clear();
+        }
+    }
+    reader.finish(&mut batch);
+    Ok(!refused(&batch))
+}

@@ -1,0 +1,216 @@
+//! Ranks: what a user has to do about each thing that a translation reports.
+//!
+//! `units = mm` changes the whole cut; that a comment has other letters changes nothing. A report lists the first one
+//! first. Every fault that does not refuse a program has its rank here, in one exhaustive match: a new fault does not
+//! compile until it has one. Not here: the order within a rank, and the words.
+
+use crate::diag::{Fault, ModeName};
+
+/// What a user has to do, the worst first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Rank {
+    /// Answer a question, if its two values make two different cuts of the program; else nothing.
+    Dangerous,
+    /// Look at the machine, or at its parameters.
+    Check,
+    /// Nothing on a machine that is set as usual.
+    Usual,
+    /// Nothing: the cut is the same.
+    NoEffect,
+}
+
+impl Rank {
+    /// All ranks, the worst first.
+    pub const ALL: [Rank; 4] = [Rank::Dangerous, Rank::Check, Rank::Usual, Rank::NoEffect];
+
+    /// Its name in reports.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Rank::Dangerous => "dangerous",
+            Rank::Check => "check-at-the-machine",
+            Rank::Usual => "usual-default",
+            Rank::NoEffect => "no-effect-on-the-cut",
+        }
+    }
+}
+
+impl Fault {
+    /// Its rank; `None` of an error, which refuses the program.
+    pub const fn rank(&self) -> Option<Rank> {
+        Some(match self {
+            // What two readings may cut in two ways: `questions` decides.
+            Fault::AssumedMode { fact: ModeName::Units, .. }
+            | Fault::AssumedBareNumber { .. }
+            | Fault::AssumedControl { .. } => Rank::Dangerous,
+
+            // Facts of the machine, of its tables or of its builder. A fact that a run with another value has shown to
+            // matter (a fork of the verification) belongs here.
+            Fault::AssumedEdge { .. }
+            | Fault::AssumedRadius { .. }
+            | Fault::AssumedOffsetWithZ
+            | Fault::AssumedWorkOffset { .. }
+            | Fault::AssumedNoEffect { .. }
+            | Fault::AssumedRow { .. }
+            | Fault::AssumedPath { .. }
+            | Fault::AssumedContourEnds
+            | Fault::AssumedContourPath
+            | Fault::AssumedTip
+            | Fault::AssumedTilt
+            | Fault::StartedAgain { .. }
+            | Fault::OpenBehaviour { .. }
+            | Fault::MovedAtChange
+            | Fault::PathAtStart { .. }
+            | Fault::AssumedMilling { .. }
+            | Fault::FeedAtUnits { .. }
+            | Fault::OptionalStopDiffers
+            | Fault::PathRelaxed { .. }
+            // A loss that was allowed.
+            | Fault::SkipLevelLost { .. }
+            | Fault::OutputDropped
+            | Fault::MessageDropped
+            // Warnings.
+            | Fault::NoProgramEnd
+            | Fault::TextAfterEnd
+            | Fault::ComparedLast { .. }
+            | Fault::SkipSettingsSampled { .. }
+            | Fault::VariableGiven { .. }
+            | Fault::NotTaken { .. }
+            | Fault::OutputNotTaken { .. }
+            | Fault::ValueNotRead { .. }
+            | Fault::NotCalled { .. }
+            | Fault::ArgumentNeeded { .. }
+            | Fault::CutStanding => Rank::Check,
+
+            Fault::AssumedMode {
+                fact:
+                    ModeName::Motion
+                    | ModeName::Distance
+                    | ModeName::Plane
+                    | ModeName::FeedMode
+                    | ModeName::ReturnLevel
+                    | ModeName::WorkOffset
+                    | ModeName::LengthOffset
+                    | ModeName::OriginShift,
+                ..
+            }
+            | Fault::AssumedOption { .. }
+            | Fault::AssumedParameter { .. }
+            | Fault::AssumedHoleOrder { .. } => Rank::Usual,
+
+            Fault::CommentReformatted
+            | Fault::ArcReformatted
+            | Fault::Rounded { .. }
+            | Fault::PatternExpanded { .. }
+            | Fault::CycleExpanded { .. }
+            | Fault::CallExpanded { .. }
+            | Fault::NumbersLeftOut { .. }
+            | Fault::NameAsComment
+            | Fault::BlockSplit
+            | Fault::RepeatExpanded { .. }
+            | Fault::FramesExpanded
+            | Fault::CycleFolded { .. }
+            | Fault::PatternFolded { .. }
+            | Fault::NameChanged { .. }
+            | Fault::AdviceLeftOut { .. }
+            | Fault::WorkOffsetLeftOut { .. }
+            | Fault::Flattened { .. }
+            | Fault::VariablesRenamed { .. }
+            | Fault::AlarmsRenumbered { .. }
+            | Fault::SideEffectWritten { .. }
+            | Fault::FeedByTime
+            | Fault::ValuesInFull { .. }
+            | Fault::MacroApart { .. }
+            | Fault::MachineCutExpanded { .. }
+            | Fault::MachineCutFolded { .. }
+            | Fault::PeckShortened
+            | Fault::PolarExpanded
+            | Fault::CompensationExpanded { .. }
+            | Fault::CornerExpanded => Rank::NoEffect,
+
+            Fault::UnexpectedCharacter { .. }
+            | Fault::BadNumber { .. }
+            | Fault::UnclosedComment
+            | Fault::BlockTooLong { .. }
+            | Fault::NotText
+            | Fault::WordWithoutNumber { .. }
+            | Fault::LetterOForZero
+            | Fault::EmptyProgram
+            | Fault::Syntax { .. }
+            | Fault::OpeningMarkMissing { .. }
+            | Fault::UnknownCode { .. }
+            | Fault::NotSupported { .. }
+            | Fault::CodesExclude { .. }
+            | Fault::WordUnused { .. }
+            | Fault::WordMissing { .. }
+            | Fault::WordTwice { .. }
+            | Fault::TooManyCodes { .. }
+            | Fault::PointNotAllowed { .. }
+            | Fault::OutOfRange { .. }
+            | Fault::NoMotionMode
+            | Fault::ArcWithoutCentre
+            | Fault::ArcCentreAndRadius
+            | Fault::ArcEndOffCircle { .. }
+            | Fault::ArcRadiusTooSmall
+            | Fault::ArcRadiusNoWay
+            | Fault::NoArc
+            | Fault::NoCorner { .. }
+            | Fault::PositionUnknown { .. }
+            | Fault::CallUnknown { .. }
+            | Fault::LabelUnknown { .. }
+            | Fault::CallRecursive { .. }
+            | Fault::ProgramTwice { .. }
+            | Fault::MacroLanguage { .. }
+            | Fault::NoToolSelected
+            | Fault::NoFeed
+            | Fault::NoSpeed
+            | Fault::NoValue { .. }
+            | Fault::VariableUnset { .. }
+            | Fault::Computes { .. }
+            | Fault::NoCycle
+            | Fault::CycleUpsideDown
+            | Fault::EntryFactNeeded { .. }
+            | Fault::NotExecuted { .. }
+            | Fault::NoEnd { .. }
+            | Fault::Endless
+            | Fault::RadiusUnknown { .. }
+            | Fault::ContourUnreachable { .. }
+            | Fault::CannotSay { .. }
+            | Fault::SecondWorkOffset { .. }
+            | Fault::FactUnsaid { .. }
+            | Fault::ArcVanishes
+            | Fault::DoneByTarget { .. }
+            | Fault::MustBeStated { .. }
+            | Fault::RefusedCompensated { .. }
+            | Fault::ArcRadiiDiffer { .. }
+            | Fault::CompensatedThere { .. }
+            | Fault::TargetRange { .. }
+            | Fault::ProfileDenies { .. }
+            | Fault::NotInMap { .. }
+            | Fault::NotTheSame { .. }
+            | Fault::NotReadBack { .. } => return None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Gravity;
+
+    /// An error has no rank, and whatever is no error has one.
+    #[test]
+    fn ranks_follow_gravity() {
+        let some = [
+            Fault::NotText,
+            Fault::NoProgramEnd,
+            Fault::AssumedTip,
+            Fault::BlockSplit,
+            Fault::OutputDropped,
+            Fault::AssumedMode { fact: ModeName::Units, value: "mm".into() },
+            Fault::AssumedMode { fact: ModeName::Plane, value: "XY".into() },
+        ];
+        for fault in some {
+            assert_eq!(fault.rank().is_none(), fault.gravity() == Gravity::Error, "{fault:?}");
+        }
+    }
+}
