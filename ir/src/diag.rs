@@ -299,11 +299,11 @@ faults! {
     AssumedTip = 320, verdict(Verdict::Assumed);
     /// The tool is turned onto a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
-    /// The program looks like something else than a milling program, and the user says that it is one; in
-    /// which line the sign stands that decides.
-    AssumedMilling { looks_like: Box<str>, line: u64 } = 330, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
+    /// The program looks like something else than a milling program, and the user says that it is one; in
+    /// which line the sign stands that decides.
+    AssumedMilling { looks_like: Box<str>, line: u64 } = 350, verdict(Verdict::Assumed);
 
     // NC04xx: what became of it.
     /// A comment in the target's characters.
