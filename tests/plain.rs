@@ -10,14 +10,17 @@ use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, SpindleMode,
     Turn, Units,
 };
-use ncc_ir::exec::{Compensation, Event, Kind, Stored};
+use ncc_ir::exec::{Compensation, Event, Kind, Stored, by_control};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
+use crate::besides::{cuts, passed_over, switched};
 use crate::interpreter::setup::Counted;
-use crate::interpreter::{self, Beside, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What};
+use crate::interpreter::{
+    self, Beside, ByItself, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What,
+};
 
 /// An event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +47,8 @@ pub struct Plain {
     pub beside: Option<Beside>,
     /// Whether points are those of the tool's tip, and of a tilted plane.
     pub five: [bool; 2],
+    /// What the control has done by itself.
+    pub by_itself: ByItself,
 }
 
 /// What happened.
@@ -219,7 +224,13 @@ pub fn of_dialect(world: World, dialect: &str) -> World {
     let by = if linuxcnc { ONE / 1000 * 254 } else { ONE };
     let level = if linuxcnc { ReturnLevel::Retract } else { ReturnLevel::Initial };
     let power_on = Modes { return_level: Some(level), ..world.power_on };
-    World { peck_clearance: by, break_lift: by, power_on, ..world }
+    behaving(&World { peck_clearance: by, break_lift: by, power_on, ..world }, dialect)
+}
+
+/// The same with what codes do besides their names on a dialect's control.
+pub fn behaving(world: &World, dialect: &str) -> World {
+    let behaviours = ncc_dialects::builtin(dialect).map(|d| d.behaviours()).unwrap_or_default();
+    World { behaviours, ..world.clone() }
 }
 
 fn mm(nanos: Nanos) -> f64 {
@@ -292,6 +303,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 coolant: event.coolant,
                 beside: event.beside,
                 five: event.five,
+                by_itself: event.by_itself,
             },
         );
     }
@@ -419,6 +431,13 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 coolant: (event.state.flood, event.state.mist),
                 beside: beside(&event.state.compensation),
                 five: [event.state.tip, event.state.tilted],
+                by_itself: ByItself {
+                    spindle: event.state.by_control & by_control::SPINDLE != 0,
+                    coolant: event.state.by_control & by_control::COOLANT != 0,
+                    z: event.state.by_control & by_control::Z != 0,
+                    moves: event.state.by_control & by_control::MOVE != 0,
+                    z_moved: event.state.by_control & by_control::Z_AT_START == 0,
+                },
             },
         );
     }
@@ -460,15 +479,55 @@ fn push(list: &mut Vec<Plain>, start: [f64; 6], event: Plain) {
 /// The first difference, with what stands around it.
 pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Result<(), String> {
     let (mut index, mut at) = (0, 0);
+    // Words that stop the spindle for an optional stop are passed over until something is cut.
+    let mut optional = false;
     while index < expected.len() || at < actual.len() {
         let fault = match (expected.get(index), actual.get(at)) {
-            (Some(a), Some(b)) => difference(a, b, within),
+            (Some(a), Some(b)) => {
+                optional = a.what == Happening::OptionalStop || optional && !cuts(a.what);
+                let b = if optional && b.speed == 0.0 {
+                    Plain { speed: a.speed, surface: a.surface, ..*b }
+                } else {
+                    *b
+                };
+                let off = optional && b.coolant == (false, false);
+                let b = if off { Plain { coolant: a.coolant, ..b } } else { b };
+                difference(a, &b, within)
+            }
             _ => Some("one list is shorter"),
         };
         let Some(fault) = fault else {
             (index, at) = (index + 1, at + 1);
             continue;
         };
+        // Coolant that a word switches here, and the control by itself there; and its way up to a tool change.
+        if let (Some(a), Some(b)) = (expected.get(index), actual.get(at)) {
+            if switched(a, b) {
+                index += 1;
+                continue;
+            }
+            let for_stop = b.what == Happening::Coolant && (optional || a.what == Happening::OptionalStop);
+            if switched(b, a) || b.by_itself.moves || for_stop {
+                at += 1;
+                continue;
+            }
+            if a.by_itself.moves && !b.by_itself.z_moved {
+                index += 1;
+                continue;
+            }
+        }
+        // From where the one control has gone up, back to where the other one stands.
+        let back = |list: &[Plain], at: usize, other: Option<&Plain>| {
+            let (event, before) = (list.get(at)?, list.get(at.checked_sub(1)?)?);
+            let returns = event.what == Happening::Traverse && before.by_itself.z && !event.by_itself.z;
+            let near = |x: f64, y: f64| (x - y).abs() <= within.place;
+            Some(returns && event.at.iter().zip(other?.at).all(|(x, y)| near(*x, y)))
+        };
+        let stood = index.checked_sub(1).and_then(|index| expected.get(index));
+        if back(actual, at, stood) == Some(true) {
+            at += 1;
+            continue;
+        }
         // Moves that rounding has brought to nothing vanish.
         if stands(expected, index, within) {
             index += 1;
@@ -516,6 +575,7 @@ fn stands(list: &[Plain], index: usize, within: Tolerance) -> bool {
 }
 
 fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
+    let b = &passed_over(a, b);
     let near = |x: f64, y: f64, by: f64| (x - y).abs() <= by;
     let same_kind = match (a.what, b.what) {
         (

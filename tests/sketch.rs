@@ -136,7 +136,7 @@ pub fn spell(pieces: &[Piece], dialect: &str) -> String {
     for piece in pieces {
         one(piece, control, false, &mut at, &mut out);
     }
-    out.push_str(control.say("G0Z50.\nM5\nM2\n", "G00 Z50. M05\nM30\n%\n", "G0 Z50\nM5\nM30\n"));
+    out.push_str(control.say("G0Z50.\nM5\nM9\nM2\n", "G00 Z50. M05\nM09\nM30\n%\n", "G0 Z50\nM5\nM9\nM30\n"));
     out
 }
 

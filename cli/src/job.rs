@@ -9,6 +9,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use ncc_backends::Layout;
 use ncc_dialects::Settings;
 use ncc_frontends::Reader;
+use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::beside::Rules;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
@@ -107,6 +108,29 @@ impl Job {
     pub fn between_controls(&self) -> bool {
         let to = self.to.dialect;
         self.from.dialect.id != to.id && !to.can.everything && !to.can.flat
+    }
+
+    /// What codes of the source's control do besides their names. A list of events has no word for machine zero: it is
+    /// of the program's own moves.
+    pub fn source_behaviours(&self) -> Behaviours {
+        let mut source = self.from.behaviours();
+        if self.to.dialect.can.flat {
+            source.set(Behaviour::ZAtChange, 0, false);
+        }
+        source
+    }
+
+    /// What codes of the target's control do besides their names. A target without words for machine zero is taken to go
+    /// there by itself for a tool change, as the source's control does; open as before.
+    pub fn target_behaviours(&self) -> Behaviours {
+        let mut target = self.to.behaviours();
+        let caps = &self.to.dialect.caps;
+        let says = caps.references.home || caps.machine_coordinates;
+        let (change, source) = (Behaviour::ZAtChange, self.source_behaviours());
+        if source.surely(change) && !target.does(change) && !says {
+            target.set(change, source.get(change), target.is_open(change));
+        }
+        target
     }
 
     /// Whether cutter radius compensation is worked out, so that the output has none.

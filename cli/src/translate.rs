@@ -7,6 +7,8 @@
 mod alone;
 mod as_there;
 
+use as_there::target;
+
 use std::collections::{BTreeSet, HashMap};
 use std::io::{self, Read};
 
@@ -18,8 +20,9 @@ use ncc_ir::given_back::left_out;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
+use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::passes::{Legaliser, Target, leave_out_values, machine_cuts, own_distance, passed_labels};
+use ncc_ir::passes::{Legaliser, leave_out_values, machine_cuts, own_distance, passed_labels};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -119,6 +122,8 @@ struct Line<'j> {
     folder: Option<Folder>,
     /// Puts the target machine's numbers in.
     renumbering: Renumbering,
+    /// Writes what codes of the source's control do besides their names.
+    side_effects: SideEffects,
     legaliser: Legaliser,
     writer: Writer,
     text: Vec<u8>,
@@ -149,6 +154,7 @@ impl<'j> Line<'j> {
         let mut legaliser =
             Legaliser::new(&job.to.caps(), as_there::decimals(job), parameter(job, PECK_CLEARANCE));
         legaliser.set_break_lift(parameter(job, BREAK_LIFT));
+        legaliser.set_source(&job.source_behaviours());
         // The text form can hold what any dialect can say.
         let own = job.from.dialect.block.qualifiers || job.from.dialect.can.everything;
         legaliser.set_measures(own);
@@ -170,6 +176,7 @@ impl<'j> Line<'j> {
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),
+            side_effects: SideEffects::new(job.source_behaviours(), job.target_behaviours()),
             legaliser,
             writer,
             text: Vec::new(),
@@ -244,15 +251,18 @@ impl<'j> Line<'j> {
         self.state_given(stmts);
         let renumbers = self.renumbering.touches(stmts);
         let there = self.taken_there(stmts, &assumed, &mut found);
-        let touched = unfolded.is_some() || renumbers || self.legaliser.touches(stmts);
+        let switches = self.side_effects.touches(stmts);
+        let touched = unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts);
         if touched {
             // What the passes take for granted holds for the source as well.
             let original = unfolded.unwrap_or_else(|| stmts.clone());
+            self.side_effects.over(stmts, &mut found);
             self.renumbering.over(stmts, &mut found);
             self.legaliser.run(stmts, &there, &mut found);
             self.take_parameters(&found);
             self.check(|v| v.source(&original, &assumed));
         } else {
+            self.side_effects.over(stmts, &mut found);
             self.legaliser.run(stmts, &there, &mut found);
         }
         self.write_main(stmts, &there, &mut found);
@@ -303,6 +313,9 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let mut program = source.clone();
+        let mut found = Vec::new();
+        self.side_effects.run(&mut program.procedures, &mut found);
+        self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {
             let mut told = left_out(&program, &self.job.to.caps());
             as_there::alarms(self.job, &mut program, &mut told);
@@ -589,12 +602,14 @@ impl<'j> Line<'j> {
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
         let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
-                self.diagnostics.append(&mut verifier.take_notes());
+                let notes = verifier.take_notes();
                 if let Some(levels) = verifier.sampled() {
                     let warning = Fault::SkipSettingsSampled { levels };
                     self.diagnostics.push(Diagnostic::new(warning, Span::default()));
                 }
-                Some(verifier.covered())
+                let covered = verifier.covered();
+                self.take(notes, Told::Writer);
+                Some(covered)
             }
             _ => None,
         };
@@ -668,21 +683,6 @@ impl<'j> Line<'j> {
         };
         lines.extend(self.job.machines.layout().header);
         lines
-    }
-}
-
-/// The target as the passes see it.
-fn target(job: &Job) -> Target {
-    let caps = job.to.caps();
-    Target {
-        caps,
-        decimals: as_there::decimals(job),
-        peck_clearance: parameter(job, PECK_CLEARANCE),
-        break_lift: parameter(job, BREAK_LIFT),
-        compensating: job.compensating(),
-        given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
-        // What is asked for by name is done in the source's numbers.
-        ..Target::default()
     }
 }
 

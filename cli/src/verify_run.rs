@@ -1,7 +1,11 @@
 //! Verification of a translation as it streams by: source and emitted text are executed in the same
 //! worlds and under the same block-skip settings, and their events compared.
 
+mod facts;
 mod whole;
+
+pub(crate) use facts::stops_differ;
+use facts::{Other, done_by_target, looked_at};
 
 use std::collections::BTreeMap;
 
@@ -57,6 +61,8 @@ pub(crate) struct Run {
     comparison: Comparison,
     /// Both controls are in one state, with nothing left to compare.
     level: bool,
+    /// The one fact that is another one than usual, of a run that shows whether it matters.
+    other: Option<Other>,
 }
 
 /// A verification in progress.
@@ -68,6 +74,14 @@ pub(crate) struct Verifier {
     answered: Vec<Span>,
     batch: Batch,
     runs: Vec<Run>,
+    /// Runs of the first world in which one open fact is another one than usual.
+    others: Vec<Run>,
+    /// Open facts of the source's control, the target's, a bit each, that are looked at.
+    open: [u64; 2],
+    /// Whether the switch for optional stops makes a difference on either control.
+    optional_stop: bool,
+    /// Facts that were found to make another cut, each where it does.
+    matters: Vec<(Other, Span)>,
     levels: u16,
     /// Whether the target's machine has numbers of its own: then controls are never in one state.
     renamed: bool,
@@ -186,10 +200,12 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
         (None, _) | (_, None) => BTreeMap::new(),
     };
     let mut source = World::generate(seed, &from).with_external();
+    source.behaviours = job.source_behaviours();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to).with_external();
+    target.behaviours = job.target_behaviours();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
@@ -219,6 +235,9 @@ impl Verifier {
                 comparison.rename_tools(renaming.tools.clone(), &renaming.tool_names);
                 comparison.see(job.to.dialect.caps.seen());
                 comparison.say_alarms(alarms_of(&job.to));
+                if stops_differ(job) {
+                    comparison.optional_stops();
+                }
                 Run {
                     seed,
                     skip: 0,
@@ -228,6 +247,7 @@ impl Verifier {
                     source_events: Vec::new(),
                     target_events: Vec::new(),
                     level: false,
+                    other: None,
                 }
             })
             .collect();
@@ -264,6 +284,10 @@ impl Verifier {
             answered: Vec::new(),
             batch: Batch::default(),
             runs,
+            others: Vec::new(),
+            open: looked_at(job),
+            optional_stop: stops_differ(job),
+            matters: Vec::new(),
             levels: 0,
             renamed: !renaming.is_empty(),
             watched: false,
@@ -278,11 +302,6 @@ impl Verifier {
             last: Span::default(),
             notes: Vec::new(),
         }
-    }
-
-    /// What the verification has to say of its own reach.
-    pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
-        std::mem::take(&mut self.notes)
     }
 
     /// Keeps the pairs of events of the first world, with every block-skip switch off.
@@ -318,7 +337,9 @@ impl Verifier {
     fn take_parameters(&mut self, job: &Job) {
         let value = |option| parameter(job, option).and_then(|value| value.nanos(false));
         let (clearance, lift) = (value(PECK_CLEARANCE), value(BREAK_LIFT));
-        for exec in self.runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]) {
+        for exec in
+            self.runs.iter_mut().chain(&mut self.others).flat_map(|run| [&mut run.source, &mut run.target])
+        {
             if let Some(clearance) = clearance {
                 exec.set_peck_clearance(clearance);
             }
@@ -336,7 +357,8 @@ impl Verifier {
             match diagnostic.fault {
                 Fault::AssumedParameter { .. } => parameters = true,
                 Fault::PatternFolded { digits, inch, .. } | Fault::MachineCutFolded { digits, inch } => {
-                    self.runs.iter_mut().for_each(|run| run.comparison.rounded(digits, inch));
+                    let all = self.runs.iter_mut().chain(&mut self.others);
+                    all.for_each(|run| run.comparison.rounded(digits, inch));
                 }
                 _ => {}
             }
@@ -358,6 +380,9 @@ impl Verifier {
                 run.source.step(stmt, &mut run.source_events).map_err(Stop::Source)?;
             }
         }
+        // A program that cannot be executed with a fact is not compared under it.
+        self.others
+            .retain_mut(|run| stmts.iter().all(|stmt| run.source.step(stmt, &mut run.source_events).is_ok()));
         if let Some(stmt) = stmts.last() {
             self.last = stmt.span;
         }
@@ -415,6 +440,8 @@ impl Verifier {
     fn target_step(&mut self) -> Result<(), Stop> {
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
+        self.fork_for_facts();
+        self.others_step(false);
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
@@ -425,6 +452,7 @@ impl Verifier {
             let nothing_left = run.source_events.is_empty() && run.target_events.is_empty();
             run.level = nothing_left && !self.renamed && !self.watched && run.source.agrees(&run.target);
         }
+        self.drop_same();
         self.batch.stmts.clear();
         Ok(())
     }
@@ -432,7 +460,8 @@ impl Verifier {
     /// Whether the text just read says plain moves as they were said, and all controls are level.
     fn same_plain(&self, said: &[Stmt]) -> bool {
         let read = &self.batch.stmts;
-        self.runs.iter().all(|run| run.level)
+        self.others.is_empty()
+            && self.runs.iter().all(|run| run.level)
             && said.len() == read.len()
             && said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b))
     }
@@ -450,6 +479,8 @@ impl Verifier {
         self.batch.stmts.append(&mut rest.stmts);
         self.batch.diagnostics.append(&mut rest.diagnostics);
         self.read_back(&Modes::default())?;
+        self.fork_for_facts();
+        self.others_step(true);
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
@@ -482,7 +513,8 @@ impl Verifier {
 
     fn prepare(&mut self, stmts: &[Stmt], assumed: &Modes) {
         self.fork(levels(stmts));
-        for run in &mut self.runs {
+        self.fork_for_source(stmts);
+        for run in self.runs.iter_mut().chain(&mut self.others) {
             run.source.assume(assumed);
             if !self.stood {
                 run.source.stand_at(&self.start);
@@ -557,7 +589,7 @@ impl Verifier {
             let what = what.into();
             return Err(Stop::Source(Diagnostic::new(Fault::CannotSay { what }, self.last)));
         }
-        for run in &mut self.runs {
+        for run in self.runs.iter_mut().chain(&mut self.others) {
             // What the text itself takes for granted goes before what it inherits.
             run.target.assume(&own);
             run.target.assume(inherited);
@@ -593,6 +625,9 @@ fn unreadable(d: &Diagnostic, at: Span) -> Stop {
 /// A difference is a fault of the compiler, but where the source leaves open what the target cannot.
 fn different(difference: &Difference, unsaid: Option<ModeName>, last: Span) -> Stop {
     let at = difference.source.as_ref().map_or(last, |event| event.span);
+    if let Some(behaviour) = done_by_target(difference) {
+        return Stop::Source(Diagnostic::new(Fault::DoneByTarget { behaviour }, at));
+    }
     if let Some(fact) = unsaid {
         return Stop::Source(Diagnostic::new(Fault::FactUnsaid { fact }, at));
     }

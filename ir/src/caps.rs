@@ -1,5 +1,6 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
+use crate::behaviour::Behaviours;
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::computes::Computes;
 use crate::cycle::{CycleKind, Shift, Tap};
@@ -152,6 +153,8 @@ pub struct Caps {
     pub cycle_ends_motion: bool,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
+    /// What codes of the control do besides their names.
+    pub behaviours: Behaviours,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub cycles_measured_anew: bool,
     /// Arcs by radius.

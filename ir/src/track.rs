@@ -88,6 +88,8 @@ pub struct Tracker {
     /// Whether offsets of tools along X and Y have been said: a length called up may then put the tool elsewhere in
     /// the plane too.
     pub aside: bool,
+    /// A tool change takes Z to where nothing but the machine knows.
+    pub z_lost_at_change: bool,
 }
 
 /// A cycle in force, with its planes resolved as far as they are known.
@@ -461,7 +463,12 @@ impl Tracker {
                 let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
                 self.modes.length_offset = entry;
             }
-            Op::ChangeTool => self.tool = self.selected,
+            Op::ChangeTool => {
+                self.tool = self.selected;
+                if self.z_lost_at_change {
+                    self.position[Axis::Z as usize] = None;
+                }
+            }
             Op::SelectToolByName(_) => self.selected = None,
             Op::SelectTool(tool) => self.selected = tool.literal().and_then(|n| n.whole()),
             // One of them does what it says, and nothing else.

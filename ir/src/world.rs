@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
@@ -32,6 +33,10 @@ pub struct World {
     pub backs_off: Nanos,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// What codes of the control do besides their names.
+    pub behaviours: Behaviours,
+    /// Whether the operator's switch for optional stops is on.
+    pub optional_stop: bool,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -165,6 +170,8 @@ impl World {
             peck_clearance: 0,
             backs_off: 0,
             feed_ends_with_mode: false,
+            behaviours: Behaviours::default(),
+            optional_stop: false,
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },
@@ -272,11 +279,6 @@ impl World {
     pub fn kept(&self, what: Kept, of: u16) -> u32 {
         let index = 140_000 + what as u32 * 1000 + u32::from(of);
         if self.seed == 0 { 0 } else { (self.odd(index, 3000) / ONE).unsigned_abs() as u32 }
-    }
-
-    /// What a return to the reference point leaves of a tool's length.
-    pub fn left_length(&self) -> Nanos {
-        if self.seed == 0 { 0 } else { self.odd(90_000, 35) }
     }
 
     /// Length of an entry of the tool-length table, in millimetres; entry 0 is none.

@@ -252,9 +252,12 @@ impl Control {
             self.m.selected = Some(tool as u32);
         }
         if m.contains(&60) {
-            // The spindle stands when the change is done.
-            self.m.change_tool()?;
+            // The spindle stands for the change.
+            let turning = self.m.spindle != Spindle::Stopped;
             self.m.turn(Spindle::Stopped);
+            self.m.by_itself.spindle = turning;
+            self.m.change_tool()?;
+            self.m.by_itself.spindle = false;
         }
         if m.contains(&610) {
             match words.get('Q') {
@@ -362,6 +365,7 @@ impl Control {
             Some(0 | 600) => self.m.record(What::Stop),
             Some(10) => self.m.record(What::OptionalStop),
             Some(20 | 300) => {
+                self.m.switch_off();
                 self.m.record(What::End);
                 return Ok(Next::End);
             }

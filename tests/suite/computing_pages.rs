@@ -119,7 +119,7 @@ fn agrees(dialect: &str, text: &str) -> Result<(), String> {
     for world in [0, 1, 2].map(plain::world) {
         let start = world.start.map(|n| n as f64 / 1e9);
         let machine = plain::second(dialect, text.as_bytes(), plain::setup(&world, 0))?;
-        let events = translate::execute(&read, &world, 0)?;
+        let events = translate::execute(&read, &plain::behaving(&world, dialect), 0)?;
         let (a, b) = (plain::of_machine(&machine, start), plain::of_events(&events, start));
         plain::compare(&a, &b, Tolerance::SAME).map_err(|why| format!("{dialect}: {why}"))?;
     }

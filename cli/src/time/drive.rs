@@ -649,6 +649,8 @@ fn world(plan: &Plan) -> World {
         start: [0; AXES],
         peck_clearance: value(PECK_CLEARANCE),
         backs_off: 0,
+        behaviours: job.from.behaviours(),
+        optional_stop: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         break_lift: value(BREAK_LIFT),
         orientation: 0,

@@ -37,6 +37,6 @@ pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
 pub use settings::{
     ANGLE_RANGE, COMPUTED_DWELL, CYCLE_APPROACH, DECIMAL_POINT, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD,
-    SPINDLE_AFTER_CHANGE, SettingError, Settings, TAPPING,
+    SettingError, Settings, TAPPING,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};

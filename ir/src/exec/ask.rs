@@ -27,7 +27,7 @@ impl Exec {
     pub fn length_entry(&self) -> Option<u32> {
         match self.waiting.unwrap_or(self.modes.length) {
             Length::Entry(entry) => Some(entry),
-            Length::Edge(..) | Length::Value(_) | Length::Left => None,
+            Length::Edge(..) | Length::Value(_) => None,
         }
     }
 
@@ -35,7 +35,7 @@ impl Exec {
     /// is -1 where none was named.
     pub fn length_edge(&self) -> Option<(i64, u32)> {
         match self.waiting.unwrap_or(self.modes.length) {
-            Length::Entry(_) | Length::Value(_) | Length::Left => None,
+            Length::Entry(_) | Length::Value(_) => None,
             Length::Edge(tool, edge) => Some((tool, edge)),
         }
     }
@@ -185,7 +185,7 @@ impl Exec {
             }
             System::LengthEntry => match self.waiting.unwrap_or(self.modes.length) {
                 Length::Entry(entry) if entry > 0 => Some(f64::from(self.world.entry_number(entry))),
-                Length::Entry(_) | Length::Edge(..) | Length::Value(_) | Length::Left => None,
+                Length::Entry(_) | Length::Edge(..) | Length::Value(_) => None,
             },
             System::FirstWorkOffset => {
                 let number = self.modes.work_offset;

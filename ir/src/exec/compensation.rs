@@ -170,7 +170,7 @@ impl Exec {
                     let tool = (tool as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40;
                     return Ok(EDGE | (tool as u32) << 4 | edge);
                 }
-                Length::Value(_) | Length::Left => 0,
+                Length::Value(_) => 0,
             },
             CutterRadius::Diameter(diameter) => {
                 let steps = (self.value(diameter, span)?.abs() + STEP / 2) / STEP;

@@ -5,7 +5,8 @@
 //! What is put into a table counts from then on, and is an event: a value that this program does not
 //! use may be another's.
 
-use super::{Exec, Kind, Length, Stored, Z};
+use super::{Exec, Kind, Stored, Z};
+use crate::behaviour::Behaviour;
 use crate::canon::{AXES, Distance, Motion, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
@@ -36,12 +37,11 @@ impl Exec {
                 machine[axis] = point[axis];
             }
         }
-        let standing = self.waiting.unwrap_or(self.modes.length);
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;
         self.emit_move(false, span, out)?;
-        if to.axes[Z] && !to.keeps_length && standing != Length::Entry(0) {
-            self.waiting = Some(Length::Left);
+        if to.axes[Z] && !to.keeps_length {
+            self.cancel_length(Behaviour::LengthAfterReturn);
         }
         Ok(())
     }

@@ -5,6 +5,7 @@
 
 use super::Exec;
 use super::slots::{Frames, Present};
+use crate::behaviour::Behaviour;
 use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -30,8 +31,6 @@ pub(super) enum Length {
     Edge(i64, u32),
     /// This one, whatever the table says.
     Value(Nanos),
-    /// What a return to the reference point has left of it, if anything.
-    Left,
 }
 
 const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -416,6 +415,9 @@ impl Exec {
             machine[axis] = self.value(&word.value, span)?.wrapping_add(length);
         }
         self.position = self.unplace(&machine);
+        if !length && to.get(Axis::Z).is_some() {
+            self.cancel_length(Behaviour::LengthAfterMachineMove);
+        }
         Ok(())
     }
 
@@ -455,7 +457,6 @@ impl Exec {
             Length::Entry(entry) => self.world.tool_length(entry),
             Length::Edge(tool, edge) => self.world.edge_length(tool, edge),
             Length::Value(length) => length,
-            Length::Left => self.world.left_length(),
         }
     }
 

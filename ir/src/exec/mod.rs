@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod at_codes;
 mod centre_path;
 mod code;
 mod compensation;
@@ -29,10 +30,12 @@ mod thread;
 mod tilt;
 mod tools;
 
+pub(crate) use at_codes::cuts;
+pub use at_codes::touched;
 pub use centre_path::AsProgrammed;
 pub use compensation::Compensation;
 pub use conduct::named_tool;
-pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written};
+pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
@@ -116,6 +119,8 @@ pub struct Exec {
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
     cycle: Option<InForce>,
+    /// Behaviours of the control that the program has come to, a bit each.
+    asked: u64,
     /// Whether the program has ended.
     ended: bool,
     /// What becomes of messages.
@@ -205,10 +210,12 @@ impl Exec {
             state: State {
                 feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
                 path: world.path,
+                by_control: by_control::Z_AT_START,
                 ..State::default()
             },
             speed_watched: false,
             cycle: None,
+            asked: 0,
             ended: false,
             shown: message::Shown::default(),
             quiet: false,
@@ -414,6 +421,9 @@ impl Exec {
         let needs_feed = feed && self.feed == 0;
         if same_point(&end, &self.last) && !self.every_move && !needs_feed {
             return Ok(());
+        }
+        if self.state.by_control & (by_control::Z | by_control::Z_AT_START) != 0 && end[Z] != self.last[Z] {
+            return self.emit_first_of_z(feed, end, span, out);
         }
         let kind = if feed { Kind::Feed } else { Kind::Traverse };
         self.last = end;
@@ -628,13 +638,7 @@ impl Exec {
                 self.selected = named_tool(name);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
-            Op::ChangeTool => {
-                if self.selected == -1 {
-                    return self.fault(Fault::NoToolSelected, span);
-                }
-                self.state.tool = self.selected;
-                self.emit(Kind::ToolChange, span, out)?;
-            }
+            Op::ChangeTool => self.change_tool(span, out)?,
             Op::UseToolLength(length) => self.use_length(length, span)?,
             Op::UseToolLengthOffset(entry) => {
                 let entry = u32::try_from(self.whole(entry, span)?);
@@ -666,17 +670,7 @@ impl Exec {
             Op::Hole(m) => self.hole(&m.to, span, out)?,
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
             Op::EndCycle => self.cycle = None,
-            Op::ProgramStop => {
-                if let Some((text, at)) = self.shown.at_stop(stmt.skip) {
-                    self.emit(Kind::Message(text), at, out)?;
-                }
-                self.emit(Kind::ProgramStop, span, out)?;
-            }
-            Op::OptionalProgramStop => self.emit(Kind::OptionalProgramStop, span, out)?,
-            Op::ProgramEnd => {
-                self.emit(Kind::ProgramEnd, span, out)?;
-                self.ended = true;
-            }
+            Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd => self.stop(stmt, out)?,
             Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_) => self.message(stmt, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),

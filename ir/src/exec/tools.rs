@@ -57,7 +57,7 @@ impl Exec {
     pub(super) fn call_up(&mut self, length: Length, span: Span) -> Result<(), Diagnostic> {
         let aside = match length {
             Length::Entry(entry) => self.world.tool_offsets(entry),
-            Length::Edge(..) | Length::Value(_) | Length::Left => [0; 2],
+            Length::Edge(..) | Length::Value(_) => [0; 2],
         };
         self.said |= super::LENGTH;
         self.waiting = Some(length);

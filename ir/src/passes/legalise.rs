@@ -25,6 +25,7 @@ use super::{
     spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
     work_offset,
 };
+use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
 use crate::diag::{Diagnostic, Fault, Gravity};
@@ -159,6 +160,14 @@ impl Legaliser {
         self.lacks |= RADIUS | TOOL_AXIS;
     }
 
+    /// What codes of the source's control do besides their names: a spindle that it stops at a tool change does not go on
+    /// turning.
+    pub fn set_source(&mut self, source: &Behaviours) {
+        let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
+        self.walk.at.z_lost_at_change = up(source) || up(&self.target.caps.behaviours);
+        self.target.caps.change_stops_spindle &= !source.surely(Behaviour::SpindleAtChange);
+    }
+
     /// Whether the source can measure the words of a block each in its own way, or have a feed in
     /// another unit than its lengths.
     pub fn set_measures(&mut self, own: bool) {
@@ -194,7 +203,8 @@ impl Legaliser {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
         if self.target.caps.change_stops_spindle {
-            self.change.over(stmts, diags);
+            let up = self.target.caps.behaviours.surely(Behaviour::ZAtChange);
+            self.change.over(stmts, up, diags);
         }
         if self.target.caps.feed_ends_with_mode {
             let changes = stmts.iter().any(|stmt| matches!(stmt.op, Op::SetFeedMode(_)));

@@ -30,14 +30,17 @@ impl State {
         }
     }
 
-    /// Looks at further statements.
-    pub(super) fn over(&mut self, stmts: &[Stmt], diags: &mut Vec<Diagnostic>) {
+    /// Looks at further statements; `up`: Z goes to machine zero for the change, where only a cut needs the spindle.
+    pub(super) fn over(&mut self, stmts: &[Stmt], up: bool, diags: &mut Vec<Diagnostic>) {
         for stmt in stmts {
-            if self.open.is_some() && needs_spindle(&stmt.op) {
+            if self.open.is_some() && needs_spindle(&stmt.op) && !(up && only_moves(&stmt.op)) {
                 let at = self.open.take().map_or(stmt.span, |(at, _)| at);
                 diags.push(goes_on(at));
             }
             let sure = stmt.skip.is_none();
+            if up && sure && matches!(stmt.op, Op::ProgramEnd) {
+                self.open = None;
+            }
             let said = matches!(
                 stmt.op,
                 Op::StartSpindleClockwise
@@ -64,6 +67,24 @@ impl State {
 fn goes_on(at: Span) -> Diagnostic {
     let what = "a spindle that goes on turning when the tool is changed";
     Diagnostic::new(Fault::CannotSay { what: what.into() }, at)
+}
+
+/// Whether a statement cuts nothing, and goes nowhere but rapidly.
+fn only_moves(op: &Op) -> bool {
+    matches!(
+        op,
+        Op::StraightTraverse(_)
+            | Op::GoToReference(_)
+            | Op::Dwell(_)
+            | Op::FloodOn
+            | Op::MistOn
+            | Op::CoolantOff
+            | Op::Message(_)
+            | Op::ChangeTool
+            | Op::ProgramStop
+            | Op::OptionalProgramStop
+            | Op::ProgramEnd
+    )
 }
 
 /// Whether a statement makes something happen, for which it matters what the spindle does.

@@ -7,6 +7,7 @@ use std::io;
 use std::ops::ControlFlow;
 use std::sync::mpsc::sync_channel;
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::num::Nanos;
 use ncc_review::change::Collector;
 use ncc_review::measure::Measure;
@@ -64,7 +65,17 @@ pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Res
     let mut found = Collector::default();
     let stops = sides.iter().all(|side| side.dialect().caps.shows_at_stops());
     let muted = mute.then_some(stops);
-    let settings = |skip| clearances.map(|clearances| Settings { skip, mute: muted, clearances });
+    // What a code does besides its name is the machine's: what one control does, both are taken to do. A program is not
+    // another one for that.
+    let mut behaviours = sides[0].job.from.behaviours();
+    for behaviour in Behaviour::ALL.iter().copied().filter(|b| sides[1].job.from.behaviours().does(*b)) {
+        behaviours.set(behaviour, sides[1].job.from.behaviours().get(behaviour), false);
+    }
+    // But where Z goes for a tool change, which is not in the text.
+    behaviours.set(Behaviour::ZAtChange, 0, false);
+    let settings = |skip| {
+        clearances.map(|clearances| Settings { skip, mute: muted, clearances, behaviours: Some(behaviours) })
+    };
     let courses = once(sides, settings(0), measure, &mut found)?;
     let levels = courses[0].skip_levels | courses[1].skip_levels;
     let one_level = sides.iter().any(|side| side.dialect().caps.skip_levels <= 1);

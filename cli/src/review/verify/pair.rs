@@ -25,7 +25,7 @@ use crate::job::Job;
 use crate::machines::pair::Machines;
 use crate::review::side::Side;
 use crate::review::stream::{Course, Made, Stage, Unsaid, clearances, stream, stream_as};
-use crate::verify_run::{WORLDS, alarms_of, fixed, resolution, worlds_of, writes};
+use crate::verify_run::{WORLDS, alarms_of, fixed, resolution, stops_differ, worlds_of, writes};
 
 /// Events of a piece that a side hands over.
 const PIECE: usize = 4096;
@@ -154,6 +154,7 @@ pub(crate) fn compare(sides: &mut [Side; 2], tolerance: Nanos) -> io::Result<Fou
         own: resolution(&job.to),
         tools: job.machines.renaming(),
         alarms: alarms_of(&job.to),
+        optional_stops: stops_differ(&job),
         seen: job.from.dialect.caps.seen().both(job.to.dialect.caps.seen()),
     };
     let mut beyond = false;
@@ -308,6 +309,8 @@ struct Plan {
     own: Resolution,
     tools: ncc_ir::maps::Renaming,
     alarms: Option<Alarms>,
+    /// Optional stops switch spindle and coolant off on one of the controls.
+    optional_stops: bool,
     seen: Seen,
 }
 
@@ -346,6 +349,9 @@ impl Plan {
             comparison.see(self.seen);
             comparison.say_alarms(self.alarms.clone());
             comparison.measure_by(self.own);
+            if self.optional_stops {
+                comparison.optional_stops();
+            }
             if self.in_inches {
                 comparison.as_inches();
             }

@@ -80,6 +80,7 @@ impl Legaliser {
         own.target.clone_from(&self.target);
         (own.lacks, own.measures, own.follow) = (self.lacks, self.measures, self.follow);
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
+        own.walk.at.z_lost_at_change = self.walk.at.z_lost_at_change;
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
         own

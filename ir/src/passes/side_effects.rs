@@ -1,0 +1,528 @@
+//! What a code does besides its name, written as words where the target's control does not do the same.
+//!
+//! A Haas switches spindle and coolant off at M00, LinuxCNC does not:
+//!
+//! ```text
+//! M00            M05 M09
+//!           →    M00            for a control that lets them go on
+//!
+//! M00            M00
+//! G01 X20.  →    M03            for a control that switches them off, of a source that does not
+//!                G01 X20.
+//! ```
+//!
+//! The spindle starts again before the next cut, and only there: not while somebody has a hand in the machine.
+//! It is reported. Before a tool change Z goes to machine zero in words where the source's control goes there by
+//! itself. What is open on the target's side is written so that it is the same under all values.
+//!
+//! Not here: what the executor makes of it (`exec`), and a spindle that turns on over a change (`tool_change`).
+
+use crate::behaviour::{Behaviour, Behaviours};
+use crate::canon::{AXES, Axis};
+use crate::diag::{Diagnostic, Fault};
+use crate::expr::Expr;
+use crate::kinds::{drilling, flow, moves, polar};
+use crate::num::Num;
+use crate::program::{Op, Point, Procedure, Reference, ReferencePoint, Stmt};
+use crate::source::Span;
+
+/// What is known of a switch.
+#[derive(Clone, Debug, Default, PartialEq)]
+enum Switch {
+    /// Off.
+    #[default]
+    Off,
+    /// On, by these operations.
+    On(Vec<Op>),
+    /// Nothing: the program came from elsewhere.
+    Unknown,
+}
+
+/// Writes what codes do besides their names, statement by statement.
+#[derive(Clone, Debug)]
+pub struct SideEffects {
+    source: Behaviours,
+    target: Behaviours,
+    spindle: Switch,
+    coolant: Switch,
+    /// Switched off by the target's control alone: to be started again before the next cut.
+    again: [Option<(Behaviour, Vec<Op>)>; 2],
+    /// Z is at machine zero, or where the operator has left it.
+    z_home: bool,
+    /// The next straight move is in machine coordinates.
+    machine: bool,
+    /// What calls up the length in force; `None` is none.
+    length: Option<Op>,
+    /// Whether the length in force is known.
+    length_known: bool,
+    /// What the length needs before the next move of Z.
+    length_next: Option<LengthNext>,
+    /// The operation that starts the spindle, where a whole program has no other one: a spindle that may turn turns by
+    /// this.
+    only_sense: Option<Op>,
+}
+
+/// What the length of the tool needs before the next move of Z, after a place of the machine.
+#[derive(Clone, Debug)]
+enum LengthNext {
+    /// To be said, by this operation.
+    Say(Op),
+    /// To be asked of the source's control.
+    Ask(Behaviour, Span),
+    /// To be said, and it is not known which it is.
+    Lost(Span),
+}
+
+/// Spindle, coolant: what each does at a stop, at a change and at the end.
+const STOP: [Behaviour; 2] = [Behaviour::SpindleAtStop, Behaviour::CoolantAtStop];
+const CHANGE: [Behaviour; 2] = [Behaviour::SpindleAtChange, Behaviour::CoolantAtChange];
+const END: [Behaviour; 2] = [Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd];
+
+impl SideEffects {
+    /// At the start of a main program: everything is off.
+    pub fn new(source: Behaviours, target: Behaviours) -> SideEffects {
+        SideEffects {
+            source,
+            target,
+            spindle: Switch::Off,
+            coolant: Switch::Off,
+            again: [None, None],
+            z_home: true,
+            machine: false,
+            length: None,
+            length_known: true,
+            length_next: None,
+            only_sense: None,
+        }
+    }
+
+    /// Whether further statements would be rewritten.
+    pub fn touches(&self, stmts: &[Stmt]) -> bool {
+        self.source != self.target
+            && (self.again.iter().any(Option::is_some)
+                || self.length_next.is_some()
+                || stmts.iter().any(|stmt| is_code(&stmt.op)))
+    }
+
+    /// Rewrites further statements of the main procedure.
+    pub fn over(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        if !self.touches(stmts) {
+            return stmts.iter().for_each(|stmt| self.note(stmt));
+        }
+        let mut made: Vec<Stmt> = Vec::with_capacity(stmts.len() + 8);
+        for mut stmt in std::mem::take(stmts) {
+            if let Op::Control(control) = &mut stmt.op {
+                self.again_before(&mut made, &mut stmt.joined, diags, stmt.span);
+                let keeps = !control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op)));
+                let mut left = [None, None];
+                for body in control.bodies_mut() {
+                    self.enter(keeps);
+                    self.over(body, diags);
+                    // What a stop in a body has switched off may be off after it.
+                    for (left, own) in left.iter_mut().zip(&mut self.again) {
+                        *left = left.take().or(own.take());
+                    }
+                }
+                self.enter(keeps);
+                self.again = left;
+                made.push(stmt);
+                continue;
+            }
+            self.statement(stmt, &mut made, diags);
+        }
+        *stmts = made;
+    }
+
+    /// Rewrites the bodies of procedures; what their callers have switched on is not known.
+    pub fn run(&mut self, procedures: &mut [Procedure], diags: &mut Vec<Diagnostic>) {
+        self.only_sense = only_sense(procedures);
+        for (at, procedure) in procedures.iter_mut().enumerate() {
+            if at > 0 {
+                self.elsewhere();
+            }
+            self.over(&mut procedure.body, diags);
+        }
+    }
+
+    /// A body begins, or ends, that may be executed several times or not at all; `keeps`: it switches nothing.
+    fn enter(&mut self, keeps: bool) {
+        if keeps {
+            (self.z_home, self.machine) = (false, false);
+        } else {
+            self.elsewhere();
+        }
+    }
+
+    /// Control comes from elsewhere.
+    fn elsewhere(&mut self) {
+        (self.spindle, self.coolant) = (Switch::Unknown, Switch::Unknown);
+        self.again = [None, None];
+        (self.z_home, self.machine) = (false, false);
+        (self.length, self.length_known, self.length_next) = (None, false, None);
+    }
+
+    fn statement(&mut self, mut stmt: Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        self.length_before(&mut stmt, made, diags);
+        match &stmt.op {
+            Op::ProgramStop => self.switch(STOP, false, &mut stmt, made, diags),
+            Op::OptionalProgramStop => self.switch(STOP, true, &mut stmt, made, diags),
+            Op::ChangeTool => {
+                self.switch(CHANGE, false, &mut stmt, made, diags);
+                self.go_home(&mut stmt, made, diags);
+            }
+            Op::ProgramEnd => self.switch(END, false, &mut stmt, made, diags),
+            op if cuts(op) => self.again_before(made, &mut stmt.joined, diags, stmt.span),
+            _ => {}
+        }
+        self.note(&stmt);
+        made.push(stmt);
+    }
+
+    /// Spindle and coolant at a code.
+    fn switch(
+        &mut self,
+        both: [Behaviour; 2],
+        optional: bool,
+        stmt: &mut Stmt,
+        made: &mut Vec<Stmt>,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let mut off = Vec::new();
+        for (at, behaviour) in both.into_iter().enumerate() {
+            let state = if at == 0 { &self.spindle } else { &self.coolant };
+            if *state == Switch::Off {
+                continue;
+            }
+            let source_stops = self.source.surely(behaviour);
+            // Where Z goes home in words, the spindle stops in words before that.
+            let target_stops = self.target.surely(behaviour) && !(both == CHANGE && self.goes_home());
+            let state = if at == 0 { &mut self.spindle } else { &mut self.coolant };
+            if source_stops && !target_stops {
+                off.push((behaviour, if at == 0 { Op::StopSpindleTurning } else { Op::CoolantOff }));
+                // An optional stop that is not made leaves it on in the source.
+                if let (true, Switch::On(ops)) = (optional, &*state) {
+                    self.again[at] = Some((behaviour, ops.clone()));
+                } else if !optional {
+                    *state = Switch::Off;
+                }
+                continue;
+            }
+            if source_stops && !optional {
+                *state = Switch::Off;
+                continue;
+            }
+            // The source surely lets it go on, or usually; a spindle that turns over a change is refused elsewhere.
+            let other = target_stops && !source_stops
+                || self.target.is_open(behaviour) && !self.source.is_open(behaviour) && !source_stops;
+            let restarts = behaviour != Behaviour::SpindleAtChange && both != END;
+            let ops = match &*state {
+                Switch::On(ops) => Some(ops.clone()),
+                Switch::Unknown if at == 0 => self.only_sense.clone().map(|op| vec![op]),
+                Switch::Unknown => None,
+                Switch::Off => None,
+            };
+            if let (true, true, Some(ops)) = (other, restarts, ops) {
+                self.again[at] = Some((behaviour, ops));
+            }
+        }
+        let at = insertion(made, stmt);
+        let found = off.iter().map(|(behaviour, _)| {
+            Diagnostic::new(Fault::SideEffectWritten { behaviour: *behaviour }, stmt.span)
+        });
+        diags.extend(found);
+        let new = off.into_iter().enumerate().map(|(place, (_, op))| Stmt {
+            joined: place > 0,
+            skip: stmt.skip,
+            ..Stmt::new(stmt.span, op)
+        });
+        insert(made, stmt, at, new.collect());
+    }
+
+    /// Whether Z goes to machine zero in words before a tool change.
+    fn goes_home(&self) -> bool {
+        let behaviour = Behaviour::ZAtChange;
+        self.source.surely(behaviour) && !self.target.does(behaviour) && !self.z_home
+    }
+
+    /// Z at a tool change.
+    fn go_home(&mut self, stmt: &mut Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        let behaviour = Behaviour::ZAtChange;
+        let (source, target) = (self.source.surely(behaviour), self.target.surely(behaviour));
+        if target && !source && !self.z_home {
+            diags.push(Diagnostic::new(Fault::MovedAtChange, stmt.span));
+        }
+        if self.goes_home() {
+            let mut axes = [false; AXES];
+            axes[Axis::Z as usize] = true;
+            let home =
+                Reference { point: ReferencePoint::Home, axes, via: Point::default(), keeps_length: true };
+            let home = Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::GoToReference(Box::new(home))) };
+            diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
+            let at = insertion(made, stmt);
+            insert(made, stmt, at, vec![home]);
+        }
+        self.z_home |= source || target;
+    }
+
+    /// Starts again what the target's control alone has switched off, before a block that cuts.
+    fn again_before(
+        &mut self,
+        made: &mut Vec<Stmt>,
+        joined: &mut bool,
+        diags: &mut Vec<Diagnostic>,
+        span: Span,
+    ) {
+        if self.again.iter().all(Option::is_none) {
+            return;
+        }
+        let mut at = made.len();
+        if *joined {
+            at = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
+        }
+        let mut new = Vec::new();
+        for (behaviour, ops) in self.again.iter_mut().filter_map(Option::take) {
+            diags.push(Diagnostic::new(Fault::StartedAgain { behaviour }, span));
+            new.extend(ops.into_iter().map(|op| Stmt::new(span, op)));
+        }
+        for (place, stmt) in new.iter_mut().enumerate() {
+            stmt.joined = place > 0;
+        }
+        // The block keeps its number and its jump target at the first of its statements.
+        made.splice(at..at, new);
+    }
+
+    /// The length of the tool before a statement that moves Z, and after one that goes to a place of the machine.
+    fn length_before(&mut self, stmt: &mut Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        if let Op::GoToReference(to) = &mut stmt.op
+            && to.axes[Axis::Z as usize]
+            && to.via.get(Axis::Z).is_none()
+            && !to.keeps_length
+        {
+            let next = self.length_after(Behaviour::LengthAfterReturn, stmt.span);
+            to.keeps_length = matches!(next, Some(LengthNext::Say(_) | LengthNext::Ask(..)))
+                && !self.source.does(Behaviour::LengthAfterReturn);
+            self.length_next = next;
+            return;
+        }
+        let in_machine = self.machine && matches!(&stmt.op, Op::StraightTraverse(_));
+        if in_machine && commands_z(&stmt.op) {
+            self.length_next = self.length_after(Behaviour::LengthAfterMachineMove, stmt.span);
+            return;
+        }
+        if matches!(stmt.op, Op::UseToolLengthOffset(_) | Op::UseToolEdge { .. } | Op::UseToolLength(_)) {
+            self.length_next = None;
+            (self.length, self.length_known) = (Some(stmt.op.clone()), stmt.skip.is_none());
+            return;
+        }
+        if !commands_z(&stmt.op) || matches!(stmt.op, Op::GoToReference(_)) {
+            return;
+        }
+        match self.length_next.take() {
+            None => {}
+            Some(LengthNext::Say(op)) => {
+                let mut at = made.len();
+                if stmt.joined {
+                    at = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
+                }
+                let mut said = Stmt::new(stmt.span, op);
+                // It takes effect in the block that moves Z: there most controls have it.
+                if let Some(first) = made.get_mut(at).or_else(|| Some(&mut *stmt)) {
+                    said.number = first.number.take();
+                    said.skip = first.skip;
+                    first.joined = true;
+                }
+                made.insert(at, said);
+            }
+            Some(LengthNext::Ask(behaviour, at)) => {
+                diags.push(Diagnostic::new(Fault::MustBeStated { behaviour }, at));
+            }
+            Some(LengthNext::Lost(at)) => {
+                let what = "a move of Z by a length that is not called up again after a place of the machine";
+                diags.push(Diagnostic::new(Fault::CannotSay { what: what.into() }, at));
+            }
+        }
+    }
+
+    /// What the length needs after a place of the machine along Z.
+    fn length_after(&self, behaviour: Behaviour, at: Span) -> Option<LengthNext> {
+        let none = matches!(&self.length, Some(Op::UseToolLengthOffset(entry)) if is_zero(entry))
+            || self.length.is_none() && self.length_known;
+        let (source, target) = (self.source.get(behaviour), self.target.get(behaviour));
+        let open = [self.source.is_open(behaviour), self.target.is_open(behaviour)];
+        if none || open == [false, false] && source == target || open == [true, true] {
+            return None;
+        }
+        if open[0] {
+            return Some(LengthNext::Ask(behaviour, at));
+        }
+        Some(match (source, &self.length) {
+            (0, Some(op)) if self.length_known => LengthNext::Say(op.clone()),
+            (0, _) => LengthNext::Lost(at),
+            (_, _) => LengthNext::Say(Op::UseToolLengthOffset(Expr::int(0))),
+        })
+    }
+
+    /// What a statement leaves on.
+    fn note(&mut self, stmt: &Stmt) {
+        let sure = stmt.skip.is_none();
+        let [spindle, coolant] = &mut self.again;
+        match &stmt.op {
+            op @ (Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise) => {
+                self.spindle = if sure { Switch::On(vec![op.clone()]) } else { Switch::Unknown };
+                *spindle = spindle.take().filter(|_| !sure);
+            }
+            Op::StopSpindleTurning | Op::OrientSpindle(_) => {
+                self.spindle = if sure { Switch::Off } else { Switch::Unknown };
+                *spindle = spindle.take().filter(|_| !sure);
+            }
+            Op::StartCycle(cycle) if cycle.kind.drives_spindle() => self.spindle = Switch::Unknown,
+            op @ (Op::FloodOn | Op::MistOn) => {
+                self.coolant = match (std::mem::take(&mut self.coolant), sure) {
+                    (Switch::Off, true) => Switch::On(vec![op.clone()]),
+                    (Switch::On(mut ops), true) => {
+                        if !ops.contains(op) {
+                            ops.push(op.clone());
+                        }
+                        Switch::On(ops)
+                    }
+                    (Switch::Unknown, _) | (_, false) => Switch::Unknown,
+                };
+                *coolant = coolant.take().filter(|_| !sure);
+            }
+            Op::CoolantOff => {
+                self.coolant = if sure { Switch::Off } else { Switch::Unknown };
+                *coolant = coolant.take().filter(|_| !sure);
+            }
+            Op::ProgramEnd if sure => {
+                (self.spindle, self.coolant) = (Switch::Off, Switch::Off);
+                self.length_next = None;
+            }
+            flow!() => self.elsewhere(),
+            _ => {}
+        }
+        self.note_z(stmt);
+    }
+
+    fn note_z(&mut self, stmt: &Stmt) {
+        let sure = stmt.skip.is_none();
+        match &stmt.op {
+            Op::GoToReference(to) if to.axes[Axis::Z as usize] => {
+                self.z_home = sure && to.point == ReferencePoint::Home;
+            }
+            Op::UseMachineCoordinates { length: false } => {
+                self.machine = sure;
+                return;
+            }
+            Op::StraightTraverse(to) if self.machine && to.to.get(Axis::Z).is_some() => {
+                let zero = |n: Num| n.mantissa == 0;
+                let word = to.to.get(Axis::Z).and_then(|word| word.value.literal());
+                self.z_home = word.is_some_and(zero);
+            }
+            op if commands_z(op) => self.z_home = false,
+            _ => {}
+        }
+        self.machine = false;
+    }
+}
+
+/// Whether an operation switches spindle or coolant, or may.
+fn switches(op: &Op) -> bool {
+    match op {
+        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| switches(&stmt.op))),
+        Op::StartCycle(cycle) => cycle.kind.drives_spindle(),
+        Op::StartSpindleClockwise
+        | Op::StartSpindleCounterclockwise
+        | Op::StopSpindleTurning
+        | Op::OrientSpindle(_)
+        | Op::FloodOn
+        | Op::MistOn
+        | Op::CoolantOff => true,
+        op => is_code(op) || matches!(op, flow!()),
+    }
+}
+
+/// The operation that starts the spindle of a program, if there is but one.
+fn only_sense(procedures: &[Procedure]) -> Option<Op> {
+    fn find(body: &[Stmt], found: &mut Vec<Op>) {
+        for stmt in body {
+            let starts = matches!(stmt.op, Op::StartSpindleClockwise | Op::StartSpindleCounterclockwise);
+            if starts && !found.contains(&stmt.op) {
+                found.push(stmt.op.clone());
+            }
+            if let Op::Control(control) = &stmt.op {
+                control.bodies().for_each(|body| find(body, found));
+            }
+        }
+    }
+    let mut found = Vec::new();
+    procedures.iter().for_each(|procedure| find(&procedure.body, &mut found));
+    found.pop().filter(|_| found.is_empty())
+}
+
+/// Whether a code does something besides its name on some control.
+fn is_code(op: &Op) -> bool {
+    match op {
+        Op::ProgramStop
+        | Op::OptionalProgramStop
+        | Op::ChangeTool
+        | Op::ProgramEnd
+        | Op::GoToReference(_)
+        | Op::UseMachineCoordinates { .. } => true,
+        Op::Control(control) => control.bodies().any(|body| body.iter().any(|stmt| is_code(&stmt.op))),
+        _ => false,
+    }
+}
+
+/// Whether a statement cuts, or may.
+fn cuts(op: &Op) -> bool {
+    !matches!(op, Op::StraightTraverse(_) | Op::SetPole(_))
+        && matches!(op, Op::Position(_) | drilling!() | moves!() | polar!() | flow!())
+}
+
+fn is_zero(entry: &Expr) -> bool {
+    entry.literal().is_some_and(|n| n.mantissa == 0)
+}
+
+/// Whether a statement commands Z, or may.
+fn commands_z(op: &Op) -> bool {
+    match op {
+        Op::StraightTraverse(to) | Op::StraightFeed(to) | Op::Position(to) => to.to.get(Axis::Z).is_some(),
+        Op::GoToReference(to) => to.axes[Axis::Z as usize] || to.via.get(Axis::Z).is_some(),
+        op => cuts(op),
+    }
+}
+
+/// Where statements before a code go: before its block, where nothing of that happens before it but the selection of a
+/// tool; else right before it.
+fn insertion(made: &[Stmt], stmt: &Stmt) -> usize {
+    if !stmt.joined {
+        return made.len();
+    }
+    let first = (0..made.len()).rev().find(|at| !made[*at].joined).unwrap_or(0);
+    let selects = |op: &Op| {
+        matches!(
+            op,
+            Op::SelectTool(_)
+                | Op::SelectToolByName(_)
+                | Op::Comment(_)
+                | Op::Blank
+                | Op::Message(_)
+                | Op::MessageOf(_)
+        )
+    };
+    match made[first..].iter().all(|stmt| selects(&stmt.op)) {
+        true => first,
+        false => made.len(),
+    }
+}
+
+/// Puts new blocks in. A block that is cut there goes on in one of its own.
+fn insert(made: &mut Vec<Stmt>, stmt: &mut Stmt, at: usize, new: Vec<Stmt>) {
+    if new.is_empty() {
+        return;
+    }
+    if at == made.len() {
+        stmt.joined = false;
+    }
+    made.splice(at..at, new);
+}
