@@ -15,7 +15,7 @@ pages! {
     101 102 103 104 105 106 107 108 109 110 111 112 113 120
     201 202 203 204 205 206 207 208 209 210 211 212 213 214 215 216 217 218 219 220 221 222 223 224 225 226
     227 228 229 230 231 232 233 234 235 240 241 250
-    301 302 303 304 305 306 307 308 309 310 311 312 313 320 321 322 323 324 325 326 330 331 332 340
+    301 302 303 304 305 306 307 308 309 310 311 312 313 320 321 322 323 324 325 326 330 331 340 350
     401 402 403 404 405 406 407 408 409 410 411 412 413 414 415 416 417 418 419 420 421 422 423 424 425 426
     430 431 432 433 440 442 450
     501 502 503 504 505 506 507 508 509 520 521
@@ -48,18 +48,22 @@ pub fn code(code: &str) -> Option<u16> {
 mod tests {
     use super::*;
     use ncc_check::Rule;
+    use ncc_frontends::recognise;
     use ncc_ir::diag::Fault;
     use ncc_machines::Wrong;
 
     #[test]
     fn every_code_has_a_page() {
         let codes: Vec<u16> = PAGES.iter().map(|(code, _)| *code).collect();
-        for code in Fault::CODES.iter().chain(Wrong::CODES).chain(Rule::CODES) {
+        for code in Fault::CODES.iter().chain(Wrong::CODES).chain(Rule::CODES).chain(&[recognise::CODE]) {
             assert!(codes.contains(code), "NC{code:04} has no page");
         }
         for code in &codes {
             assert!(
-                Fault::CODES.contains(code) || Wrong::CODES.contains(code) || Rule::CODES.contains(code),
+                Fault::CODES.contains(code)
+                    || Wrong::CODES.contains(code)
+                    || Rule::CODES.contains(code)
+                    || *code == recognise::CODE,
                 "NC{code:04} is no code any more"
             );
         }

@@ -303,7 +303,7 @@ faults! {
     /// The tool is turned onto a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
     /// The source's control was recognised by its text, which fits another one as well, and that one reads it otherwise.
-    AssumedControl { taken: Box<str>, other: Box<str> } = 332, verdict(Verdict::Assumed);
+    AssumedControl { taken: Box<str>, other: Box<str> } = 330, verdict(Verdict::Assumed);
     /// A stop or a tool change of the target's control switches something off that the source's control lets go on:
     /// it is started again before the next cut.
     StartedAgain { behaviour: Behaviour } = 322, verdict(Verdict::Assumed);
@@ -314,9 +314,6 @@ faults! {
     MovedAtChange = 324, verdict(Verdict::Assumed);
     /// The cut is another one where the switch for optional stops is on.
     OptionalStopDiffers = 325, verdict(Verdict::Assumed);
-    /// The program looks like something else than a milling program, and the user says that it is one; in
-    /// which line the sign stands that decides.
-    AssumedMilling { looks_like: Box<str>, line: u64 } = 330, verdict(Verdict::Assumed);
     /// The program never says how corners are taken, and the two controls begin otherwise: how each does.
     PathAtStart { source: &'static str, target: &'static str } = 326, verdict(Verdict::Assumed);
     /// A cut at a feed that was stated before the units changed: what it was, and what the source's control makes of it;
@@ -324,6 +321,9 @@ faults! {
     FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
+    /// The program looks like something else than a milling program, and the user says that it is one; in
+    /// which line the sign stands that decides.
+    AssumedMilling { looks_like: Box<str>, line: u64 } = 350, verdict(Verdict::Assumed);
 
     // NC04xx: what became of it.
     /// A comment in the target's characters.

@@ -30,9 +30,13 @@ fn fmt(dialect: &str, options: &str, text: &[u8]) -> (Exit, Vec<u8>, String) {
     all.extend(options.split_whitespace().map(OsString::from));
     all.push(path.clone().into());
     let cli = Cli::try_parse_from(&all).unwrap_or_else(|e| panic!("{all:?}: {e}"));
+    let mut known = Known::built_in();
+    if cli.assume.is_some() {
+        known.assume_milling();
+    }
     let Verb::Fmt(asked) = cli.verb else { panic!("another verb") };
     let mut told = NoColor::new(Vec::new());
-    let exit = match ncc::fmt::run(&asked, &Known::built_in(), &mut told) {
+    let exit = match ncc::fmt::run(&asked, &known, &mut told) {
         Ok(exit) => exit,
         Err(problem) => {
             problem.print(&mut told, false).expect("memory");

@@ -37,7 +37,7 @@ pub enum Fact {
     MFunction,
     /// Least seconds of a block with a move.
     Block,
-    /// Blocks that the control knows beyond the one that it carries out; infinite is the whole path.
+    /// Blocks that the control knows beyond the one that it carries out; [`WHOLE_PATH`] are all.
     LookAhead,
 }
 
@@ -101,6 +101,9 @@ const JERK: [f64; 2] = [35_000.0, 5_000.0];
 /// Millimetres.
 const PATH_TOLERANCE: f64 = 0.01;
 
+/// Blocks of a look-ahead over the whole path.
+pub const WHOLE_PATH: u32 = u32::MAX;
+
 /// A machine that is being completed.
 struct Filling {
     told: Vec<AssumedFact>,
@@ -158,11 +161,9 @@ impl Machine {
                     filling.told.push(AssumedFact { fact: Fact::ExactStop, axis: None, value: 0.0 });
                 }
                 if machine.look_ahead.is_none() {
-                    filling.told.push(AssumedFact {
-                        fact: Fact::LookAhead,
-                        axis: None,
-                        value: f64::INFINITY,
-                    });
+                    machine.look_ahead = Some(WHOLE_PATH);
+                    let value = f64::from(WHOLE_PATH);
+                    filling.told.push(AssumedFact { fact: Fact::LookAhead, axis: None, value });
                 }
                 filling.fill(&mut machine.m_function, Fact::MFunction, None, 0.0);
                 filling.fill(&mut machine.block, Fact::Block, None, 0.0);

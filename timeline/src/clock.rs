@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use crate::act::Act;
 use crate::ahead::Ahead;
+use crate::assumed::WHOLE_PATH;
 use crate::corner::Corners;
 use crate::fixed::{fixed, turning};
 use crate::ideal;
@@ -198,7 +199,7 @@ impl Clock {
             limits,
             corners: Corners::new(&machine),
             junctions: Junctions::default(),
-            ahead: machine.look_ahead.map(Ahead::new),
+            ahead: machine.look_ahead.filter(|blocks| *blocks != WHOLE_PATH).map(Ahead::new),
             planner,
             machine,
             row: Row { queue: Queue::default(), certain: 0, n: 0, now: 0.0 },

@@ -24,7 +24,7 @@ mod ramp;
 mod smooth;
 
 pub use act::{Act, Place};
-pub use assumed::{AssumedFact, Fact};
+pub use assumed::{AssumedFact, Fact, WHOLE_PATH};
 pub use clock::{Clock, Model, Timed, UnknownModel};
 pub use machine::{AxisFacts, Machine, ToolChangeOn};
 pub use path::{Path, path};

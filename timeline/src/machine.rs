@@ -33,7 +33,8 @@ pub struct Machine {
     /// Whether every move ends in a stop, in a straight line too: a control in exact-stop mode. A path mode that the
     /// program states wins over it.
     pub exact_stop: Option<bool>,
-    /// Blocks with a move that the control knows beyond the one that it carries out; `None` is the whole path.
+    /// Blocks with a move that the control knows beyond the one that it carries out; `None` and
+    /// [`WHOLE_PATH`](crate::WHOLE_PATH) are the whole path.
     pub look_ahead: Option<u32>,
     /// Seconds that an M function takes besides what it does.
     pub m_function: Option<f64>,

@@ -63,7 +63,7 @@ impl Fact {
     /// The number of the message's code.
     pub fn code(self) -> u16 {
         match self {
-            Fact::Control => 332,
+            Fact::Control => 330,
             Fact::Units => 301,
             Fact::DecimalPoint => 303,
         }

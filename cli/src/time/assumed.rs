@@ -3,7 +3,7 @@
 use ncc_ir::canon::{AXES, Axis};
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_machines::Profile;
-use ncc_timeline::{AssumedFact, Fact, Model};
+use ncc_timeline::{AssumedFact, Fact, Model, WHOLE_PATH};
 
 use super::drive::{Course, Length, Plan};
 use super::duration::short;
@@ -224,7 +224,9 @@ fn in_words(facts: &[AssumedFact], moved: &[bool; AXES]) -> Vec<String> {
         let value = match fact.fact.unit(fact.axis) {
             "" if fact.value == 0.0 => "no".to_owned(),
             "" => "yes".to_owned(),
-            _ if fact.value.is_infinite() => "the whole path".to_owned(),
+            _ if fact.fact == Fact::LookAhead && fact.value >= f64::from(WHOLE_PATH) => {
+                "the whole path".to_owned()
+            }
             unit => format!("{} {unit}", short(fact.value, 3)),
         };
         let axis = fact.axis.map(letter);

@@ -70,10 +70,10 @@ fn what_is_assumed_goes_on_and_is_stated() {
         let head = "assumed: a milling program, though line 5 looks like a lathe program";
         assert!(done.out.contains(head), "{}", done.out);
         let report = std::fs::read_to_string(folder.path().join("report.json")).unwrap();
-        assert!(report.contains("NC0330"), "{report}");
+        assert!(report.contains("NC0350"), "{report}");
     }
     let denied = ["fanuc", "to", "siemens", "thread.nc", "--assume", "milling", "--deny", "assumed"];
-    ncc(folder.path(), &denied).exits(1).says("NC0330");
+    ncc(folder.path(), &denied).exits(1).says("NC0350");
     let timed = ncc(folder.path(), &["time", "thread.nc", "--from", "fanuc", "--assume", "milling"]);
     timed.exits(0).says("thread.nc: looks like a lathe program (line 5); read as a milling program");
     ncc(folder.path(), &["time", "thread.nc", "--assume"]).exits(2).says("--assume milling");

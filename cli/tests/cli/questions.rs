@@ -164,7 +164,7 @@ fn a_recognised_control_is_asked_where_another_cuts_otherwise() {
     let at = folder.path();
     fs::write(at.join("feed.nc"), PLAIN.replace("O4", "O1234").replace("F100.", "F100")).unwrap();
     let done = say(at, "auto to siemens feed.nc").exits(1);
-    done.says("question[NC0332]: fanuc or haas?").says("`--from fanuc` (the feed is 100 mm/min)");
+    done.says("question[NC0330]: fanuc or haas?").says("`--from fanuc` (the feed is 100 mm/min)");
     say(at, "fanuc to siemens feed.nc").exits(0);
     let assumed = say(at, "auto to siemens feed.nc --assume").exits(0);
     assert!(assumed.out.contains("; not answered: control = fanuc"), "{}", assumed.out);

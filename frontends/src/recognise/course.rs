@@ -31,6 +31,27 @@ const OKUMA_VARIABLES: [&[u8]; 9] =
     [b"VZOF", b"VTOF", b"VZSHF", b"VTLC", b"VTLN", b"VWKC", b"VDOUT", b"VUACM", b"VMOFS"];
 /// So many moves with an E show that it is an axis.
 const EXTRUSIONS: usize = 3;
+/// Names with which blocks of a Sinumerik begin: lines that need no word with a number.
+const CONTROL: [&[u8]; 18] = [
+    b"CALL",
+    b"PROC",
+    b"DEF",
+    b"REDEF",
+    b"EXTERN",
+    b"MSG",
+    b"MCALL",
+    b"IF",
+    b"ELSE",
+    b"ENDIF",
+    b"WHILE",
+    b"ENDWHILE",
+    b"FOR",
+    b"ENDFOR",
+    b"LOOP",
+    b"ENDLOOP",
+    b"REPEAT",
+    b"UNTIL",
+];
 /// Of the lines of a text, so many percent may look like blocks, and so many must be sentences.
 const PROSE: (usize, usize) = (20, 30);
 
@@ -61,6 +82,8 @@ pub(super) struct Course {
     tool_change: bool,
     incremental: bool,
     feed_mode: bool,
+    /// G93 or G95: G98 and G99 are no modes of the feed then.
+    feed_code: bool,
     unit: Unit,
     cycles: bool,
     per_turn: Option<Range<usize>>,
@@ -137,7 +160,7 @@ impl Course {
                 let found = self.repeated.iter().find(|(own, _)| *own == code);
                 found.map(|(_, place)| place.clone()).filter(|_| !self.incremental && !self.moves_y)
             }
-            Sort::FeedPerTurn => self.per_turn.clone().filter(|_| self.feeds_below(2.0)),
+            Sort::FeedPerTurn => self.per_turn.clone().filter(|_| !self.feed_code && self.feeds_below(2.0)),
             Sort::LowFeed => {
                 let told = self.per_turn.is_some() || self.feed_mode;
                 self.first_feed.clone().filter(|_| !told && self.feeds_below(1.0))
@@ -200,6 +223,7 @@ impl Course {
     fn modes(&mut self, block: &Block) {
         self.incremental |= block.code(b'G', 910);
         self.feed_mode |= [930, 940, 950].iter().any(|code| block.code(b'G', *code));
+        self.feed_code |= block.code(b'G', 930) || block.code(b'G', 950);
         self.length_offset |= block.has(b'H') && (block.code(b'G', 430) || block.code(b'G', 440));
         self.tool_change |= block.code(b'M', 60);
         if block.code(b'G', 210) || block.code(b'G', 710) && !block.has(b'P') && !block.has(b'U') {
@@ -381,13 +405,16 @@ impl Course {
             || block.text.windows(2).any(|two| two[0] == b'#' && b"0123456789[<#".contains(&two[1]))
             || block.text.iter().position(|b| *b == b'(').is_some_and(|at| {
                 at > 1 && block.text[..at].iter().all(|b| b.is_ascii_uppercase() || *b == b'_')
+            })
+            || block.names.first().is_some_and(|(name, _)| {
+                CONTROL.contains(&&name[..]) || name.starts_with(b"GOTO") || name.contains(&b'_')
             });
         self.blocks += usize::from(block_like);
         if block_like {
             return;
         }
-        let words = block.text.split(|b| !b.is_ascii_alphabetic()).filter(|word| word.len() > 1).count();
-        if words >= 4 {
+        // Comments and texts in quotes are none of them.
+        if block.names.len() >= 4 {
             self.sentences += 1;
             first(&mut self.first_sentence, &block.place);
         }

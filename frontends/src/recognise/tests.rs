@@ -86,6 +86,8 @@ fn mills_are_left_alone() {
         "",
         "%",
         "(a comment alone)",
+        "PROC POCKET / CALL _NAME ERROR CALL OTHER ; all that is called here / M17",
+        "G21 G98 G95 / G0 X5. Z5. / G1 Z-3. F0.2 / G97 S500",
         "ncc-ir 1",
     ] {
         assert_eq!(found(text), None, "{text}");

@@ -5,7 +5,7 @@ use ncc_ir::canon::{AXES, Plane, Spindle, Turn};
 use ncc_ir::exec::{Attribute, Event, Kind, State};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::source::Span;
-use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place, Timed};
+use ncc_timeline::{Act, AxisFacts, Clock, Machine, Model, Place, Timed, WHOLE_PATH};
 
 /// Nanos of a number.
 pub(crate) fn nanos(x: f64) -> Nanos {
@@ -24,6 +24,7 @@ pub(crate) fn machine(rapid: f64, acceleration: f64, jerk: f64, tolerance: f64) 
         axes: [axis(1.0), axis(1.0), axis(1.0), axis(10.0), axis(10.0), axis(10.0)],
         path_tolerance: Some(tolerance),
         exact_stop: Some(false),
+        look_ahead: Some(WHOLE_PATH),
         tool_change: Some(5.0),
         spindle_start: Some(2.0),
         spindle_stop: Some(2.0),
