@@ -156,6 +156,7 @@ impl<'j> Line<'j> {
             legaliser.between_controls();
         }
         legaliser.stand_at(&job.start);
+        legaliser.set_frames_in_increments(job.from.frames_in_increments());
         let maps = job.machines.maps(job.to.dialect);
         legaliser.set_edge_entries(maps.edge_entries.clone());
         legaliser.set_program_numbers(maps.program_numbers.clone());
@@ -302,6 +303,9 @@ impl<'j> Line<'j> {
             return Ok(());
         }
         let mut program = source.clone();
+        let mut found = Vec::new();
+        self.legaliser.frame_increments(&mut program, !self.job.passes.is_empty(), &mut found);
+        self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {
             let mut told = left_out(&program, &self.job.to.caps());
             as_there::alarms(self.job, &mut program, &mut told);
@@ -356,6 +360,7 @@ impl<'j> Line<'j> {
             passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
+        self.legaliser.frame_increments(&mut program, false, &mut found);
         if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
             self.take(found, Told::Writer);
             return Ok(());

@@ -187,10 +187,12 @@ pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
     };
     let mut source = World::generate(seed, &from).with_external();
     source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
+    source.frames_in_increments = job.from.frames_in_increments();
     source.tables.edge_entries = own_entries;
     source.tables.radii = job.compensating().radii;
     let mut target = World::generate(seed, &to).with_external();
     target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
+    target.frames_in_increments = job.to.frames_in_increments();
     target.tables.edge_entries.clone_from(&renaming.edge_entries);
     target.renaming = renaming;
     let named = &target.renaming.tool_names;
@@ -382,7 +384,8 @@ impl Verifier {
         }
         self.prepare(stmts, assumed);
         self.read_back(inherited)?;
-        if !self.runs.iter().all(|run| run.source.agrees(&run.target)) {
+        let agree = |run: &Run| run.source.agrees(&run.target) && run.source.counts_alike(&run.target, stmts);
+        if !self.runs.iter().all(agree) {
             // This piece is the first to rely on something that only one of them has.
             self.run_source(stmts)?;
             return self.target_step();
@@ -390,6 +393,7 @@ impl Verifier {
         for run in &mut self.runs {
             let events = run.source.pass(stmts).map_err(Stop::Source)?;
             run.target.follow(&run.source);
+            run.target.has_moved(stmts);
             run.comparison.pass(events, run.source.machine());
         }
         self.batch.stmts.clear();

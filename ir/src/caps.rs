@@ -130,6 +130,9 @@ pub struct Caps {
     pub feed_again: bool,
     /// A code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Whether an axis's first incremental word after a change of frame or work offset includes the change: such a word
+    /// is written from program zero.
+    pub frames_in_increments: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.
     pub call_digits: u32,
     /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.

@@ -32,6 +32,9 @@ pub struct World {
     pub backs_off: Nanos,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
+    /// Whether an axis counts its first incremental word after a change of frame or work offset from the coordinate
+    /// that it was programmed to before, so that the word includes the change; else from where the axis stands.
+    pub frames_in_increments: bool,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -165,6 +168,7 @@ impl World {
             peck_clearance: 0,
             backs_off: 0,
             feed_ends_with_mode: false,
+            frames_in_increments: false,
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },

@@ -1,9 +1,10 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{DECIMAL_POINT, SPINDLE_AFTER_CHANGE};
+use ncc_dialects::{DECIMAL_POINT, FRAME_OFFSET_INCREMENTAL, SPINDLE_AFTER_CHANGE};
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
+use ncc_ir::passes::frame_increments;
 
 use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
@@ -204,6 +205,17 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                     "if the machine's change stops it: `--from-option {SPINDLE_AFTER_CHANGE}=stopped`"
                 );
                 all.push(own);
+            }
+            all
+        }
+        Fault::CannotSay { what } if what.starts_with(frame_increments::REFUSED) => {
+            let mut all = own("give the axis its first word after the change in G90");
+            if at.to.option.iter().any(|option| option.name == FRAME_OFFSET_INCREMENTAL) {
+                let other = format!(
+                    "if the target's control moves by the word alone: \
+                     `--to-option {FRAME_OFFSET_INCREMENTAL}=excluded`"
+                );
+                all.push(other);
             }
             all
         }

@@ -573,6 +573,7 @@ fn world(plan: &Plan) -> World {
         peck_clearance: value(PECK_CLEARANCE),
         backs_off: 0,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
+        frames_in_increments: job.from.frames_in_increments(),
         break_lift: value(BREAK_LIFT),
         orientation: 0,
         bore_shift: Sideways::default(),

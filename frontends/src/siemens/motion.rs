@@ -7,7 +7,7 @@
 //!
 //! Not here: the cycles themselves.
 
-use ncc_dialects::{NameRole, Quantity, Role};
+use ncc_dialects::{FRAME_OFFSET_INCREMENTAL, NameRole, Quantity, Role};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
@@ -249,16 +249,10 @@ impl Lower {
                     let name = "incremental word in machine coordinates";
                     self.not_supported(&src.text(given.span), name, given.span, out);
                 }
-                match coord.distance {
-                    Fact::Known(Distance::Absolute) if machine.is_none() => {
-                        self.state.framed[axis as usize] = false;
-                    }
-                    Fact::Known(Distance::Incremental) if self.assume && self.state.framed[axis as usize] => {
-                        let name =
-                            "incremental word behind a change of the frame, which SD 42440 decides about";
-                        self.not_supported(&src.text(given.span), name, given.span, out);
-                    }
-                    Fact::Known(_) | Fact::Entry => {}
+                let framed = std::mem::take(&mut self.state.framed[axis as usize]);
+                let absolute = coord.distance.known().or(self.state.distance.value());
+                if framed && machine.is_none() && absolute != Some(Distance::Absolute) {
+                    self.option(FRAME_OFFSET_INCREMENTAL, given.span, out);
                 }
                 if let Some(stand) = self.stand.axes.get_mut(axis as usize) {
                     let absolute = coord.distance == Fact::Known(Distance::Absolute) && machine.is_none();

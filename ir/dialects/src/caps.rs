@@ -261,6 +261,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         cycles_measured_anew: dialect.cycles.measured_anew,
         change_stops_spindle: dialect.can.change_stops_spindle,
         feed_ends_with_mode: dialect.can.feed_ends_with_mode,
+        frames_in_increments: false,
         arc_radius: everything
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),

@@ -33,6 +33,10 @@ pub const SPINDLE_AFTER_CHANGE: &str = "spindle_after_change";
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 
+/// Option of a dictionary: whether the first incremental word of an axis after a change of frame or work offset includes
+/// the change, `included` or `excluded`.
+pub const FRAME_OFFSET_INCREMENTAL: &str = "frame_offset_incremental";
+
 /// Option of a dictionary: the letter of the number of repetitions in a cycle's block.
 pub const REPEAT_WORD: &str = "repeat_word";
 
@@ -123,6 +127,11 @@ impl Settings {
         self.dialect.can.change_stops_spindle || self.get(SPINDLE_AFTER_CHANGE) == "stopped"
     }
 
+    /// Whether the first incremental word of an axis after a change of frame or work offset includes the change.
+    pub fn frames_in_increments(&self) -> bool {
+        self.get(FRAME_OFFSET_INCREMENTAL) == "included"
+    }
+
     /// What the dialect can say, as its options are.
     pub fn caps(&self) -> Caps {
         let mut caps = self.dialect.caps.clone();
@@ -140,6 +149,7 @@ impl Settings {
         if let Some(computes) = &mut caps.computes {
             computes.turn = self.get(ANGLE_RANGE) == "turn";
         }
+        caps.frames_in_increments = self.frames_in_increments();
         caps.change_stops_spindle = self.change_stops_spindle();
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps

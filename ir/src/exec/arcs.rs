@@ -1,7 +1,7 @@
 //! Execution of arcs.
 
 use super::{Event, Exec, Kind, MOTION, Z};
-use crate::canon::{AXES, Axis, Motion, Plane, Turn};
+use crate::canon::{AXES, Axis, Distance, Motion, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
@@ -160,6 +160,9 @@ impl Exec {
         let mut next = *before;
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
+                if self.carries(axis) && word.distance.or(self.modes.distance) == Distance::Incremental {
+                    self.not_executed("a point of an arc that includes a change of frame", span)?;
+                }
                 next[axis] = self.target(word, before[axis], span)?;
             }
         }

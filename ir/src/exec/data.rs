@@ -34,6 +34,7 @@ impl Exec {
             if *goes {
                 self.intermediate[axis] = Some([self.position[axis], machine[axis]]);
                 machine[axis] = point[axis];
+                self.stop_carrying(axis);
             }
         }
         let standing = self.waiting.unwrap_or(self.modes.length);
@@ -186,7 +187,7 @@ impl Exec {
                 Stored::Tool(self.world.tool_number(number))
             }
             Data::Offset { offset, mode, words, turn } => {
-                let here = self.machine();
+                let (here, before) = (self.machine(), self.before_frame());
                 let mut zero = self.world.work_offset(*offset);
                 let turned = self.world.work_turn(*offset);
                 let is_turned = turned != 0 || self.offset_turned;
@@ -212,6 +213,7 @@ impl Exec {
                 self.world.tables.work_turns.insert(*offset, turned);
                 if self.modes.work_offset == *offset {
                     self.reframe(here);
+                    self.carry(before);
                 }
                 Stored::Offset(self.world.offset_number(*offset), zero, turned)
             }

@@ -376,11 +376,12 @@ impl Exec {
     }
 
     fn use_slots(&mut self, frames: Frames) {
-        let here = self.machine();
+        let (here, before) = (self.machine(), self.before_frame());
         let chain = frames.chain();
         self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
         self.slots = (frames != Frames::NONE).then(|| Box::new(frames));
         self.reframe(here);
+        self.carry(before);
     }
 
     /// The shift of the origin: what was said, and of the other axes what was left over.
@@ -416,6 +417,7 @@ impl Exec {
             machine[axis] = self.value(&word.value, span)?.wrapping_add(length);
         }
         self.position = self.unplace(&machine);
+        self.not_carried(to);
         Ok(())
     }
 

@@ -118,7 +118,11 @@ impl Here for Now<'_> {
     }
 
     fn word(&self, word: &Coord, side: usize) -> Result<Nanos, Diagnostic> {
-        self.exec.target(word, self.exec.position[self.axes[side]], self.span)
+        let axis = self.axes[side];
+        if self.exec.carries(axis) && word.distance.or(self.exec.modes.distance) == Distance::Incremental {
+            self.exec.not_executed("a pattern of holes that includes a change of frame", self.span)?;
+        }
+        self.exec.target(word, self.exec.position[axis], self.span)
     }
 
     fn after(&self, word: &Coord, _: usize, last: Nanos) -> Result<Nanos, Diagnostic> {
@@ -279,9 +283,10 @@ impl Exec {
             );
         }
         let mut next = self.position;
+        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
-                next[axis] = self.target(word, self.position[axis], span)?;
+                next[axis] = self.target(word, from[axis], span)?;
             }
         }
         self.make_hole(&cycle, next, to.axes[super::Z].is_some(), span, out)

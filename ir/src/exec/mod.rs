@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod carried;
 mod centre_path;
 mod code;
 mod compensation;
@@ -77,6 +78,8 @@ pub struct Exec {
     slots: Option<Box<Frames>>,
     /// Whether the work offset in force is turned: then the shift of the origin is in the chain.
     offset_turned: bool,
+    /// Changes of frames and work offsets that the next incremental words include.
+    carried: Option<Box<carried::Carried>>,
     /// Position of the last move's event.
     last: [Nanos; AXES],
     /// Direction of the last move.
@@ -183,6 +186,7 @@ impl Exec {
             chain: None,
             slots: None,
             offset_turned: false,
+            carried: None,
             last: world.start,
             heading: Heading::None,
             after_stop: None,
@@ -389,9 +393,10 @@ impl Exec {
     #[inline]
     fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
         let mut next = self.position;
+        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
-                next[axis] = self.target(word, self.position[axis], span)?;
+                next[axis] = self.target(word, from[axis], span)?;
             }
         }
         if let Some(word) = &to.axes[Z] {
@@ -595,10 +600,11 @@ impl Exec {
                 self.said |= RETURN;
             }
             Op::SetOriginOffsets(number) => {
-                let here = self.machine();
+                let (here, before) = (self.machine(), self.before_frame());
                 self.modes.work_offset = *number;
                 self.said |= WORK;
                 self.reframe(here);
+                self.carry(before);
             }
             Op::ClearFrame(FrameSlot::Tilt) => self.clear_tilt(span, out)?,
             Op::ClearFrame(slot) => self.clear_slot(*slot),

@@ -20,10 +20,10 @@ use super::write::EXACT;
 use super::{
     Target, absolute_holes, approach, arc_form, at_once, convert_arcs, cutter_radius, expand_calls,
     expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
-    flatten_facts, machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift,
-    path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels, specialise_procedures,
-    spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
-    work_offset,
+    flatten_facts, frame_increments, machine_moves, number_names, offset_with_z, one_distance, one_move,
+    origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels,
+    specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
+    tool_change, tool_edge, work_offset,
 };
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
@@ -65,6 +65,7 @@ pub struct Legaliser {
     machine: machine_moves::State,
     change: tool_change::State,
     at_once: at_once::State,
+    increments: frame_increments::State,
 }
 
 impl Legaliser {
@@ -99,7 +100,8 @@ impl Legaliser {
                     | CORNER
                     | AT_ONCE)
                 != 0
-                || caps.feed_ends_with_mode,
+                || caps.feed_ends_with_mode
+                || caps.frames_in_increments,
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
@@ -122,6 +124,7 @@ impl Legaliser {
             machine: machine_moves::State::default(),
             change: tool_change::State::default(),
             at_once: at_once::State::new(caps),
+            increments: frame_increments::State::new(false, caps.frames_in_increments),
         }
     }
 
@@ -168,9 +171,32 @@ impl Legaliser {
         self.follow |= self.measures;
     }
 
+    /// Whether the source's control includes a change of frame in the first incremental word after it.
+    pub fn set_frames_in_increments(&mut self, included: bool) {
+        self.increments = frame_increments::State::new(included, self.target.caps.frames_in_increments);
+        self.follow |= included;
+    }
+
+    /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
+    /// are to be run first, what the source's control makes of the words is said alone.
+    pub fn frame_increments(
+        &mut self,
+        program: &mut Program,
+        passes_first: bool,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let start = self.walk.at.clone();
+        if passes_first {
+            self.increments.take_source().whole(program, &start, diags);
+        } else {
+            self.increments.whole(program, &start, diags);
+        }
+    }
+
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
         self.at_once = at_once::State::default();
+        self.increments.stands_alone();
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
@@ -193,6 +219,10 @@ impl Legaliser {
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
+        match self.increments.concerns(stmts, self.walk.at.modes.distance) {
+            true => self.increments.over(stmts, &self.walk, diags),
+            false => self.increments.note(stmts, &self.walk),
+        }
         if self.target.caps.change_stops_spindle {
             self.change.over(stmts, diags);
         }
@@ -236,7 +266,7 @@ impl Legaliser {
 
     /// Whether further statements of the main procedure would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
-        self.needs(stmts) != 0
+        self.needs(stmts) != 0 || self.increments.concerns(stmts, self.walk.at.modes.distance)
     }
 
     /// What further statements need that the target lacks.

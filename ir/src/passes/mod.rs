@@ -37,6 +37,7 @@ pub mod flatten_facts;
 pub mod fold_cycles;
 pub mod fold_patterns;
 mod frame_forms;
+pub mod frame_increments;
 mod known_answers;
 pub mod known_facts;
 mod legalise;

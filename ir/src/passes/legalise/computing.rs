@@ -82,6 +82,7 @@ impl Legaliser {
         own.walk = super::Walk::new(known.unwrap_or_else(Tracker::unknown));
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
+        own.increments = self.increments.clone();
         own
     }
 }
