@@ -219,7 +219,8 @@ pub fn of_dialect(world: World, dialect: &str) -> World {
     let by = if linuxcnc { ONE / 1000 * 254 } else { ONE };
     let level = if linuxcnc { ReturnLevel::Retract } else { ReturnLevel::Initial };
     let power_on = Modes { return_level: Some(level), ..world.power_on };
-    World { peck_clearance: by, break_lift: by, power_on, ..world }
+    let behaviours = ncc_dialects::builtin(dialect).map(|d| d.behaviours()).unwrap_or_default();
+    World { peck_clearance: by, break_lift: by, power_on, behaviours, ..world }
 }
 
 fn mm(nanos: Nanos) -> f64 {

@@ -88,6 +88,15 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         }
         Fault::AssumedTilt => "the tool turned onto tilted planes as on the other control".to_owned(),
         Fault::AssumedContourPath => "compensation worked out as RS274/NGC has it".to_owned(),
+        Fault::StartedAgain { behaviour } => {
+            format!("{}: started again before the next cut", behaviour.about())
+        }
+        Fault::OpenBehaviour { behaviour, source, taken, .. } => {
+            let [to, from] = dialects.map(|dialect| dialect.id.as_str());
+            format!("{} = {taken} on {}", behaviour.option(), if *source { from } else { to })
+        }
+        Fault::OptionalStopDiffers => "the switch for optional stops is off".to_owned(),
+        Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),
         Fault::AssumedEdge { .. } => "edge 1 of a tool = the length entry of its number".to_owned(),

@@ -18,6 +18,7 @@ use ncc_ir::given_back::left_out;
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
+use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::Renamed;
 use ncc_ir::passes::{Legaliser, Target, leave_out_values, machine_cuts, own_distance, passed_labels};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
@@ -119,6 +120,8 @@ struct Line<'j> {
     folder: Option<Folder>,
     /// Puts the target machine's numbers in.
     renumbering: Renumbering,
+    /// Writes what codes of the source's control do besides their names.
+    side_effects: SideEffects,
     legaliser: Legaliser,
     writer: Writer,
     text: Vec<u8>,
@@ -156,7 +159,7 @@ impl<'j> Line<'j> {
             legaliser.between_controls();
         }
         legaliser.stand_at(&job.start);
-        legaliser.set_frames_in_increments(job.from.frames_in_increments());
+        legaliser.set_source_behaviours(&job.from.behaviours());
         let maps = job.machines.maps(job.to.dialect);
         legaliser.set_edge_entries(maps.edge_entries.clone());
         legaliser.set_program_numbers(maps.program_numbers.clone());
@@ -171,6 +174,7 @@ impl<'j> Line<'j> {
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),
+            side_effects: SideEffects::new(job.from.behaviours(), job.to.behaviours()),
             legaliser,
             writer,
             text: Vec::new(),
@@ -244,15 +248,18 @@ impl<'j> Line<'j> {
         self.state_given(stmts);
         let renumbers = self.renumbering.touches(stmts);
         let there = self.taken_there(stmts, &assumed, &mut found);
-        let touched = unfolded.is_some() || renumbers || self.legaliser.touches(stmts);
+        let switches = self.side_effects.touches(stmts);
+        let touched = unfolded.is_some() || renumbers || switches || self.legaliser.touches(stmts);
         if touched {
             // What the passes take for granted holds for the source as well.
             let original = unfolded.unwrap_or_else(|| stmts.clone());
+            self.side_effects.over(stmts, &mut found);
             self.renumbering.over(stmts, &mut found);
             self.legaliser.run(stmts, &there, &mut found);
             self.take_parameters(&found);
             self.check(|v| v.source(&original, &assumed));
         } else {
+            self.side_effects.over(stmts, &mut found);
             self.legaliser.run(stmts, &there, &mut found);
         }
         self.write_main(stmts, &there, &mut found);
@@ -304,6 +311,7 @@ impl<'j> Line<'j> {
         }
         let mut program = source.clone();
         let mut found = Vec::new();
+        self.side_effects.run(&mut program.procedures, &mut found);
         self.legaliser.frame_increments(&mut program, !self.job.passes.is_empty(), &mut found);
         self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {

@@ -1,5 +1,6 @@
 //! What a target can say. Passes see these capabilities, never a dialect's name.
 
+use crate::behaviour::Behaviours;
 use crate::canon::{AdviceKind, PathMode, ReturnLevel, Spindle, Turn};
 use crate::computes::Computes;
 use crate::cycle::{CycleKind, Shift, Tap};
@@ -130,9 +131,6 @@ pub struct Caps {
     pub feed_again: bool,
     /// A code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
-    /// Whether an axis's first incremental word after a change of frame or work offset includes the change: such a word
-    /// is written from program zero.
-    pub frames_in_increments: bool,
     /// Subprograms are called by numbers of at most so many digits; 0 if by name.
     pub call_digits: u32,
     /// Arcs by angle, through a point, tangent, or with words of the centre from either zero.
@@ -155,6 +153,8 @@ pub struct Caps {
     pub cycle_ends_motion: bool,
     /// A tool change leaves the spindle stopped.
     pub change_stops_spindle: bool,
+    /// What codes of the control do besides their names.
+    pub behaviours: Behaviours,
     /// The planes of a cycle are measured as the distance mode of each hole's block has it.
     pub cycles_measured_anew: bool,
     /// Arcs by radius.

@@ -3,6 +3,7 @@
 //! A [`Fault`] carries data, no prose: the words, labels and advice are rendered by the command
 //! line alone. Codes are stable, are never used again for something else, and each has a page.
 
+use crate::behaviour::Behaviour;
 use crate::beside::Unreachable;
 use crate::maps::Numbered;
 use crate::num::Num;
@@ -299,6 +300,16 @@ faults! {
     AssumedTip = 320, verdict(Verdict::Assumed);
     /// The tool is turned onto a tilted plane in the same way on both controls.
     AssumedTilt = 321, verdict(Verdict::Assumed);
+    /// A stop or a tool change of the target's control switches something off that the source's control lets go on:
+    /// it is started again before the next cut.
+    StartedAgain { behaviour: Behaviour } = 322, verdict(Verdict::Assumed);
+    /// The cut is another one where the control does something else at a code than it was taken to do; `source` is
+    /// whose control.
+    OpenBehaviour { behaviour: Behaviour, source: bool, taken: &'static str, other: &'static str } = 323, verdict(Verdict::Assumed);
+    /// The target's control takes Z to machine zero before it changes the tool, and the source's does not.
+    MovedAtChange = 324, verdict(Verdict::Assumed);
+    /// The cut is another one where the switch for optional stops is on.
+    OptionalStopDiffers = 325, verdict(Verdict::Assumed);
     /// The control goes beside the contour, onto it and off it, as RS274/NGC describes it.
     AssumedContourPath = 340, verdict(Verdict::Assumed);
 
@@ -357,6 +368,8 @@ faults! {
     OutputDropped = 424, verdict(Verdict::Dropped);
     /// A macro whose calls give different arguments written as several, one for each set; under these names.
     MacroApart { name: Box<str>, names: Box<str> } = 425, verdict(Verdict::Expanded);
+    /// What the source's control does by itself at a code, written before it as words.
+    SideEffectWritten { behaviour: Behaviour } = 426, verdict(Verdict::Reformatted);
     /// A cut in machine coordinates written in the work offset in force, less the offsets.
     MachineCutExpanded { offset: u16 } = 431, verdict(Verdict::Expanded);
     /// Words less the offsets in force written as a cut in machine coordinates; the source's control rounds them to so
@@ -387,6 +400,9 @@ faults! {
     /// A number that the program uses and the map between two machines does not have: the target's
     /// machine has nothing of the name that the source's has for it, or the source's has no name.
     NotInMap { what: Numbered, number: u32, name: Option<Box<str>> } = 506, Error;
+
+    /// What the target's control does by itself at a code, and the source's does not, and what comes after it needs.
+    DoneByTarget { behaviour: Behaviour } = 508, Error;
 
     /// A fact that the program leaves to what was in force before it, and that the target's control always
     /// begins with a value of its own for.

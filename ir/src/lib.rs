@@ -9,6 +9,7 @@
 
 pub mod alarms;
 pub mod arguments;
+pub mod behaviour;
 pub mod beside;
 pub mod call_of;
 pub mod canon;

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use crate::alarms::Alarms;
 use crate::canon::{AXES, Axis, Turn, same_point};
-use crate::exec::{Event, Kind, Seen, State, Stored, named_tool};
+use crate::exec::{Event, Kind, Seen, State, Stored, by_control, cuts, named_tool};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, POW10};
 use crate::program::{Op, Point, Stmt, Text};
@@ -407,6 +407,13 @@ impl Comparison {
                         s += 1;
                         t += 1;
                     }
+                    Some(_) if switched_by_control(a, b) => s += 1,
+                    Some(_) if switched_by_control(b, a) => t += 1,
+                    Some(_) if b.state.by_control & by_control::MOVE != 0 => {
+                        // Only the target's control goes there: up, before it changes the tool.
+                        self.target_at = b.end;
+                        t += 1;
+                    }
                     Some(_) if self.vanishes(a, &self.target_at) => {
                         if self.measured.is_some() {
                             self.note(a, b, [&a.end, &self.target_at.clone()]);
@@ -566,7 +573,17 @@ impl Comparison {
             (x, y) if x == y => {}
             _ => return Some(Aspect::Kind),
         }
-        if let Some(axis) = self.end(&a.end, &b.end, b.inch) {
+        // What the target's control alone did by itself counts as soon as something is cut.
+        let by_target = b.state.by_control & !a.state.by_control;
+        let z_elsewhere = by_target & by_control::Z != 0;
+        if z_elsewhere && cuts(&b.kind) {
+            return Some(Aspect::End(Axis::Z));
+        }
+        let end = match z_elsewhere {
+            true => self.end(&a.end, &with_z(&b.end, a.end[Axis::Z as usize]), b.inch),
+            false => self.end(&a.end, &b.end, b.inch),
+        };
+        if let Some(axis) = end {
             return Some(Aspect::End(axis));
         }
         let synchronised = matches!(a.kind, Kind::Synchronised { .. });
@@ -577,6 +594,40 @@ impl Comparison {
         if a.rate != 0 && !synchronised && a.state.feed_mode != b.state.feed_mode {
             return Some(Aspect::Feed);
         }
-        (!self.same_state(&a.state, &b.state)).then_some(Aspect::State)
+        let same = match by_target & (by_control::SPINDLE | by_control::COOLANT) {
+            0 => self.same_state(&a.state, &b.state),
+            _ if cuts(&b.kind) => self.same_state(&a.state, &b.state),
+            bits => self.same_state(&a.state, &but_for_control(&a.state, &b.state, bits)),
+        };
+        (!same).then_some(Aspect::State)
     }
+}
+
+/// A point with another Z.
+fn with_z(point: &[Nanos; AXES], z: Nanos) -> [Nanos; AXES] {
+    let mut point = *point;
+    point[Axis::Z as usize] = z;
+    point
+}
+
+/// The target's state with what its control alone has switched as it is in the source.
+fn but_for_control(source: &State, target: &State, bits: u8) -> State {
+    let mut state = *target;
+    if bits & by_control::SPINDLE != 0 {
+        (state.spindle, state.speed) = (source.spindle, source.speed);
+        (state.spindle_mode, state.limit, state.centre) = (source.spindle_mode, source.limit, source.centre);
+    }
+    if bits & by_control::COOLANT != 0 {
+        (state.flood, state.mist) = (source.flood, source.mist);
+    }
+    state
+}
+
+/// Whether coolant is switched by a word on one side, where the control of the other side did the same by itself; or
+/// on again, where the own control had switched it off by itself.
+fn switched_by_control(event: &Event, other: &Event) -> bool {
+    let bit = by_control::COOLANT;
+    let same = (event.state.flood, event.state.mist) == (other.state.flood, other.state.mist);
+    matches!(event.kind, Kind::Coolant)
+        && (event.state.by_control & bit != 0 || other.state.by_control & bit != 0 && same)
 }

@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
@@ -32,9 +33,10 @@ pub struct World {
     pub backs_off: Nanos,
     /// Whether a code of what the feed counts ends the feed even where it counts that already.
     pub feed_ends_with_mode: bool,
-    /// Whether an axis counts its first incremental word after a change of frame or work offset from the coordinate
-    /// that it was programmed to before, so that the word includes the change; else from where the axis stands.
-    pub frames_in_increments: bool,
+    /// What codes of the control do besides their names.
+    pub behaviours: Behaviours,
+    /// Whether the operator's switch for optional stops is on.
+    pub optional_stop: bool,
     /// Angle at which the spindle stops where nothing else is said, degrees.
     pub orientation: Nanos,
     /// Direction in which the control shifts a tool off the wall of a bore.
@@ -168,7 +170,8 @@ impl World {
             peck_clearance: 0,
             backs_off: 0,
             feed_ends_with_mode: false,
-            frames_in_increments: false,
+            behaviours: Behaviours::default(),
+            optional_stop: false,
             break_lift: 0,
             orientation: 0,
             bore_shift: Sideways { second: odd_one, minus: seed / 2 % 2 == 1 },

@@ -181,6 +181,9 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
         Fault::AssumedTip => (Side::To, Place::Confirmed(TIP.to_owned())),
         Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
+        Fault::OpenBehaviour { behaviour, source, .. } => {
+            (if *source { Side::From } else { Side::To }, Place::Option(behaviour.option()))
+        }
         Fault::AssumedContourPath => (Side::From, Place::Confirmed(CONTOUR_PATH.to_owned())),
         Fault::AssumedContourEnds => (Side::To, Place::Confirmed(CONTOUR_ENDS.to_owned())),
         Fault::AssumedRadius { .. } => {

@@ -174,7 +174,7 @@ fn say(op: &Op, row: &mut Row, named: &mut [bool; 6]) {
 /// The rows of a program that is executed.
 fn rows(program: &Program) -> Result<Vec<Row>, String> {
     let mut world = World::generate(0, &program.assumed);
-    world.frames_in_increments = settings("siemens").frames_in_increments();
+    world.behaviours = settings("siemens").behaviours();
     let mut exec = Exec::new(&world, 0);
     let mut runner = Runner::new(program);
     let mut all: Vec<Row> = Vec::new();

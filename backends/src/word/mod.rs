@@ -373,16 +373,9 @@ impl Writer {
         let Some(first) = stmts.first() else { return };
         self.open_block(first);
         let (before, jump) = jump_of::found(stmts);
-        for (at, stmt) in before.iter().enumerate() {
+        for stmt in before {
             let before = self.open(stmt, sink);
-            // What the tool change does itself.
-            let implied = self.settings.change_stops_spindle()
-                && matches!(stmt.op, Op::StopSpindleTurning)
-                && at > 0
-                && matches!(stmts[at - 1].op, Op::ChangeTool)
-                && stmts[at - 1].skip == stmt.skip;
             let written = match before {
-                Ok(_) if implied => Ok(()),
                 Ok(_) => self.statement(stmt, sink),
                 Err(ref fault) => Err(fault.clone()),
             };

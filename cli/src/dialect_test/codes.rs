@@ -412,9 +412,6 @@ pub(super) fn said(d: &Dialect, meaning: Meaning, name: &str) -> Vec<Said> {
         Meaning::NoEffect => one(&format!("NO_EFFECT(\"{name}\")")),
         Meaning::ChangeTool => one(match d.caps.tool_edges {
             Some(true) => "SELECT_TOOL(5) & CHANGE_TOOL() & USE_TOOL_EDGE(1)",
-            Some(false) | None if d.caps.change_stops_spindle => {
-                "SELECT_TOOL(5) & CHANGE_TOOL() & STOP_SPINDLE_TURNING()"
-            }
             Some(false) | None => "SELECT_TOOL(5) & CHANGE_TOOL()",
         }),
         Meaning::Call => {

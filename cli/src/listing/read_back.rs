@@ -73,7 +73,6 @@ fn executed(job: &Job, program: &Program) -> Result<Vec<Event>, Diagnostic> {
     world.tables = super::tables(job);
     world.backs_off = BACKS_OFF;
     world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
-    world.frames_in_increments = job.from.frames_in_increments();
     let nanos = |option| parameter(job, option).and_then(|n| n.nanos(false)).unwrap_or(0);
     (world.peck_clearance, world.break_lift) = (nanos(PECK_CLEARANCE), nanos(BREAK_LIFT));
     let mut exec = Exec::new(&world, 0);

@@ -124,7 +124,8 @@ struct Walk<'s> {
 
 impl Walk<'_> {
     fn new(settings: &Settings, line: (u32, u32)) -> Walk<'_> {
-        let world = World::generate(1, &fixed(settings.dialect));
+        let world =
+            World { behaviours: settings.behaviours(), ..World::generate(1, &fixed(settings.dialect)) };
         Walk {
             settings,
             line,

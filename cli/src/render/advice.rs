@@ -1,6 +1,7 @@
 //! What to do about a fault: at most two lines, the first one what most people will want.
 
-use ncc_dialects::{DECIMAL_POINT, FRAME_OFFSET_INCREMENTAL, SPINDLE_AFTER_CHANGE};
+use ncc_dialects::DECIMAL_POINT;
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
@@ -105,6 +106,23 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::AssumedContourEnds => {
             own("look at the way onto the contour and off it on the machine, and at the radius in its table")
         }
+        Fault::StartedAgain { .. } => {
+            own("check at the machine that it runs before the tool touches the part")
+        }
+        Fault::OpenBehaviour { behaviour, source, taken, other } => {
+            let side = if *source { "from" } else { "to" };
+            let option = behaviour.option();
+            own(&format!("state what your machine does: `--{side}-option {option}={taken}` or `={other}`"))
+        }
+        Fault::OptionalStopDiffers => {
+            own("say `M03` and `M08` after `M01` in the source, as the cut needs them")
+        }
+        Fault::MovedAtChange => own("check at the machine that the way up is free"),
+        Fault::SideEffectWritten { .. } => Vec::new(),
+        Fault::DoneByTarget { behaviour } => own(match behaviour {
+            Behaviour::ZAtChange => "move Z where the cut begins, before it, after the tool change",
+            _ => "say `M03` or `M04`, and `M08`, after this code in the source",
+        }),
         Fault::AssumedContourPath => own("look at corners, and at both ends of the contour, on the machine"),
         Fault::RadiusUnknown { .. } => own(
             "state the tool's diameter in the profile of the source's machine, or the radius in the program",
@@ -200,20 +218,21 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         }
         Fault::CannotSay { what } if what.starts_with("a spindle that goes on turning") => {
             let mut all = own("stop the spindle before the change, or start it right behind");
-            if at.from.option.iter().any(|option| option.name == SPINDLE_AFTER_CHANGE) {
-                let own = format!(
-                    "if the machine's change stops it: `--from-option {SPINDLE_AFTER_CHANGE}=stopped`"
-                );
+            let option = Behaviour::SpindleAtChange.option();
+            if at.from.option.iter().any(|row| row.name == option) {
+                let own = format!("if the machine's change stops it: `--from-option {option}=stops`");
                 all.push(own);
             }
             all
         }
         Fault::CannotSay { what } if what.starts_with(frame_increments::REFUSED) => {
             let mut all = own("give the axis its first word after the change in G90");
-            if at.to.option.iter().any(|option| option.name == FRAME_OFFSET_INCREMENTAL) {
+            let included = Behaviour::FrameOffsetIncremental;
+            if at.to.behaviour_row(included).is_some_and(|row| row.open) {
                 let other = format!(
-                    "if the target's control moves by the word alone: \
-                     `--to-option {FRAME_OFFSET_INCREMENTAL}=excluded`"
+                    "if the target's control moves by the word alone: `--to-option {}={}`",
+                    included.option(),
+                    included.values()[0]
                 );
                 all.push(other);
             }

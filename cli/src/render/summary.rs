@@ -204,12 +204,17 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::AssumedTip
         | Fault::AssumedTilt
         | Fault::AssumedContourPath
+        | Fault::StartedAgain { .. }
+        | Fault::OpenBehaviour { .. }
+        | Fault::MovedAtChange
+        | Fault::OptionalStopDiffers
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }
         | Fault::AssumedPath { .. }
         | Fault::AssumedParameter { .. } => {
             assumption(fault, [at.to, at.from]).unwrap_or_else(|| words(fault, at).message)
         }
+        Fault::SideEffectWritten { behaviour } => format!("{}, as words", behaviour.about()),
         Fault::CommentReformatted => format!("comments, in the characters of {to}"),
         Fault::ArcReformatted => format!("arc centres, in the form of {to}"),
         Fault::Rounded { .. } => format!("numbers, to the digits of {to}"),
@@ -318,6 +323,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::SecondWorkOffset { .. }
         | Fault::FactUnsaid { .. }
         | Fault::ArcVanishes
+        | Fault::DoneByTarget { .. }
         | Fault::TargetRange { .. }
         | Fault::ProfileDenies { .. }
         | Fault::NotInMap { .. }

@@ -190,6 +190,30 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             "tilted plane: the tool turned onto it as on the other control assumed".into(),
             "which way the rotary axes go, and the linear axes with them, is the machine's".into(),
         ),
+        Fault::StartedAgain { behaviour } => (
+            format!("{}: started again before this cut", behaviour.about()),
+            format!("{to} switches it off by itself, {from} does not"),
+        ),
+        Fault::OpenBehaviour { behaviour, source, other, .. } => (
+            format!("check at the machine: {}", behaviour.about()),
+            format!("another cut where {} = {other} on {}", behaviour.option(), if *source { from } else { to }),
+        ),
+        Fault::OptionalStopDiffers => (
+            "check at the machine: the cut after an optional stop".into(),
+            format!("with the switch on, {from} and {to} do not do the same here"),
+        ),
+        Fault::MovedAtChange => (
+            "check at the machine: this tool change takes Z to machine zero".into(),
+            format!("{to} goes there by itself, {from} does not"),
+        ),
+        Fault::SideEffectWritten { behaviour } => (
+            format!("{}, written as words", behaviour.about()),
+            format!("{from} does it by itself here"),
+        ),
+        Fault::DoneByTarget { behaviour } => (
+            format!("{}: {to} does more here than {from}", behaviour.about()),
+            "the source cuts with what this control has switched or moved".into(),
+        ),
         Fault::AssumedContourEnds => (
             "cutter radius compensation: the same way onto the contour and off it assumed".into(),
             "each control has a way of its own; the contour between is the same".into(),

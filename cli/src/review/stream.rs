@@ -143,8 +143,8 @@ pub(crate) fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
     let mut worlds = vec![plain];
     worlds.extend((1..=WORLDS).map(|seed| World::generate(seed, &fixed).with_external()));
     for world in &mut worlds {
+        world.behaviours = job.from.behaviours();
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
-        world.frames_in_increments = job.from.frames_in_increments();
         let [clearance, lift] = clearances;
         world.peck_clearance = clearance.unwrap_or(world.peck_clearance);
         world.break_lift = lift.unwrap_or(world.break_lift);

@@ -4,6 +4,7 @@
 //! numbers of the program itself, so that its decisions go both ways, and nothing at all for local variables. With
 //! which values the source cannot be executed, it says nothing. Ways that were not gone are told.
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::exec::{Exec, Progress, Runner};
@@ -11,7 +12,7 @@ use ncc_ir::expr::Var;
 use ncc_ir::open::{literals, open_variables};
 use ncc_ir::passes::otherwise::{Taken, There, compares_nearly, otherwise, places};
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::program::{Procedure, Program, Type};
+use ncc_ir::program::{Op, Procedure, Program, Stmt, Type};
 use ncc_ir::source::Span;
 use ncc_ir::valid::{anything, not_called};
 use ncc_ir::value::Value;
@@ -19,7 +20,7 @@ use ncc_ir::verify::Pair;
 
 use crate::given::Given as Stated;
 
-use super::{Run, Stop, Verifier, different, levels, unreadable};
+use super::{Other, Run, Stop, Verifier, different, levels, unreadable};
 
 /// Events that are made on each side before they are compared.
 const PIECE: usize = 4096;
@@ -39,6 +40,9 @@ const MOST_OF_SET: (u64, u64) = (100_000, 200_000);
 /// Sets of which one must come to the program's end; if none does, one of them is run as far as a program without
 /// variables of others is.
 const FEW_SETS: u32 = 8;
+
+/// Events of a run with another fact than usual.
+const MOST_WITH_FACT: u64 = 1_000_000;
 
 /// Decisions that are told; of more, the first ones.
 const MOST_TOLD: usize = 20;
@@ -282,9 +286,12 @@ impl Verifier {
         let mut starts = Vec::new();
         let mut failed = None;
         let mut runs = std::mem::take(&mut self.runs);
+        let plain = runs.first().cloned();
+        let mut asked = [0; 2];
         for run in &mut runs {
             let start = (!given.open.is_empty() && run.skip == 0).then(|| run.clone());
             let ended = self.run_against(run, [source, &target], given, Set::long(0), &mut gone, pairs);
+            asked = [asked[0] | run.source.asked(), asked[1] | run.target.asked()];
             match ended {
                 Ok(()) => {}
                 // With other values it may be executed.
@@ -300,6 +307,9 @@ impl Verifier {
         }
         self.runs = runs;
         let sides = [source, &target];
+        if let Some(plain) = plain {
+            self.whole_with_facts(&plain, sides, given, asked);
+        }
         let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
         if let (false, Some((start, set))) = (came.through, came.goes_on) {
             // Only a run that comes to its end shows that the program has one.
@@ -327,6 +337,46 @@ impl Verifier {
             self.tell(source, (&target, text, base), given, &gone);
         }
         Ok(())
+    }
+
+    /// Runs both programs with each open fact that was come to, another one than usual, one at a time.
+    fn whole_with_facts(&mut self, plain: &Run, sides: [&Program; 2], given: &Given, asked: [u64; 2]) {
+        for (bits, source) in [(asked[0] & self.open[0], true), (asked[1] & self.open[1], false)] {
+            self.fork_whole(plain, bits, source);
+        }
+        let optional = |program: &Program| program.procedures.iter().any(|p| has_optional_stop(&p.body));
+        if self.optional_stop && optional(sides[0]) {
+            let mut run = plain.clone();
+            run.take(Other::OptionalStop);
+            self.others.push(run);
+        }
+        for mut run in std::mem::take(&mut self.others) {
+            run.comparison.keep_pairs(false);
+            let Some(other) = run.other else { continue };
+            let set = Set { number: 0, most: MOST_WITH_FACT, idle: None };
+            let ended = self.run_both(&mut run, sides, given, set, &mut Gone::default(), &mut |_| {});
+            match ended {
+                Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
+                Err(Ended::Source(fault)) if matches!(fault.fault, Fault::DoneByTarget { .. }) => {
+                    self.matters.push((other, fault.span));
+                }
+                // It cannot be executed so, or is long enough.
+                Ok(()) | Err(Ended::Source(_) | Ended::NotSo(_) | Ended::Enough) => {}
+            }
+        }
+    }
+
+    fn fork_whole(&mut self, plain: &Run, bits: u64, source: bool) {
+        for behaviour in Behaviour::ALL.iter().copied().filter(|behaviour| bits & behaviour.bit() != 0) {
+            for value in self.other_values(behaviour, source) {
+                let other = Other::Behaviour { behaviour, source, value };
+                if self.others.iter().all(|run| run.other != Some(other)) {
+                    let mut run = plain.clone();
+                    run.take(other);
+                    self.others.push(run);
+                }
+            }
+        }
     }
 
     /// Runs both programs with sets of values, until every way of both was gone.
@@ -503,6 +553,15 @@ impl Verifier {
             self.notes.push(Diagnostic::new(Fault::OutputNotTaken { blocks }, self.last));
         }
     }
+}
+
+/// Whether an optional stop stands anywhere in a body.
+fn has_optional_stop(body: &[Stmt]) -> bool {
+    body.iter().any(|stmt| match &stmt.op {
+        Op::OptionalProgramStop => true,
+        Op::Control(control) => control.bodies().any(|body| has_optional_stop(body)),
+        _ => false,
+    })
 }
 
 /// The block that something stands in.

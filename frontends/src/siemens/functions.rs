@@ -4,7 +4,7 @@
 //! Moves and frames have files of their own.
 
 use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
-use ncc_ir::canon::{AXES, Fact, FeedMode, PathMode, Plane, SpindleMode, Units};
+use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, SpindleMode, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
@@ -188,9 +188,6 @@ impl Lower {
                 self.state.surface = Know::Said(mode == SpindleMode::Surface);
             }
             Meaning::SetOriginOffsets(offset) => {
-                if self.state.work_offset.value() != Some(offset) || self.stale {
-                    self.state.framed = [true; AXES];
-                }
                 self.state.work_offset = Know::Said(offset);
                 self.stale = false;
                 self.state.pole.lose();

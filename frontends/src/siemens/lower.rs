@@ -227,9 +227,6 @@ impl Lower {
                     *stand = if absolute { Some(*num) } else { None };
                 }
             }
-            for (framed, word) in self.state.framed.iter_mut().zip(&to.to.axes) {
-                *framed &= word.is_none();
-            }
         }
         Some(end)
     }
@@ -275,8 +272,6 @@ impl Lower {
             // Its number may be one that a jump names.
             || self.has_targets()
             || self.stale
-            // A word may include a change of frame.
-            || state.distance.value() != Some(Distance::Absolute) && state.framed[..3].contains(&true)
         {
             return None;
         }

@@ -7,7 +7,7 @@
 //!
 //! Not here: the cycles themselves.
 
-use ncc_dialects::{FRAME_OFFSET_INCREMENTAL, NameRole, Quantity, Role};
+use ncc_dialects::{NameRole, Quantity, Role};
 use ncc_ir::canon::{Axis, Distance, Fact, Plane, Turn};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
@@ -248,11 +248,6 @@ impl Lower {
                 if machine.is_some() && coord.distance == Fact::Known(Distance::Incremental) {
                     let name = "incremental word in machine coordinates";
                     self.not_supported(&src.text(given.span), name, given.span, out);
-                }
-                let framed = std::mem::take(&mut self.state.framed[axis as usize]);
-                let absolute = coord.distance.known().or(self.state.distance.value());
-                if framed && machine.is_none() && absolute != Some(Distance::Absolute) {
-                    self.option(FRAME_OFFSET_INCREMENTAL, given.span, out);
                 }
                 if let Some(stand) = self.stand.axes.get_mut(axis as usize) {
                     let absolute = coord.distance == Fact::Known(Distance::Absolute) && machine.is_none();

@@ -185,8 +185,6 @@ pub(super) struct State {
     /// Whether a tool was selected.
     pub(super) tool: Know<()>,
     pub(super) cycle: InForce,
-    /// Whether the spindle may turn.
-    pub(super) turning: bool,
     /// Whether the next tapping cycle is a rigid one.
     pub(super) rigid: bool,
     /// Rotation, factors or a mirror that the program has in force, a bit each.
@@ -238,7 +236,6 @@ impl State {
             feed: Know::Lost,
             tool: Know::Lost,
             cycle: InForce::Lost,
-            turning: true,
             rigid: false,
             level_changed: false,
             turned: 0,
@@ -321,7 +318,6 @@ impl State {
             self.no_motion = false;
             self.motion = Know::Lost;
         }
-        self.turning |= before.turning;
         self.turned |= before.turned;
         self.unplaced |= before.unplaced;
         self.words.join(before.words);

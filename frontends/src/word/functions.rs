@@ -331,33 +331,15 @@ impl Lower {
                 if self.state.tool == Know::Unsaid {
                     self.fault(Fault::NoToolSelected, code.span, out);
                 }
-                let stops = self.settings.change_stops_spindle() && self.state.turning;
-                self.push(code.span, Op::ChangeTool, out);
-                if !stops {
-                    return;
-                }
-                self.state.turning = false;
-                Op::StopSpindleTurning
+                Op::ChangeTool
             }
             // Without a move there is nothing to stop.
             Meaning::ExactStop if !self.has_axis_word(words) => return,
             Meaning::ExactStop => Op::ExactStop,
-            Meaning::OrientSpindle => {
-                self.state.turning = false;
-                Op::OrientSpindle(self.now.angle.take().map(Expr::Num))
-            }
-            Meaning::StartSpindleClockwise => {
-                self.state.turning = true;
-                Op::StartSpindleClockwise
-            }
-            Meaning::StartSpindleCounterclockwise => {
-                self.state.turning = true;
-                Op::StartSpindleCounterclockwise
-            }
-            Meaning::StopSpindleTurning => {
-                self.state.turning = false;
-                Op::StopSpindleTurning
-            }
+            Meaning::OrientSpindle => Op::OrientSpindle(self.now.angle.take().map(Expr::Num)),
+            Meaning::StartSpindleClockwise => Op::StartSpindleClockwise,
+            Meaning::StartSpindleCounterclockwise => Op::StartSpindleCounterclockwise,
+            Meaning::StopSpindleTurning => Op::StopSpindleTurning,
             Meaning::MachineFunction(name) => {
                 if !code.row.after_move && b"XYZABC".iter().any(|letter| words.get(*letter).is_some()) {
                     // Whether it comes before or after the move is a matter of the machine.

@@ -1,6 +1,7 @@
 //! What can be said in a dialect, as its rows have it. Nothing is decided here that a row does not say.
 
 use ncc_ir::alarms::Alarms;
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AdviceKind, CornerShape, PathMode, ReturnLevel, RotaryWay, Side, Turn};
 use ncc_ir::caps::{
     Caps, Corners, CycleCap, CycleForm, PolarForm, Radii, References, Threads, TiltForm, TipForm,
@@ -259,9 +260,9 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
         starts_without_length: dialect.safe_start.contains(&SafeStart::NoLengthOffset),
         cycle_ends_motion: dialect.cycles.ends_motion,
         cycles_measured_anew: dialect.cycles.measured_anew,
-        change_stops_spindle: dialect.can.change_stops_spindle,
+        change_stops_spindle: dialect.behaviours().surely(Behaviour::SpindleAtChange),
+        behaviours: dialect.behaviours(),
         feed_ends_with_mode: dialect.can.feed_ends_with_mode,
-        frames_in_increments: false,
         arc_radius: everything
             || dialect.letter_for(crate::Role::Radius).is_some()
             || dialect.name_with(NameRole::Radius).is_some(),

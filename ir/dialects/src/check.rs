@@ -9,7 +9,7 @@ use crate::codes::{CodeIndex, CodeRow};
 use crate::fault::DialectFault;
 use crate::meaning::Meaning;
 use crate::names::{NameMeaning, NameRow, ParameterRole};
-use crate::schema::Dialect;
+use crate::schema::{Dialect, OptionRow, UNKNOWN};
 use crate::stored::DataKind;
 
 /// A fault, and the place of its row in the texts laid end to end.
@@ -25,6 +25,7 @@ pub(crate) struct Places {
     pub(crate) name: Vec<Range<usize>>,
     pub(crate) call: Vec<Range<usize>>,
     pub(crate) option: Vec<Range<usize>>,
+    pub(crate) behaviour: Vec<Range<usize>>,
     pub(crate) data: Vec<Range<usize>>,
 }
 
@@ -61,6 +62,35 @@ pub(crate) fn spread(dialect: &mut Dialect, places: &mut Places) -> Result<(), F
         }
     }
     (dialect.name, places.name) = (names, at);
+    open_behaviours(dialect, places)
+}
+
+/// Checks the rows of behaviours, and makes an option of each open one.
+fn open_behaviours(dialect: &mut Dialect, places: &mut Places) -> Result<(), Fault> {
+    for (at, row) in dialect.behaviour.iter().enumerate() {
+        let Some((behaviour, _)) = row.meaning() else {
+            return Err(fault(&row.name, "is no behaviour, or has no such value", &places.behaviour, at));
+        };
+        let name = behaviour.option();
+        if !row.open || dialect.option.iter().any(|option| option.name == name) {
+            continue;
+        }
+        let values = behaviour.values().iter().chain([&UNKNOWN]);
+        let doc = format!(
+            "What becomes of the {}. `{UNKNOWN}`: ncc runs the program with each value, the \
+                           usual one (`{}`) first, and reports where they differ.",
+            behaviour.about(),
+            row.value
+        );
+        dialect.option.push(OptionRow {
+            name,
+            values: values.map(|value| (*value).to_owned()).collect(),
+            default: UNKNOWN.to_owned(),
+            doc,
+            source: row.source.clone(),
+        });
+        places.option.push(places.behaviour.get(at).cloned().unwrap_or_default());
+    }
     Ok(())
 }
 

@@ -275,6 +275,7 @@ fn places(tree: &DeTable<'_>) -> Places {
         name: rows("name"),
         call: rows("call"),
         option: rows("option"),
+        behaviour: rows("behaviour"),
         data: rows("data"),
     }
 }

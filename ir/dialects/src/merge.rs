@@ -4,7 +4,7 @@
 //! - A table is merged field by field, to any depth.
 //! - A list of rows is merged row by row. Rows are told apart by their key: `code` in `[[code]]`,
 //!   `[[cycle]]` and `[[pattern]]` (`G1` is `G01`), `letter` in `[[address]]`, `name` in `[[name]]`,
-//!   `[[call]]`, `[[option]]` and `[[data]]`, `number` or else `name` in `[[system]]`. A row of a key that the base has is merged over the base's row field
+//!   `[[call]]`, `[[option]]`, `[[behaviour]]` and `[[data]]`, `number` or else `name` in `[[system]]`. A row of a key that the base has is merged over the base's row field
 //!   by field and keeps its place; any other is added at the end. Lists inside a row are replaced.
 //! - In `[[code]]` and `[[name]]`, `means`, `role` and `refuse` exclude each other: a row that says one
 //!   of them takes away the base's others.
@@ -39,7 +39,7 @@ const EXCLUSIVE: [&str; 3] = ["means", "role", "refuse"];
 pub(crate) fn row_key(table: &str) -> Option<&'static str> {
     match table {
         "code" | "cycle" | "pattern" => Some("code"),
-        "name" | "call" | "option" | "data" => Some("name"),
+        "name" | "call" | "option" | "data" | "behaviour" => Some("name"),
         "address" => Some("letter"),
         "system" => Some(NUMBER),
         _ => None,

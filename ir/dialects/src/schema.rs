@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::caps::Caps;
 use serde::Deserialize;
 
@@ -100,6 +101,9 @@ pub struct Dialect {
     /// Questions that the sources leave open, each with a working choice.
     #[serde(default)]
     pub option: Vec<OptionRow>,
+    /// What codes do besides their names.
+    #[serde(default)]
+    pub behaviour: Vec<BehaviourRow>,
     /// Capabilities that follow from no other row.
     #[serde(default)]
     pub can: Can,
@@ -417,6 +421,47 @@ pub struct OptionRow {
     pub source: String,
 }
 
+/// What codes of the control do besides their names: a fact that no program states.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BehaviourRow {
+    /// Its name: `spindle-at-stop`.
+    pub name: String,
+    /// The value: `stops`. Of an open one, the usual value, which is executed first.
+    pub value: String,
+    /// A parameter, a machine datum or the builder decides it. Then it is an option too, of the same name with `_`,
+    /// whose value `unknown` leaves it open; and every program that comes to it is executed with the other values.
+    #[serde(default)]
+    pub open: bool,
+    /// Codes that it belongs to, for readers of the tables.
+    #[serde(default)]
+    pub codes: Vec<String>,
+    /// How sure the source is.
+    pub sure: Sureness,
+    /// Who says so; of an open one, what decides it.
+    pub source: String,
+}
+
+impl BehaviourRow {
+    /// The behaviour and its value; `None` where one of the names is none.
+    pub fn meaning(&self) -> Option<(Behaviour, u8)> {
+        let behaviour = Behaviour::named(&self.name)?;
+        Some((behaviour, behaviour.value(&self.value)?))
+    }
+}
+
+/// How sure the source of a behaviour is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sureness {
+    /// A manual or the control's own code, read; or the control was run.
+    Read,
+    /// A text that names the manual's page.
+    SecondHand,
+    /// Common knowledge of the trade, without a page.
+    Memory,
+}
+
 /// Capabilities that follow from no other row.
 #[derive(Clone, Copy, Debug, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -427,8 +472,6 @@ pub struct Can {
     /// Z, a cycle, or a new zero of Z before the next absolute one is then not what it is on a control that
     /// takes the length up with the next Z, and is refused.
     pub length_at_once: bool,
-    /// A tool change leaves the spindle stopped.
-    pub change_stops_spindle: bool,
     /// A code of what the feed counts ends the feed even where it counts that already: the next cut needs a new one.
     pub feed_ends_with_mode: bool,
     /// Cutter radius compensation goes as LinuxCNC's interpreter does it: a corner of less than 0.05 rad is
@@ -457,7 +500,26 @@ pub(crate) fn yes() -> bool {
     true
 }
 
+/// The value of an option that leaves a behaviour open.
+pub const UNKNOWN: &str = "unknown";
+
 impl Dialect {
+    /// What codes do besides their names, as the rows have it.
+    pub fn behaviours(&self) -> Behaviours {
+        let mut all = Behaviours::default();
+        for row in &self.behaviour {
+            if let Some((behaviour, value)) = row.meaning() {
+                all.set(behaviour, value, row.open);
+            }
+        }
+        all
+    }
+
+    /// The row of a behaviour.
+    pub fn behaviour_row(&self, behaviour: Behaviour) -> Option<&BehaviourRow> {
+        self.behaviour.iter().find(|row| row.name == behaviour.name())
+    }
+
     /// The row of a G or M code given in tenths.
     #[inline]
     pub fn code_row(&self, letter: u8, tenths: u32) -> Option<&CodeRow> {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
 
@@ -27,15 +28,8 @@ pub const COMPUTED_DWELL: &str = "computed_dwell";
 /// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
 pub const DECIMAL_POINT: &str = "decimal_point";
 
-/// Option of a dictionary: what the spindle does after a tool change that says nothing of it, `open` or `stopped`.
-pub const SPINDLE_AFTER_CHANGE: &str = "spindle_after_change";
-
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
-
-/// Option of a dictionary: whether the first incremental word of an axis after a change of frame or work offset includes
-/// the change, `included` or `excluded`.
-pub const FRAME_OFFSET_INCREMENTAL: &str = "frame_offset_incremental";
 
 /// Option of a dictionary: the letter of the number of repetitions in a cycle's block.
 pub const REPEAT_WORD: &str = "repeat_word";
@@ -124,12 +118,18 @@ impl Settings {
 
     /// Whether a tool change leaves the spindle stopped, as the control or this machine has it.
     pub fn change_stops_spindle(&self) -> bool {
-        self.dialect.can.change_stops_spindle || self.get(SPINDLE_AFTER_CHANGE) == "stopped"
+        self.behaviours().surely(Behaviour::SpindleAtChange)
     }
 
-    /// Whether the first incremental word of an axis after a change of frame or work offset includes the change.
-    pub fn frames_in_increments(&self) -> bool {
-        self.get(FRAME_OFFSET_INCREMENTAL) == "included"
+    /// What codes do besides their names, as the control or this machine has it.
+    pub fn behaviours(&self) -> Behaviours {
+        let mut all = self.dialect.caps.behaviours;
+        for behaviour in Behaviour::ALL.iter().copied().filter(|b| self.dialect.caps.behaviours.is_open(*b)) {
+            if let Some(value) = behaviour.value(self.get(&behaviour.option())) {
+                all.set(behaviour, value, false);
+            }
+        }
+        all
     }
 
     /// What the dialect can say, as its options are.
@@ -149,7 +149,7 @@ impl Settings {
         if let Some(computes) = &mut caps.computes {
             computes.turn = self.get(ANGLE_RANGE) == "turn";
         }
-        caps.frames_in_increments = self.frames_in_increments();
+        caps.behaviours = self.behaviours();
         caps.change_stops_spindle = self.change_stops_spindle();
         caps.repeat_count_known = self.is_chosen(REPEAT_COUNT);
         caps

@@ -8,13 +8,19 @@
 //! Not here: lengths of tools, which no control includes without being asked ([`super::Exec::another_length_waits`]).
 
 use super::Exec;
+use crate::behaviour::Behaviour;
 use crate::canon::{AXES, Distance};
 use crate::diag::Diagnostic;
+use crate::kinds::{flow, frames, machine};
 use crate::num::Nanos;
+use crate::passes::frame_increments::words_of;
 use crate::program::{Coord, Op, Point, Stmt};
 use crate::source::Span;
 
-/// Axes whose next incremental word includes a change.
+/// What decides whether such words include the change.
+const INCLUDED: Behaviour = Behaviour::FrameOffsetIncremental;
+
+/// Axes whose next incremental word includes a change, where the control does so.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Carried {
     /// From which coordinate of the program that word counts, nanos of a millimetre or a degree.
@@ -34,16 +40,22 @@ impl Exec {
     /// What a change of frame may carry into the words that follow.
     #[inline]
     pub(super) fn before_frame(&self) -> Before {
-        let turned = self.world.frames_in_increments && self.mixes_axes();
+        let turned = self.tracks_frames() && self.mixes_axes();
         Before { position: self.position, turned }
     }
 
     /// The frame is another one now: the next incremental words include that.
     #[inline]
     pub(super) fn carry(&mut self, before: Before) {
-        if self.world.frames_in_increments {
+        if self.tracks_frames() {
             self.carry_from(before);
         }
+    }
+
+    /// Whether the control includes changes of frames in incremental words, or may do so.
+    fn tracks_frames(&self) -> bool {
+        let all = &self.world.behaviours;
+        all.does(INCLUDED) || all.is_open(INCLUDED)
     }
 
     #[cold]
@@ -73,6 +85,11 @@ impl Exec {
 
     /// Whether the next incremental word of an axis includes a change.
     pub(super) fn carries(&self, axis: usize) -> bool {
+        self.world.behaviours.does(INCLUDED) && self.waits(axis)
+    }
+
+    /// Whether an axis has had no word since a change.
+    fn waits(&self, axis: usize) -> bool {
         self.carried.as_ref().is_some_and(|carried| carried.from[axis].is_some())
     }
 
@@ -86,7 +103,14 @@ impl Exec {
         let Some(carried) = &self.carried else { return Ok(from) };
         for (axis, word) in to.axes.iter().enumerate() {
             let Some((word, own)) = word.as_ref().zip(carried.from[axis]) else { continue };
-            if carried.turned && word.distance.or(self.modes.distance) == Distance::Incremental {
+            if word.distance.or(self.modes.distance) == Distance::Absolute {
+                continue;
+            }
+            self.asked |= INCLUDED.bit();
+            if !self.world.behaviours.does(INCLUDED) {
+                continue;
+            }
+            if carried.turned {
                 let what = "an incremental word after a frame that turns";
                 return self.not_executed(what, span).map(|()| from);
             }
@@ -119,15 +143,35 @@ impl Exec {
     /// Whether plain moves do the same here and on another control in the same state, as far as the changes go that
     /// their words may include.
     pub fn counts_alike(&self, other: &Exec, moves: &[Stmt]) -> bool {
-        if self.carried == other.carried {
+        if self.carried == other.carried
+            && self.world.behaviours.get(INCLUDED) == other.world.behaviours.get(INCLUDED)
+        {
             return true;
         }
-        let alike = |axis: usize, word: &Option<Coord>| {
-            let Some(word) = word else { return true };
-            word.distance.or(self.modes.distance) == Distance::Absolute
-                || !self.carries(axis) && !other.carries(axis)
-        };
-        moves.iter().filter_map(words).all(|to| to.axes.iter().enumerate().all(|(axis, w)| alike(axis, w)))
+        !self.includes_in(moves) && !other.includes_in(moves)
+    }
+
+    /// Whether any of these statements may have an incremental word of an axis that has had no word since a change of
+    /// frame. What is changed within them counts for all axes.
+    pub fn includes_in(&self, stmts: &[Stmt]) -> bool {
+        let changes = || stmts.iter().any(|stmt| matches!(stmt.op, frames!() | machine!()));
+        if !self.tracks_frames() || self.carried.is_none() && !changes() {
+            return false;
+        }
+        let (mut distance, mut all) = (self.modes.distance, false);
+        stmts.iter().any(|stmt| {
+            match &stmt.op {
+                Op::SetDistanceMode(mode) => distance = *mode,
+                frames!() | machine!() => all = true,
+                flow!() => return true,
+                _ => {}
+            }
+            let relative = |(axis, word): (usize, &Option<Coord>)| {
+                let incremental = |word: &Coord| word.distance.or(distance) == Distance::Incremental;
+                (all || self.waits(axis)) && word.as_ref().is_some_and(incremental)
+            };
+            words_of(&stmt.op).is_some_and(|to| to.axes.iter().enumerate().any(relative))
+        })
     }
 
     /// Another control has executed plain moves for this one: what their axes carried is over.

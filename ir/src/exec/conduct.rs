@@ -3,7 +3,7 @@
 //!
 //! Not here: moves themselves.
 
-use super::{Attribute, Event, Exec, Kind};
+use super::{Attribute, Event, Exec, Kind, by_control};
 use crate::canon::{Axis, Distance, PathMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
@@ -155,6 +155,7 @@ impl Exec {
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
         self.state.spindle = to;
+        self.said_by_program(by_control::SPINDLE);
         self.within_limit(span)?;
         let what = if to == Spindle::Stopped { Attribute::StopSpindle } else { Attribute::StartSpindle(to) };
         self.tell(what, span, out)
@@ -170,8 +171,12 @@ impl Exec {
         if (flood, mist) != (self.state.flood, self.state.mist) {
             self.state.flood = flood;
             self.state.mist = mist;
-            self.emit(Kind::Coolant, span, out)?;
+            // The event tells that it undoes what the control did.
+            let emitted = self.emit(Kind::Coolant, span, out);
+            self.said_by_program(by_control::COOLANT);
+            return emitted;
         }
+        self.said_by_program(by_control::COOLANT);
         Ok(())
     }
 

@@ -229,6 +229,20 @@ pub enum Attribute {
     Remark,
 }
 
+/// Bits of [`State::by_control`]: what a control does besides the name of a code, as long as the program
+/// has no word of its own for it. A comparison passes over what only the target's control does so, where
+/// nothing is cut.
+pub mod by_control {
+    /// The spindle was stopped.
+    pub const SPINDLE: u8 = 1;
+    /// Coolant was switched off.
+    pub const COOLANT: u8 = 2;
+    /// Z went to machine zero.
+    pub const Z: u8 = 4;
+    /// The event itself is a move of the control, before a tool change.
+    pub const MOVE: u8 = 8;
+}
+
 /// What is on while an event happens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct State {
@@ -266,6 +280,8 @@ pub struct State {
     pub turned: u8,
     /// Which axes come to the end of this move from one side, always the same; a bit each, X first.
     pub one_side: u8,
+    /// What the control itself has switched or moved, and no word of the program since: [`by_control`].
+    pub by_control: u8,
     /// Flood coolant.
     pub flood: bool,
     /// Mist coolant.
@@ -288,6 +304,7 @@ impl Default for State {
             path: None,
             turned: 0,
             one_side: 0,
+            by_control: 0,
             tip: false,
             tilted: false,
             flood: false,

@@ -6,6 +6,7 @@
 
 mod arcs;
 mod ask;
+mod at_codes;
 mod carried;
 mod centre_path;
 mod code;
@@ -30,9 +31,11 @@ mod thread;
 mod tilt;
 mod tools;
 
+pub(crate) use at_codes::cuts;
+pub use at_codes::touched;
 pub use compensation::Compensation;
 pub use conduct::named_tool;
-pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written};
+pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub(crate) use frame::Chain;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
@@ -118,6 +121,8 @@ pub struct Exec {
     /// Whether what a speed counts needs to be looked at before anything happens.
     speed_watched: bool,
     cycle: Option<InForce>,
+    /// Behaviours of the control that the program has come to, a bit each.
+    asked: u64,
     /// Whether the program has ended.
     ended: bool,
     /// What becomes of messages.
@@ -212,6 +217,7 @@ impl Exec {
             },
             speed_watched: false,
             cycle: None,
+            asked: 0,
             ended: false,
             shown: message::Shown::default(),
             quiet: false,
@@ -524,6 +530,9 @@ impl Exec {
         if self.detour.is_some() {
             return self.go_by_detour(to, feed, span, out);
         }
+        if self.state.by_control & by_control::Z != 0 && !feed && to.axes[Z].is_some() {
+            self.said_by_program(by_control::Z);
+        }
         let (before, own) = (self.position, self.modes.motion);
         let own_code = self.has_own_code(span)?;
         if let Some(length) = self.raw.take() {
@@ -637,6 +646,7 @@ impl Exec {
                 if self.selected == -1 {
                     return self.fault(Fault::NoToolSelected, span);
                 }
+                self.before_change(span, out)?;
                 self.state.tool = self.selected;
                 self.emit(Kind::ToolChange, span, out)?;
             }
@@ -675,10 +685,17 @@ impl Exec {
                 if let Some((text, at)) = self.shown.at_stop(stmt.skip) {
                     self.emit(Kind::Message(text), at, out)?;
                 }
+                self.at_stop();
                 self.emit(Kind::ProgramStop, span, out)?;
             }
-            Op::OptionalProgramStop => self.emit(Kind::OptionalProgramStop, span, out)?,
+            Op::OptionalProgramStop => {
+                if self.world.optional_stop {
+                    self.at_stop();
+                }
+                self.emit(Kind::OptionalProgramStop, span, out)?;
+            }
             Op::ProgramEnd => {
+                self.at_end();
                 self.emit(Kind::ProgramEnd, span, out)?;
                 self.ended = true;
             }

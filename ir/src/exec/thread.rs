@@ -120,6 +120,7 @@ impl Exec {
             None => self.world.orientation,
         };
         self.state.spindle = Spindle::Stopped;
+        self.said_by_program(super::by_control::SPINDLE);
         self.emit(Kind::Orient(angle), span, out)
     }
 }

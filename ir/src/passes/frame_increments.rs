@@ -10,6 +10,7 @@ use std::collections::HashMap;
 
 use super::walk::Walk;
 use super::write::at;
+use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Axis, Distance, Fact, Plane};
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::flow;
@@ -34,6 +35,8 @@ pub struct State {
     from: bool,
     /// Whether the target's does.
     to: bool,
+    /// Whether both are of one mind, so that words stay as they are, but for passes that rewrite them.
+    same: bool,
     /// Axes that have had no word since a change.
     pending: Pending,
     /// Whether the program, which is kept whole, is done.
@@ -85,12 +88,17 @@ impl Pending {
 }
 
 impl State {
-    /// For controls that include the change, or do not: the source's, and the target's.
-    pub fn new(from: bool, to: bool) -> State {
+    /// For the source's control, and the target's, which may include the change where that is open.
+    pub fn new(source: &Behaviours, target: &Behaviours) -> State {
+        let included = Behaviour::FrameOffsetIncremental;
+        let from = source.does(included);
+        let to = target.does(included) || target.is_open(included);
         // A target's program opens with a work offset that its control may not have had before.
         let pending =
             if to { Pending { axes: [Some(None); AXES], ..Pending::default() } } else { Pending::default() };
-        State { from, to, pending, over: false }
+        // What is open is the same fact of the same machine.
+        let alike = |all: &Behaviours| (all.get(included), all.is_open(included));
+        State { from, to, same: alike(source) == alike(target), pending, over: false }
     }
 
     /// Nothing is in front of the program: its caller has said all that was to be said.
@@ -100,6 +108,7 @@ impl State {
 
     /// What the source's control makes of the words, by itself; what is left is the target's.
     pub(super) fn take_source(&mut self) -> State {
+        self.same = false;
         let source = State { to: false, pending: Pending::default(), ..self.clone() };
         self.from = false;
         source
@@ -107,7 +116,7 @@ impl State {
 
     /// Whether there is anything to do.
     pub fn is_used(&self) -> bool {
-        (self.from || self.to) && !self.over
+        (self.from || self.to) && !self.same && !self.over
     }
 
     /// Statements of a program that streams.
@@ -355,7 +364,7 @@ fn clear(pending: &mut Pending, to: &Point, skipped: bool) {
 }
 
 /// The words that put the axes somewhere.
-fn words_of(op: &Op) -> Option<&Point> {
+pub(crate) fn words_of(op: &Op) -> Option<&Point> {
     match op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Hole(m) | Op::Position(m) => Some(&m.to),
         Op::ArcFeed(arc) => Some(&arc.to),

@@ -25,6 +25,7 @@ use super::{
     specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
     tool_change, tool_edge, work_offset,
 };
+use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Modes};
 use crate::caps::{Caps, PolarForm};
 use crate::diag::{Diagnostic, Fault, Gravity};
@@ -101,7 +102,7 @@ impl Legaliser {
                     | AT_ONCE)
                 != 0
                 || caps.feed_ends_with_mode
-                || caps.frames_in_increments,
+                || frame_increments::State::new(&Behaviours::default(), &caps.behaviours).is_used(),
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
@@ -124,7 +125,7 @@ impl Legaliser {
             machine: machine_moves::State::default(),
             change: tool_change::State::default(),
             at_once: at_once::State::new(caps),
-            increments: frame_increments::State::new(false, caps.frames_in_increments),
+            increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
         }
     }
 
@@ -171,10 +172,10 @@ impl Legaliser {
         self.follow |= self.measures;
     }
 
-    /// Whether the source's control includes a change of frame in the first incremental word after it.
-    pub fn set_frames_in_increments(&mut self, included: bool) {
-        self.increments = frame_increments::State::new(included, self.target.caps.frames_in_increments);
-        self.follow |= included;
+    /// What codes of the source's control do besides their names.
+    pub fn set_source_behaviours(&mut self, source: &Behaviours) {
+        self.increments = frame_increments::State::new(source, &self.target.caps.behaviours);
+        self.follow |= self.increments.is_used();
     }
 
     /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes

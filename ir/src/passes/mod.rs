@@ -61,6 +61,7 @@ pub mod polar_words;
 mod repeat_ends;
 pub mod return_plane;
 mod rotary_ways;
+pub mod side_effects;
 pub mod skip_levels;
 pub mod specialise_procedures;
 mod spindle_angle;

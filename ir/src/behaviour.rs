@@ -1,0 +1,145 @@
+//! Facts of a control that no program states: what a code does besides its name.
+//!
+//! A Haas stops the spindle at M00, LinuxCNC does not, and on a Fanuc the machine builder decides.
+//! The dictionary names the value of each fact with its source, or leaves it open. The executor
+//! applies the values of its side, so that a difference between two controls is a difference of events.
+//! An open fact is a dimension of the test set-ups: where a program touches it, the other value is
+//! executed too.
+//!
+//! Not here: which control has which value (the dictionaries), and what is executed (`exec`).
+
+/// How much an open fact matters to somebody at the machine.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Concern {
+    /// The cut, the spindle or a path may be another one: check it at the machine.
+    Machine,
+    /// The cut is the same under all values.
+    Nothing,
+}
+
+macro_rules! behaviours {
+    ($( $(#[$doc:meta])* $name:ident = $key:literal, $about:literal, [$($value:literal),+], $concern:ident; )*) => {
+        /// A fact of a control that no program states.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Behaviour { $( $(#[$doc])* $name ),* }
+
+        impl Behaviour {
+            /// All of them.
+            pub const ALL: &'static [Behaviour] = &[ $( Behaviour::$name ),* ];
+
+            /// Its name in dictionaries: `spindle-at-stop`.
+            pub const fn name(self) -> &'static str {
+                match self { $( Behaviour::$name => $key ),* }
+            }
+
+            /// What it decides, in a few words: `spindle at a program stop`.
+            pub const fn about(self) -> &'static str {
+                match self { $( Behaviour::$name => $about ),* }
+            }
+
+            /// Names of its values. The first one is that of a code which does no more than its name says.
+            pub const fn values(self) -> &'static [&'static str] {
+                match self { $( Behaviour::$name => &[$($value),+] ),* }
+            }
+
+            /// How much it matters where it is open.
+            pub const fn concern(self) -> Concern {
+                match self { $( Behaviour::$name => Concern::$concern ),* }
+            }
+        }
+    };
+}
+
+behaviours! {
+    /// The spindle at M00, and at M01 with its switch on.
+    SpindleAtStop = "spindle-at-stop", "spindle at a program stop", ["does-not", "stops"], Machine;
+    /// Coolant at M00, and at M01 with its switch on.
+    CoolantAtStop = "coolant-at-stop", "coolant at a program stop", ["does-not", "stops"], Machine;
+    /// The spindle at M06.
+    SpindleAtChange = "spindle-at-change", "spindle at a tool change", ["does-not", "stops"], Machine;
+    /// Coolant at M06.
+    CoolantAtChange = "coolant-at-change", "coolant at a tool change", ["does-not", "stops"], Machine;
+    /// Where Z goes before M06 changes the tool, and stays: nowhere, or to machine zero.
+    ZAtChange = "z-at-change", "Z at a tool change", ["stays", "machine-zero"], Machine;
+    /// The spindle at M02 and M30.
+    SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
+    /// Coolant at M02 and M30.
+    CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
+    /// Whether the first incremental word of an axis after a change of frame or work offset includes the change: it
+    /// counts from the coordinate that the axis was programmed to before, else from where the axis stands.
+    FrameOffsetIncremental = "frame-offset-incremental", "change of frame in an incremental word", ["excluded", "included"], Machine;
+}
+
+/// Number of behaviours.
+const COUNT: usize = Behaviour::ALL.len();
+
+impl Behaviour {
+    /// Its name as an option: `spindle_at_stop`.
+    pub fn option(self) -> String {
+        self.name().replace('-', "_")
+    }
+
+    /// The behaviour with this name, if there is one.
+    pub fn named(name: &str) -> Option<Behaviour> {
+        Behaviour::ALL.iter().copied().find(|behaviour| behaviour.name() == name)
+    }
+
+    /// The value with this name, if it has one.
+    pub fn value(self, name: &str) -> Option<u8> {
+        self.values().iter().position(|value| *value == name).map(|at| at as u8)
+    }
+
+    /// As a bit of a set.
+    pub const fn bit(self) -> u64 {
+        1 << self as u8
+    }
+}
+
+/// The behaviours of one control: a value for each, and which values are open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Behaviours {
+    values: [u8; COUNT],
+    open: u64,
+}
+
+impl Behaviours {
+    /// Index of the value that counts: of an open one, the usual value.
+    #[inline]
+    pub const fn get(&self, behaviour: Behaviour) -> u8 {
+        self.values[behaviour as usize]
+    }
+
+    /// Whether the value is another one than that of a code which does no more than its name says.
+    #[inline]
+    pub const fn does(&self, behaviour: Behaviour) -> bool {
+        self.get(behaviour) != 0
+    }
+
+    /// Whether a parameter, a machine datum or the builder decides it, and nobody has said how.
+    pub const fn is_open(&self, behaviour: Behaviour) -> bool {
+        self.open & behaviour.bit() != 0
+    }
+
+    /// Whether it surely has another value than the first one.
+    pub const fn surely(&self, behaviour: Behaviour) -> bool {
+        self.does(behaviour) && !self.is_open(behaviour)
+    }
+
+    /// Open behaviours, a bit each.
+    pub const fn open(&self) -> u64 {
+        self.open
+    }
+
+    /// Sets a value, which is known, or the usual one of an open behaviour.
+    pub fn set(&mut self, behaviour: Behaviour, value: u8, open: bool) {
+        self.values[behaviour as usize] = value;
+        self.open = if open { self.open | behaviour.bit() } else { self.open & !behaviour.bit() };
+    }
+
+    /// The same with another value of one behaviour.
+    #[must_use]
+    pub fn with(mut self, behaviour: Behaviour, value: u8) -> Behaviours {
+        self.values[behaviour as usize] = value;
+        self
+    }
+}

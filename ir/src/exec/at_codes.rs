@@ -1,0 +1,112 @@
+//! What codes do besides their names: stops, tool changes, the end of the program.
+//!
+//! Which control does what is in its world ([`Behaviours`](crate::behaviour::Behaviours)). The program has not said
+//! it, which the events tell ([`by_control`]).
+//!
+//! Not here: what the codes do by their names.
+
+use super::{Event, Exec, Kind, Z, by_control};
+use crate::behaviour::{Behaviour, Behaviours};
+use crate::canon::Spindle;
+use crate::diag::Diagnostic;
+use crate::program::{Op, ReferencePoint};
+use crate::source::Span;
+
+impl Exec {
+    /// Whether the control does something besides the name of a code; notes that it was asked.
+    fn does(&mut self, behaviour: Behaviour) -> bool {
+        self.asked |= behaviour.bit();
+        self.world.behaviours.does(behaviour)
+    }
+
+    /// Behaviours that the program has come to so far, a bit each.
+    pub fn asked(&self) -> u64 {
+        self.asked
+    }
+
+    /// What codes of this control do besides their names.
+    pub fn behaviours(&self) -> &Behaviours {
+        &self.world.behaviours
+    }
+
+    /// Another value of a behaviour counts from now on.
+    pub fn behave(&mut self, behaviour: Behaviour, value: u8) {
+        self.world.behaviours = self.world.behaviours.with(behaviour, value);
+    }
+
+    /// Sets the operator's switch for optional stops.
+    pub fn set_optional_stop(&mut self, on: bool) {
+        self.world.optional_stop = on;
+    }
+
+    /// The control stops the spindle, or switches coolant off, where it does so.
+    fn switch_off(&mut self, spindle: Behaviour, coolant: Behaviour) {
+        if self.state.spindle != Spindle::Stopped && self.does(spindle) {
+            self.state.spindle = Spindle::Stopped;
+            self.state.by_control |= by_control::SPINDLE;
+        }
+        if (self.state.flood || self.state.mist) && self.does(coolant) {
+            (self.state.flood, self.state.mist) = (false, false);
+            self.state.by_control |= by_control::COOLANT;
+        }
+    }
+
+    /// A stop, before its event.
+    #[cold]
+    pub(super) fn at_stop(&mut self) {
+        self.switch_off(Behaviour::SpindleAtStop, Behaviour::CoolantAtStop);
+    }
+
+    /// The end of the program, before its event.
+    #[cold]
+    pub(super) fn at_end(&mut self) {
+        self.switch_off(Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd);
+    }
+
+    /// A tool change, before its event: the control may take Z to machine zero, where it stays.
+    ///
+    /// # Errors
+    /// A move that cannot be executed here.
+    #[cold]
+    pub(super) fn before_change(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        self.switch_off(Behaviour::SpindleAtChange, Behaviour::CoolantAtChange);
+        if !self.does(Behaviour::ZAtChange) {
+            return Ok(());
+        }
+        if self.cycle.is_some() {
+            return self.not_executed("a tool change while a cycle is in force", span);
+        }
+        let mut machine = self.machine();
+        machine[Z] = self.world.reference(ReferencePoint::Home)[Z];
+        self.position = self.unplace(&machine);
+        self.heading = super::Heading::None;
+        self.state.by_control |= by_control::Z | by_control::MOVE;
+        let moved = self.emit_move(false, span, out);
+        self.state.by_control &= !by_control::MOVE;
+        moved
+    }
+
+    /// The program has said where Z is, or what spindle and coolant do.
+    #[inline]
+    pub(super) fn said_by_program(&mut self, what: u8) {
+        self.state.by_control &= !what;
+    }
+}
+
+/// Behaviours of a control that an operation may come to, a bit each.
+pub fn touched(op: &Op) -> u64 {
+    let bits = |all: &[Behaviour]| all.iter().fold(0, |bits, behaviour| bits | behaviour.bit());
+    match op {
+        Op::ProgramStop => bits(&[Behaviour::SpindleAtStop, Behaviour::CoolantAtStop]),
+        Op::ChangeTool => {
+            bits(&[Behaviour::SpindleAtChange, Behaviour::CoolantAtChange, Behaviour::ZAtChange])
+        }
+        Op::ProgramEnd => bits(&[Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd]),
+        _ => 0,
+    }
+}
+
+/// Whether an event happens in a cut, where all of the machine's state counts.
+pub(crate) fn cuts(kind: &Kind) -> bool {
+    matches!(kind, Kind::Feed | Kind::Synchronised { .. } | Kind::Probe { .. } | Kind::Arc { .. })
+}

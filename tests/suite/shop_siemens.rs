@@ -1,0 +1,203 @@
+//! What a Sinumerik does that no word of a program says, in both directions: small programs of the kinds that shops have,
+//! each with what the output must hold, or with what it is refused for.
+
+use std::collections::BTreeSet;
+
+use ncc_ir::diag::Fault;
+use ncc_tests::expect::Failures;
+use ncc_tests::translate::{job, stopping, translate};
+
+/// One translation.
+struct Case {
+    /// From, and options of it.
+    from: (&'static str, &'static [(&'static str, &'static str)]),
+    /// To, and options of it.
+    to: (&'static str, &'static [(&'static str, &'static str)]),
+    /// Blocks between head and end, separated by ` / `.
+    blocks: &'static str,
+    /// What becomes of it.
+    right: Right,
+}
+
+/// What is right.
+enum Right {
+    /// Verified, and these blocks follow one another in the output.
+    Says(&'static str),
+    /// The same, with facts reported that would make another cut: their names.
+    SaysIf(&'static str, &'static [&'static str]),
+    /// Refused with this code.
+    Refused(u16),
+}
+
+use Right::{Refused, Says, SaysIf};
+
+/// A head of word-address controls, with a tool and its length.
+const HEAD: &str = "G21 G17 G90 G94 G54 G40 G49 G80 / T1 M6 / S1000 M3 / G0 X10. Y0 / G43 H1 Z50. / ";
+/// The same in a Sinumerik's words.
+const HEAD_S: &str = "G710 G17 G90 G94 G54 G40 / T1 M6 / D1 / S1000 M3 / G0 X10 Y0 / Z50 / ";
+
+const WITHOUT: &[(&str, &str)] = &[("frame_offset_incremental", "excluded")];
+const WITH: &[(&str, &str)] = &[("frame_offset_incremental", "included")];
+
+/// SD 42440: a change of frame or work offset in the incremental words after it.
+const FRAMES: &[Case] = &[
+    case("fanuc", "siemens", "G52 X3. / G91 G1 X5. F100.", Says("TRANS X3 / G91 G1 X=AC(12) F100")),
+    case(
+        "haas",
+        "siemens",
+        "G52 X3. Y1. / G91 G1 X5. F100. / X5. Y2.",
+        Says("G91 G1 X=AC(12) F100 / X5 Y=AC(1)"),
+    ),
+    case(
+        "linuxcnc",
+        "siemens",
+        "G52 Z3 / G91 G1 Z-5 F100 / Z-1",
+        Says("TRANS Z3 / F100 / G91 G1 Z=AC(42) / Z-1"),
+    ),
+    case(
+        "fanuc",
+        "siemens",
+        "G92 X0 Y0 / G91 G1 X5. F100. / Y2.",
+        Says("TRANS X10 / G91 G1 X=AC(5) F100 / Y=AC(2)"),
+    ),
+    // No axis but those of the frame needs it, and none that has had an absolute word.
+    case("fanuc", "siemens", "G52 X3. / G91 G1 Y5. F100.", Says("TRANS X3 / G91 G1 Y5 F100")),
+    case(
+        "fanuc",
+        "siemens",
+        "G52 X3. / G0 X1. / G91 G1 X5. F100.",
+        Says("TRANS X3 / G0 X1 / G91 G1 X5 F100"),
+    ),
+    case("fanuc", "siemens", "G55 / G1 X1. F100. / G91 X5.", Says("G55 / G1 X1 F100 / G91 X5")),
+    // An arc, and a hole.
+    case(
+        "fanuc",
+        "siemens",
+        "G52 X3. / G91 G2 X4. Y0. R2. F100.",
+        Says("TRANS X3 / G91 G2 X=AC(11) Y0 CR=2 F100"),
+    ),
+    case("fanuc", "siemens", "G52 X3. / G91 G28 Z0. / G90 G0 X1.", Says("TRANS X3")),
+    // Where the place is not known in the other frame.
+    case("fanuc", "siemens", "G55 / G91 G1 X5. F100.", Refused(501)),
+    case("haas", "siemens", "G10 L2 P1 X10. / G91 G1 X5. F100.", Refused(501)),
+    case("fanuc", "siemens", "G51.1 X0 / G91 G1 X5. F100.", Refused(501)),
+    case("fanuc", "siemens", "G51 X0 Y0 Z0 P2. / G91 G1 X5. F100.", Refused(501)),
+    case("linuxcnc", "siemens", "G59.3 / G91 G1 Y5 F100", Refused(501)),
+    stated("fanuc", &[], "siemens", WITHOUT, "G55 / G91 G1 X5. F100.", Says("G55 / G91 G1 X5 F100")),
+    stated(
+        "fanuc",
+        &[],
+        "siemens",
+        WITHOUT,
+        "G51.1 X0 / G91 G1 X5. F100.",
+        Says("MIRROR X0 / G91 G1 X5 F100"),
+    ),
+    stated("fanuc", &[], "siemens", WITH, "G55 / G91 G1 X5. F100.", Refused(501)),
+    // A Sinumerik's own.
+    case("siemens", "fanuc", "TRANS X3 / G91 G1 X5 F100", SaysIf("G52 X3. / G91 / G90 G01 X15. F100.", OPEN)),
+    case("siemens", "linuxcnc", "G55 / G1 X=IC(5) F100", SaysIf("G55 / G1 X15 F100", OPEN)),
+    case("siemens", "haas", "MIRROR X0 / G0 X=IC(4) / X=IC(1)", SaysIf("G00 X-14. / G91 X-1.", OPEN)),
+    stated(
+        "siemens",
+        WITHOUT,
+        "fanuc",
+        &[],
+        "TRANS X3 / G91 G1 X5 F100",
+        Says("G52 X3. / G91 G01 X5. F100."),
+    ),
+    stated(
+        "siemens",
+        WITH,
+        "fanuc",
+        &[],
+        "TRANS X3 / G91 G1 X5 F100",
+        Says("G52 X3. / G91 / G90 G01 X15. F100."),
+    ),
+    case("siemens", "siemens", "TRANS X3 / G91 G1 X5 F100", Says("TRANS X3 / G91 G1 X5 F100")),
+    case("siemens", "fanuc", "ROT RPL=30 / G0 X=IC(4)", Refused(226)),
+    case("siemens", "fanuc", "TRANS X5 / G0 X20 / X=IC(2)", Says("G52 X5. / G00 X20. / G91 X2.")),
+];
+
+const OPEN: &[&str] = &["frame-offset-incremental"];
+
+/// Edges of tools that are in force already, and none.
+const EDGES: &[Case] = &[
+    case("siemens", "fanuc", "D1 X5 / X6", Says("X5. / X6.")),
+    case("siemens", "haas", "G0 X5 D1", Says("X5.")),
+    case("siemens", "fanuc", "D1 X5 / Z40", Says("X5. / G43 H1 Z40.")),
+];
+
+const fn case(from: &'static str, to: &'static str, blocks: &'static str, right: Right) -> Case {
+    Case { from: (from, &[]), to: (to, &[]), blocks, right }
+}
+
+const fn stated(
+    from: &'static str,
+    own: &'static [(&'static str, &'static str)],
+    to: &'static str,
+    other: &'static [(&'static str, &'static str)],
+    blocks: &'static str,
+    right: Right,
+) -> Case {
+    Case { from: (from, own), to: (to, other), blocks, right }
+}
+
+fn run(cases: &[Case]) {
+    let mut failures = Failures::default();
+    for Case { from, to, blocks, right } in cases {
+        let mut job = job(from.0, to.0, "part");
+        for (settings, options) in [(&mut job.from, from.1), (&mut job.to, to.1)] {
+            for (option, value) in options {
+                settings.choose(option, value).expect("an option of the dialect");
+            }
+        }
+        job.head = false;
+        job.layout.numbering = ncc_backends::Numbering::Off;
+        let (head, end) = match from.0 {
+            "siemens" => (HEAD_S, "M30\n"),
+            "linuxcnc" => (HEAD, "M2\n"),
+            _ => (HEAD, "M30\n%\n"),
+        };
+        let start = if matches!(from.0, "fanuc" | "haas") { "%\nO1\n" } else { "" };
+        let source = format!("{start}{}\n{end}", format!("{head}{blocks}").replace(" / ", "\n"));
+        let (outcome, written) = translate(&job, source.as_bytes());
+        let codes = stopping(&job, &outcome);
+        let open: BTreeSet<&str> = outcome
+            .diagnostics
+            .iter()
+            .filter_map(|d| match d.fault {
+                Fault::OpenBehaviour { behaviour, .. } => Some(behaviour.name()),
+                _ => None,
+            })
+            .collect();
+        let text = String::from_utf8_lossy(&written).replace("\r\n", "\n");
+        let text = text.lines().collect::<Vec<_>>().join(" / ");
+        let name = format!("{} to {}: {blocks}", from.0, to.0);
+        let mut says = |words: &str, facts: &[&str]| {
+            // What a tool change does is another matter.
+            let told: Vec<&str> = open.iter().copied().filter(|name| !name.ends_with("-at-change")).collect();
+            if !text.contains(words) {
+                failures.add(&name, format!("says {text}, {codes:?}"));
+            } else if told != facts {
+                failures.add(&name, format!("reports {told:?}"));
+            }
+        };
+        match right {
+            Says(words) => says(words, &[]),
+            SaysIf(words, facts) => says(words, facts),
+            Refused(code) if codes.contains(code) && written.is_empty() => {}
+            Refused(_) => failures.add(&name, format!("is refused with {codes:?}, or says {text}")),
+        }
+    }
+    failures.finish();
+}
+
+#[test]
+fn changes_of_frames_in_incremental_words() {
+    run(FRAMES);
+}
+
+#[test]
+fn edges_that_are_in_force() {
+    run(EDGES);
+}
