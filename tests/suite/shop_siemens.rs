@@ -124,6 +124,8 @@ const OPEN: &[&str] = &["frame-offset-incremental"];
 const EDGES: &[Case] = &[
     case("siemens", "fanuc", "D1 X5 / X6", Says("X5. / X6.")),
     case("siemens", "haas", "G0 X5 D1", Says("X5.")),
+    case("siemens", "fanuc", "T0 M6 / G0 Z5", Says("T0 M06 / G49 Z5.")),
+    case("siemens", "linuxcnc", "T0 M6 D1 / G0 Z5 / X1", Says("G49 Z5 / X1")),
     case("siemens", "fanuc", "D1 X5 / Z40", Says("X5. / G43 H1 Z40.")),
 ];
 

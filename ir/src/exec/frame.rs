@@ -464,8 +464,9 @@ impl Exec {
     /// The length of an edge: one and the same thing has one name only.
     pub(super) fn edge(&self, edge: u32) -> Length {
         match (u32::try_from(self.state.tool), edge) {
-            (_, 0) => Length::Entry(0),
-            (Ok(tool), 1) if tool != 0 => Length::Entry(self.world.edge_entry(tool)),
+            // No tool has no length, whatever edge is active.
+            (_, 0) | (Ok(0), _) => Length::Entry(0),
+            (Ok(tool), 1) => Length::Entry(self.world.edge_entry(tool)),
             _ => Length::Edge(self.state.tool, edge),
         }
     }
