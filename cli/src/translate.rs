@@ -168,6 +168,9 @@ impl<'j> Line<'j> {
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
         writer.stand_at(&job.start);
         writer.set_form(job.machines.form());
+        if job.between_controls() {
+            writer.changes_apart();
+        }
         let mut line = Line {
             job,
             reader: job.reader(true),

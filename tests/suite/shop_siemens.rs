@@ -124,9 +124,77 @@ const OPEN: &[&str] = &["frame-offset-incremental"];
 const EDGES: &[Case] = &[
     case("siemens", "fanuc", "D1 X5 / X6", Says("X5. / X6.")),
     case("siemens", "haas", "G0 X5 D1", Says("X5.")),
-    case("siemens", "fanuc", "T0 M6 / G0 Z5", Says("T0 M06 / G49 Z5.")),
-    case("siemens", "linuxcnc", "T0 M6 D1 / G0 Z5 / X1", Says("G49 Z5 / X1")),
+    case("siemens", "fanuc", "T0 M6 / G0 Z5", Says("T0 M06 / G49 G00 Z5.")),
+    case("siemens", "linuxcnc", "M5 / T0 M6 D1 / G0 Z5 / X1", Says("G49 T0 M6 / G0 Z5 / X1")),
     case("siemens", "fanuc", "D1 X5 / Z40", Says("X5. / G43 H1 Z40.")),
+];
+
+/// Pitches of threads in inches.
+const PITCHES: &[Case] = &[
+    case(
+        "fanuc",
+        "siemens",
+        "G20 / G0 Z2. / M29 S500 / G98 G84 X1. Z-0.5 R0.2 F25. / G80",
+        Says("MCALL CYCLE84(2,0.2,0,-0.5,,,5,,0.05,,500,500,,3)"),
+    ),
+    case(
+        "haas",
+        "siemens",
+        "G20 / G0 Z1. / G98 G84 X1. Z-0.5 R0.1 F50. / G80",
+        Says("CYCLE84(1,0.1,0,-0.5,,,5,,0.05,,1000,1000,,3)"),
+    ),
+    case(
+        "fanuc",
+        "siemens",
+        "G0 Z20. / M29 S500 / G98 G84 X1. Z-5. R2. F500. / G80",
+        Says("CYCLE84(20,2,0,-5,,,5,,1,,500,500)"),
+    ),
+    case(
+        "siemens",
+        "haas",
+        "G700 / F50 / G0 Z1 / MCALL CYCLE84(1,0.1,0,-0.5,,,3,,0.05,,1000,1000,,3) / X1 / MCALL",
+        Says("G84 X1. Z-0.5 R0.1 F50."),
+    ),
+    stated(
+        "siemens",
+        &[("pitch_unit", "in-force")],
+        "siemens",
+        &[],
+        "G700 / F50 / G0 Z1 / MCALL CYCLE84(1,0.1,0,-0.5,,,3,,0.05,,1000,1000) / X1 / MCALL",
+        Says("CYCLE84(1,0.1,0,-0.5,,,3,,0.05,,1000,1000,,3)"),
+    ),
+    // Without a word of its unit it is in millimetres where the machine is.
+    case(
+        "siemens",
+        "siemens",
+        "G700 / F50 / G0 Z1 / MCALL CYCLE84(1,0.1,0,-0.5,,,3,,1.25,,1000,1000) / X1 / MCALL",
+        Says("CYCLE84(1,0.1,0,-0.5,,,3,,1.25,,1000,1000,,1)"),
+    ),
+];
+
+const AFTER: &[(&str, &str)] = &[("change_in_block", "after-motion")];
+const BEFORE: &[(&str, &str)] = &[("change_in_block", "before-motion")];
+
+/// A tool change in one block with axis words.
+const CHANGES: &[Case] = &[
+    case("fanuc", "siemens", "T2 M6 G43 H2 Z20.", Says("T2 M6 D1 / Z20")),
+    case("haas", "fanuc", "T2 M6 G43 H2 X1. Z20.", Says("T2 M06 / G90 G43 H2 X1. Z20.")),
+    case("linuxcnc", "haas", "M5 / T2 M6 G43 H2 Z20", Says("T2 M06 / G43 H2 Z20.")),
+    case("linuxcnc", "siemens", "M5 / G1 X4 F100 T2 M6", Says("M6 / G1 X4")),
+    case("fanuc", "linuxcnc", "M5 / T2 M6 G43 H2 Z20.", Says("G43 H2 Z20 T2 M6")),
+    stated(
+        "fanuc",
+        AFTER,
+        "linuxcnc",
+        &[],
+        "M5 / X20. T2 M6 / G43 H2 Z20.",
+        Says("X20 T2 / M6 / G43 H2 Z20"),
+    ),
+    stated("fanuc", AFTER, "siemens", &[], "X20. T2 M6 / G43 H2 Z20.", Says("X20 T2 / M6 / D1 / Z20")),
+    case("siemens", "fanuc", "Z80 T2 M6 / X5 Z20", Says("Z80. T2 / M06 / G43 H2 X5. Z20.")),
+    stated("siemens", BEFORE, "fanuc", &[], "Z80 T2 M6 D1 / X5", Says("T2 M06 / G43 H2 Z80. / X5.")),
+    case("siemens", "fanuc", "Z80 T2 M6 D1 / X5", Refused(202)),
+    case("siemens", "siemens", "T2 M6 D1 / X5", Says("T2 M6 D1 / X5")),
 ];
 
 const fn case(from: &'static str, to: &'static str, blocks: &'static str, right: Right) -> Case {
@@ -197,6 +265,16 @@ fn run(cases: &[Case]) {
 #[test]
 fn changes_of_frames_in_incremental_words() {
     run(FRAMES);
+}
+
+#[test]
+fn pitches_in_inches() {
+    run(PITCHES);
+}
+
+#[test]
+fn tool_changes_beside_axis_words() {
+    run(CHANGES);
 }
 
 #[test]

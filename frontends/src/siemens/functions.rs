@@ -3,7 +3,7 @@
 //!
 //! Moves and frames have files of their own.
 
-use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
+use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
 use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, SpindleMode, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
@@ -87,7 +87,18 @@ impl Lower {
         }
         self.feed_and_speed(words, src, out);
         let change = coded.clone().find(|(_, m)| *m == Meaning::ChangeTool);
-        self.tool(change.map(|(code, _)| code), words, src, out);
+        let change = change.map(|(code, _)| code);
+        let moves = words.has_point();
+        let late =
+            change.filter(|change| moves && self.option(CHANGE_IN_BLOCK, change.span, out) == AFTER_MOTION);
+        if let (Some(change), Some(edge)) = (late, words.get(self.role_letter(Role::ToolEdge))) {
+            let (name, at) = ("edge of a tool in a block that moves before it changes the tool", edge.span);
+            self.not_supported(change.name, name, at, out);
+        }
+        self.select_tool(words, src, out);
+        if late.is_none() {
+            self.change_tool(change, words, src, out);
+        }
         for (code, meaning) in coded.clone() {
             let op = match meaning {
                 Meaning::UseToolCentrePoint(_) if words.has_point() => {
@@ -133,7 +144,6 @@ impl Lower {
         }
         let machine =
             coded.clone().find(|(_, m)| matches!(m, Meaning::UseMachineCoordinates { .. })).map(|(c, _)| *c);
-        let moves = words.has_point();
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
         self.modal_rounding(words, src, out);
         let chuck = coded.clone().find(|(_, m)| *m == Meaning::SynchronisedFeed(Thread::Chuck));
@@ -142,6 +152,9 @@ impl Lower {
                 self.chuck_thread(code, motion.is_some() || machine.is_some(), words, src, out)
             }
             None => self.motion_words(motion, machine, head.span, words, src, out),
+        }
+        if late.is_some() {
+            self.change_tool(late, words, src, out);
         }
         for (code, meaning) in coded {
             if rank(meaning) >= RANK_AFTER {
@@ -341,8 +354,8 @@ impl Lower {
         self.spindle_angle(words, src, out);
     }
 
-    /// Tool word, tool change and edge.
-    fn tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
+    /// Tool word.
+    fn select_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(given) = words.take(self.role_letter(Role::Tool)) {
             self.state.tool = Know::Said(());
             if given.computed.is_some() {
@@ -356,6 +369,10 @@ impl Lower {
         if let Some(name) = words.tool_name.take() {
             self.select_by_name(name, src, out);
         }
+    }
+
+    /// Tool change and edge.
+    fn change_tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(change) = change {
             if self.state.tool == Know::Unsaid {
                 self.fault(Fault::NoToolSelected, change.span, out);

@@ -36,7 +36,7 @@ pub use power_on::*;
 pub use repeats::{PolarRules, REPEAT_COUNT, RepeatRules};
 pub use schema::*;
 pub use settings::{
-    ANGLE_RANGE, COMPUTED_DWELL, CYCLE_APPROACH, DECIMAL_POINT, MACHINE_UNITS, PROGRAM_NAMES, REPEAT_WORD,
-    SettingError, Settings, TAPPING,
+    AFTER_MOTION, ANGLE_RANGE, CHANGE_IN_BLOCK, COMPUTED_DWELL, CYCLE_APPROACH, DECIMAL_POINT, MACHINE_UNITS,
+    PROGRAM_NAMES, REPEAT_WORD, SettingError, Settings, TAPPING,
 };
 pub use stored::{DataKind, DataRow, RADIUS_DATA, SystemRow, SystemTerm, ValueName, ValueWord};

@@ -28,6 +28,12 @@ pub const COMPUTED_DWELL: &str = "computed_dwell";
 /// Option of a dictionary: what a dimension without a decimal point counts, `increment` (the least one) or `calculator`.
 pub const DECIMAL_POINT: &str = "decimal_point";
 
+/// Option of a dictionary: whether a tool is changed before or after the axes of its block move.
+pub const CHANGE_IN_BLOCK: &str = "change_in_block";
+
+/// Value of that option: the block's axes move first.
+pub const AFTER_MOTION: &str = "after-motion";
+
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 
