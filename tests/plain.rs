@@ -10,14 +10,16 @@ use ncc_ir::canon::{
     Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Side, Spindle as Turning, SpindleMode,
     Turn, Units,
 };
-use ncc_ir::exec::{Compensation, Event, Kind, Stored};
+use ncc_ir::exec::{Compensation, Event, Kind, Stored, by_control};
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::program::{ReferencePoint, ToolValue};
 use ncc_ir::system::Kept;
 use ncc_ir::world::World;
 
 use crate::interpreter::setup::Counted;
-use crate::interpreter::{self, Beside, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What};
+use crate::interpreter::{
+    self, Beside, ByItself, Corner, Kinematics, Machine, Per, PowerOn, Setup, Spindle, What,
+};
 
 /// An event.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +46,8 @@ pub struct Plain {
     pub beside: Option<Beside>,
     /// Whether points are those of the tool's tip, and of a tilted plane.
     pub five: [bool; 2],
+    /// What the control has done by itself.
+    pub by_itself: ByItself,
 }
 
 /// What happened.
@@ -293,6 +297,7 @@ pub fn of_machine(machine: &Machine, start: [f64; 6]) -> Vec<Plain> {
                 coolant: event.coolant,
                 beside: event.beside,
                 five: event.five,
+                by_itself: event.by_itself,
             },
         );
     }
@@ -420,6 +425,13 @@ pub fn of_events(events: &[Event], start: [f64; 6]) -> Vec<Plain> {
                 coolant: (event.state.flood, event.state.mist),
                 beside: beside(&event.state.compensation),
                 five: [event.state.tip, event.state.tilted],
+                by_itself: ByItself {
+                    spindle: event.state.by_control & by_control::SPINDLE != 0,
+                    coolant: event.state.by_control & by_control::COOLANT != 0,
+                    z: event.state.by_control & by_control::Z != 0,
+                    moves: event.state.by_control & by_control::MOVE != 0,
+                    z_moved: event.state.by_control & by_control::Z_AT_START == 0,
+                },
             },
         );
     }
@@ -470,6 +482,21 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
             (index, at) = (index + 1, at + 1);
             continue;
         };
+        // Coolant that a word switches here, and the control by itself there; and its way up to a tool change.
+        if let (Some(a), Some(b)) = (expected.get(index), actual.get(at)) {
+            if switched(a, b) {
+                index += 1;
+                continue;
+            }
+            if switched(b, a) || b.by_itself.moves {
+                at += 1;
+                continue;
+            }
+            if a.by_itself.moves && !b.by_itself.z_moved {
+                index += 1;
+                continue;
+            }
+        }
         // Moves that rounding has brought to nothing vanish.
         if stands(expected, index, within) {
             index += 1;
@@ -491,6 +518,34 @@ pub fn compare(expected: &[Plain], actual: &[Plain], within: Tolerance) -> Resul
         ));
     }
     Ok(())
+}
+
+/// Whether coolant is switched by a word, where the other control did the same by itself, or this one had.
+fn switched(event: &Plain, other: &Plain) -> bool {
+    matches!(event.what, Happening::Coolant)
+        && (event.by_itself.coolant || other.by_itself.coolant && event.coolant == other.coolant)
+}
+
+/// What the second control alone has done by itself is as the first one has it, as long as nothing is cut.
+fn passed_over(a: &Plain, b: &Plain) -> Plain {
+    let mut b = *b;
+    let cuts = matches!(
+        b.what,
+        Happening::Feed | Happening::Arc { .. } | Happening::Thread { .. } | Happening::Probe(..)
+    );
+    if cuts {
+        return b;
+    }
+    if b.by_itself.spindle && !a.by_itself.spindle {
+        (b.speed, b.surface) = (a.speed, a.surface);
+    }
+    if b.by_itself.coolant && !a.by_itself.coolant {
+        b.coolant = a.coolant;
+    }
+    if b.by_itself.z && !a.by_itself.z || a.by_itself.z && !b.by_itself.z_moved {
+        b.at[2] = a.at[2];
+    }
+    b
 }
 
 /// The events without straight moves that are no longer than this, in mm.
@@ -517,6 +572,7 @@ fn stands(list: &[Plain], index: usize, within: Tolerance) -> bool {
 }
 
 fn difference(a: &Plain, b: &Plain, within: Tolerance) -> Option<&'static str> {
+    let b = &passed_over(a, b);
     let near = |x: f64, y: f64, by: f64| (x - y).abs() <= by;
     let same_kind = match (a.what, b.what) {
         (

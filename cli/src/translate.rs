@@ -7,6 +7,8 @@
 mod alone;
 mod as_there;
 
+use as_there::target;
+
 use std::collections::{BTreeSet, HashMap};
 use std::io::{self, Read};
 
@@ -20,7 +22,7 @@ use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::Renamed;
-use ncc_ir::passes::{Legaliser, Target, leave_out_values, machine_cuts, own_distance, passed_labels};
+use ncc_ir::passes::{Legaliser, leave_out_values, machine_cuts, own_distance, passed_labels};
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
@@ -604,12 +606,14 @@ impl<'j> Line<'j> {
     fn outcome(mut self, hash: [u8; 32], bytes: u64) -> Outcome {
         let verified = match &mut self.verifier {
             Some(verifier) if self.errors == 0 && !self.failed => {
-                self.diagnostics.append(&mut verifier.take_notes());
+                let notes = verifier.take_notes();
                 if let Some(levels) = verifier.sampled() {
                     let warning = Fault::SkipSettingsSampled { levels };
                     self.diagnostics.push(Diagnostic::new(warning, Span::default()));
                 }
-                Some(verifier.covered())
+                let covered = verifier.covered();
+                self.take(notes, Told::Writer);
+                Some(covered)
             }
             _ => None,
         };
@@ -683,21 +687,6 @@ impl<'j> Line<'j> {
         };
         lines.extend(self.job.machines.layout().header);
         lines
-    }
-}
-
-/// The target as the passes see it.
-fn target(job: &Job) -> Target {
-    let caps = job.to.caps();
-    Target {
-        caps,
-        decimals: as_there::decimals(job),
-        peck_clearance: parameter(job, PECK_CLEARANCE),
-        break_lift: parameter(job, BREAK_LIFT),
-        compensating: job.compensating(),
-        given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
-        // What is asked for by name is done in the source's numbers.
-        ..Target::default()
     }
 }
 

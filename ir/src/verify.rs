@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::alarms::Alarms;
-use crate::canon::{AXES, Axis, Turn, same_point};
+use crate::canon::{AXES, Axis, Spindle, Turn, same_point};
 use crate::exec::{Event, Kind, Seen, State, Stored, by_control, cuts, named_tool};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE, POW10};
@@ -199,6 +199,10 @@ pub struct Comparison {
     within: Nanos,
     /// How far places are apart, if somebody asked.
     measured: Option<Measured>,
+    /// Whether optional stops switch spindle and coolant off on one of the controls.
+    optional_stops: bool,
+    /// An optional stop came, and nothing was cut since.
+    after_optional: bool,
 }
 
 impl Comparison {
@@ -219,6 +223,8 @@ impl Comparison {
             pairs: None,
             within: 0,
             measured: None,
+            optional_stops: false,
+            after_optional: false,
         }
     }
 
@@ -330,6 +336,26 @@ impl Comparison {
         }
     }
 
+    /// Optional stops switch spindle and coolant off on one of the controls, if the operator wants them: what words switch
+    /// off for that before the stop, and on again after it, is passed over where nothing is cut.
+    pub fn optional_stops(&mut self) {
+        self.optional_stops = true;
+    }
+
+    /// Whether an event of the target switches coolant for an optional stop.
+    fn at_optional_stop(&self, a: &Event, b: &Event) -> bool {
+        let before = a.kind == Kind::OptionalProgramStop && !(b.state.flood || b.state.mist);
+        b.kind == Kind::Coolant && (before || self.after_optional)
+    }
+
+    /// What of spindle and coolant is passed over at an optional stop, and after it until something is cut.
+    fn around_optional_stop(&self, a: &Event, b: &Event) -> u8 {
+        let stops = a.kind == Kind::OptionalProgramStop || self.after_optional;
+        let off = |on: bool, bit: u8| if stops && !on { bit } else { 0 };
+        off(b.state.spindle != Spindle::Stopped, by_control::SPINDLE)
+            | off(b.state.flood || b.state.mist, by_control::COOLANT)
+    }
+
     /// Whether tool, spindle, coolant and modes are the same.
     #[inline]
     fn same_state(&self, a: &State, b: &State) -> bool {
@@ -397,8 +423,17 @@ impl Comparison {
                         self.source_at = a.end;
                         self.target_at = b.end;
                         self.events += 1;
+                        if self.optional_stops {
+                            let stop = a.kind == Kind::OptionalProgramStop;
+                            self.after_optional = stop || self.after_optional && !cuts(&a.kind);
+                        }
                         if self.measured.is_some() {
-                            self.note(a, b, [&a.end, &b.end]);
+                            let end = if z_passed_over(a, b) {
+                                with_z(&b.end, a.end[Axis::Z as usize])
+                            } else {
+                                b.end
+                            };
+                            self.note(a, b, [&a.end, &end]);
                             self.note_values(a, b);
                         }
                         if let Some(pairs) = &mut self.pairs {
@@ -409,10 +444,16 @@ impl Comparison {
                     }
                     Some(_) if switched_by_control(a, b) => s += 1,
                     Some(_) if switched_by_control(b, a) => t += 1,
+                    Some(_) if self.optional_stops && self.at_optional_stop(a, b) => t += 1,
                     Some(_) if b.state.by_control & by_control::MOVE != 0 => {
                         // Only the target's control goes there: up, before it changes the tool.
                         self.target_at = b.end;
                         t += 1;
+                    }
+                    Some(_) if from_start(a, b) && a.state.by_control & by_control::MOVE != 0 => {
+                        // From where the operator has left it, which is no part of the program.
+                        self.source_at = a.end;
+                        s += 1;
                     }
                     Some(_) if self.vanishes(a, &self.target_at) => {
                         if self.measured.is_some() {
@@ -575,7 +616,7 @@ impl Comparison {
         }
         // What the target's control alone did by itself counts as soon as something is cut.
         let by_target = b.state.by_control & !a.state.by_control;
-        let z_elsewhere = by_target & by_control::Z != 0;
+        let z_elsewhere = z_passed_over(a, b);
         if z_elsewhere && cuts(&b.kind) {
             return Some(Aspect::End(Axis::Z));
         }
@@ -594,13 +635,26 @@ impl Comparison {
         if a.rate != 0 && !synchronised && a.state.feed_mode != b.state.feed_mode {
             return Some(Aspect::Feed);
         }
-        let same = match by_target & (by_control::SPINDLE | by_control::COOLANT) {
+        let switches = by_control::SPINDLE | by_control::COOLANT;
+        let around = if self.optional_stops { self.around_optional_stop(a, b) } else { 0 };
+        let same = match by_target & switches | around {
             0 => self.same_state(&a.state, &b.state),
             _ if cuts(&b.kind) => self.same_state(&a.state, &b.state),
             bits => self.same_state(&a.state, &but_for_control(&a.state, &b.state, bits)),
         };
         (!same).then_some(Aspect::State)
     }
+}
+
+/// Whether Z is where the control or the operator has left it, on one side alone.
+fn z_passed_over(source: &Event, target: &Event) -> bool {
+    target.state.by_control & !source.state.by_control & by_control::Z != 0 || from_start(source, target)
+}
+
+/// Whether the source's control has taken Z to machine zero, and the target's Z still stands where the operator has
+/// left it.
+fn from_start(source: &Event, target: &Event) -> bool {
+    source.state.by_control & by_control::Z != 0 && target.state.by_control & by_control::Z_AT_START != 0
 }
 
 /// A point with another Z.

@@ -324,8 +324,8 @@ impl Control {
             self.m.selected = Some(tool as u32);
         }
         match m {
+            Some(6 | 16) if self.haas => self.m.change_up_there()?,
             Some(6) => self.m.change_tool()?,
-            Some(16) if self.haas => self.m.change_tool()?,
             Some(7) if self.haas => return self.m.halt("M07: shower coolant"),
             Some(3) => self.m.turn(Spindle::Clockwise),
             Some(4) => self.m.turn(Spindle::Counterclockwise),
@@ -413,9 +413,17 @@ impl Control {
             Some(5) => self.m.turn(Spindle::Stopped),
             Some(9) => self.m.cool(false, false),
             Some(89) => self.m.record(What::Through(false)),
-            Some(0) => self.m.record(What::Stop),
+            Some(0) => {
+                if self.haas {
+                    self.m.switch_off();
+                }
+                self.m.record(What::Stop);
+            }
             Some(1) => self.m.record(What::OptionalStop),
             Some(2 | 30) => {
+                if self.haas {
+                    self.m.switch_off();
+                }
                 self.m.record(What::End);
                 return Ok(Next::End);
             }

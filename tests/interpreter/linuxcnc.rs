@@ -252,9 +252,9 @@ impl Control {
             self.m.selected = Some(tool as u32);
         }
         if m.contains(&60) {
-            // The spindle stands when the change is done.
-            self.m.change_tool()?;
+            // The spindle stands for the change.
             self.m.turn(Spindle::Stopped);
+            self.m.change_tool()?;
         }
         if m.contains(&610) {
             match words.get('Q') {
@@ -362,6 +362,7 @@ impl Control {
             Some(0 | 600) => self.m.record(What::Stop),
             Some(10) => self.m.record(What::OptionalStop),
             Some(20 | 300) => {
+                self.m.switch_off();
                 self.m.record(What::End);
                 return Ok(Next::End);
             }

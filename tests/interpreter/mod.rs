@@ -162,6 +162,23 @@ pub struct Event {
     pub beside: Option<Beside>,
     /// Whether the tip is kept where it is, and whether a plane in space counts.
     pub five: [bool; 2],
+    /// What the control has done by itself, and no word since.
+    pub by_itself: ByItself,
+}
+
+/// What a control has done besides the name of a code, and no word of the program since.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ByItself {
+    /// The spindle was stopped.
+    pub spindle: bool,
+    /// Coolant was switched off.
+    pub coolant: bool,
+    /// Z went up for a tool change.
+    pub z: bool,
+    /// This very move goes up for it.
+    pub moves: bool,
+    /// Z has been moved, so that it is not where the operator has left it.
+    pub z_moved: bool,
 }
 
 /// Why a program was not run to its end.
@@ -234,6 +251,8 @@ pub struct Machine {
     pub tip: bool,
     /// Whether a plane in space counts.
     pub plane_set: bool,
+    /// What the control has done by itself.
+    pub by_itself: ByItself,
     /// Line of the text.
     pub line: usize,
     /// What the corner behind the next move becomes.
@@ -280,6 +299,7 @@ impl Machine {
             lead: false,
             tip: false,
             plane_set: false,
+            by_itself: ByItself::default(),
             line: 0,
             asked: None,
             cuts: Vec::new(),
@@ -422,12 +442,17 @@ impl Machine {
             coolant: self.coolant,
             beside: self.beside,
             five: [self.tip, self.plane_set],
+            by_itself: self.by_itself,
         });
     }
 
     /// Rapid.
     pub fn traverse(&mut self, to: Place) {
         self.lead_straight(to);
+        if to[2] != self.at[2] && !self.by_itself.moves {
+            self.by_itself.z = false;
+            self.by_itself.z_moved = true;
+        }
         self.at = to;
         self.record(What::Traverse);
     }
@@ -438,8 +463,13 @@ impl Machine {
             return self.halt("a move at feed and no F");
         }
         self.lead_straight(to);
+        let moved = to[2] != self.at[2];
         self.at = to;
         self.record(What::Feed);
+        if moved {
+            self.by_itself.z = false;
+            self.by_itself.z_moved = true;
+        }
         Ok(())
     }
 
@@ -564,6 +594,7 @@ impl Machine {
 
     /// The spindle stops at an angle: where nothing is said, the control's own.
     pub fn orient(&mut self, angle: Option<f64>) {
+        self.by_itself.spindle = false;
         self.spindle = Spindle::Stopped;
         self.record(What::Orient(angle.unwrap_or(self.setup.orientation)));
     }
@@ -579,6 +610,7 @@ impl Machine {
 
     /// Spindle words.
     pub fn turn(&mut self, state: Spindle) {
+        self.by_itself.spindle = false;
         if self.spindle != state {
             self.spindle = state;
             self.record(What::Spindle(state));
@@ -591,6 +623,32 @@ impl Machine {
             self.coolant = (flood, mist);
             self.record(What::Coolant(flood, mist));
         }
+        self.by_itself.coolant = false;
+    }
+
+    /// The control stops the spindle and switches coolant off by itself, as a Haas does at M00 and M30 (manual of 2014,
+    /// p. 322 and 326), and LinuxCNC at M2 and M30 (RS274/NGC, 3.6.1).
+    pub fn switch_off(&mut self) {
+        if self.spindle != Spindle::Stopped {
+            self.spindle = Spindle::Stopped;
+            self.by_itself.spindle = true;
+        }
+        if self.coolant != (false, false) {
+            self.coolant = (false, false);
+            self.by_itself.coolant = true;
+        }
+    }
+
+    /// The tool change of a Haas: spindle and coolant off, Z to machine zero, then the change (reference guide, M06).
+    pub fn change_up_there(&mut self) -> Result<(), Halt> {
+        self.switch_off();
+        self.by_itself.spindle = false;
+        let mut up = self.at;
+        up[2] = 0.0;
+        (self.by_itself.z, self.by_itself.moves) = (true, true);
+        self.traverse(up);
+        self.by_itself.moves = false;
+        self.change_tool()
     }
 
     /// The tool change.

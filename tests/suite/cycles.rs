@@ -84,6 +84,7 @@ fn read(path: &PathBuf) -> Cited {
             coolant: (false, false),
             beside: None,
             five: [false; 2],
+            by_itself: ncc_tests::interpreter::ByItself::default(),
         });
     }
     let place = if page.fact("digits") == Some("3") { 0.0005001 } else { 1e-6 };

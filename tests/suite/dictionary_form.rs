@@ -39,6 +39,7 @@ const TABLES: &[(&str, &str, &str)] = &[
     ("`[power_on]`", "PowerOn", "[power_on]\n@"),
     ("a fact of `[power_on]`", "PowerOnFact", "[power_on.units]\n@"),
     ("`[[option]]`", "OptionRow", "[[option]]\nname = \"zz\"\n@"),
+    ("`[[behaviour]]`", "BehaviourRow", "[[behaviour]]\nname = \"zz\"\n@"),
     ("`[can]`", "Can", "[can]\n@"),
 ];
 
@@ -54,6 +55,7 @@ const VALUES: &[(&str, &str)] = &[
     ("ParameterRole", "[[call]]\nname = \"ZZ\"\nparameters = [{ role = \"@\" }]"),
     ("DataKind", "[[data]]\nname = \"G10 L2\"\nkind = \"@\""),
     ("ValueName", "[[data]]\nname = \"G10 L2\"\nvalues = [{ of = \"@\" }]"),
+    ("Sureness", "[[behaviour]]\nname = \"zz\"\nsure = \"@\""),
     ("SafeStart", "safe_start = [\"@\"]"),
     ("Statement", "[formula]\nstatements = [\"@\"]"),
     ("Operator", "[formula.operators]\n@ = \"zz\""),

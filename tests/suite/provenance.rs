@@ -96,7 +96,9 @@ fn pairs(job: &Job, source: &[u8], output: &[u8]) -> Result<Vec<Pair>, String> {
         no_origin_shift: Some(true),
     };
     let world = World::generate(1, &usual);
-    let (mut a, mut b): (Vec<Event>, Vec<Event>) = (execute(&a, &world, 0)?, execute(&b, &world, 0)?);
+    let of = |settings: &ncc_dialects::Settings| World { behaviours: settings.behaviours(), ..world.clone() };
+    let (mut a, mut b): (Vec<Event>, Vec<Event>) =
+        (execute(&a, &of(&job.from), 0)?, execute(&b, &of(&job.to), 0)?);
     if !job.to.dialect.caps.messages {
         a.retain(|event| !matches!(event.kind, Kind::Message(_)));
     }

@@ -232,6 +232,7 @@ fn rows(d: &Dialect) -> Vec<(String, &str)> {
     rows.extend(d.cycle.iter().map(|r| (format!("cycle {}", r.code), r.source.as_str())));
     rows.extend(d.code.iter().map(|r| (format!("code {}", r.code), r.source.as_str())));
     rows.extend(d.option.iter().map(|r| (format!("option {}", r.name), r.source.as_str())));
+    rows.extend(d.behaviour.iter().map(|r| (format!("behaviour {}", r.name), r.source.as_str())));
     let p = &d.power_on;
     let facts = [
         ("units", p.units.as_ref().map(|f| &f.source)),

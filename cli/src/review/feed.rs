@@ -3,6 +3,7 @@
 use std::io;
 use std::ops::ControlFlow;
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Distance, Fact};
 use ncc_ir::exec::Exec;
 use ncc_ir::num::Nanos;
@@ -24,6 +25,8 @@ pub(crate) struct Settings {
     pub(crate) mute: Option<bool>,
     /// The control's own parameters of cycles.
     pub(crate) clearances: [Option<Nanos>; 2],
+    /// Whether both controls take Z to machine zero for a tool change: one of them does. Else each as it does.
+    pub(crate) change_at_zero: bool,
 }
 
 /// Executes a side and hands out its records, piece by piece; `take` may break off.
@@ -35,7 +38,11 @@ pub(crate) fn records(
     settings: Settings,
     take: &mut dyn FnMut(Batch) -> ControlFlow<()>,
 ) -> io::Result<Course> {
-    let controls: Vec<Exec> = worlds(&side.job, settings.clearances)
+    let mut worlds = worlds(&side.job, settings.clearances);
+    if settings.change_at_zero {
+        worlds.iter_mut().for_each(|world| world.behaviours.set(Behaviour::ZAtChange, 1, false));
+    }
+    let controls: Vec<Exec> = worlds
         .iter()
         .map(|world| {
             let mut exec = Exec::new(world, settings.skip);

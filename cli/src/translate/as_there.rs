@@ -8,6 +8,7 @@ use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
 use ncc_ir::diag::Diagnostic;
+use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
@@ -18,6 +19,7 @@ use ncc_ir::passes::{
 use ncc_ir::program::Program;
 use ncc_ir::track::Tracker;
 
+use super::{BREAK_LIFT, PECK_CLEARANCE, parameter};
 use crate::job::Job;
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.
@@ -114,4 +116,19 @@ pub(super) fn stands(program: &Program, at: &Tracker) -> HashMap<u32, Modes> {
     entry.modes = entry.modes.or(program.assumed);
     let known = known_facts::run(&mut program.clone(), &entry, false);
     if own_distance::others(program, &known).is_empty() { known.modes() } else { HashMap::new() }
+}
+
+/// The target as the passes see it.
+pub(super) fn target(job: &Job) -> Target {
+    let caps = job.to.caps();
+    Target {
+        caps,
+        decimals: decimals(job),
+        peck_clearance: parameter(job, PECK_CLEARANCE),
+        break_lift: parameter(job, BREAK_LIFT),
+        compensating: job.compensating(),
+        given: job.given.names().filter_map(|name| Some((name.into(), job.given.only(name)?))).collect(),
+        // What is asked for by name is done in the source's numbers.
+        ..Target::default()
+    }
 }

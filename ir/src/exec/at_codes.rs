@@ -7,9 +7,10 @@
 
 use super::{Event, Exec, Kind, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
-use crate::canon::Spindle;
-use crate::diag::Diagnostic;
-use crate::program::{Op, ReferencePoint};
+use crate::canon::{AXES, Spindle};
+use crate::diag::{Diagnostic, Fault};
+use crate::num::Nanos;
+use crate::program::{Op, ReferencePoint, Stmt};
 use crate::source::Span;
 
 impl Exec {
@@ -51,16 +52,48 @@ impl Exec {
         }
     }
 
-    /// A stop, before its event.
+    /// A stop, or the end of the program.
+    ///
+    /// # Errors
+    /// What cannot be executed here.
     #[cold]
-    pub(super) fn at_stop(&mut self) {
-        self.switch_off(Behaviour::SpindleAtStop, Behaviour::CoolantAtStop);
+    pub(super) fn stop(&mut self, stmt: &Stmt, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        let span = stmt.span;
+        match &stmt.op {
+            Op::ProgramStop => {
+                if let Some((text, at)) = self.shown.at_stop(stmt.skip) {
+                    self.emit(Kind::Message(text), at, out)?;
+                }
+                self.switch_off(Behaviour::SpindleAtStop, Behaviour::CoolantAtStop);
+                self.emit(Kind::ProgramStop, span, out)
+            }
+            Op::OptionalProgramStop => {
+                if self.world.optional_stop {
+                    self.switch_off(Behaviour::SpindleAtStop, Behaviour::CoolantAtStop);
+                }
+                self.emit(Kind::OptionalProgramStop, span, out)
+            }
+            _ => {
+                self.switch_off(Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd);
+                self.emit(Kind::ProgramEnd, span, out)?;
+                self.ended = true;
+                Ok(())
+            }
+        }
     }
 
-    /// The end of the program, before its event.
+    /// A tool change.
+    ///
+    /// # Errors
+    /// No tool is selected; a move of the control that cannot be executed here.
     #[cold]
-    pub(super) fn at_end(&mut self) {
-        self.switch_off(Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd);
+    pub(super) fn change_tool(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+        if self.selected == -1 {
+            return self.fault(Fault::NoToolSelected, span);
+        }
+        self.before_change(span, out)?;
+        self.state.tool = self.selected;
+        self.emit(Kind::ToolChange, span, out)
     }
 
     /// A tool change, before its event: the control may take Z to machine zero, where it stays.
@@ -68,8 +101,10 @@ impl Exec {
     /// # Errors
     /// A move that cannot be executed here.
     #[cold]
-    pub(super) fn before_change(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
+    fn before_change(&mut self, span: Span, out: &mut Vec<Event>) -> Result<(), Diagnostic> {
         self.switch_off(Behaviour::SpindleAtChange, Behaviour::CoolantAtChange);
+        // A spindle that the program needs after the change, it says there: nobody starts it again by itself.
+        self.said_by_program(by_control::SPINDLE);
         if !self.does(Behaviour::ZAtChange) {
             return Ok(());
         }
@@ -84,6 +119,29 @@ impl Exec {
         let moved = self.emit_move(false, span, out);
         self.state.by_control &= !by_control::MOVE;
         moved
+    }
+
+    /// A move that takes Z from where the control, or the operator, has left it. A cut from there is told as that.
+    #[cold]
+    pub(super) fn emit_first_of_z(
+        &mut self,
+        feed: bool,
+        end: [Nanos; AXES],
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        self.last = end;
+        let both = by_control::Z | by_control::Z_AT_START;
+        let goes_home = self.state.by_control & by_control::MOVE != 0;
+        if feed {
+            let emitted = self.emit(Kind::Feed, span, out);
+            self.said_by_program(both);
+            return emitted;
+        }
+        if !goes_home {
+            self.said_by_program(both);
+        }
+        self.emit(Kind::Traverse, span, out)
     }
 
     /// The program has said where Z is, or what spindle and coolant do.

@@ -37,9 +37,6 @@ impl Exec {
                 self.stop_carrying(axis);
             }
         }
-        if to.axes[Z] {
-            self.said_by_program(super::by_control::Z);
-        }
         let standing = self.waiting.unwrap_or(self.modes.length);
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;

@@ -241,6 +241,8 @@ pub mod by_control {
     pub const Z: u8 = 4;
     /// The event itself is a move of the control, before a tool change.
     pub const MOVE: u8 = 8;
+    /// Z stands where the operator left it: the program has not moved it yet.
+    pub const Z_AT_START: u8 = 16;
 }
 
 /// What is on while an event happens.

@@ -213,6 +213,7 @@ impl Exec {
             state: State {
                 feed_mode: p.feed_mode.unwrap_or(FeedMode::PerMinute),
                 path: world.path,
+                by_control: by_control::Z_AT_START,
                 ..State::default()
             },
             speed_watched: false,
@@ -425,6 +426,9 @@ impl Exec {
         if same_point(&end, &self.last) && !self.every_move && !needs_feed {
             return Ok(());
         }
+        if self.state.by_control & (by_control::Z | by_control::Z_AT_START) != 0 && end[Z] != self.last[Z] {
+            return self.emit_first_of_z(feed, end, span, out);
+        }
         let kind = if feed { Kind::Feed } else { Kind::Traverse };
         self.last = end;
         self.emit(kind, span, out)
@@ -529,9 +533,6 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         if self.detour.is_some() {
             return self.go_by_detour(to, feed, span, out);
-        }
-        if self.state.by_control & by_control::Z != 0 && !feed && to.axes[Z].is_some() {
-            self.said_by_program(by_control::Z);
         }
         let (before, own) = (self.position, self.modes.motion);
         let own_code = self.has_own_code(span)?;
@@ -642,14 +643,7 @@ impl Exec {
                 self.selected = named_tool(name);
                 self.tell(Attribute::SelectTool(self.selected), span, out)?;
             }
-            Op::ChangeTool => {
-                if self.selected == -1 {
-                    return self.fault(Fault::NoToolSelected, span);
-                }
-                self.before_change(span, out)?;
-                self.state.tool = self.selected;
-                self.emit(Kind::ToolChange, span, out)?;
-            }
+            Op::ChangeTool => self.change_tool(span, out)?,
             Op::UseToolLength(length) => self.use_length(length, span)?,
             Op::UseToolLengthOffset(entry) => {
                 let entry = u32::try_from(self.whole(entry, span)?);
@@ -681,24 +675,7 @@ impl Exec {
             Op::Hole(m) => self.hole(&m.to, span, out)?,
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
             Op::EndCycle => self.cycle = None,
-            Op::ProgramStop => {
-                if let Some((text, at)) = self.shown.at_stop(stmt.skip) {
-                    self.emit(Kind::Message(text), at, out)?;
-                }
-                self.at_stop();
-                self.emit(Kind::ProgramStop, span, out)?;
-            }
-            Op::OptionalProgramStop => {
-                if self.world.optional_stop {
-                    self.at_stop();
-                }
-                self.emit(Kind::OptionalProgramStop, span, out)?;
-            }
-            Op::ProgramEnd => {
-                self.at_end();
-                self.emit(Kind::ProgramEnd, span, out)?;
-                self.ended = true;
-            }
+            Op::ProgramStop | Op::OptionalProgramStop | Op::ProgramEnd => self.stop(stmt, out)?,
             Op::Message(_) | Op::MessageOf(_) | Op::Output(_) | Op::Alarm(_) => self.message(stmt, out)?,
             Op::Call(_) => return self.not_executed("a call in the midst of a stream", span),
             Op::Return => return self.not_executed("a return of the main program", span),

@@ -45,7 +45,7 @@ pub struct SideEffects {
     coolant: Switch,
     /// Switched off by the target's control alone: to be started again before the next cut.
     again: [Option<(Behaviour, Vec<Op>)>; 2],
-    /// Z is at machine zero.
+    /// Z is at machine zero, or where the operator has left it.
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
@@ -65,7 +65,7 @@ impl SideEffects {
             spindle: Switch::Off,
             coolant: Switch::Off,
             again: [None, None],
-            z_home: false,
+            z_home: true,
             machine: false,
         }
     }

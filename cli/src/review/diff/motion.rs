@@ -7,6 +7,7 @@ use std::io;
 use std::ops::ControlFlow;
 use std::sync::mpsc::sync_channel;
 
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::num::Nanos;
 use ncc_review::change::Collector;
 use ncc_review::measure::Measure;
@@ -64,7 +65,10 @@ pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Res
     let mut found = Collector::default();
     let stops = sides.iter().all(|side| side.dialect().caps.shows_at_stops());
     let muted = mute.then_some(stops);
-    let settings = |skip| clearances.map(|clearances| Settings { skip, mute: muted, clearances });
+    // Where the tool is changed is the machine's; a program is not another one for that.
+    let change_at_zero = sides.iter().any(|side| side.job.from.behaviours().does(Behaviour::ZAtChange));
+    let settings =
+        |skip| clearances.map(|clearances| Settings { skip, mute: muted, clearances, change_at_zero });
     let courses = once(sides, settings(0), measure, &mut found)?;
     let levels = courses[0].skip_levels | courses[1].skip_levels;
     let one_level = sides.iter().any(|side| side.dialect().caps.skip_levels <= 1);

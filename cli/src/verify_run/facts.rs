@@ -1,0 +1,207 @@
+//! Open facts of both controls: what a parameter, a machine datum or the builder decides, and nobody has stated.
+//!
+//! Where a program comes to such a fact, a run forks off in which it has another value. The fork goes on beside the usual
+//! run until both are in one state again, or until source and output differ in it: then the fact matters, and is
+//! reported. Silence means that the cut is the same under all values.
+//!
+//! Not here: which facts there are (`ncc_ir::behaviour`), and programs that are kept whole (`whole`).
+
+use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
+use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::exec::{by_control, touched};
+use ncc_ir::program::{Op, Stmt};
+use ncc_ir::verify::{Aspect, Difference};
+
+use super::{Run, Verifier};
+use crate::job::Job;
+
+/// An open fact of one of the controls, with another value than its usual one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Other {
+    /// What a code does besides its name.
+    Behaviour {
+        /// Which.
+        behaviour: Behaviour,
+        /// Whether it is the source's control.
+        source: bool,
+        /// The value.
+        value: u8,
+    },
+    /// The switch for optional stops is on, for both.
+    OptionalStop,
+}
+
+impl Run {
+    /// Takes another fact for granted from now on.
+    pub(super) fn take(&mut self, other: Other) {
+        self.other = Some(other);
+        self.level = false;
+        match other {
+            Other::OptionalStop => {
+                self.source.set_optional_stop(true);
+                self.target.set_optional_stop(true);
+            }
+            Other::Behaviour { behaviour, source, value } => {
+                let exec = if source { &mut self.source } else { &mut self.target };
+                exec.behave(behaviour, value);
+            }
+        }
+    }
+}
+
+impl Verifier {
+    /// What the verification has to say of its own reach, and of facts that would make another cut.
+    pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
+        let matters = std::mem::take(&mut self.matters);
+        let told = matters.into_iter().map(|(other, at)| {
+            let fault = match other {
+                Other::OptionalStop => Fault::OptionalStopDiffers,
+                Other::Behaviour { behaviour, source, value } => {
+                    let all = behaviour.values();
+                    let (taken, other) =
+                        (all[usize::from(self.usual(behaviour, source))], all[usize::from(value)]);
+                    Fault::OpenBehaviour { behaviour, source, taken, other }
+                }
+            };
+            Diagnostic::new(fault, at)
+        });
+        let told: Vec<Diagnostic> = told.collect();
+        let mut notes = std::mem::take(&mut self.notes);
+        notes.extend(told);
+        notes
+    }
+
+    /// Adds runs for the open facts of the source's control that statements come to.
+    pub(super) fn fork_for_source(&mut self, stmts: &[Stmt]) {
+        if self.open[0] == 0 && !self.optional_stop {
+            return;
+        }
+        let (mut bits, optional) = come_to(stmts);
+        if self.runs.first().is_some_and(|run| run.source.includes_in(stmts)) {
+            bits |= Behaviour::FrameOffsetIncremental.bit();
+        }
+        if optional && self.optional_stop {
+            self.fork_with(Other::OptionalStop);
+        }
+        self.fork_with_each(bits & self.open[0], true);
+    }
+
+    /// Adds runs for those of the target's control that the text read back comes to.
+    pub(super) fn fork_for_facts(&mut self) {
+        if self.open[1] != 0 {
+            let (mut bits, _) = come_to(&self.batch.stmts);
+            if self.runs.first().is_some_and(|run| run.target.includes_in(&self.batch.stmts)) {
+                bits |= Behaviour::FrameOffsetIncremental.bit();
+            }
+            self.fork_with_each(bits & self.open[1], false);
+        }
+    }
+
+    fn fork_with_each(&mut self, bits: u64, source: bool) {
+        if bits == 0 {
+            return;
+        }
+        for behaviour in Behaviour::ALL.iter().copied().filter(|behaviour| bits & behaviour.bit() != 0) {
+            for value in self.other_values(behaviour, source) {
+                self.fork_with(Other::Behaviour { behaviour, source, value });
+            }
+        }
+    }
+
+    /// The value of a behaviour that the runs have.
+    fn usual(&self, behaviour: Behaviour, source: bool) -> u8 {
+        let run = self.runs.first();
+        run.map_or(0, |run| if source { &run.source } else { &run.target }.behaviours().get(behaviour))
+    }
+
+    /// Values of a behaviour but the one that the runs have.
+    pub(super) fn other_values(&self, behaviour: Behaviour, source: bool) -> Vec<u8> {
+        let usual = self.usual(behaviour, source);
+        (0..behaviour.values().len() as u8).filter(|value| *value != usual).collect()
+    }
+
+    /// Adds a run with another fact, unless there is one, or it is known to make another cut.
+    fn fork_with(&mut self, other: Other) {
+        let known = self.matters.iter().any(|(found, _)| *found == other);
+        if known || self.others.iter().any(|run| run.other == Some(other)) {
+            return;
+        }
+        let Some(mut run) = self.runs.first().cloned() else { return };
+        run.comparison.keep_pairs(false);
+        run.take(other);
+        self.others.push(run);
+    }
+
+    /// Executes the text read back in the runs with another fact, and compares.
+    pub(super) fn others_step(&mut self, over: bool) {
+        let mut found = Vec::new();
+        let (stmts, last) = (&self.batch.stmts, self.last);
+        self.others.retain_mut(|run| {
+            if !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
+                return false;
+            }
+            if over {
+                run.source.end_of_text(&mut run.source_events);
+                run.target.end_of_text(&mut run.target_events);
+            }
+            let (a, b) = (&mut run.source_events, &mut run.target_events);
+            match (run.comparison.advance(a, b, over), run.other) {
+                (Err(difference), Some(other)) => {
+                    let at = difference.source.as_ref().map_or(last, |event| event.span);
+                    found.push((other, at));
+                    false
+                }
+                (Ok(()) | Err(_), _) => true,
+            }
+        });
+        self.matters.append(&mut found);
+    }
+
+    /// Leaves runs out that have come to the state of the usual one: what follows is the same.
+    pub(super) fn drop_same(&mut self) {
+        let Some(usual) = self.runs.first() else { return };
+        self.others.retain(|run| {
+            !(run.source.agrees(&usual.source)
+                && run.target.agrees(&usual.target)
+                && run.source_events == usual.source_events
+                && run.target_events == usual.target_events)
+        });
+    }
+}
+
+/// Open facts of both controls that are looked at: those that matter at the machine, between two controls.
+pub(super) fn looked_at(job: &Job) -> [u64; 2] {
+    let matter = Behaviour::ALL.iter().filter(|behaviour| behaviour.concern() == Concern::Machine);
+    let matter = matter.fold(0, |bits, behaviour| bits | behaviour.bit());
+    [&job.from, &job.to]
+        .map(|side| if job.between_controls() { side.behaviours().open() & matter } else { 0 })
+}
+
+/// Whether the switch for optional stops makes a difference: spindle and coolant stop there on one of the controls.
+pub(super) fn stops_differ(job: &Job) -> bool {
+    let stops = |behaviours: Behaviours| {
+        behaviours.does(Behaviour::SpindleAtStop) || behaviours.does(Behaviour::CoolantAtStop)
+    };
+    job.between_controls() && [&job.from, &job.to].into_iter().any(|side| stops(side.behaviours()))
+}
+
+/// Behaviours that statements come to, a bit each, and whether an optional stop is among them.
+fn come_to(stmts: &[Stmt]) -> (u64, bool) {
+    stmts.iter().fold((0, false), |(bits, optional), stmt| {
+        (bits | touched(&stmt.op), optional || matches!(stmt.op, Op::OptionalProgramStop))
+    })
+}
+
+/// What the target's control alone has done by itself, if two events differ by that.
+pub(super) fn done_by_target(difference: &Difference) -> Option<Behaviour> {
+    let (source, target) = (difference.source.as_ref()?, difference.target.as_ref()?);
+    let start = target.state.by_control & by_control::Z_AT_START != 0;
+    let of_source = if start { source.state.by_control & by_control::Z } else { 0 };
+    let bits = target.state.by_control & !source.state.by_control | of_source;
+    match difference.aspect {
+        Aspect::State if bits & by_control::SPINDLE != 0 => Some(Behaviour::SpindleAtStop),
+        Aspect::State if bits & by_control::COOLANT != 0 => Some(Behaviour::CoolantAtStop),
+        Aspect::End(_) if bits & by_control::Z != 0 => Some(Behaviour::ZAtChange),
+        _ => None,
+    }
+}
