@@ -65,6 +65,10 @@ behaviours! {
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
     /// Coolant at M02 and M30.
     CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
+    /// Along which axis the length of a tool lies: Z whatever the plane, or the one at right angles to the plane in force.
+    LengthAxisInPlane = "length-axis-in-plane", "tool length in G18 and G19", ["z", "normal"], Machine;
+    /// Along which axis a length is taken up: Z, or the one at right angles to the plane in which it is called up.
+    LengthAxisAtCall = "length-axis-at-call", "tool length called up in G18 or G19", ["z", "normal"], Machine;
     /// Whether the first incremental word of an axis after a change of frame or work offset includes the change: it
     /// counts from the coordinate that the axis was programmed to before, else from where the axis stands.
     FrameOffsetIncremental = "frame-offset-incremental", "change of frame in an incremental word", ["excluded", "included"], Machine;

@@ -197,6 +197,30 @@ const CHANGES: &[Case] = &[
     case("siemens", "siemens", "T2 M6 D1 / X5", Says("T2 M6 D1 / X5")),
 ];
 
+const NORMAL: &[(&str, &str)] = &[("length_axis_in_plane", "normal")];
+const ALONG_Z: &[(&str, &str)] = &[("length_axis_in_plane", "z")];
+const CALLED: &[(&str, &str)] = &[("length_axis_at_call", "normal")];
+
+/// SD 42940, and a Fanuc's parameter 5001: where the length of a tool lies in G18 and G19.
+const LENGTHS: &[Case] = &[
+    case("fanuc", "siemens", "G18 / G2 X20. Z40. R10. F100. / G17 / G0 Z50.", SaysIf("G2 X20 Z40", AXIS)),
+    case("haas", "siemens", "G19 / G1 Y20. Z40. F100. / G17 / G0 Z50.", SaysIf("G1 Y20 Z40", AXIS)),
+    case("linuxcnc", "siemens", "G18 / G1 X20 F100 / Z40 / G17 / G0 Z50", SaysIf("G1 X20", AXIS)),
+    // Nothing in the other plane, or no length.
+    case("fanuc", "siemens", "G18 / G17 / G1 X20. F100.", Says("G18 / G17 / G1 X20 F100")),
+    case("fanuc", "siemens", "G49 Z60. / G18 / G2 X20. Z50. R10. F100.", Says("G2 X20 Z50")),
+    stated("fanuc", &[], "siemens", ALONG_Z, "G18 / G2 X20. Z40. R10. F100.", Says("G18 / G2 X20 Z40")),
+    stated("fanuc", &[], "siemens", NORMAL, "G18 / G2 X20. Z40. R10. F100.", Refused(501)),
+    stated("fanuc", &[], "siemens", NORMAL, "G1 X20. F100. / Z40.", Says("G1 X20 F100 / Z40")),
+    case("siemens", "linuxcnc", "G18 / G1 X20 F100 / Z40", SaysIf("G1 X20", AXIS)),
+    stated("siemens", NORMAL, "fanuc", &[], "G18 / G1 X20 F100 / Z40", Refused(501)),
+    stated("siemens", ALONG_Z, "fanuc", &[], "G18 / G1 X20 F100 / Z40", Says("G01 X20. F100.")),
+    case("fanuc", "linuxcnc", "G18 / G43 H1 Y10. Z40.", SaysIf("G43 H1", &["length-axis-at-call"])),
+    stated("fanuc", CALLED, "linuxcnc", &[], "G18 / G43 H1 Y10.", Refused(501)),
+];
+
+const AXIS: &[&str] = &["length-axis-in-plane"];
+
 const fn case(from: &'static str, to: &'static str, blocks: &'static str, right: Right) -> Case {
     Case { from: (from, &[]), to: (to, &[]), blocks, right }
 }
@@ -275,6 +299,11 @@ fn pitches_in_inches() {
 #[test]
 fn tool_changes_beside_axis_words() {
     run(CHANGES);
+}
+
+#[test]
+fn lengths_in_other_planes() {
+    run(LENGTHS);
 }
 
 #[test]

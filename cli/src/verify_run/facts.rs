@@ -77,9 +77,7 @@ impl Verifier {
             return;
         }
         let (mut bits, optional) = come_to(stmts);
-        if self.runs.first().is_some_and(|run| run.source.includes_in(stmts)) {
-            bits |= Behaviour::FrameOffsetIncremental.bit();
-        }
+        bits |= self.runs.first().map_or(0, |run| run.source.comes_to(stmts));
         if optional && self.optional_stop {
             self.fork_with(Other::OptionalStop);
         }
@@ -90,9 +88,7 @@ impl Verifier {
     pub(super) fn fork_for_facts(&mut self) {
         if self.open[1] != 0 {
             let (mut bits, _) = come_to(&self.batch.stmts);
-            if self.runs.first().is_some_and(|run| run.target.includes_in(&self.batch.stmts)) {
-                bits |= Behaviour::FrameOffsetIncremental.bit();
-            }
+            bits |= self.runs.first().map_or(0, |run| run.target.comes_to(&self.batch.stmts));
             self.fork_with_each(bits & self.open[1], false);
         }
     }
@@ -138,6 +134,8 @@ impl Verifier {
         let (stmts, last) = (&self.batch.stmts, self.last);
         self.others.retain_mut(|run| {
             if !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
+                // With this fact the target's control stops at what is executed otherwise.
+                found.extend(run.other.map(|other| (other, last)));
                 return false;
             }
             if over {

@@ -4,12 +4,11 @@
 //! Moves and frames have files of their own.
 
 use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
-use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, SpindleMode, Units};
+use ncc_ir::canon::{Fact, FeedMode, PathMode, SpindleMode, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
-use ncc_ir::source::Span;
 
 use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::facts::{InForce, Motion};
@@ -257,9 +256,7 @@ impl Lower {
             && self.state.surface == Know::Said(true)
             && !has_speed;
         self.set_mode(*code, out);
-        if matches!(meaning, Meaning::SelectPlane(_)) {
-            self.length_along_z(out, code.span);
-        }
+        if matches!(meaning, Meaning::SelectPlane(_)) {}
         if let (Meaning::SetSpindleMode(_), Some(mode)) = (meaning, code.feed_mode) {
             self.push(code.span, Op::SetFeedMode(mode), out);
         }
@@ -399,17 +396,7 @@ impl Lower {
             (None, None) => return,
         };
         self.state.length = Know::Said(edge > 0);
-        self.length_along_z(out, span);
         self.push(span, Op::UseToolEdge { edge: Expr::int(edge.into()), said }, out);
-    }
-
-    /// In other planes than XY, a machine may take the tool's length along the axis that drills.
-    fn length_along_z(&mut self, out: &mut Batch, at: Span) {
-        let tilted = self.state.plane.value().is_some_and(|plane| plane != Plane::Xy);
-        if tilted && self.state.length.value() != Some(false) && self.first_time("SD 42940") {
-            let (parameter, value) = ("SD 42940 TOOL_LENGTH_CONST".into(), "17: length along Z".into());
-            out.report(Fault::AssumedParameter { parameter, value }, at);
-        }
     }
 
     /// A dwell, which stands alone.

@@ -221,6 +221,7 @@ impl Exec {
             && self.after_stop == other.after_stop
             && self.ways == other.ways
             && self.waiting == other.waiting
+            && self.along == other.along
             && self.contour == other.contour
             && self.centre_path.is_none()
             && other.centre_path.is_none()
@@ -252,6 +253,7 @@ impl Exec {
         self.after_stop = other.after_stop;
         self.ways = other.ways;
         self.waiting = other.waiting;
+        self.along = other.along;
         self.contour = other.contour;
         self.feed = other.feed;
         self.selected = other.selected;

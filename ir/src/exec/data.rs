@@ -5,7 +5,7 @@
 //! What is put into a table counts from then on, and is an event: a value that this program does not
 //! use may be another's.
 
-use super::{Exec, Kind, Length, Stored, Z};
+use super::{Exec, Kind, Length, Stored};
 use crate::canon::{AXES, Distance, Motion, same_point};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
@@ -41,7 +41,7 @@ impl Exec {
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;
         self.emit_move(false, span, out)?;
-        if to.axes[Z] && !to.keeps_length && standing != Length::Entry(0) {
+        if to.axes[self.along] && !to.keeps_length && standing != Length::Entry(0) {
             self.waiting = Some(Length::Left);
         }
         Ok(())
@@ -74,7 +74,7 @@ impl Exec {
                     let what = "incremental words of a return by the intermediate point";
                     return self.not_executed(what, span);
                 }
-                if named[Z] {
+                if named[self.along] {
                     self.take_up_length();
                 }
                 let axes = || named.iter().enumerate().filter(|(_, named)| **named).map(|(axis, _)| axis);

@@ -5,7 +5,7 @@
 
 use super::Exec;
 use super::slots::{Frames, Present};
-use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
+use crate::canon::{AXES, Distance, Fact, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry;
@@ -403,7 +403,7 @@ impl Exec {
         length: bool,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        if length && to.get(Axis::Z).is_some() {
+        if length && to.axes[self.along].is_some() {
             self.take_up_length();
         }
         let mut machine = self.machine();

@@ -103,6 +103,8 @@ pub struct Exec {
     pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
+    /// The axis along which lengths lie and are taken up: Z, but on controls that go by the plane.
+    along: usize,
     /// Offsets of the tool in force along X and Y.
     aside: [Nanos; 2],
     /// The contour that the tool goes beside.
@@ -202,6 +204,7 @@ impl Exec {
             intermediate: Box::default(),
             pole: Pole::ZERO,
             waiting: None,
+            along: Z,
             aside: [0; 2],
             contour: Contour::default(),
             centre_path: None,
@@ -226,6 +229,7 @@ impl Exec {
             every_move: false,
             counted: 0,
         };
+        exec.along = exec.length_axis();
         exec.reframe(world.start);
         exec
     }
@@ -350,7 +354,7 @@ impl Exec {
     #[inline]
     fn take_up_length(&mut self) {
         if let Some(length) = self.waiting.take() {
-            self.frame[Z] += self.length_of(length) - self.length_of(self.modes.length);
+            self.frame[self.along] += self.length_of(length) - self.length_of(self.modes.length);
             self.modes.length = length;
         }
     }
@@ -406,7 +410,7 @@ impl Exec {
                 next[axis] = self.target(word, from[axis], span)?;
             }
         }
-        if let Some(word) = &to.axes[Z] {
+        if let Some(word) = &to.axes[self.along] {
             if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {
                 // Whether the way grows by the difference is a setting on some controls, told on none.
                 return self.not_executed("an incremental way along Z on which a length is taken up", span);
@@ -588,6 +592,7 @@ impl Exec {
             Op::SelectPlane(plane) => {
                 self.modes.plane = *plane;
                 self.said |= PLANE;
+                self.turn_length();
             }
             Op::SetFeedMode(mode) => {
                 // What a feed said before would count now, nobody knows; a time is one block's.

@@ -20,8 +20,8 @@ use super::write::EXACT;
 use super::{
     Target, absolute_holes, approach, arc_form, at_once, convert_arcs, cutter_radius, expand_calls,
     expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
-    flatten_facts, frame_increments, machine_moves, number_names, offset_with_z, one_distance, one_move,
-    origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels,
+    flatten_facts, frame_increments, length_axis, machine_moves, number_names, offset_with_z, one_distance,
+    one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels,
     specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
     tool_change, tool_edge, work_offset,
 };
@@ -67,6 +67,7 @@ pub struct Legaliser {
     change: tool_change::State,
     at_once: at_once::State,
     increments: frame_increments::State,
+    length_axis: length_axis::State,
 }
 
 impl Legaliser {
@@ -126,6 +127,7 @@ impl Legaliser {
             change: tool_change::State::default(),
             at_once: at_once::State::new(caps),
             increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
+            length_axis: length_axis::State::default(),
         }
     }
 
@@ -175,7 +177,8 @@ impl Legaliser {
     /// What codes of the source's control do besides their names.
     pub fn set_source_behaviours(&mut self, source: &Behaviours) {
         self.increments = frame_increments::State::new(source, &self.target.caps.behaviours);
-        self.follow |= self.increments.is_used();
+        self.length_axis = length_axis::State::new(source, &self.target.caps.behaviours);
+        self.follow |= self.increments.is_used() || self.length_axis.is_used();
     }
 
     /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
@@ -220,6 +223,9 @@ impl Legaliser {
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
+        if self.length_axis.is_used() {
+            self.length_axis.check(stmts, &self.walk, diags);
+        }
         match self.increments.concerns(stmts, self.walk.at.modes.distance) {
             true => self.increments.over(stmts, &self.walk, diags),
             false => self.increments.note(stmts, &self.walk),

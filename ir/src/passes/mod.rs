@@ -41,6 +41,7 @@ pub mod frame_increments;
 mod known_answers;
 pub mod known_facts;
 mod legalise;
+mod length_axis;
 pub mod machine_cuts;
 pub mod machine_moves;
 pub mod machine_numbers;
