@@ -221,6 +221,41 @@ const LENGTHS: &[Case] = &[
 
 const AXIS: &[&str] = &["length-axis-in-plane"];
 
+const SHORTEST: &[(&str, &str)] = &[("rotary_turn", "shortest")];
+const NUMBER: &[(&str, &str)] = &[("rotary_turn", "as-programmed")];
+const SIGN: &[(&str, &str)] = &[("rotary_turn", "sign")];
+
+/// How far, and which way round, an absolute word turns a rotary axis.
+const TURNS: &[Case] = &[
+    case("linuxcnc", "fanuc", "G0 X0 A0 / G1 X20 A28800 F500 / G0 A0", Refused(501)),
+    case("fanuc", "linuxcnc", "G0 X0 A0 / G1 A200. F500.", Refused(501)),
+    case("fanuc", "siemens", "G0 A0 / G0 A170. / A200. / A20.", Refused(501)),
+    stated("linuxcnc", NUMBER, "fanuc", NUMBER, "G0 A0 / G1 X20 A28800 F500", Says("X20. A28800. F500.")),
+    stated("fanuc", SHORTEST, "siemens", SHORTEST, "G0 A0 / G1 A200. F500.", Says("G1 A200 F500")),
+    stated("fanuc", SHORTEST, "siemens", NUMBER, "G0 A0 / G1 A200. F500.", Refused(501)),
+    stated("fanuc", SHORTEST, "siemens", NUMBER, "G0 A0 / G1 A170. F500. / A20.", Says("G1 A170 F500 / A20")),
+    stated("linuxcnc", SIGN, "siemens", NUMBER, "G0 A20 / G1 A10 F500", Refused(501)),
+    stated("linuxcnc", SIGN, "siemens", NUMBER, "G0 A20 / G1 A90 F500", Says("G1 A90 F500")),
+    // Less than half a turn, an increment, or from where nobody knows.
+    case(
+        "fanuc",
+        "siemens",
+        "G0 A0 / G1 A170. F500. / A20. / G91 A-300.",
+        Says("G1 A170 F500 / A20 / G91 A-300"),
+    ),
+    case("fanuc", "siemens", "G0 A270. / A190.", Says("A270 / A190")),
+    // A control's own program stays what it is.
+    case("fanuc", "fanuc", "G0 A0 / G1 A200. F500.", Says("A0. / G01 A200. F500.")),
+];
+
+/// MD 28080: work offsets behind G57.
+const OFFSETS: &[Case] = &[
+    case("fanuc", "siemens", "G54.1 P1 / G0 X5.", Says("G507 / G0 X5")),
+    stated("fanuc", &[], "siemens", &[("user_frames", "5")], "G58 / G0 X5.", Refused(504)),
+    stated("haas", &[], "siemens", &[("user_frames", "8")], "G154 P1 / G0 X5.", Says("G507 / G0 X5")),
+    stated("fanuc", &[], "siemens", &[("user_frames", "5")], "G57 / G0 X5.", Says("G57 / G0 X5")),
+];
+
 const fn case(from: &'static str, to: &'static str, blocks: &'static str, right: Right) -> Case {
     Case { from: (from, &[]), to: (to, &[]), blocks, right }
 }
@@ -304,6 +339,16 @@ fn tool_changes_beside_axis_words() {
 #[test]
 fn lengths_in_other_planes() {
     run(LENGTHS);
+}
+
+#[test]
+fn turns_of_rotary_axes() {
+    run(TURNS);
+}
+
+#[test]
+fn work_offsets_that_a_machine_may_lack() {
+    run(OFFSETS);
 }
 
 #[test]

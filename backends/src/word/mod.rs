@@ -92,7 +92,7 @@ struct Options {
 pub struct Writer {
     pub(crate) dialect: &'static Dialect,
     options: Options,
-    settings: Settings,
+    pub(crate) settings: Settings,
     /// Options that nobody chose and the text relies on, as far as told.
     told_options: Vec<&'static str>,
     numbering: Numbering,

@@ -5,7 +5,7 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
-use ncc_ir::passes::frame_increments;
+use ncc_ir::passes::{frame_increments, rotary_turns};
 
 use super::words::{Context, mode, plain, plain_upto};
 use crate::review::words::decimal;
@@ -224,6 +224,17 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
                 all.push(own);
             }
             all
+        }
+        Fault::CannotSay { what } if &**what == rotary_turns::REFUSED => {
+            let way = Behaviour::RotaryTurn;
+            let open = [("from", at.from), ("to", at.to)]
+                .into_iter()
+                .filter(|(_, dialect)| dialect.behaviour_row(way).is_some_and(|row| row.open));
+            let state = open.map(|(side, dialect)| {
+                format!("state how {} turns it: `--{side}-option {}=…`", dialect.id, way.option())
+            });
+            let all: Vec<String> = state.collect();
+            if all.is_empty() { own("turn it by less than half a turn in each block") } else { all }
         }
         Fault::CannotSay { what } if what.starts_with(frame_increments::REFUSED) => {
             let mut all = own("give the axis its first word after the change in G90");

@@ -113,7 +113,9 @@ impl Verifier {
     /// Values of a behaviour but the one that the runs have.
     pub(super) fn other_values(&self, behaviour: Behaviour, source: bool) -> Vec<u8> {
         let usual = self.usual(behaviour, source);
-        (0..behaviour.values().len() as u8).filter(|value| *value != usual).collect()
+        (0..behaviour.values().len() as u8)
+            .filter(|value| *value != usual && !behaviour.is_rare(*value))
+            .collect()
     }
 
     /// Adds a run with another fact, unless there is one, or it is known to make another cut.

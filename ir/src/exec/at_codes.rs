@@ -34,7 +34,8 @@ impl Exec {
     /// state comes to are [`touched`]'s.
     pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
         let included = if self.includes_in(stmts) { Behaviour::FrameOffsetIncremental.bit() } else { 0 };
-        included | self.lengths_aside_in(stmts)
+        let turns = if self.turns_far_in(stmts) { Behaviour::RotaryTurn.bit() } else { 0 };
+        included | turns | self.lengths_aside_in(stmts)
     }
 
     /// Another value of a behaviour counts from now on.

@@ -141,11 +141,13 @@ impl Exec {
     }
 
     /// Whether plain moves do the same here and on another control in the same state, as far as the changes go that
-    /// their words may include.
+    /// their words may include, and turns of rotary axes.
     pub fn counts_alike(&self, other: &Exec, moves: &[Stmt]) -> bool {
-        if self.carried == other.carried
-            && self.world.behaviours.get(INCLUDED) == other.world.behaviours.get(INCLUDED)
-        {
+        let alike = |behaviour| self.world.behaviours.get(behaviour) == other.world.behaviours.get(behaviour);
+        if !alike(Behaviour::RotaryTurn) && moves.iter().filter_map(words).any(Exec::turns) {
+            return false;
+        }
+        if self.carried == other.carried && alike(INCLUDED) {
             return true;
         }
         !self.includes_in(moves) && !other.includes_in(moves)

@@ -114,7 +114,9 @@ impl Exec {
             };
             self.state.turned |= sense << (2 * place);
         }
+        self.own_way = true;
         let done = self.step_by_stop(stmt, out);
+        self.own_way = false;
         self.state.turned = 0;
         done
     }
@@ -222,6 +224,7 @@ impl Exec {
             && self.ways == other.ways
             && self.waiting == other.waiting
             && self.along == other.along
+            && self.turned_known == other.turned_known
             && self.contour == other.contour
             && self.centre_path.is_none()
             && other.centre_path.is_none()
@@ -254,6 +257,7 @@ impl Exec {
         self.ways = other.ways;
         self.waiting = other.waiting;
         self.along = other.along;
+        self.turned_known = other.turned_known;
         self.contour = other.contour;
         self.feed = other.feed;
         self.selected = other.selected;

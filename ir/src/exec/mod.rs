@@ -22,6 +22,7 @@ mod message;
 mod needed;
 mod nesting;
 mod polar;
+mod rotary;
 mod rounds;
 mod run;
 mod slots;
@@ -37,6 +38,7 @@ pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub(crate) use frame::Chain;
+pub(crate) use rotary::end as rotary_end;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
@@ -103,6 +105,10 @@ pub struct Exec {
     pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
+    /// Rotary axes that the program itself has put somewhere, a bit each.
+    turned_known: u8,
+    /// The move at hand says itself which way round rotary axes go.
+    own_way: bool,
     /// The axis along which lengths lie and are taken up: Z, but on controls that go by the plane.
     along: usize,
     /// Offsets of the tool in force along X and Y.
@@ -204,6 +210,8 @@ impl Exec {
             intermediate: Box::default(),
             pole: Pole::ZERO,
             waiting: None,
+            turned_known: 0,
+            own_way: false,
             along: Z,
             aside: [0; 2],
             contour: Contour::default(),
@@ -409,6 +417,9 @@ impl Exec {
             if let Some(word) = word {
                 next[axis] = self.target(word, from[axis], span)?;
             }
+        }
+        if Exec::turns(to) {
+            self.turn_rotary(to, &mut next);
         }
         if let Some(word) = &to.axes[self.along] {
             if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {

@@ -21,9 +21,9 @@ use super::{
     Target, absolute_holes, approach, arc_form, at_once, convert_arcs, cutter_radius, expand_calls,
     expand_corners, expand_cycles, expand_frames, expand_patterns, expand_repeats, expand_turns, feed_unit,
     flatten_facts, frame_increments, length_axis, machine_moves, number_names, offset_with_z, one_distance,
-    one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_ways, skip_levels,
-    specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis,
-    tool_change, tool_edge, work_offset,
+    one_move, origin_shift, path_control, polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways,
+    skip_levels, specialise_procedures, spindle_angle, state_clearance, tapped_holes, taps, threads,
+    tool_axis, tool_change, tool_edge, work_offset,
 };
 use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Modes};
@@ -68,6 +68,7 @@ pub struct Legaliser {
     at_once: at_once::State,
     increments: frame_increments::State,
     length_axis: length_axis::State,
+    rotary: rotary_turns::State,
 }
 
 impl Legaliser {
@@ -128,6 +129,7 @@ impl Legaliser {
             at_once: at_once::State::new(caps),
             increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
             length_axis: length_axis::State::default(),
+            rotary: rotary_turns::State::default(),
         }
     }
 
@@ -178,7 +180,9 @@ impl Legaliser {
     pub fn set_source_behaviours(&mut self, source: &Behaviours) {
         self.increments = frame_increments::State::new(source, &self.target.caps.behaviours);
         self.length_axis = length_axis::State::new(source, &self.target.caps.behaviours);
-        self.follow |= self.increments.is_used() || self.length_axis.is_used();
+        self.rotary =
+            rotary_turns::State::new(source, &self.target.caps.behaviours, self.target.other_control);
+        self.follow |= self.increments.is_used() || self.length_axis.is_used() || self.rotary.is_used();
     }
 
     /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
@@ -223,6 +227,9 @@ impl Legaliser {
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
+        if self.rotary.is_used() {
+            self.rotary.check(stmts, &self.walk, diags);
+        }
         if self.length_axis.is_used() {
             self.length_axis.check(stmts, &self.walk, diags);
         }

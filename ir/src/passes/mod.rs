@@ -61,6 +61,7 @@ pub mod planes_checked;
 pub mod polar_words;
 mod repeat_ends;
 pub mod return_plane;
+pub mod rotary_turns;
 mod rotary_ways;
 pub mod side_effects;
 pub mod skip_levels;
