@@ -26,7 +26,7 @@ use ncc_ir::passes::{Legaliser, leave_out_values, machine_cuts, own_distance, pa
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::{anything, computing, leads_nowhere};
+use ncc_ir::valid::{anything, computing, leads_nowhere, returns_alone};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
@@ -317,6 +317,9 @@ impl<'j> Line<'j> {
         let mut program = source.clone();
         let mut found = Vec::new();
         self.side_effects.run(&mut program.procedures, &mut found);
+        if returns_alone(&source).is_some() {
+            self.legaliser.nothing_before();
+        }
         self.legaliser.frame_increments(&mut program, !self.job.passes.is_empty(), &mut found);
         self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {

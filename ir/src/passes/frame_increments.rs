@@ -12,6 +12,7 @@ use super::walk::Walk;
 use super::write::at;
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Axis, Distance, Fact, Plane};
+use crate::code_of::code_of;
 use crate::diag::{Diagnostic, Fault};
 use crate::kinds::flow;
 use crate::num::Nanos;
@@ -76,6 +77,15 @@ impl Pending {
         };
         let before = self.measured;
         self.measured = std::array::from_fn(|way| now[way] || maybe && before[way]);
+    }
+
+    /// Whether a word is incremental on every path. Where that is not the same on all, it stays as it is, and execution
+    /// judges it.
+    fn is_relative(&self, word: &Coord) -> bool {
+        match word.distance.known() {
+            Some(distance) => distance == Distance::Incremental,
+            None => self.measured == [false, true],
+        }
     }
 
     /// Whether a word may be incremental.
@@ -277,6 +287,7 @@ fn pass(
             Op::RepeatBlocks(again) => unite(jumps.labels.entry(again.from.clone()).or_default(), own),
             Op::Leave | Op::NextTurn => unite(&mut jumps.leaves, own),
             Op::Return => unite(&mut jumps.returns, own),
+            Op::Control(control) if is_code(control) => own.measured = [true; 2],
             Op::Control(control) => within_turns(control, own, ends, calls, jumps),
             op => note(own, op, stmt.skip.is_some()),
         }
@@ -303,6 +314,12 @@ fn within_turns(
             return;
         }
     }
+}
+
+/// Whether a decision is about the code of a group that a variable was given: it puts back what was in force, as a rule,
+/// and where it does not, execution judges what follows.
+fn is_code(control: &Control) -> bool {
+    code_of(control).is_some()
 }
 
 /// What may be pending after a call.
@@ -463,6 +480,7 @@ impl Way<'_> {
                     let from = jumps.labels.get(name);
                     from.into_iter().for_each(|from| unite(&mut self.state.pending, from));
                 }
+                Op::Control(control) if is_code(control) => self.state.pending.measured = [true; 2],
                 Op::Control(control) => {
                     let mut pending = self.state.pending.bits();
                     let mut own = jumps.clone();
@@ -520,7 +538,7 @@ impl Way<'_> {
         {
             let counts = |axis: usize| {
                 let word = via.axes[axis].as_ref();
-                word.is_some_and(|word| pending.may_be_relative(word))
+                word.is_some_and(|word| pending.is_relative(word))
             };
             if (0..AXES).any(|axis| pending.axes[axis].is_some() && counts(axis)) {
                 return Err(());
@@ -531,7 +549,7 @@ impl Way<'_> {
         let mut refused = false;
         for (axis, word) in Axis::ALL.into_iter().zip(&mut point.axes) {
             let (Some(own), Some(before)) = (word.as_mut(), pending.axes[axis as usize]) else { continue };
-            if !pending.may_be_relative(own) {
+            if !pending.is_relative(own) {
                 continue;
             }
             // On the way to a point of the machine, no way is no word.

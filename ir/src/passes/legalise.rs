@@ -204,6 +204,11 @@ impl Legaliser {
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
         self.at_once = at_once::State::default();
+        self.nothing_before();
+    }
+
+    /// The program is called by another, which has given each axis a word after its last change of frame.
+    pub fn nothing_before(&mut self) {
         self.increments.stands_alone();
     }
 
