@@ -256,7 +256,6 @@ impl Lower {
             && self.state.surface == Know::Said(true)
             && !has_speed;
         self.set_mode(*code, out);
-        if matches!(meaning, Meaning::SelectPlane(_)) {}
         if let (Meaning::SetSpindleMode(_), Some(mode)) = (meaning, code.feed_mode) {
             self.push(code.span, Op::SetFeedMode(mode), out);
         }

@@ -17,6 +17,9 @@ const TURN: Nanos = 360 * ONE;
 /// What decides about it.
 const WAY: Behaviour = Behaviour::RotaryTurn;
 
+/// The value of the shortest way.
+const SHORTEST: u8 = 1;
+
 /// Where an axis that stands at `from` goes by an absolute word, on a control with this value of the behaviour.
 pub(crate) fn end(value: u8, from: Nanos, to: Nanos) -> Nanos {
     match WAY.values().get(usize::from(value)) {
@@ -42,16 +45,16 @@ impl Exec {
     /// Has rotary axes go to where this control takes them; `next` is where the numbers say.
     #[cold]
     pub(super) fn turn_rotary(&mut self, to: &Point, next: &mut [Nanos; AXES]) {
-        for axis in Axis::A as usize..AXES {
+        for (axis, next) in next.iter_mut().enumerate().skip(Axis::A as usize) {
             let Some(word) = &to.axes[axis] else { continue };
             let absolute = word.distance.or(self.modes.distance) == Distance::Absolute;
             let bit = 1 << axis;
             if absolute && self.turned_known & bit != 0 && !self.own_way {
                 let from = self.position[axis];
-                if WAY.values().len() > 1 && end(1, from, next[axis]) != next[axis] {
+                if end(SHORTEST, from, *next) != *next {
                     self.asked |= WAY.bit();
                 }
-                next[axis] = end(self.world.behaviours.get(WAY), from, next[axis]);
+                *next = end(self.world.behaviours.get(WAY), from, *next);
             }
             if absolute {
                 self.turned_known |= bit;
@@ -71,17 +74,18 @@ impl Exec {
                 Op::StraightTraverse(m) | Op::StraightFeed(m) => &m.to,
                 _ => continue,
             };
-            for axis in Axis::A as usize..AXES {
+            for (axis, at) in at.iter_mut().enumerate().skip(Axis::A as usize) {
                 let Some(word) = &to.axes[axis] else { continue };
                 let Some(value) = self.degrees(word) else { return true };
                 if word.distance.or(distance) == Distance::Incremental {
-                    at[axis] += value;
+                    *at += value;
                     continue;
                 }
-                if known >> axis & 1 == 1 && end(1, at[axis], value) != value {
+                if known >> axis & 1 == 1 && end(SHORTEST, *at, value) != value {
                     return true;
                 }
-                (at[axis], known) = (value, known | 1 << axis);
+                *at = value;
+                known |= 1 << axis;
             }
         }
         false
