@@ -107,6 +107,17 @@ impl Writer {
         }
     }
 
+    /// The source is another control's: a tool change has a block of its own where it is the machine's whether the
+    /// axes of its block move before it or after it.
+    pub fn changes_apart(&mut self) {
+        match &mut self.kind {
+            Kind::Word(writer) => writer.changes_apart(),
+            Kind::Siemens(writer) => writer.changes_apart(),
+            // A call a line.
+            Kind::Canon(_) | Kind::Ir(_) => {}
+        }
+    }
+
     /// Says what program it is, of those that compute, before any of it is written, and the places of statements
     /// whose words say their own distance mode, where others rely on the one in force. `stands` are modes that are in
     /// force where stretches of blocks begin, by the places of their first statements.

@@ -27,7 +27,7 @@ use ncc_ir::passes::{Legaliser, leave_out_values, machine_cuts, own_distance, pa
 use ncc_ir::program::{Op, Program, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
-use ncc_ir::valid::{anything, computing, leads_nowhere};
+use ncc_ir::valid::{anything, computing, leads_nowhere, returns_alone};
 use ncc_machines::reading::{Told, rests_on};
 
 use crate::chunks::{Chunk, Chunks};
@@ -182,6 +182,9 @@ impl<'j> Line<'j> {
         let mut writer = Writer::new(job.to.clone(), job.layout.clone());
         writer.stand_at(&job.start);
         writer.set_form(job.machines.form());
+        if job.between_controls() {
+            writer.changes_apart();
+        }
         let mut line = Line {
             job,
             reader: job.reader(true),
@@ -329,6 +332,10 @@ impl<'j> Line<'j> {
         let mut program = source.clone();
         let mut found = Vec::new();
         self.side_effects.run(&mut program.procedures, &mut found);
+        if returns_alone(&source).is_some() {
+            self.legaliser.nothing_before();
+        }
+        self.legaliser.frame_increments(&mut program, !self.job.passes.is_empty(), &mut found);
         self.take(found, Told::Writer);
         if !self.job.to.dialect.can.everything {
             let mut told = left_out(&program, &self.job.to.caps());
@@ -384,6 +391,7 @@ impl<'j> Line<'j> {
             passes.extend(rewrite::folds(self.job.from.dialect.caps.flat));
         }
         rewrite::run(&passes, &mut program, &target(self.job), entry, &mut found);
+        self.legaliser.frame_increments(&mut program, false, &mut found);
         if found.iter().any(|d| d.fault.gravity() == Gravity::Error) {
             self.take(found, Told::Writer);
             return Ok(());

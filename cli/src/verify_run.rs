@@ -411,7 +411,8 @@ impl Verifier {
         }
         self.prepare(stmts, assumed);
         self.read_back(inherited)?;
-        if !self.runs.iter().all(|run| run.source.agrees(&run.target)) {
+        let agree = |run: &Run| run.source.agrees(&run.target) && run.source.counts_alike(&run.target, stmts);
+        if !self.runs.iter().all(agree) {
             // This piece is the first to rely on something that only one of them has.
             self.run_source(stmts)?;
             return self.target_step();
@@ -419,6 +420,7 @@ impl Verifier {
         for run in &mut self.runs {
             let events = run.source.pass(stmts).map_err(Stop::Source)?;
             run.target.follow(&run.source);
+            run.target.has_moved(stmts);
             run.comparison.pass(events, run.source.machine());
         }
         self.batch.stmts.clear();

@@ -77,6 +77,16 @@ behaviours! {
     ArcByTime = "arc-by-time", "F on arcs under inverse time", ["time", "radius"], Machine;
     /// Coolant at M02 and M30.
     CoolantAtEnd = "coolant-at-end", "coolant at the program end", ["does-not", "stops"], Nothing;
+    /// Along which axis the length of a tool lies: Z whatever the plane, or the one at right angles to the plane in force.
+    LengthAxisInPlane = "length-axis-in-plane", "tool length in G18 and G19", ["z", "normal"], Machine;
+    /// Along which axis a length is taken up: Z, or the one at right angles to the plane in which it is called up.
+    LengthAxisAtCall = "length-axis-at-call", "tool length called up in G18 or G19", ["z", "normal"], Machine;
+    /// How far and which way round an absolute word turns a rotary axis: as far as its number says, the shortest way to
+    /// that angle, or to that angle in the direction of the sign.
+    RotaryTurn = "rotary-turn", "turn of a rotary axis by an absolute word", ["as-programmed", "shortest", "sign"], Machine;
+    /// Whether the first incremental word of an axis after a change of frame or work offset includes the change: it
+    /// counts from the coordinate that the axis was programmed to before, else from where the axis stands.
+    FrameOffsetIncremental = "frame-offset-incremental", "change of frame in an incremental word", ["excluded", "included"], Machine;
 }
 
 /// Number of behaviours.
@@ -96,6 +106,11 @@ impl Behaviour {
     /// The value with this name, if it has one.
     pub fn value(self, name: &str) -> Option<u8> {
         self.values().iter().position(|value| *value == name).map(|at| at as u8)
+    }
+
+    /// Whether a value counts only where it is stated: few machines have it.
+    pub fn is_rare(self, value: u8) -> bool {
+        self == Behaviour::RotaryTurn && self.values().get(usize::from(value)) == Some(&"sign")
     }
 
     /// As a bit of a set.

@@ -447,7 +447,7 @@ impl Tracker {
                 self.move_aside();
                 let edge = edge.literal().and_then(|n| n.whole());
                 self.modes.length_offset = match (edge, self.tool) {
-                    (Some(0), _) => Some(0),
+                    (Some(0), _) | (Some(_), Some(0)) => Some(0),
                     // Edge 1 of a tool is the table's entry with its number.
                     (Some(1), Some(tool)) if tool > 0 => u32::try_from(tool).ok(),
                     (Some(_) | None, _) => None,

@@ -133,9 +133,6 @@ const AFTER: &str = "-in-a-block-with-a-move";
 /// What follows the name of an argument that is computed by the control.
 const AUTOMATIC: &str = "-automatic";
 
-/// Machine data of which another value would change where a tool's length counts.
-const LENGTH_CONST: &str = "SD-42940-TOOL_LENGTH_CONST";
-
 /// Machine data that say which spindle words without a number mean.
 const MASTER_SPINDLE: &str = "MD-20090-SPIND_DEF_MASTER_SPIND";
 
@@ -289,7 +286,7 @@ pub fn is_reading(key: &str, dialect: &Dialect) -> bool {
     if COMPUTING.iter().any(|parameter| slug(parameter) == key) {
         return true;
     }
-    if readings.contains(&key) || [LENGTH_CONST, MASTER_SPINDLE, SWIVEL_RECORD].contains(&key) {
+    if readings.contains(&key) || [MASTER_SPINDLE, SWIVEL_RECORD].contains(&key) {
         return true;
     }
     let call = |name: &str| dialect.call_row(name).is_some();

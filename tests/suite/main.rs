@@ -34,6 +34,7 @@ mod rs274;
 mod schema;
 mod second;
 mod shared;
+mod shop_siemens;
 mod siemens_peer;
 mod siemens_second;
 mod spliced;

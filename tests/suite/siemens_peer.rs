@@ -98,12 +98,7 @@ const MENDED: [Mended; 12] = [
         by: &[],
     },
     Mended { name: "tool", why: "no end of the program", told: "", by: &[("M6", "M6")] },
-    Mended {
-        name: "trans2",
-        why: "whether an incremental word behind TRANS goes the shift as well, SD 42440 decides",
-        told: "SD 42440",
-        by: &[],
-    },
+    Mended { name: "trans2", why: NO_FEED, told: "NoFeed", by: &[("X1\n", "F1000 X1\n")] },
     Mended { name: "trans_reset", why: NO_FEED, told: "NoFeed", by: &[("\nX1 Y1\n", "\nF1000 X1 Y1\n")] },
     Mended {
         name: "variables",
@@ -178,7 +173,8 @@ fn say(op: &Op, row: &mut Row, named: &mut [bool; 6]) {
 
 /// The rows of a program that is executed.
 fn rows(program: &Program) -> Result<Vec<Row>, String> {
-    let world = World::generate(0, &program.assumed);
+    let mut world = World::generate(0, &program.assumed);
+    world.behaviours = settings("siemens").behaviours();
     let mut exec = Exec::new(&world, 0);
     let mut runner = Runner::new(program);
     let mut all: Vec<Row> = Vec::new();

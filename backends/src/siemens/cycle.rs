@@ -21,6 +21,10 @@ use crate::word::codes::Letter;
 use crate::word::modes::{Inserted, cannot};
 use crate::word::number;
 
+/// Values of the unit of a pitch: millimetres a turn, inches a turn.
+const PITCH_IN_MM: &str = "1";
+const PITCH_IN_INCHES: &str = "3";
+
 /// How many of a block's statements are one call: a cycle called up with its hole where the tool
 /// stands, and its end if that follows.
 pub(super) fn called_here(rest: &[Stmt]) -> usize {
@@ -281,11 +285,19 @@ impl Writer {
         }
         let Pitch::Stated(pitch) = &tap.pitch else { return Ok(()) };
         let pitch = pitch.literal().ok_or_else(|| cannot("a computed pitch"))?.trimmed();
-        match (self.words.force.units, pitch.unit) {
-            (Some(Units::Mm), Unit::Inch) | (Some(Units::Inch), Unit::Mm) => {
-                return Err(cannot("a pitch in another unit"));
+        // Without a unit of its own a pitch counts in the machine's basic system.
+        let inch = match (self.words.force.units, pitch.unit) {
+            (_, Unit::Inch) | (Some(Units::Inch), Unit::Entry) => true,
+            (_, Unit::Mm) | (Some(Units::Mm), Unit::Entry) => false,
+            _ => {
+                self.words.check_unit(pitch, span)?;
+                return Err(cannot("a pitch of which the unit is not known"));
             }
-            _ => self.words.check_unit(pitch, span)?,
+        };
+        if inch {
+            to.put(Role::PitchUnit, PITCH_IN_INCHES.into())?;
+        } else if self.inch_machine || self.words.force.units == Some(Units::Inch) {
+            to.put(Role::PitchUnit, PITCH_IN_MM.into())?;
         }
         let sign = if tap.turn == Turn::Counterclockwise { "-" } else { "" };
         let digits = format!("{:0>1$}", pitch.mantissa.unsigned_abs(), usize::from(pitch.scale) + 1);

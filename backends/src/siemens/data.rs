@@ -13,6 +13,12 @@ use ncc_ir::source::Span;
 use super::{Sink, Writer, digits};
 use crate::word::modes::cannot;
 
+/// Work offsets that every machine has: G54 to G57.
+const FACTORY_OFFSETS: u16 = 4;
+
+/// Option of the dictionary: how many settable frames the machine has.
+const USER_FRAMES: &str = "user_frames";
+
 impl Writer {
     /// A value of a table.
     ///
@@ -138,6 +144,23 @@ impl Writer {
         if self.told.insert("fine shifts") {
             let parameter = "fine shifts of work offsets ($P_UIFR[…,FI])".into();
             sink.report(Fault::AssumedParameter { parameter, value: "0".into() }, span);
+        }
+    }
+
+    /// Whether the control has a work offset: those behind G57 by its own datum.
+    ///
+    /// # Errors
+    /// It is stated that it has not.
+    pub(super) fn settable_frame(&mut self, number: u16, span: Span, sink: &mut Sink) -> Result<(), Fault> {
+        if number <= FACTORY_OFFSETS {
+            return Ok(());
+        }
+        self.words.rely(USER_FRAMES, span, sink);
+        // The first of them is G500.
+        let most = self.words.settings.get(USER_FRAMES).parse::<f64>().unwrap_or(0.0) - 1.0;
+        match f64::from(number) <= most {
+            true => Ok(()),
+            false => Err(Fault::TargetRange { word: format!("G{}", 500 + number).into() }),
         }
     }
 }

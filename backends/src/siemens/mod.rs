@@ -95,6 +95,8 @@ pub struct Writer {
     dialect: &'static Dialect,
     /// Whether a tool change makes edge 1 active.
     edge_with_tool: bool,
+    /// The machine keeps its own lengths in inches.
+    inch_machine: bool,
     standing: Standing,
     /// A cycle that the program has in force and the text has not, because it was called once for a
     /// hole where the tool stood.
@@ -134,6 +136,7 @@ impl Writer {
         Writer {
             dialect: settings.dialect,
             edge_with_tool: settings.get("edge_after_change") == "1",
+            inch_machine: settings.get("feed_unit") == "inch",
             words: word::Writer::new(settings, layout),
             standing: Standing::START,
             stale: false,
@@ -179,6 +182,11 @@ impl Writer {
     /// Takes a shop's choices for the form of the text.
     pub fn set_form(&mut self, form: Form) {
         self.words.set_form(form);
+    }
+
+    /// A tool change stands in no block with a move.
+    pub fn changes_apart(&mut self) {
+        self.words.changes_apart();
     }
 
     /// Facts that the written text states by itself, in its safe start line.

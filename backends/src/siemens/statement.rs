@@ -46,7 +46,6 @@ impl Writer {
             | Op::SetDistanceMode(_)
             | Op::SelectPlane(_)
             | Op::SetFeedMode(_)
-            | Op::SetOriginOffsets(_)
             | Op::StartCutterRadiusCompensation { .. }
             | Op::StopCutterRadiusCompensation
             | Op::ExactStop
@@ -61,6 +60,10 @@ impl Writer {
             | Op::ProgramStop
             | Op::OptionalProgramStop
             | Op::ProgramEnd => self.words.statement(stmt, sink),
+            Op::SetOriginOffsets(number) => {
+                self.settable_frame(*number, span, sink)?;
+                self.words.statement(stmt, sink)
+            }
             Op::Return => {
                 self.before_return(sink)?;
                 self.words.statement(stmt, sink)

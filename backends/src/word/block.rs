@@ -114,6 +114,8 @@ pub(crate) struct Block {
     pub calls_up: bool,
     /// Whether a tool is changed.
     changes: bool,
+    /// From which statements on none stands in a block with a tool change, if the machine decides which comes first.
+    pub apart: Option<Rank>,
     blanks: bool,
     most_g: u8,
     most_m: u8,
@@ -139,6 +141,7 @@ impl Block {
             unsure: Vec::new(),
             calls_up: false,
             changes: false,
+            apart: None,
             blanks,
             most_g,
             most_m,
@@ -181,10 +184,12 @@ impl Block {
         let call = need.rank == Rank::Call && self.letters != 0;
         // Whether the machine does what another M code says before, with or after the change is its builder's.
         let change = self.changes && need.m > 0;
+        let moves = self.changes && self.apart.is_some_and(|from| (from..=Rank::Motion).contains(&need.rank));
         ordered
             && !dwell
             && !call
             && !change
+            && !moves
             && self.groups & need.groups == 0
             && self.letters & need.letters == 0
             && (self.most_g == 0 || self.g + need.g <= self.most_g || need.g == 0)

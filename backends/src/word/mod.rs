@@ -39,7 +39,7 @@ mod thread;
 
 use std::collections::BTreeMap;
 
-use ncc_dialects::{Dialect, Settings};
+use ncc_dialects::{Dialect, Role, Settings};
 use ncc_ir::canon::{AXES, Axis, Modes, RotaryWay, Turn, Units};
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Nanos, Num, Unit};
@@ -92,7 +92,7 @@ struct Options {
 pub struct Writer {
     pub(crate) dialect: &'static Dialect,
     options: Options,
-    settings: Settings,
+    pub(crate) settings: Settings,
     /// Options that nobody chose and the text relies on, as far as told.
     told_options: Vec<&'static str>,
     numbering: Numbering,
@@ -272,6 +272,13 @@ impl Writer {
     /// Takes a shop's choices for the form of the text.
     pub fn set_form(&mut self, form: Form) {
         self.tool_change = form.tool_change;
+    }
+
+    /// A tool change stands in no block with a move, nor with a length that needs one.
+    pub fn changes_apart(&mut self) {
+        let edges = self.dialect.address.iter().any(|row| row.role == Role::ToolEdge);
+        let from = if edges { block::Rank::CycleEnd } else { block::Rank::Offset };
+        self.block.apart = Some(from).filter(|_| !self.dialect.block.change_first);
     }
 
     /// Facts that the written text states by itself, in its safe start line.

@@ -5,6 +5,7 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Diagnostic, Fault, ModeName, Verdict};
 use ncc_ir::maps::Numbered;
+use ncc_ir::passes::{frame_increments, rotary_turns};
 
 use super::words::{Context, millimetres, mode, plain, plain_upto};
 use crate::review::words::decimal;
@@ -250,6 +251,30 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
             if at.from.option.iter().any(|row| row.name == option) {
                 let own = format!("if the machine's change stops it: `--from-option {option}=stops`");
                 all.push(own);
+            }
+            all
+        }
+        Fault::CannotSay { what } if &**what == rotary_turns::REFUSED => {
+            let way = Behaviour::RotaryTurn;
+            let open = [("from", at.from), ("to", at.to)]
+                .into_iter()
+                .filter(|(_, dialect)| dialect.behaviour_row(way).is_some_and(|row| row.open));
+            let state = open.map(|(side, dialect)| {
+                format!("state how {} turns it: `--{side}-option {}=…`", dialect.id, way.option())
+            });
+            let all: Vec<String> = state.collect();
+            if all.is_empty() { own("turn it by less than half a turn in each block") } else { all }
+        }
+        Fault::CannotSay { what } if what.starts_with(frame_increments::REFUSED) => {
+            let mut all = own("give the axis its first word after the change in G90");
+            let included = Behaviour::FrameOffsetIncremental;
+            if at.to.behaviour_row(included).is_some_and(|row| row.open) {
+                let other = format!(
+                    "if the target's control moves by the word alone: `--to-option {}={}`",
+                    included.option(),
+                    included.values()[0]
+                );
+                all.push(other);
             }
             all
         }

@@ -78,7 +78,8 @@ impl Verifier {
         if self.open[0] == 0 && !self.optional_stop {
             return;
         }
-        let (bits, optional) = come_to(stmts);
+        let (mut bits, optional) = come_to(stmts);
+        bits |= self.runs.first().map_or(0, |run| run.source.comes_to(stmts));
         if optional && self.optional_stop {
             self.fork_with(Other::OptionalStop);
         }
@@ -88,7 +89,8 @@ impl Verifier {
     /// Adds runs for those of the target's control that the text read back comes to.
     pub(super) fn fork_for_facts(&mut self) {
         if self.open[1] != 0 {
-            let (bits, _) = come_to(&self.batch.stmts);
+            let (mut bits, _) = come_to(&self.batch.stmts);
+            bits |= self.runs.first().map_or(0, |run| run.target.comes_to(&self.batch.stmts));
             self.fork_with_each(bits & self.open[1], false);
         }
     }
@@ -113,7 +115,9 @@ impl Verifier {
     /// Values of a behaviour but the one that the runs have.
     pub(super) fn other_values(&self, behaviour: Behaviour, source: bool) -> Vec<u8> {
         let usual = self.usual(behaviour, source);
-        (0..behaviour.values().len() as u8).filter(|value| *value != usual).collect()
+        (0..behaviour.values().len() as u8)
+            .filter(|value| *value != usual && !behaviour.is_rare(*value))
+            .collect()
     }
 
     /// Adds a run with another fact, unless there is one, or it is known to make another cut.
@@ -134,6 +138,8 @@ impl Verifier {
         let (stmts, last) = (&self.batch.stmts, self.last);
         self.others.retain_mut(|run| {
             if !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
+                // With this fact the target's control stops at what is executed otherwise.
+                found.extend(run.other.map(|other| (other, last)));
                 return false;
             }
             if over {

@@ -117,8 +117,6 @@ pub(super) struct State {
     pub(super) pole: Pole,
     /// Whether points are those of a tilted plane.
     pub(super) tilt: Know<bool>,
-    /// Axes that a frame was changed for and that no absolute word has moved since.
-    pub(super) framed: [bool; AXES],
     /// Axes that the frames in force may shift, turn, scale or mirror.
     pub(super) in_frame: [bool; AXES],
 }
@@ -145,7 +143,6 @@ impl State {
             cycle,
             pole: Pole::Lost,
             tilt: Know::Lost,
-            framed: [false; AXES],
             in_frame: [true; AXES],
         }
     }
@@ -208,7 +205,6 @@ impl State {
         self.tool.join(before.tool);
         self.pole.join(before.pole);
         self.tilt.join(before.tilt);
-        self.framed.iter_mut().zip(before.framed).for_each(|(axis, before)| *axis |= before);
         self.in_frame.iter_mut().zip(before.in_frame).for_each(|(axis, before)| *axis |= before);
         if self.cycle != before.cycle {
             self.cycle = InForce::Lost { own_feed: self.cycle.own_feed() || before.cycle.own_feed() };

@@ -54,7 +54,6 @@ impl Lower {
     fn frame_changes(&mut self, added: bool, axes: [bool; AXES]) {
         for (axis, within) in axes.into_iter().enumerate() {
             let before = &mut self.state.in_frame[axis];
-            self.state.framed[axis] |= within || *before && !added;
             *before = within || *before && added;
         }
     }

@@ -3,13 +3,12 @@
 //!
 //! Moves and frames have files of their own.
 
-use ncc_dialects::{Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
-use ncc_ir::canon::{Fact, FeedMode, PathMode, Plane, SpindleMode, Units};
+use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, Meaning, NameMeaning, NameRole, Quantity, Role, Thread};
+use ncc_ir::canon::{Fact, FeedMode, PathMode, SpindleMode, Units};
 use ncc_ir::diag::{Fault, ModeName};
 use ncc_ir::expr::Expr;
 use ncc_ir::num::Unit;
 use ncc_ir::program::{CutterRadius, Op, PathControl};
-use ncc_ir::source::Span;
 
 use super::again::{DISTANCE, MOTION, PLANE, SCALED, UNITS};
 use super::facts::{InForce, Motion};
@@ -87,7 +86,18 @@ impl Lower {
         }
         self.feed_and_speed(words, src, out);
         let change = coded.clone().find(|(_, m)| *m == Meaning::ChangeTool);
-        self.tool(change.map(|(code, _)| code), words, src, out);
+        let change = change.map(|(code, _)| code);
+        let moves = words.has_point();
+        let late =
+            change.filter(|change| moves && self.option(CHANGE_IN_BLOCK, change.span, out) == AFTER_MOTION);
+        if let (Some(change), Some(edge)) = (late, words.get(self.role_letter(Role::ToolEdge))) {
+            let (name, at) = ("edge of a tool in a block that moves before it changes the tool", edge.span);
+            self.not_supported(change.name, name, at, out);
+        }
+        self.select_tool(words, src, out);
+        if late.is_none() {
+            self.change_tool(change, words, src, out);
+        }
         for (code, meaning) in coded.clone() {
             let op = match meaning {
                 Meaning::UseToolCentrePoint(_) if words.has_point() => {
@@ -133,7 +143,6 @@ impl Lower {
         }
         let machine =
             coded.clone().find(|(_, m)| matches!(m, Meaning::UseMachineCoordinates { .. })).map(|(c, _)| *c);
-        let moves = words.has_point();
         let motion = codes.iter().find_map(|c| Some((*c, motion_of(c.meaning)?)));
         self.modal_rounding(words, src, out);
         let chuck = coded.clone().find(|(_, m)| *m == Meaning::SynchronisedFeed(Thread::Chuck));
@@ -142,6 +151,9 @@ impl Lower {
                 self.chuck_thread(code, motion.is_some() || machine.is_some(), words, src, out)
             }
             None => self.motion_words(motion, machine, head.span, words, src, out),
+        }
+        if late.is_some() {
+            self.change_tool(late, words, src, out);
         }
         for (code, meaning) in coded {
             if rank(meaning) >= RANK_AFTER {
@@ -244,9 +256,6 @@ impl Lower {
             && self.state.surface == Know::Said(true)
             && !has_speed;
         self.set_mode(*code, out);
-        if matches!(meaning, Meaning::SelectPlane(_)) {
-            self.length_along_z(out, code.span);
-        }
         if let (Meaning::SetSpindleMode(_), Some(mode)) = (meaning, code.feed_mode) {
             self.push(code.span, Op::SetFeedMode(mode), out);
         }
@@ -341,8 +350,8 @@ impl Lower {
         self.spindle_angle(words, src, out);
     }
 
-    /// Tool word, tool change and edge.
-    fn tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
+    /// Tool word.
+    fn select_tool(&mut self, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(given) = words.take(self.role_letter(Role::Tool)) {
             self.state.tool = Know::Said(());
             if given.computed.is_some() {
@@ -356,6 +365,10 @@ impl Lower {
         if let Some(name) = words.tool_name.take() {
             self.select_by_name(name, src, out);
         }
+    }
+
+    /// Tool change and edge.
+    fn change_tool(&mut self, change: Option<&Code>, words: &mut Words, src: Source, out: &mut Batch) {
         if let Some(change) = change {
             if self.state.tool == Know::Unsaid {
                 self.fault(Fault::NoToolSelected, change.span, out);
@@ -382,17 +395,7 @@ impl Lower {
             (None, None) => return,
         };
         self.state.length = Know::Said(edge > 0);
-        self.length_along_z(out, span);
         self.push(span, Op::UseToolEdge { edge: Expr::int(edge.into()), said }, out);
-    }
-
-    /// In other planes than XY, a machine may take the tool's length along the axis that drills.
-    fn length_along_z(&mut self, out: &mut Batch, at: Span) {
-        let tilted = self.state.plane.value().is_some_and(|plane| plane != Plane::Xy);
-        if tilted && self.state.length.value() != Some(false) && self.first_time("SD 42940") {
-            let (parameter, value) = ("SD 42940 TOOL_LENGTH_CONST".into(), "17: length along Z".into());
-            out.report(Fault::AssumedParameter { parameter, value }, at);
-        }
     }
 
     /// A dwell, which stands alone.

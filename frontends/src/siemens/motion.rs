@@ -249,17 +249,6 @@ impl Lower {
                     let name = "incremental word in machine coordinates";
                     self.not_supported(&src.text(given.span), name, given.span, out);
                 }
-                match coord.distance {
-                    Fact::Known(Distance::Absolute) if machine.is_none() => {
-                        self.state.framed[axis as usize] = false;
-                    }
-                    Fact::Known(Distance::Incremental) if self.assume && self.state.framed[axis as usize] => {
-                        let name =
-                            "incremental word behind a change of the frame, which SD 42440 decides about";
-                        self.not_supported(&src.text(given.span), name, given.span, out);
-                    }
-                    Fact::Known(_) | Fact::Entry => {}
-                }
                 if let Some(stand) = self.stand.axes.get_mut(axis as usize) {
                     let absolute = coord.distance == Fact::Known(Distance::Absolute) && machine.is_none();
                     *stand = coord.value.literal().filter(|_| absolute);

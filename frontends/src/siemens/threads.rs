@@ -3,7 +3,7 @@
 //! What an argument is comes from the dictionary's row; `cycles` has what is common to all cycles.
 
 use ncc_dialects::ParameterRole as Role;
-use ncc_ir::canon::{Axis, Plane, Spindle, Turn};
+use ncc_ir::canon::{Axis, Plane, Spindle, Turn, Units};
 use ncc_ir::cycle::{BoreStop, CycleKind, FineBore, Shift, Tap};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -83,14 +83,32 @@ impl Lower {
             }
             (None, Some(pitch)) => {
                 let unit = match self.whole_argument(a, Role::PitchUnit) {
-                    0 => unit,
+                    0 => self.pitch_unit(unit, a.at(Role::ThreadPitch), out),
                     1 => Unit::Mm,
+                    3 => Unit::Inch,
                     _ => return self.out_of_range(a, Role::PitchUnit, out),
                 };
                 (Num { mantissa: pitch.mantissa.abs(), unit, ..pitch }, hand(pitch))
             }
         };
         Some(Some(found))
+    }
+
+    /// The unit of a pitch that has none of its own: the machine's, or that in force.
+    fn pitch_unit(&mut self, in_force: Unit, at: Span, out: &mut Batch) -> Unit {
+        let machine = if self.settings.get("feed_unit") == "inch" { Unit::Inch } else { Unit::Mm };
+        let known = match (in_force, self.state.units.value()) {
+            (Unit::Entry, Some(Units::Inch)) => Unit::Inch,
+            (Unit::Entry, Some(Units::Mm)) => Unit::Mm,
+            (unit, _) => unit,
+        };
+        if known == machine {
+            return in_force;
+        }
+        match self.option("pitch_unit", at, out) {
+            "in-force" => in_force,
+            _ => machine,
+        }
     }
 
     /// Rigid tapping: the control turns the spindle itself. With it its speed, if it has one of its own

@@ -3,7 +3,7 @@
 //!
 //! Moves, cycles and calls have files of their own.
 
-use ncc_dialects::{Meaning, Quantity};
+use ncc_dialects::{CHANGE_IN_BLOCK, Meaning, Quantity};
 use ncc_ir::canon::{AdviceKind, Motion, PathMode, SpindleMode};
 use ncc_ir::diag::Fault;
 use ncc_ir::expr::Expr;
@@ -29,6 +29,10 @@ impl Lower {
         src: Source,
         out: &mut Batch,
     ) {
+        let change = codes.iter().find(|c| c.meaning == Meaning::ChangeTool);
+        if let Some(change) = change.filter(|_| self.has_axis_word(words)) {
+            self.option(CHANGE_IN_BLOCK, change.span, out);
+        }
         let first_function = codes.partition_point(|c| self.rank(c) < RANK_WORDS);
         let (settings, functions) = codes.split_at(first_function);
         let before_motion = functions.partition_point(|c| self.rank(c) < RANK_MOTION);

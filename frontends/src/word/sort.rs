@@ -3,7 +3,7 @@
 //!
 //! What must not stand together is refused here. Not here: what the words do.
 
-use ncc_dialects::{CodeRow, Dialect, Meaning, Role};
+use ncc_dialects::{AFTER_MOTION, CHANGE_IN_BLOCK, CodeRow, Dialect, Meaning, Role};
 use ncc_ir::canon::Motion;
 use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::expr::Expr;
@@ -174,6 +174,7 @@ impl Lower {
     pub(super) fn rank(&self, code: &Code) -> u8 {
         match (code.meaning, self.settings.dialect.block.off_before_move) {
             (Meaning::MachineFunction(_), _) if code.row.after_move => rank(Meaning::CoolantOff),
+            (Meaning::ChangeTool, _) if self.settings.get(CHANGE_IN_BLOCK) == AFTER_MOTION => RANK_AFTER,
             (Meaning::StopSpindleTurning, true) => rank(Meaning::StartSpindleClockwise),
             (Meaning::CoolantOff, true) => rank(Meaning::FloodOn),
             (meaning, _) => rank(meaning),

@@ -238,6 +238,9 @@ pub struct BlockRules {
     pub feed_before_units: bool,
     /// Whether the spindle and the coolant are switched off before the block's move; else after it.
     pub off_before_move: bool,
+    /// Whether a tool change comes before the move of its block, whatever their order in the text. Elsewhere that is
+    /// the machine's: the change gets a block of its own when writing, and an option says what it does when reading.
+    pub change_first: bool,
     /// What marks a block that can be skipped; empty if there is no such thing.
     pub skip: String,
     /// Highest skip level that can be written after the mark; 1 means the mark alone. Where the

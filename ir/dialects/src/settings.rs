@@ -36,6 +36,12 @@ pub const DECIMAL_POINT: &str = "decimal_point";
 /// Value of [`DECIMAL_POINT`]: whole units.
 pub const CALCULATOR: &str = "calculator";
 
+/// Option of a dictionary: whether a tool is changed before or after the axes of its block move.
+pub const CHANGE_IN_BLOCK: &str = "change_in_block";
+
+/// Value of that option: the block's axes move first.
+pub const AFTER_MOTION: &str = "after-motion";
+
 /// Name of the option that says in which unit a machine keeps its own lengths.
 pub const MACHINE_UNITS: &str = "machine_units";
 

@@ -1,7 +1,7 @@
 //! Execution of arcs.
 
-use super::{Event, Exec, Kind, MOTION, Z};
-use crate::canon::{AXES, Axis, FeedMode, Motion, Plane, Turn};
+use super::{Event, Exec, Kind, MOTION};
+use crate::canon::{AXES, Distance, FeedMode, Motion, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry::{self, ArcFault};
@@ -93,7 +93,10 @@ impl Exec {
         let (f, s) = (first as usize, second as usize);
         let before = self.position;
         let from_zero = matches!(arc.centre, Centre::Point { from: CentreFrom::Zero, .. });
-        if [f, s].contains(&Z) && (from_zero || arc.to.axes[Z].is_some()) && self.another_length_waits() {
+        if [f, s].contains(&self.along)
+            && (from_zero || arc.to.axes[self.along].is_some())
+            && self.another_length_waits()
+        {
             // Its start is counted by one length, its end or its centre by the other.
             return self.not_executed("an arc along Z on which a length is taken up", span);
         }
@@ -132,7 +135,7 @@ impl Exec {
         let (first, second, normal) = plane.axes();
         let before = self.position;
         let heading = self.heading;
-        if [first, second].contains(&Axis::Z) && self.another_length_waits() {
+        if [first, second].iter().any(|axis| *axis as usize == self.along) && self.another_length_waits() {
             return self.not_executed("an arc along Z on which a length is taken up", span);
         }
         self.set_axes(&arc.to, span)?;
@@ -166,6 +169,9 @@ impl Exec {
         let mut next = *before;
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
+                if self.carries(axis) && word.distance.or(self.modes.distance) == Distance::Incremental {
+                    self.not_executed("a point of an arc that includes a change of frame", span)?;
+                }
                 next[axis] = self.target(word, before[axis], span)?;
             }
         }

@@ -4,7 +4,7 @@
 
 use super::frame::Chain;
 use super::holes::InForce;
-use super::{Exec, Length, SHIFT_STORED, SHIFT_TAKEN_UP, State, Z};
+use super::{Exec, Length, SHIFT_STORED, SHIFT_TAKEN_UP, State};
 use crate::canon::{AXES, Axis, Distance, FeedMode, Motion, Plane, Spindle, SpindleMode, Turn, Units};
 use crate::expr::Expr;
 use crate::num::{Nanos, ONE};
@@ -121,7 +121,7 @@ impl Exec {
         match asked {
             System::EndPoint(axis) => {
                 let at = *axis as usize;
-                let settled = self.stands() && !(at == Z && self.waiting.is_some());
+                let settled = self.stands() && !(at == self.along && self.waiting.is_some());
                 settled.then(|| self.counted(self.position[at], *axis, None))
             }
             System::TouchPoint(axis) => {
@@ -137,7 +137,7 @@ impl Exec {
             System::SpindlePoint(axis) => {
                 let at = *axis as usize;
                 let plain = self.stands() && !self.has_program_frames();
-                let settled = plain && !(at == Z && self.waiting.is_some());
+                let settled = plain && !(at == self.along && self.waiting.is_some());
                 let above = self.position[at].checked_add(self.tool_offset()[at])?;
                 settled.then(|| self.counted(above, *axis, None))
             }

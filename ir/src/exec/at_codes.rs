@@ -30,6 +30,14 @@ impl Exec {
         &self.world.behaviours
     }
 
+    /// Behaviours that these statements come to from the state that the control is in, a bit each; those that any
+    /// state comes to are [`touched`]'s.
+    pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
+        let included = if self.includes_in(stmts) { Behaviour::FrameOffsetIncremental.bit() } else { 0 };
+        let turns = if self.turns_far_in(stmts) { Behaviour::RotaryTurn.bit() } else { 0 };
+        included | turns | self.lengths_aside_in(stmts)
+    }
+
     /// Another value of a behaviour counts from now on.
     pub fn behave(&mut self, behaviour: Behaviour, value: u8) {
         self.world.behaviours = self.world.behaviours.with(behaviour, value);

@@ -114,7 +114,9 @@ impl Exec {
             };
             self.state.turned |= sense << (2 * place);
         }
+        self.own_way = true;
         let done = self.step_by_stop(stmt, out);
+        self.own_way = false;
         self.state.turned = 0;
         done
     }
@@ -156,7 +158,7 @@ impl Exec {
     ) -> Result<(), Diagnostic> {
         self.state.spindle = to;
         if to != Spindle::Stopped {
-            self.turns();
+            self.spindle_turns();
         }
         self.said_by_program(by_control::SPINDLE);
         self.within_limit(span)?;
@@ -224,6 +226,8 @@ impl Exec {
             && self.after_stop == other.after_stop
             && self.ways == other.ways
             && self.waiting == other.waiting
+            && self.along == other.along
+            && self.turned_known == other.turned_known
             && self.contour == other.contour
             && self.centre_path.is_none()
             && other.centre_path.is_none()
@@ -255,6 +259,8 @@ impl Exec {
         self.after_stop = other.after_stop;
         self.ways = other.ways;
         self.waiting = other.waiting;
+        self.along = other.along;
+        self.turned_known = other.turned_known;
         self.contour = other.contour;
         self.feed = other.feed;
         self.selected = other.selected;

@@ -5,7 +5,7 @@
 //! What is put into a table counts from then on, and is an event: a value that this program does not
 //! use may be another's.
 
-use super::{Exec, Kind, Stored, Z};
+use super::{Exec, Kind, Stored};
 use crate::behaviour::Behaviour;
 use crate::canon::{AXES, Distance, Motion, same_point};
 use crate::diag::{Diagnostic, Fault};
@@ -35,12 +35,13 @@ impl Exec {
             if *goes {
                 self.intermediate[axis] = Some([self.position[axis], machine[axis]]);
                 machine[axis] = point[axis];
+                self.stop_carrying(axis);
             }
         }
         self.position = self.unplace(&machine);
         self.heading = super::Heading::None;
         self.emit_move(false, span, out)?;
-        if to.axes[Z] && !to.keeps_length {
+        if to.axes[self.along] && !to.keeps_length {
             self.cancel_length(Behaviour::LengthAfterReturn);
         }
         Ok(())
@@ -73,7 +74,7 @@ impl Exec {
                     let what = "incremental words of a return by the intermediate point";
                     return self.not_executed(what, span);
                 }
-                if named[Z] {
+                if named[self.along] {
                     self.take_up_length();
                 }
                 let axes = || named.iter().enumerate().filter(|(_, named)| **named).map(|(axis, _)| axis);
@@ -186,7 +187,7 @@ impl Exec {
                 Stored::Tool(self.world.tool_number(number))
             }
             Data::Offset { offset, mode, words, turn } => {
-                let here = self.machine();
+                let (here, before) = (self.machine(), self.before_frame());
                 let mut zero = self.world.work_offset(*offset);
                 let turned = self.world.work_turn(*offset);
                 let is_turned = turned != 0 || self.offset_turned;
@@ -212,6 +213,7 @@ impl Exec {
                 self.world.tables.work_turns.insert(*offset, turned);
                 if self.modes.work_offset == *offset {
                     self.reframe(here);
+                    self.carry(before);
                 }
                 Stored::Offset(self.world.offset_number(*offset), zero, turned)
             }

@@ -32,6 +32,7 @@ impl Exec {
         if let (Some(p), true) = (facts.plane, fresh(self.said, PLANE)) {
             self.modes.plane = p;
             self.said |= PLANE;
+            self.along = self.length_axis();
         }
         if let (Some(r), true) = (facts.return_level, fresh(self.said, RETURN)) {
             self.modes.return_level = r;

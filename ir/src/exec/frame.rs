@@ -6,7 +6,7 @@
 use super::Exec;
 use super::slots::{Frames, Present};
 use crate::behaviour::Behaviour;
-use crate::canon::{AXES, Axis, Distance, Fact, Plane, Turn};
+use crate::canon::{AXES, Distance, Fact, Plane, Turn};
 use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::geometry;
@@ -375,11 +375,12 @@ impl Exec {
     }
 
     fn use_slots(&mut self, frames: Frames) {
-        let here = self.machine();
+        let (here, before) = (self.machine(), self.before_frame());
         let chain = frames.chain();
         self.chain = (chain != Chain::NONE).then(|| Box::new(chain));
         self.slots = (frames != Frames::NONE).then(|| Box::new(frames));
         self.reframe(here);
+        self.carry(before);
     }
 
     /// The shift of the origin: what was said, and of the other axes what was left over.
@@ -401,7 +402,7 @@ impl Exec {
         length: bool,
         span: Span,
     ) -> Result<(), Diagnostic> {
-        if length && to.get(Axis::Z).is_some() {
+        if length && to.axes[self.along].is_some() {
             self.take_up_length();
         }
         let mut machine = self.machine();
@@ -415,9 +416,10 @@ impl Exec {
             machine[axis] = self.value(&word.value, span)?.wrapping_add(length);
         }
         self.position = self.unplace(&machine);
-        if !length && to.get(Axis::Z).is_some() {
+        if !length && to.axes[self.along].is_some() {
             self.cancel_length(Behaviour::LengthAfterMachineMove);
         }
+        self.not_carried(to);
         Ok(())
     }
 
@@ -464,9 +466,10 @@ impl Exec {
     pub(super) fn edge(&self, edge: u32) -> Length {
         let tool = if self.world.length_by_change { self.changed_to } else { self.state.tool };
         match (u32::try_from(tool), edge) {
-            (_, 0) => Length::Entry(0),
+            // No tool has no length, whatever edge is active.
+            (_, 0) | (Ok(0), _) => Length::Entry(0),
             (Err(_), _) if self.world.length_by_change => Length::Entry(0),
-            (Ok(tool), 1) if tool != 0 => Length::Entry(self.world.edge_entry(tool)),
+            (Ok(tool), 1) => Length::Entry(self.world.edge_entry(tool)),
             _ => Length::Edge(tool, edge),
         }
     }

@@ -118,7 +118,11 @@ impl Here for Now<'_> {
     }
 
     fn word(&self, word: &Coord, side: usize) -> Result<Nanos, Diagnostic> {
-        self.exec.target(word, self.exec.position[self.axes[side]], self.span)
+        let axis = self.axes[side];
+        if self.exec.carries(axis) && word.distance.or(self.exec.modes.distance) == Distance::Incremental {
+            self.exec.not_executed("a pattern of holes that includes a change of frame", self.span)?;
+        }
+        self.exec.target(word, self.exec.position[axis], self.span)
     }
 
     fn after(&self, word: &Coord, _: usize, last: Nanos) -> Result<Nanos, Diagnostic> {
@@ -144,7 +148,7 @@ impl Exec {
         }
         let initial = self.cycle.as_ref().map_or(self.position[normal], |c| c.initial);
         let initial_in = self.cycle.as_ref().map_or(self.modes.work_offset, |c| c.initial_in);
-        let length = |length| if normal == super::Z { self.length_of(length) } else { 0 };
+        let length = |length| if normal == self.along { self.length_of(length) } else { 0 };
         let initial_length = self.cycle.as_ref().map_or(length(self.modes.length), |c| c.initial_length);
         let from_level = cycle.retract.distance.or(self.modes.distance) == Distance::Incremental;
         let retract = self.target(&cycle.retract, initial, span)?;
@@ -279,12 +283,13 @@ impl Exec {
             );
         }
         let mut next = self.position;
+        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
-                next[axis] = self.target(word, self.position[axis], span)?;
+                next[axis] = self.target(word, from[axis], span)?;
             }
         }
-        self.make_hole(&cycle, next, to.axes[super::Z].is_some(), span, out)
+        self.make_hole(&cycle, next, to.axes[self.along].is_some(), span, out)
     }
 
     pub(super) fn pattern(
@@ -317,7 +322,7 @@ impl Exec {
         let mut next = self.position;
         next[first] = at[0];
         next[second] = at[1];
-        self.make_hole(cycle, next, first == super::Z || second == super::Z, span, out)
+        self.make_hole(cycle, next, first == self.along || second == self.along, span, out)
     }
 
     /// One hole; `next` says where, the drilling axis of it is not used. `z` says whether Z is
@@ -349,7 +354,7 @@ impl Exec {
             return self.fault(Fault::NotExecuted { what }, span);
         }
         let to_level = cycle.return_plane.is_none() && level != cycle.retract;
-        if (to_level || cycle.from_level) && normal == super::Z {
+        if (to_level || cycle.from_level) && normal == self.along {
             let length = self.length_of(self.waiting.unwrap_or(self.modes.length));
             if length != cycle.initial_length {
                 // Whether it is a level of the work or of the tool's end, no source tells.
@@ -359,7 +364,7 @@ impl Exec {
         let out_to = cycle.return_plane.unwrap_or(level);
         let leg = cycle.approach.leg(self.position[normal], cycle.initial, cycle.retract, out_to);
         let by_height = matches!(cycle.approach, Approach::RaiseFirst | Approach::ClearFirst);
-        if by_height && normal == super::Z && self.waiting.is_some() {
+        if by_height && normal == self.along && self.waiting.is_some() {
             // Which way comes first depends on where the tool stands by the length that is taken up on it.
             let what = "a first hole on whose way a length is taken up".into();
             return self.fault(Fault::NotExecuted { what }, span);
@@ -370,7 +375,7 @@ impl Exec {
         let level = if leg == Leg::Slant { out_to } else { self.position[normal] };
         self.position = next;
         self.position[normal] = level;
-        if z && normal != super::Z || leg == Leg::Slant && normal == super::Z {
+        if z && normal != self.along || leg == Leg::Slant && normal == self.along {
             self.take_up_length();
         }
         self.emit_move(false, span, out)?;
@@ -498,7 +503,7 @@ impl Exec {
         span: Span,
         out: &mut Vec<Event>,
     ) -> Result<(), Diagnostic> {
-        if axis == super::Z {
+        if axis == self.along {
             self.take_up_length();
         }
         self.position[axis] = level;

@@ -7,6 +7,7 @@
 mod arcs;
 mod ask;
 mod at_codes;
+mod carried;
 mod centre_path;
 mod code;
 mod compensation;
@@ -22,6 +23,7 @@ mod needed;
 mod nesting;
 mod pace;
 mod polar;
+mod rotary;
 mod rounds;
 mod run;
 mod slots;
@@ -40,6 +42,7 @@ pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub(crate) use frame::Chain;
 pub(crate) use pace::{DEGREES, LINEAR};
+pub(crate) use rotary::end as rotary_end;
 pub(crate) use run::again;
 pub use run::{Progress, Runner};
 pub(crate) use slots::{Frames, Present, Rotation, Scale};
@@ -84,6 +87,8 @@ pub struct Exec {
     slots: Option<Box<Frames>>,
     /// Whether the work offset in force is turned: then the shift of the origin is in the chain.
     offset_turned: bool,
+    /// Changes of frames and work offsets that the next incremental words include.
+    carried: Option<Box<carried::Carried>>,
     /// Position of the last move's event.
     last: [Nanos; AXES],
     /// Direction of the last move.
@@ -104,6 +109,12 @@ pub struct Exec {
     pole: Pole,
     /// The length that the next Z takes up.
     waiting: Option<Length>,
+    /// Rotary axes that the program itself has put somewhere, a bit each.
+    turned_known: u8,
+    /// The move at hand says itself which way round rotary axes go.
+    own_way: bool,
+    /// The axis along which lengths lie and are taken up: Z, but on controls that go by the plane.
+    along: usize,
     /// Offsets of the tool in force along X and Y.
     aside: [Nanos; 2],
     /// The contour that the tool goes beside.
@@ -198,6 +209,7 @@ impl Exec {
             chain: None,
             slots: None,
             offset_turned: false,
+            carried: None,
             last: world.start,
             heading: Heading::None,
             after_stop: None,
@@ -208,6 +220,9 @@ impl Exec {
             intermediate: Box::default(),
             pole: Pole::ZERO,
             waiting: None,
+            turned_known: 0,
+            own_way: false,
+            along: Z,
             aside: [0; 2],
             contour: Contour::default(),
             centre_path: None,
@@ -235,6 +250,7 @@ impl Exec {
             counted: 0,
             standing: standing::Standing::default(),
         };
+        exec.along = exec.length_axis();
         exec.reframe(world.start);
         exec
     }
@@ -341,7 +357,7 @@ impl Exec {
     #[inline]
     fn take_up_length(&mut self) {
         if let Some(length) = self.waiting.take() {
-            self.frame[Z] += self.length_of(length) - self.length_of(self.modes.length);
+            self.frame[self.along] += self.length_of(length) - self.length_of(self.modes.length);
             self.modes.length = length;
         }
     }
@@ -391,12 +407,16 @@ impl Exec {
     #[inline]
     fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
         let mut next = self.position;
+        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
-                next[axis] = self.target(word, self.position[axis], span)?;
+                next[axis] = self.target(word, from[axis], span)?;
             }
         }
-        if let Some(word) = &to.axes[Z] {
+        if Exec::turns(to) {
+            self.turn_rotary(to, &mut next);
+        }
+        if let Some(word) = &to.axes[self.along] {
             if word.distance.or(self.modes.distance) == Distance::Incremental && self.another_length_waits() {
                 // Whether the way grows by the difference is a setting on some controls, told on none.
                 return self.not_executed("an incremental way along Z on which a length is taken up", span);
@@ -593,6 +613,7 @@ impl Exec {
             Op::SelectPlane(plane) => {
                 self.modes.plane = *plane;
                 self.said |= PLANE;
+                self.turn_length();
             }
             Op::SetFeedMode(mode) => {
                 // What a feed said before would count now, nobody knows; a time is one block's.
@@ -615,10 +636,11 @@ impl Exec {
                 self.said |= RETURN;
             }
             Op::SetOriginOffsets(number) => {
-                let here = self.machine();
+                let (here, before) = (self.machine(), self.before_frame());
                 self.modes.work_offset = *number;
                 self.said |= WORK;
                 self.reframe(here);
+                self.carry(before);
             }
             Op::ClearFrame(FrameSlot::Tilt) => self.clear_tilt(span, out)?,
             Op::ClearFrame(slot) => self.clear_slot(*slot),

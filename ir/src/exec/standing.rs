@@ -42,7 +42,7 @@ impl Exec {
     }
 
     /// The spindle turns.
-    pub(super) fn turns(&mut self) {
+    pub(super) fn spindle_turns(&mut self) {
         self.standing.meant = false;
     }
 }

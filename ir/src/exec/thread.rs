@@ -27,7 +27,7 @@ impl Exec {
         if !m.chuck && m.turn.is_none() && turns == Spindle::Stopped {
             return self.not_executed("a thread with a spindle that stands", span);
         }
-        if self.another_length_waits() && m.to.axes[super::Z].is_some() {
+        if self.another_length_waits() && m.to.axes[self.along].is_some() {
             // From where it goes by the length before, to where it goes by the one that is taken up on it.
             return self.not_executed("a thread on which a length is taken up", span);
         }

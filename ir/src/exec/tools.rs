@@ -7,19 +7,80 @@
 
 use super::frame::Length;
 use super::{Exec, Kind, Stored, Z};
-use crate::canon::AXES;
+use crate::behaviour::Behaviour;
+use crate::canon::{AXES, Plane};
 use crate::diag::{Diagnostic, Fault};
 use crate::exec::Event;
 use crate::expr::Expr;
 use crate::num::Nanos;
-use crate::program::ToolValue;
+use crate::program::{Op, Stmt, ToolValue};
 use crate::source::Span;
 
 impl Exec {
     /// Offsets of the tool in force, in the machine's directions.
     pub(super) fn tool_offset(&self) -> [Nanos; AXES] {
         let [x, y] = self.aside;
-        [x, y, self.length_of(self.modes.length), 0, 0, 0]
+        let mut offset = [x, y, 0, 0, 0, 0];
+        offset[self.along] += self.length_of(self.modes.length);
+        offset
+    }
+
+    /// The axis along which lengths lie in the plane in force, on this control.
+    pub(super) fn length_axis(&self) -> usize {
+        match self.world.behaviours.does(Behaviour::LengthAxisInPlane) {
+            true => self.modes.plane.axes().2 as usize,
+            false => Z,
+        }
+    }
+
+    /// Another plane: lengths may lie along another axis from here on; nothing moves.
+    pub(super) fn turn_length(&mut self) {
+        if self.length_of(self.waiting.unwrap_or(self.modes.length)) != 0 {
+            self.asked |= Behaviour::LengthAxisInPlane.bit();
+        }
+        if self.world.behaviours.does(Behaviour::LengthAxisInPlane) {
+            self.lie_along(self.length_axis());
+        }
+    }
+
+    fn lie_along(&mut self, axis: usize) {
+        if axis != self.along {
+            let here = self.machine();
+            self.along = axis;
+            self.reframe(here);
+        }
+    }
+
+    /// A length is called up that may lie along another axis than Z; one that lies along another than that is over.
+    fn call_up_along(&mut self) {
+        let normal = self.modes.plane.axes().2 as usize;
+        if normal != Z {
+            self.asked |= Behaviour::LengthAxisAtCall.bit();
+        }
+        if self.world.behaviours.does(Behaviour::LengthAxisAtCall) && normal != self.along {
+            let here = self.machine();
+            (self.modes.length, self.along) = (Length::Entry(0), normal);
+            self.reframe(here);
+        }
+    }
+
+    /// Behaviours about lengths that these statements come to in another plane than that of X and Y.
+    pub fn lengths_aside_in(&self, stmts: &[Stmt]) -> u64 {
+        let mut aside = self.modes.plane != Plane::Xy;
+        let mut bits = 0;
+        for stmt in stmts {
+            match &stmt.op {
+                Op::SelectPlane(plane) => {
+                    aside |= *plane != Plane::Xy;
+                    if aside {
+                        bits |= Behaviour::LengthAxisInPlane.bit();
+                    }
+                }
+                op if aside && op.calls_length() => bits |= Behaviour::LengthAxisAtCall.bit(),
+                _ => {}
+            }
+        }
+        bits
     }
 
     /// Offsets of the tool as the program has called them up, whether Z has taken up its length or not.
@@ -60,6 +121,7 @@ impl Exec {
             Length::Edge(..) | Length::Value(_) => [0; 2],
         };
         self.said |= super::LENGTH;
+        self.call_up_along();
         self.waiting = Some(length);
         self.use_aside(aside, span)
     }

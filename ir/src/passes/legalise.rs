@@ -20,10 +20,11 @@ use super::write::EXACT;
 use super::{
     Target, absolute_holes, approach, arc_form, arc_radii, at_once, compensated_modes, convert_arcs,
     cutter_radius, expand_calls, expand_corners, expand_cycles, expand_frames, expand_patterns,
-    expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, machine_moves, number_names,
-    offset_with_z, one_distance, one_move, origin_shift, path_control, polar_words, repeat_ends,
-    return_plane, rotary_ways, skip_levels, specialise_procedures, spindle_angle, state_clearance,
-    tapped_holes, taps, threads, tool_axis, tool_change, tool_edge, work_offset,
+    expand_repeats, expand_turns, feed_time, feed_unit, flatten_facts, frame_increments, length_axis,
+    machine_moves, number_names, offset_with_z, one_distance, one_move, origin_shift, path_control,
+    polar_words, repeat_ends, return_plane, rotary_turns, rotary_ways, skip_levels, specialise_procedures,
+    spindle_angle, state_clearance, tapped_holes, taps, threads, tool_axis, tool_change, tool_edge,
+    work_offset,
 };
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Modes};
@@ -76,6 +77,9 @@ pub struct Legaliser {
     machine: machine_moves::State,
     change: tool_change::State,
     at_once: at_once::State,
+    increments: frame_increments::State,
+    length_axis: length_axis::State,
+    rotary: rotary_turns::State,
 }
 
 impl Legaliser {
@@ -113,7 +117,8 @@ impl Legaliser {
                     | CORNER
                     | AT_ONCE)
                 != 0
-                || caps.feed_ends_with_mode,
+                || caps.feed_ends_with_mode
+                || frame_increments::State::new(&Behaviours::default(), &caps.behaviours).is_used(),
             walk: Walk::default(),
             cycles: expand_cycles::State::default(),
             length: offset_with_z::State::default(),
@@ -138,6 +143,9 @@ impl Legaliser {
             machine: machine_moves::State::default(),
             change: tool_change::State::default(),
             at_once: at_once::State::new(caps),
+            increments: frame_increments::State::new(&Behaviours::default(), &caps.behaviours),
+            length_axis: length_axis::State::default(),
+            rotary: rotary_turns::State::default(),
         }
     }
 
@@ -193,7 +201,12 @@ impl Legaliser {
         self.target.source = source;
         self.feed_again = feed_unit::says_again(&self.target);
         self.times_differ = feed_time::differs(&self.target);
+        let own = &self.target.caps.behaviours;
+        self.increments = frame_increments::State::new(&source, own);
+        self.length_axis = length_axis::State::new(&source, own);
+        self.rotary = rotary_turns::State::new(&source, own, self.target.other_control);
         self.follow |= self.feed_again || self.times_differ;
+        self.follow |= self.increments.is_used() || self.length_axis.is_used() || self.rotary.is_used();
     }
 
     /// What the source's control refuses while cutter radius compensation is on: its execution finds it.
@@ -210,9 +223,31 @@ impl Legaliser {
         self.follow |= self.measures;
     }
 
+    /// Incremental words after a change of frame, in a program that is kept whole: they are done then. Where passes
+    /// are to be run first, what the source's control makes of the words is said alone.
+    pub fn frame_increments(
+        &mut self,
+        program: &mut Program,
+        passes_first: bool,
+        diags: &mut Vec<Diagnostic>,
+    ) {
+        let start = self.walk.at.clone();
+        if passes_first {
+            self.increments.take_source().whole(program, &start, diags);
+        } else {
+            self.increments.whole(program, &start, diags);
+        }
+    }
+
     /// The program is called by another: the target's first blocks are not in front of it.
     pub fn stands_alone(&mut self) {
         self.at_once = at_once::State::default();
+        self.nothing_before();
+    }
+
+    /// The program is called by another, which has given each axis a word after its last change of frame.
+    pub fn nothing_before(&mut self) {
+        self.increments.stands_alone();
     }
 
     /// Says where the axes stand before the program starts, in its own frame.
@@ -235,6 +270,16 @@ impl Legaliser {
     pub fn run(&mut self, stmts: &mut Vec<Stmt>, assumed: &Modes, diags: &mut Vec<Diagnostic>) {
         self.walk.assume(assumed);
         self.frames.assume(assumed);
+        if self.rotary.is_used() {
+            self.rotary.check(stmts, &self.walk, diags);
+        }
+        if self.length_axis.is_used() {
+            self.length_axis.check(stmts, &self.walk, diags);
+        }
+        match self.increments.concerns(stmts, self.walk.at.modes.distance) {
+            true => self.increments.over(stmts, &self.walk, diags),
+            false => self.increments.note(stmts, &self.walk),
+        }
         if self.target.caps.change_stops_spindle {
             let up = self.target.caps.behaviours.surely(Behaviour::ZAtChange);
             self.change.over(stmts, up, diags);
@@ -296,7 +341,9 @@ impl Legaliser {
 
     /// Whether further statements of the main procedure would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
-        self.needs(stmts) != 0 || self.times_differ && self.times.concerns(stmts, &self.walk)
+        self.needs(stmts) != 0
+            || self.times_differ && self.times.concerns(stmts, &self.walk)
+            || self.increments.concerns(stmts, self.walk.at.modes.distance)
     }
 
     /// What further statements need that the target lacks.

@@ -31,6 +31,8 @@ struct Waiting {
     block: u64,
     /// It has been reported.
     told: bool,
+    /// Whether it is in force already: where no move along Z comes, nothing is lost without it.
+    in_force: bool,
 }
 
 /// Moves the offsets.
@@ -50,7 +52,7 @@ impl State {
 
     /// The end of the body: an offset that nothing takes up stands where it may do no harm, last.
     pub(super) fn flush(&mut self, body: &mut Vec<Stmt>, _: &mut Vec<Diagnostic>) {
-        if let Some(waiting) = self.waiting.take() {
+        if let Some(waiting) = self.waiting.take().filter(|waiting| !waiting.in_force) {
             body.push(waiting.into_stmt());
         }
     }
@@ -86,6 +88,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
                 made.push(stmt);
             }
             Op::UseToolLengthOffset(entry) => {
+                let in_force = state.waiting.is_none() && stmt.skip.is_none() && is_in_force(walk, entry);
                 walk.step(&stmt);
                 if let Some(before) = state.waiting.take()
                     && before.skip != stmt.skip
@@ -100,6 +103,7 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
                     skip: stmt.skip,
                     block: state.block,
                     told: false,
+                    in_force,
                 });
                 made.leave_out(stmt);
             }
@@ -109,8 +113,9 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
             }
             Op::ProgramEnd if state.waiting.is_some() => {
                 walk.step(&stmt);
-                if let Some(waiting) = state.waiting.take() {
-                    put_before(stmt, waiting.into_stmt(), &mut made);
+                match state.waiting.take() {
+                    Some(waiting) if !waiting.in_force => put_before(stmt, waiting.into_stmt(), &mut made),
+                    Some(_) | None => made.push(stmt),
                 }
             }
             _ if leaves && state.waiting.is_some() => {
@@ -127,6 +132,12 @@ pub(super) fn over(body: &mut Vec<Stmt>, walk: &mut Walk, state: &mut State, dia
         }
     }
     *body = made.out;
+}
+
+/// Whether an entry is surely in force, and its values are those that it was called up with.
+fn is_in_force(walk: &Walk, entry: &Expr) -> bool {
+    let entry = entry.literal().and_then(|n| n.whole()).and_then(|n| u32::try_from(n).ok());
+    !walk.waiting && entry.is_some() && walk.at.modes.length_offset == entry
 }
 
 /// Whether a statement calls up a cycle that drills along Z: its block says Z.

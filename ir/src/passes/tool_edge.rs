@@ -139,6 +139,8 @@ fn to_entries(
     let (edge, said) = (edge.clone(), *said);
     let found = match (whole(&edge), tool(walk)) {
         (Some(0), _) => Ok(Some(0)),
+        // No tool has no length, whatever edge is active.
+        (Some(_), _) if walk.at.tool == Some(0) => Ok(Some(0)),
         (Some(1), Some(tool)) => Ok(Some(tool)),
         (Some(1), None) if target.caps.own_length => Ok(None),
         (Some(1), None) => Err(cannot("an edge of a tool that is not known".into())),
@@ -146,7 +148,7 @@ fn to_entries(
         (None, _) => Err(cannot("a computed edge of a tool".into())),
     };
     // Of a tool that the program has not called, it is needed only where Z moves by it.
-    let unknown = whole(&edge) == Some(1) && tool(walk).is_none();
+    let unknown = whole(&edge) == Some(1) && tool(walk).is_none() && walk.at.tool != Some(0);
     walk.step(&stmt);
     if let Some(before) = state.waiting.take() {
         // Nothing has taken up the edge that came with the tool.

@@ -55,11 +55,17 @@ impl Tracker {
                 self.shift_locally(&to);
             }
             Slot::Shift { origin: true, axes } => {
+                // The first shift is all that there is of it.
+                let first = self.modes.no_origin_shift == Some(true);
                 self.modes.no_origin_shift = None;
-                for (at, word) in self.position.iter_mut().zip(axes.iter()) {
-                    if word.is_some() || self.turned {
-                        *at = None;
-                    }
+                for (axis, word) in axes.iter().enumerate() {
+                    let Some(word) = word else { continue };
+                    let by = self.nanos(word).filter(|_| first);
+                    let at = self.position[axis].zip(by).and_then(|(at, by)| at.checked_sub(by));
+                    self.position[axis] = at;
+                }
+                if self.turned || self.chain_turned {
+                    self.position = [None; AXES];
                 }
             }
             Slot::Tilt(_) => {

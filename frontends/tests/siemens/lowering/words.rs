@@ -212,8 +212,4 @@ fn functions_whose_time_machine_data_decide() {
             "AssumedParameter { parameter: 'M9 in a block with a move', value: 'after the move' } at 'M9'"
         ]
     );
-    let tilted =
-        "AssumedParameter { parameter: 'SD 42940 TOOL_LENGTH_CONST', value: '17: length along Z' } at ";
-    assert_eq!(assumptions(&(HEAD.to_owned() + "G18\nG19\nM30\n")), [format!("{tilted}'G18'")]);
-    assert_eq!(assumptions(&(HEAD.to_owned() + "D0\nG18\nD2\nM30\n")), [format!("{tilted}'D2'")]);
 }

@@ -86,6 +86,7 @@ impl Legaliser {
         (own.compensated.on, own.compensated.refused) = (own.walk.at.compensated, self.compensated.refused);
         own.taps = taps::State::entered(&own.walk.at);
         own.at_once = super::at_once::State::default();
+        own.increments = self.increments.clone();
         own
     }
 }

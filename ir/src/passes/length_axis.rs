@@ -1,0 +1,53 @@
+//! Lengths of tools that lie along another axis on the target's control than on the source's.
+//!
+//! In the plane of X and Y a length lies along Z on all of them. In G18, some take it along Y: the tool would stand
+//! lower by its length. No word of a program says which; where both controls are known and differ, such moves are
+//! refused.
+//!
+//! Not here: a control of which it is open ([`crate::exec`] runs both).
+
+use super::walk::Walk;
+use crate::behaviour::{Behaviour, Behaviours};
+use crate::canon::Plane;
+use crate::diag::{Diagnostic, Fault};
+use crate::kinds::{drilling, moves};
+use crate::program::{Op, Stmt};
+
+/// Whether the two controls differ: by the plane in force, and by that of the call.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct State {
+    in_plane: bool,
+    at_call: bool,
+}
+
+impl State {
+    pub(super) fn new(source: &Behaviours, target: &Behaviours) -> State {
+        let differ = |behaviour| source.does(behaviour) != target.does(behaviour);
+        State { in_plane: differ(Behaviour::LengthAxisInPlane), at_call: differ(Behaviour::LengthAxisAtCall) }
+    }
+
+    /// Whether they differ at all.
+    pub(super) fn is_used(self) -> bool {
+        self.in_plane || self.at_call
+    }
+
+    /// Refuses what is not the same on both.
+    pub(super) fn check(self, stmts: &[Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+        let mut walk = start.clone();
+        for stmt in stmts {
+            walk.enter(stmt.skip);
+            let aside = walk.at.modes.plane != Some(Plane::Xy);
+            let long = walk.waiting || walk.at.modes.length_offset != Some(0);
+            let found = match &stmt.op {
+                moves!() | drilling!() | Op::Position(_) | Op::Polar(_) => self.in_plane && aside && long,
+                op if op.calls_length() => self.at_call && aside,
+                _ => false,
+            };
+            walk.step(stmt);
+            if found && !(self.at_call && walk.at.modes.length_offset == Some(0)) {
+                let what = "a tool's length in another plane than XY".into();
+                return diags.push(Diagnostic::new(Fault::CannotSay { what }, stmt.span));
+            }
+        }
+    }
+}

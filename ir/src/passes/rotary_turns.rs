@@ -1,0 +1,80 @@
+//! Absolute words of rotary axes that controls do not turn alike: by half a turn or more, the number's way on one and
+//! the shortest way on another.
+//!
+//! Refused, unless both controls are known to turn them in one way. From where nobody knows, nothing is said.
+//!
+//! Not here: what each control does ([`crate::exec`]).
+
+use super::walk::Walk;
+use crate::behaviour::{Behaviour, Behaviours};
+use crate::canon::{AXES, Axis, Distance};
+use crate::diag::{Diagnostic, Fault};
+use crate::exec::rotary_end;
+use crate::program::{Op, Stmt};
+
+/// What is said of such a word.
+pub const REFUSED: &str = "a rotary axis that turns by half a turn or more";
+
+/// What both controls do, as far as it is known.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct State {
+    /// Values that either may have, a bit each.
+    values: u8,
+}
+
+impl State {
+    pub(super) fn new(source: &Behaviours, target: &Behaviours, other_control: bool) -> State {
+        let way = Behaviour::RotaryTurn;
+        let of = |all: &Behaviours| {
+            let open = (0..way.values().len() as u8).filter(|value| !way.is_rare(*value));
+            let open = open.fold(0, |bits, value| bits | 1 << value);
+            if all.is_open(way) { open } else { 1 << all.get(way) }
+        };
+        let values = if other_control { of(source) | of(target) } else { 0 };
+        State { values }
+    }
+
+    /// Whether there is more than one.
+    pub(super) fn is_used(self) -> bool {
+        self.values.count_ones() > 1
+    }
+
+    /// Refuses words that are not the same under all of them.
+    pub(super) fn check(self, stmts: &[Stmt], start: &Walk, diags: &mut Vec<Diagnostic>) {
+        let turns = |stmt: &Stmt| match &stmt.op {
+            Op::StraightTraverse(m) | Op::StraightFeed(m) => {
+                m.to.axes[Axis::A as usize..].iter().any(Option::is_some)
+            }
+            _ => false,
+        };
+        if !stmts.iter().any(turns) {
+            return;
+        }
+        let (mut walk, mut own_way) = (start.clone(), false);
+        for stmt in stmts {
+            walk.enter(stmt.skip);
+            let to = match &stmt.op {
+                Op::StraightTraverse(m) | Op::StraightFeed(m) if !walk.at.raw && !own_way => Some(&m.to),
+                _ => None,
+            };
+            for axis in Axis::A as usize..AXES {
+                let Some(word) = to.and_then(|to| to.axes[axis].as_ref()) else { continue };
+                let absolute =
+                    word.distance.known().or(walk.at.modes.distance) != Some(Distance::Incremental);
+                let Some((from, to)) = walk.at.position[axis].zip(walk.at.nanos(&word.value)) else {
+                    continue;
+                };
+                let mut ends = (0..8).filter(|value| self.values >> value & 1 == 1);
+                if absolute && ends.any(|value| rotary_end(value, from, to) != to) {
+                    diags.push(Diagnostic::new(Fault::CannotSay { what: REFUSED.into() }, stmt.span));
+                }
+            }
+            own_way = match &stmt.op {
+                Op::TurnRotaryAxes(_) => true,
+                Op::ExactStop => own_way,
+                _ => false,
+            };
+            walk.step(stmt);
+        }
+    }
+}
