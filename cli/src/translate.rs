@@ -8,6 +8,7 @@ mod alone;
 mod as_there;
 mod heading;
 
+pub(crate) use as_there::parameter;
 use as_there::target;
 
 use std::collections::{BTreeSet, HashMap};
@@ -18,7 +19,6 @@ use ncc_frontends::{Batch, Reader};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, Verdict};
 use ncc_ir::given_back::left_out;
-use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::known_facts::Known;
 use ncc_ir::passes::machine_numbers::Renumbering;
 use ncc_ir::passes::side_effects::SideEffects;
@@ -689,15 +689,6 @@ impl<'j> Line<'j> {
             blocks: self.blocks,
         }
     }
-}
-
-/// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
-pub(crate) fn parameter(job: &Job, option: &str) -> Option<Num> {
-    let text = job.from.get(option);
-    let (whole, part) = text.split_once('.').unwrap_or((text, ""));
-    let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
-    (part.len() < 10)
-        .then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
 }
 
 #[cfg(test)]

@@ -260,7 +260,6 @@ impl Verifier {
             runs.iter_mut().flat_map(|run| [&mut run.source, &mut run.target]).for_each(Exec::without_blocks);
         }
         if job.works_compensation_out() {
-            // The source's contour is compared by the path of the tool's centre.
             let rules = job.compensating().rules;
             runs.iter_mut().for_each(|run| run.source.compute_compensation(rules));
         }
@@ -472,7 +471,6 @@ impl Verifier {
             && said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b))
     }
 
-    /// Whether plain moves may pass for both sides by being executed once.
     #[cfg(test)]
     pub(crate) fn is_level(&self) -> bool {
         self.runs.iter().any(|run| run.level)

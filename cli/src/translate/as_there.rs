@@ -8,6 +8,7 @@ use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
 use ncc_ir::diag::{Diagnostic, Fault};
+use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
 use ncc_ir::passes::variables::{self, Digits, Renamed};
@@ -20,7 +21,7 @@ use ncc_ir::program::Program;
 use ncc_ir::source::Span;
 use ncc_ir::track::Tracker;
 
-use super::{BREAK_LIFT, PECK_CLEARANCE, parameter};
+use super::{BREAK_LIFT, PECK_CLEARANCE};
 use crate::job::Job;
 
 /// Digits after the point to which computed positions are rounded: the target's, in mm.
@@ -141,4 +142,13 @@ pub(super) fn path_at_start(job: &Job) -> Option<Diagnostic> {
     let (from, to) = (from?, to?);
     let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
     (job.between_controls() && from != to).then(|| Diagnostic::new(fault, Span::default()))
+}
+
+/// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.
+pub(crate) fn parameter(job: &Job, option: &str) -> Option<Num> {
+    let text = job.from.get(option);
+    let (whole, part) = text.split_once('.').unwrap_or((text, ""));
+    let mantissa: i64 = format!("{whole}{part}").parse().ok()?;
+    (part.len() < 10)
+        .then(|| Num { mantissa, scale: part.len() as u8, point: true, unit: Unit::Mm }.trimmed())
 }
