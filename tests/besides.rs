@@ -41,3 +41,20 @@ pub(crate) fn passed_over(a: &Plain, b: &Plain) -> Plain {
     }
     b
 }
+
+/// The same as if the control stayed where the program has put it: what it does by itself for a tool change is undone.
+pub fn without_way_up(list: Vec<Plain>) -> Vec<Plain> {
+    let (mut kept, mut z): (Vec<Plain>, Option<f64>) = (Vec::new(), None);
+    for mut event in list {
+        if event.by_itself.moves {
+            z = kept.last().map(|last: &Plain| last.at[2]);
+            continue;
+        }
+        match z {
+            Some(z) if event.by_itself.z => event.at[2] = z,
+            _ => z = None,
+        }
+        kept.push(event);
+    }
+    kept
+}

@@ -471,11 +471,6 @@ impl Verifier {
             && said.iter().zip(read).all(|(a, b)| verify::same_plain(a, b))
     }
 
-    #[cfg(test)]
-    pub(crate) fn is_level(&self) -> bool {
-        self.runs.iter().any(|run| run.level)
-    }
-
     /// Ends a program that was streamed to its end.
     pub(crate) fn finish(&mut self) -> Result<(), Stop> {
         let mut rest = Batch::default();
@@ -695,7 +690,7 @@ mod tests {
             verifier.piece(&stmts, &batch.assumed, text.as_bytes(), 0, &Modes::default())
         };
         piece("%\nO1\nG21 G17 G90 G40 G49 G80 G94\nM08\n", &mut verifier).expect("no move, no work offset");
-        assert!(verifier.is_level());
+        assert!(verifier.runs.iter().any(|run| run.level));
         assert!(matches!(piece("G01 X10. F100.\n", &mut verifier), Err(Stop::Target(_))));
     }
 }

@@ -4,6 +4,7 @@ use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::Units;
 use ncc_ir::diag::Fault;
 use ncc_ir::program::Op;
+use ncc_tests::besides;
 use ncc_tests::corpus::{self, DIALECTS};
 use ncc_tests::expect::Failures;
 use ncc_tests::interpreter::Setup;
@@ -85,7 +86,13 @@ fn emitted_programs_make_the_same_moves() {
                     Ok::<_, String>(plain::of_machine(&machine, start))
                 };
                 for skip in [0, 0x7fe] {
+                    // A list of events leaves out where the control goes by itself for a tool change.
+                    let without = |list: Vec<plain::Plain>| match job.to.dialect.can.flat {
+                        true => besides::without_way_up(list),
+                        false => list,
+                    };
                     let result = list(program.dialect, &program.text, skip, None)
+                        .map(without)
                         .and_then(|source| plain::compare(&source, &list(to, &text, skip, only)?, within));
                     if let Err(fault) = result {
                         failures.add(&what, format!("{fault}\n{}", String::from_utf8_lossy(&text)));

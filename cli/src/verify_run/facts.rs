@@ -50,6 +50,12 @@ impl Run {
 }
 
 impl Verifier {
+    /// Whether plain moves may pass for both sides by being executed once.
+    #[cfg(test)]
+    pub(crate) fn is_level(&self) -> bool {
+        self.runs.iter().any(|run| run.level)
+    }
+
     /// What the verification has to say of its own reach, and of facts that would make another cut.
     pub(crate) fn take_notes(&mut self) -> Vec<Diagnostic> {
         let matters = std::mem::take(&mut self.matters);

@@ -216,6 +216,10 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
     if turn == 0.0 || line == 0.0 && simple(own) && simple(there) {
         return Ok(None);
     }
+    if at.modes.feed_mode == Some(FeedMode::InverseTime) {
+        // A time is the same whatever a feed counts.
+        return Ok(None);
+    }
     let way = match own {
         LINEAR if line > 0.0 => line,
         LINEAR => turn,
@@ -224,7 +228,6 @@ fn line(to: &Point, at: &Tracker, target: &Target) -> Result<Option<Num>, &'stat
     };
     let per_minute = match at.modes.feed_mode {
         Some(FeedMode::PerMinute) => 1.0,
-        Some(FeedMode::InverseTime) => return Ok(None),
         _ => return Err("a feed of linear and rotary axes together that does not count minutes"),
     };
     let feed = at.feed.and_then(|feed| feed.nanos(units == Units::Inch));
