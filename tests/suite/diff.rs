@@ -72,11 +72,7 @@ fn a_program_is_the_same_as_its_translation() {
             let besides = outcome.diagnostics.iter().any(|d| {
                 matches!(
                     d.fault,
-                    Fault::SideEffectWritten { .. }
-                        | Fault::StartedAgain { .. }
-                        | Fault::MovedAtChange
-                        | Fault::FeedByTime
-                        | Fault::FeedAtUnits { .. }
+                    Fault::SideEffectWritten { .. } | Fault::StartedAgain { .. } | Fault::MovedAtChange
                 )
             });
             match diff((program.dialect, &program.text), (to, &written)) {
@@ -95,7 +91,7 @@ fn a_program_is_the_same_as_its_translation() {
         }
     }
     assert!(compared > 300, "{compared}");
-    assert!(differing < 40, "{differing}");
+    assert!(differing < 25, "{differing}");
     failures.finish();
 }
 

@@ -3,7 +3,7 @@
 use std::io;
 use std::ops::ControlFlow;
 
-use ncc_ir::behaviour::Behaviours;
+use ncc_ir::behaviour::Behaviour;
 use ncc_ir::canon::{AXES, Distance, Fact};
 use ncc_ir::exec::Exec;
 use ncc_ir::num::Nanos;
@@ -25,9 +25,13 @@ pub(crate) struct Settings {
     pub(crate) mute: Option<bool>,
     /// The control's own parameters of cycles.
     pub(crate) clearances: [Option<Nanos>; 2],
-    /// What codes do besides their names, if both controls are taken to do the same; else each does as it does.
-    pub(crate) behaviours: Option<Behaviours>,
+    /// What both controls are taken to do besides the names of codes, with the switch for optional stops on; nothing is
+    /// as each of them does.
+    pub(crate) besides: Option<Besides>,
 }
+
+/// What spindle, coolant and Z do at stops, tool changes and the end of a program.
+pub(crate) type Besides = [(Behaviour, u8); 7];
 
 /// Executes a side and hands out its records, piece by piece; `take` may break off.
 ///
@@ -39,9 +43,10 @@ pub(crate) fn records(
     take: &mut dyn FnMut(Batch) -> ControlFlow<()>,
 ) -> io::Result<Course> {
     let mut worlds = worlds(&side.job, settings.clearances);
-    if let Some(behaviours) = settings.behaviours {
+    if let Some(besides) = settings.besides {
         for world in &mut worlds {
-            (world.behaviours, world.optional_stop) = (behaviours, true);
+            besides.iter().for_each(|(behaviour, value)| world.behaviours.set(*behaviour, *value, false));
+            world.optional_stop = true;
         }
     }
     let controls: Vec<Exec> = worlds

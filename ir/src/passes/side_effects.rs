@@ -326,7 +326,7 @@ impl SideEffects {
                 }
                 let mut said = Stmt::new(stmt.span, op);
                 // It takes effect in the block that moves Z: there most controls have it.
-                if let Some(first) = made.get_mut(at).or_else(|| Some(&mut *stmt)) {
+                if let Some(first) = made.get_mut(at).or(Some(&mut *stmt)) {
                     said.number = first.number.take();
                     said.skip = first.skip;
                     first.joined = true;

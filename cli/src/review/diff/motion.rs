@@ -65,16 +65,24 @@ pub(crate) fn motion(sides: &mut [Side; 2], tolerance: Option<Nanos>) -> io::Res
     let mut found = Collector::default();
     let stops = sides.iter().all(|side| side.dialect().caps.shows_at_stops());
     let muted = mute.then_some(stops);
-    // What a code does besides its name is the machine's: what one control does, both are taken to do. A program is not
-    // another one for that.
-    let mut behaviours = sides[0].job.from.behaviours();
-    for behaviour in Behaviour::ALL.iter().copied().filter(|b| sides[1].job.from.behaviours().does(*b)) {
-        behaviours.set(behaviour, sides[1].job.from.behaviours().get(behaviour), false);
-    }
-    // But where Z goes for a tool change, which is not in the text.
-    behaviours.set(Behaviour::ZAtChange, 0, false);
+    // What a stop, a tool change or the end does besides its name is the machine's: what one control does, both are taken
+    // to do, and a program is not another one for that. But where Z goes for a tool change, which is not in the text.
+    let own = [0, 1].map(|side: usize| sides[side].job.from.behaviours());
+    let besides = [
+        Behaviour::SpindleAtStop,
+        Behaviour::CoolantAtStop,
+        Behaviour::SpindleAtChange,
+        Behaviour::CoolantAtChange,
+        Behaviour::SpindleAtEnd,
+        Behaviour::CoolantAtEnd,
+        Behaviour::ZAtChange,
+    ];
+    let besides = besides.map(|behaviour| match behaviour {
+        Behaviour::ZAtChange => (behaviour, 0),
+        _ => (behaviour, own[0].get(behaviour).max(own[1].get(behaviour))),
+    });
     let settings = |skip| {
-        clearances.map(|clearances| Settings { skip, mute: muted, clearances, behaviours: Some(behaviours) })
+        clearances.map(|clearances| Settings { skip, mute: muted, clearances, besides: Some(besides) })
     };
     let courses = once(sides, settings(0), measure, &mut found)?;
     let levels = courses[0].skip_levels | courses[1].skip_levels;
