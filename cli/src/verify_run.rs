@@ -446,7 +446,7 @@ impl Verifier {
         let found = levels(&self.batch.stmts);
         self.fork_for_target(&[found]);
         self.fork_for_facts();
-        self.others_step(false);
+        self.others_step(false)?;
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;
@@ -479,7 +479,7 @@ impl Verifier {
         self.batch.diagnostics.append(&mut rest.diagnostics);
         self.read_back(&Modes::default())?;
         self.fork_for_facts();
-        self.others_step(true);
+        self.others_step(true)?;
         for run in &mut self.runs {
             for stmt in &self.batch.stmts {
                 run.target.step(stmt, &mut run.target_events).map_err(|d| unreadable(&d, self.last))?;

@@ -548,6 +548,9 @@ impl Comparison {
     #[inline]
     fn compare(&self, a: &Event, b: &Event) -> Option<Aspect> {
         let near = |x: Nanos, y: Nanos, half: Nanos| x.abs_diff(y) <= half as u64;
+        if b.state.by_control & !a.state.by_control & by_control::MOVE != 0 {
+            return Some(Aspect::Kind);
+        }
         match (&a.kind, &b.kind) {
             (Kind::Feed, Kind::Feed) | (Kind::Traverse, Kind::Traverse) => {}
             (
@@ -616,7 +619,7 @@ impl Comparison {
             (x, y) if x == y => {}
             _ => return Some(Aspect::Kind),
         }
-        // What the target's control alone did by itself counts as soon as something is cut.
+        // It counts as soon as something is cut.
         let by_target = b.state.by_control & !a.state.by_control;
         let z_elsewhere = z_passed_over(a, b);
         if z_elsewhere && cuts(&b.kind) {

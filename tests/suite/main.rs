@@ -35,6 +35,7 @@ mod schema;
 mod second;
 mod shared;
 mod shop_siemens;
+mod shop_stops;
 mod siemens_peer;
 mod siemens_second;
 mod spliced;

@@ -8,11 +8,11 @@
 
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{by_control, touched};
+use ncc_ir::exec::{Event, Movement, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::verify::{Aspect, Difference};
 
-use super::{Run, Verifier};
+use super::{Run, Stop, Verifier, different};
 use crate::job::Job;
 
 /// An open fact of one of the controls, with another value than its usual one.
@@ -29,6 +29,22 @@ pub(crate) enum Other {
     },
     /// The switch for optional stops is on, for both.
     OptionalStop,
+}
+
+impl Other {
+    /// Whether the fact explains the difference to which a run has come. With the switch for optional stops on, only a cut
+    /// is explained that the source makes with what its control has switched off.
+    pub(super) fn explains(self, run: &Run) -> bool {
+        let switched = by_control::SPINDLE | by_control::COOLANT;
+        let stands = |event: &Event| {
+            let cuts = matches!(event.kind.moves(), Some(Movement::Feed | Movement::Arc { .. }));
+            cuts && event.state.by_control & switched != 0
+        };
+        match self {
+            Other::Behaviour { .. } => true,
+            Other::OptionalStop => run.source_events.first().is_some_and(stands),
+        }
+    }
 }
 
 impl Run {
@@ -139,8 +155,11 @@ impl Verifier {
     }
 
     /// Executes the text read back in the runs with another fact, and compares.
-    pub(super) fn others_step(&mut self, over: bool) {
-        let mut found = Vec::new();
+    ///
+    /// # Errors
+    /// A difference that the fact does not explain.
+    pub(super) fn others_step(&mut self, over: bool) -> Result<(), Stop> {
+        let (mut found, mut wrong) = (Vec::new(), None);
         let (stmts, last) = (&self.batch.stmts, self.last);
         self.others.retain_mut(|run| {
             if !stmts.iter().all(|stmt| run.target.step(stmt, &mut run.target_events).is_ok()) {
@@ -154,6 +173,10 @@ impl Verifier {
             }
             let (a, b) = (&mut run.source_events, &mut run.target_events);
             match (run.comparison.advance(a, b, over), run.other) {
+                (Err(difference), Some(other)) if !other.explains(run) => {
+                    wrong = wrong.take().or(Some(different(&difference, None, last)));
+                    false
+                }
                 (Err(difference), Some(other)) => {
                     let at = difference.source.as_ref().map_or(last, |event| event.span);
                     found.push((other, at));
@@ -163,6 +186,7 @@ impl Verifier {
             }
         });
         self.matters.append(&mut found);
+        wrong.map_or(Ok(()), Err)
     }
 
     /// Leaves runs out that have come to the state of the usual one: what follows is the same.

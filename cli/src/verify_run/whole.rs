@@ -322,7 +322,7 @@ impl Verifier {
         self.runs = runs;
         let sides = [source, &target];
         if let Some(plain) = plain {
-            self.whole_with_facts(&plain, sides, given, asked);
+            self.whole_with_facts(&plain, sides, given, asked)?;
         }
         let came = self.with_sets(&starts, sides, given, failed.is_none(), &mut gone)?;
         if let (false, Some((start, set))) = (came.through, came.goes_on) {
@@ -354,7 +354,13 @@ impl Verifier {
     }
 
     /// Runs both programs with each open fact that was come to, another one than usual, one at a time.
-    fn whole_with_facts(&mut self, plain: &Run, sides: [&Program; 2], given: &Given, asked: [u64; 2]) {
+    fn whole_with_facts(
+        &mut self,
+        plain: &Run,
+        sides: [&Program; 2],
+        given: &Given,
+        asked: [u64; 2],
+    ) -> Result<(), Stop> {
         for (bits, source) in [(asked[0] & self.open[0], true), (asked[1] & self.open[1], false)] {
             self.fork_whole(plain, bits, source);
         }
@@ -370,6 +376,9 @@ impl Verifier {
             let set = Set { number: 0, most: MOST_WITH_FACT, idle: None };
             let ended = self.run_both(&mut run, sides, given, set, &mut Gone::default(), &mut |_| {});
             match ended {
+                Err(Ended::Target(difference)) if !other.explains(&run) => {
+                    return Err(Stop::Target(difference));
+                }
                 Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
                 Err(Ended::Source(fault)) if matches!(fault.fault, Fault::DoneByTarget { .. }) => {
                     self.matters.push((other, fault.span));
@@ -378,6 +387,7 @@ impl Verifier {
                 Ok(()) | Err(Ended::Source(_) | Ended::NotSo(_) | Ended::Enough) => {}
             }
         }
+        Ok(())
     }
 
     fn fork_whole(&mut self, plain: &Run, bits: u64, source: bool) {

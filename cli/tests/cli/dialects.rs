@@ -182,14 +182,14 @@ fn an_option_says_what_a_tool_change_leaves_of_the_spindle() {
     let folder = folder();
     std::fs::write(folder.path().join("part.nc"), TURNING).unwrap();
     let run = |line: &str| ncc(folder.path(), &line.split(' ').collect::<Vec<_>>());
-    run("fanuc to linuxcnc part.nc").exits(1).says("--from-option spindle_after_change=stopped");
-    let stopped = "--no-head --from-option spindle_after_change=stopped";
+    run("fanuc to linuxcnc part.nc").exits(1).says("--from-option spindle_at_change=stops");
+    let stopped = "--no-head --from-option spindle_at_change=stops";
     let out = run(&format!("fanuc to linuxcnc part.nc {stopped}")).exits(0).out;
     assert!(out.contains("T2 M6\nX50"), "{out}");
     // Another machine may let it turn on: there it is stopped by a word.
     let out = run(&format!("fanuc to fanuc part.nc {stopped}")).exits(0).out;
-    assert!(out.contains("T2 M06\nM05\n"), "{out}");
-    let out = run(&format!("fanuc to fanuc part.nc {stopped} --to-option spindle_after_change=stopped"));
+    assert!(out.contains("M05\nT2 M06\n"), "{out}");
+    let out = run(&format!("fanuc to fanuc part.nc {stopped} --to-option spindle_at_change=stops"));
     assert!(out.exits(0).out.contains("T2 M06\nX50.\n"));
-    run("fanuc to fanuc part.nc --to-option spindle_after_change=stopped").exits(1).says("goes on turning");
+    run("fanuc to fanuc part.nc --to-option spindle_at_change=stops").exits(1).says("goes on turning");
 }

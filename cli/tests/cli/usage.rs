@@ -44,7 +44,7 @@ fn wrong_usage_is_exit_2_and_writes_nothing() {
         (&["mach9", "to", "fanuc", "good.cn", "--start", "X1,Q2"], "X Y Z A B C"),
         (&["mach9", "to", "fanuc", "good.cn", "--program-number", "0"], "--program-number"),
         (&["mach9", "to", "fanuc", "good.cn", "--from-option", "o_word"], "NAME=VALUE"),
-        (&["mach9", "to", "fanuc", "good.cn", "--from-option", "nope=1"], "it has: o_word"),
+        (&["mach9", "to", "fanuc", "good.cn", "--from-option", "nope=1"], "it has: change_in_block"),
         (&["mach9", "to", "fanuc", "good.cn", "--from-option", "o_word=maybe"], "it takes: offset, ignore"),
         (&["mach9", "to", "ir", "good.cn", "--to-option", "o_word=offset"], "no option"),
         (&["mach9", "to", "fanuc", "good.cn", "--no-head", "--no-verify"], "cannot be used with"),

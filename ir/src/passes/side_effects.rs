@@ -299,8 +299,9 @@ impl SideEffects {
             && !to.keeps_length
         {
             let next = self.length_after(Behaviour::LengthAfterReturn, stmt.span);
-            to.keeps_length = matches!(next, Some(LengthNext::Say(_) | LengthNext::Ask(..)))
-                && !self.source.does(Behaviour::LengthAfterReturn);
+            let asked = matches!(next, Some(LengthNext::Ask(..)));
+            let returns = !self.source.does(Behaviour::LengthAfterReturn);
+            to.keeps_length = returns && (asked || !self.source.is_open(Behaviour::LengthAfterReturn));
             self.length_next = next;
             return;
         }

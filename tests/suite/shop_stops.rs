@@ -1,0 +1,242 @@
+//! What stops, tool changes, ends and places of the machine do besides their names, in both directions: small programs of
+//! the kinds that shops have, each with what the output must hold and what is reported, or with what it is refused for.
+
+use std::collections::BTreeSet;
+
+use ncc_ir::behaviour::Behaviour;
+use ncc_ir::diag::Fault;
+use ncc_tests::expect::Failures;
+use ncc_tests::translate::{job, stopping, translate};
+
+/// One translation.
+struct Case {
+    /// From, to.
+    pair: (&'static str, &'static str),
+    /// Options of the source, of the target.
+    options: [&'static [(&'static str, &'static str)]; 2],
+    /// Blocks after the head, separated by ` / `.
+    blocks: &'static str,
+    /// Blocks that follow one another in the output; nothing where it is refused.
+    says: &'static str,
+    /// Codes of messages that must be among those reported, or that refuse it.
+    told: &'static [u16],
+}
+
+const fn case(
+    from: &'static str,
+    to: &'static str,
+    blocks: &'static str,
+    says: &'static str,
+    told: &'static [u16],
+) -> Case {
+    Case { pair: (from, to), options: [&[], &[]], blocks, says, told }
+}
+
+const fn stated(case: Case, from: &'static [(&str, &str)], to: &'static [(&str, &str)]) -> Case {
+    Case { options: [from, to], ..case }
+}
+
+const HEAD: &str = "G21 G17 G90 G94 G54 G40 G49 G80 / T1 M06 / S1000 M03 / G00 X0. Y0. / G43 H1 Z10. / ";
+const HEAD_S: &str = "G710 G17 G90 G94 G54 G40 / T1 M6 / D1 / S1000 M3 / G0 X0 Y0 / Z10 / ";
+
+const CUT: &str = "M08 / G01 Z-1. F100. / M00 / G01 X20.";
+
+/// A program stop: it stops the spindle on a Haas, does not on LinuxCNC, and is the builder's elsewhere.
+const STOPS: &[Case] = &[
+    case("fanuc", "haas", CUT, "M00 / M03 / M08 / G01 X20.", &[322, 323]),
+    case("linuxcnc", "haas", CUT, "M00 / M03 / M08 / G01 X20.", &[322]),
+    case("linuxcnc", "fanuc", CUT, "M00 / M03 / M08 / G01 X20.", &[322]),
+    case("linuxcnc", "siemens", CUT, "M0 / M3 M8 / G1 X20", &[322]),
+    case("siemens", "haas", "M8 / G1 Z-1 F100 / M0 / G1 X20", "M00 / M03 / M08 / G01 X20.", &[322, 323]),
+    case("haas", "fanuc", CUT, "M05 / M09 / M00 / G01 X20.", &[426]),
+    case("haas", "siemens", CUT, "M5 M9 / M0 / G1 X20", &[426]),
+    case("haas", "linuxcnc", CUT, "M5 M9 / M0 / G1 X20", &[426]),
+    // Nothing is added where the program says it, or where nothing is cut.
+    case("fanuc", "haas", "G01 Z-1. F100. / M00 / S900 M03 / X20.", "M00 / S900 M03 / X20.", &[]),
+    case("linuxcnc", "haas", "G01 Z-1. F100. / G00 Z50. / M00 / X20.", "M00 / X20. / M30", &[]),
+    case("haas", "fanuc", "G01 Z-1. F100. / M05 / M00 / S900 M03 / X20.", "M05 / M00 / S900 M03", &[]),
+    // Both controls leave it to the builder.
+    case("fanuc", "siemens", CUT, "M0 / G1 X20", &[323]),
+    stated(
+        case("fanuc", "siemens", CUT, "M0 / M3 / G1 X20", &[322]),
+        &[("spindle_at_stop", "does-not"), ("coolant_at_stop", "does-not")],
+        &[("spindle_at_stop", "stops"), ("coolant_at_stop", "does-not")],
+    ),
+    stated(
+        case("haas", "fanuc", CUT, "G01 Z-1. F100. / M00 / G01 X20.", &[]),
+        &[],
+        &[("spindle_at_stop", "stops"), ("coolant_at_stop", "stops")],
+    ),
+    // An optional stop, which may not be made.
+    case("haas", "fanuc", "G01 Z-1. F100. / M01 / X20.", "M05 / M01 / M03 / X20.", &[322, 325, 426]),
+    case("linuxcnc", "haas", "G01 Z-1. F100. / M01 / X20.", "M01 / M03 / X20.", &[322]),
+];
+
+const CHANGE: &str = "G01 Z-1. F100. / G00 Z0.1 / T2 M06 / S2000 M03 / G00 X5. Y0. / G43 H2 Z5. / G01 Z-1.";
+
+/// A tool change: a Haas stops the spindle and takes Z to machine zero first.
+const CHANGES: &[Case] = &[
+    case("haas", "fanuc", CHANGE, "M05 / G91 G28 Z0. / T2 M06 / S2000 M03 / G90 G00 X5. Y0.", &[426]),
+    case("haas", "siemens", CHANGE, "M5 / SUPA G0 Z0 D0 / T2 M6 / D1 / S2000 M3 / G0 X5 Y0", &[426]),
+    case("haas", "linuxcnc", CHANGE, "M5 / G53 G0 Z0 / T2 M6 / S2000 M3 / G0 X5 Y0", &[426]),
+    stated(
+        case("haas", "fanuc", CHANGE, "G00 Z0.1 / M05 / T2 M06", &[426]),
+        &[],
+        &[("z_at_change", "machine-zero")],
+    ),
+    // Z is up there already.
+    case(
+        "haas",
+        "fanuc",
+        "G01 Z-1. F100. / M05 / G91 G28 Z0. / G90 / T2 M06 / S2000 M03 / G43 H2 Z5.",
+        "G28 Z0. / G90 / T2 M06",
+        &[],
+    ),
+    case(
+        "linuxcnc",
+        "haas",
+        "G1 Z-1 F100 / M5 / G0 Z5 / T2 M6 / S900 M3 / G0 X5 / G43 H2 Z5 / G1 Z-1",
+        "T2 M06 / S900 M03 / G00 X5.",
+        &[324],
+    ),
+    // The cut would have no spindle, or begin at another Z.
+    case("fanuc", "haas", "G01 Z-1. F100. / G00 Z5. / T2 M06 / G43 H2 Z10. / G01 X20.", "", &[501]),
+    case("linuxcnc", "haas", "G1 Z-1 F100 / M5 / T2 M6 / S900 M3 / G0 X5 / G1 X20", "", &[508]),
+    case(
+        "linuxcnc",
+        "fanuc",
+        "G1 Z-1 F100 / G0 Z5 / T2 M6 / S900 M3 / G43 H2 Z5 / G1 Z-1",
+        "M05 / T2 M06 / S900 M03",
+        &[426],
+    ),
+];
+
+/// The end of a program stops spindle and coolant on LinuxCNC and on a Haas, and is the builder's elsewhere.
+const ENDS: &[Case] = &[
+    case("linuxcnc", "fanuc", "M08 / G01 Z-1. F100.", "M05 / M09 / M30", &[426]),
+    case("haas", "siemens", "M08 / G01 Z-1. F100.", "M5 M9 / M30", &[426]),
+    case("linuxcnc", "haas", "M08 / G01 Z-1. F100.", "Z-1. F100. / M30", &[]),
+    case("fanuc", "linuxcnc", "M08 / G01 Z-1. F100.", "Z-1 F100 / M2", &[]),
+];
+
+const HOME: &str = "G01 Z-1. F100. / G91 G28 Z0. / G90 G00 X50. / Z10. / G01 Z-1.";
+const PLACE: &str = "G01 Z-1. F100. / G53 G00 Z0. / G00 X50. / Z10. / G01 Z-1.";
+
+/// The length of the tool after a place of the machine.
+const LENGTHS: &[Case] = &[
+    case("fanuc", "haas", HOME, "", &[509]),
+    stated(
+        case("fanuc", "haas", HOME, "X50. / G43 H1 Z10. / G01", &[]),
+        &[("length_after_return", "returns")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "linuxcnc", HOME, "X50 / Z10 / G1 Z-1", &[]),
+        &[("length_after_return", "returns")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "linuxcnc", HOME, "X50 / G49 Z10 / G1 Z-1", &[]),
+        &[("length_after_return", "cancelled")],
+        &[],
+    ),
+    case("haas", "fanuc", HOME, "X50. / G49 Z10. / G01", &[]),
+    case("linuxcnc", "fanuc", PLACE, "G53 G00 Z0. / G00 X50. / G43 H1 Z10. / G01", &[]),
+    case("haas", "fanuc", PLACE, "G53 G00 Z0. / G00 X50. / G43 H1 Z10. / G01", &[]),
+    case("fanuc", "haas", PLACE, "", &[509]),
+    // It is called up again anyhow.
+    case(
+        "fanuc",
+        "haas",
+        "G01 Z-1. F100. / G91 G28 Z0. / G90 G43 H1 G00 Z10.",
+        "G28 Z0. / G90 G00 G43 H1 Z10.",
+        &[],
+    ),
+];
+
+/// How corners are taken by a program that never says it.
+const PATHS: &[Case] = &[
+    case("fanuc", "linuxcnc", "G00 Z5. / X100. / Z-20.", "X100 / Z-20", &[326]),
+    case("haas", "siemens", "G01 X20. F5000. / Y20.", "Y20", &[326]),
+    case("linuxcnc", "fanuc", "G64 / G01 X20. F5000. / Y20.", "Y20.", &[]),
+];
+
+#[test]
+fn stops() {
+    run(STOPS);
+}
+
+#[test]
+fn tool_changes() {
+    run(CHANGES);
+}
+
+#[test]
+fn ends_of_programs() {
+    run(ENDS);
+}
+
+#[test]
+fn lengths_after_places_of_the_machine() {
+    run(LENGTHS);
+}
+
+#[test]
+fn path_modes_at_the_start() {
+    run(PATHS);
+}
+
+/// Messages that these tests are about.
+const ABOUT: &[u16] = &[322, 323, 324, 325, 426];
+
+fn run(cases: &[Case]) {
+    let mut failures = Failures::default();
+    for Case { pair: (from, to), options, blocks, says, told } in cases {
+        let mut job = job(from, to, "part");
+        for (settings, options) in [(&mut job.from, options[0]), (&mut job.to, options[1])] {
+            for (option, value) in options {
+                settings.choose(option, value).expect("an option of the dialect");
+            }
+        }
+        job.head = false;
+        let (start, head, end) = match *from {
+            "siemens" => ("", HEAD_S, "M30\n"),
+            "linuxcnc" => ("", HEAD, "M2\n"),
+            _ => ("%\nO1\n", HEAD, "M30\n%\n"),
+        };
+        let source = format!("{start}{}\n{end}", format!("{head}{blocks}").replace(" / ", "\n"));
+        let (outcome, written) = translate(&job, source.as_bytes());
+        let text = String::from_utf8_lossy(&written).replace("\r\n", "\n");
+        let text = text.lines().collect::<Vec<_>>().join(" / ");
+        let name = format!("{from} to {to}: {blocks}");
+        let codes: BTreeSet<u16> = outcome.diagnostics.iter().map(|d| d.fault.code()).collect();
+        let missing: Vec<&u16> = told.iter().filter(|code| !codes.contains(code)).collect();
+        if !missing.is_empty() {
+            failures.add(&name, format!("does not report {missing:?}, but {codes:?}"));
+        }
+        match says.is_empty() {
+            true if outcome.release.is_ok() => failures.add(&name, format!("released: {text}")),
+            true => {}
+            false if outcome.release.is_err() => {
+                failures.add(&name, format!("refused: {:?}", stopping(&job, &outcome)));
+            }
+            false if !text.contains(says) => failures.add(&name, format!("says {text}")),
+            // Silence where the cut is the same on every machine.
+            false if told.is_empty() => {
+                let open = |d: &&ncc_ir::diag::Diagnostic| match d.fault {
+                    // Where Z goes for a tool change is another matter.
+                    Fault::OpenBehaviour { behaviour, .. } => behaviour != Behaviour::ZAtChange,
+                    Fault::SideEffectWritten { behaviour } => {
+                        !matches!(behaviour, Behaviour::SpindleAtEnd | Behaviour::CoolantAtEnd)
+                    }
+                    _ => ABOUT.contains(&d.fault.code()),
+                };
+                if let Some(d) = outcome.diagnostics.iter().find(open) {
+                    failures.add(&name, format!("reports {:?}", d.fault));
+                }
+            }
+            false => {}
+        }
+    }
+    failures.finish();
+}
