@@ -8,7 +8,7 @@
 
 use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::diag::{Diagnostic, Fault};
-use ncc_ir::exec::{Event, Movement, by_control, touched};
+use ncc_ir::exec::{Event, by_control, touched};
 use ncc_ir::program::{Op, Stmt};
 use ncc_ir::verify::{Aspect, Difference};
 
@@ -32,14 +32,11 @@ pub(crate) enum Other {
 }
 
 impl Other {
-    /// Whether the fact explains the difference to which a run has come. With the switch for optional stops on, only a cut
-    /// is explained that the source makes with what its control has switched off.
+    /// Whether the fact explains the difference to which a run has come. With the switch for optional stops on, only moves
+    /// are explained that the source makes with what its control has switched off.
     pub(super) fn explains(self, run: &Run) -> bool {
         let switched = by_control::SPINDLE | by_control::COOLANT;
-        let stands = |event: &Event| {
-            let cuts = matches!(event.kind.moves(), Some(Movement::Feed | Movement::Arc { .. }));
-            cuts && event.state.by_control & switched != 0
-        };
+        let stands = |event: &Event| event.kind.moves().is_some() && event.state.by_control & switched != 0;
         match self {
             Other::Behaviour { .. } => true,
             Other::OptionalStop => run.source_events.first().is_some_and(stands),

@@ -380,7 +380,13 @@ impl Verifier {
                     return Err(Stop::Target(difference));
                 }
                 Err(Ended::Target(difference)) => self.matters.push((other, difference.span)),
-                Err(Ended::Source(fault)) if matches!(fault.fault, Fault::DoneByTarget { .. }) => {
+                // So a difference is told where the source leaves open what the target's control does.
+                Err(Ended::Source(fault))
+                    if matches!(fault.fault, Fault::DoneByTarget { .. } | Fault::FactUnsaid { .. }) =>
+                {
+                    if !other.explains(&run) {
+                        return Err(Stop::Source(fault));
+                    }
                     self.matters.push((other, fault.span));
                 }
                 // It cannot be executed so, or is long enough.
