@@ -66,6 +66,9 @@ behaviours! {
     LengthAfterReturn = "length-after-return", "tool length after a reference point return", ["returns", "cancelled"], Machine;
     /// The same after a move in machine coordinates along Z.
     LengthAfterMachineMove = "length-after-machine-move", "tool length after a move in machine coordinates", ["returns", "cancelled"], Machine;
+    /// A local shift (G52, TRANS) that is in force at M02 and M30: the next program begins with it, or without. No
+    /// move of the program depends on it, so that it is written and not executed.
+    ShiftAtEnd = "shift-at-end", "local shift at the program end", ["kept", "cancelled"], Nothing;
     /// The spindle at M02 and M30.
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
     /// The active F behind a change between millimetres and inches: the same feed, or the same number in the new unit.

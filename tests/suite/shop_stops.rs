@@ -119,6 +119,15 @@ const ENDS: &[Case] = &[
     case("fanuc", "linuxcnc", "M08 / G01 Z-1. F100.", "Z-1 F100 / M2", &[]),
 ];
 
+/// A local shift that is still in force at the end: a Sinumerik drops it, LinuxCNC keeps it for the next program.
+const SHIFTS: &[Case] = &[
+    case("siemens", "linuxcnc", "TRANS X10 / G1 X5 F100 / G0 Z100", "G0 Z100 / M5 / G52 X0 / M2", &[426]),
+    case("siemens", "fanuc", "TRANS X10 / G1 X5 F100 / G0 Z100", "G52 X0. / M30", &[426]),
+    case("fanuc", "linuxcnc", "G52 X5. Y5. / G01 X10. F100.", "G52 X0 Y0 / M2", &[426]),
+    case("fanuc", "linuxcnc", "G52 X5. Y5. / G01 X10. F100. / G52 X0. Y0.", "G52 X0 Y0 / M2", &[]),
+    case("linuxcnc", "fanuc", "G52 X5 Y5 / G1 X10 F100", "X10. F100. / M05 / M30", &[426]),
+];
+
 const HOME: &str = "G01 Z-1. F100. / G91 G28 Z0. / G90 G00 X50. / Z10. / G01 Z-1.";
 const PLACE: &str = "G01 Z-1. F100. / G53 G00 Z0. / G00 X50. / Z10. / G01 Z-1.";
 
@@ -174,6 +183,11 @@ fn tool_changes() {
 #[test]
 fn ends_of_programs() {
     run(ENDS);
+}
+
+#[test]
+fn shifts_at_the_end() {
+    run(SHIFTS);
 }
 
 #[test]

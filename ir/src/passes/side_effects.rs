@@ -23,7 +23,7 @@ use crate::diag::{Diagnostic, Fault};
 use crate::expr::Expr;
 use crate::kinds::{drilling, flow, moves, polar};
 use crate::num::Num;
-use crate::program::{Op, Point, Procedure, Reference, ReferencePoint, Stmt};
+use crate::program::{FrameSlot, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
 
 /// What is known of a switch.
@@ -51,6 +51,8 @@ pub struct SideEffects {
     z_home: bool,
     /// The next straight move is in machine coordinates.
     machine: bool,
+    /// Shifts that may be in force.
+    shifts: Vec<FrameSlot>,
     /// What calls up the length in force; `None` is none.
     length: Option<Op>,
     /// Whether the length in force is known.
@@ -89,6 +91,7 @@ impl SideEffects {
             again: [None, None],
             z_home: true,
             machine: false,
+            shifts: Vec::new(),
             length: None,
             length_known: true,
             length_next: None,
@@ -170,7 +173,10 @@ impl SideEffects {
                 self.switch(CHANGE, false, &mut stmt, made, diags);
                 self.go_home(&mut stmt, made, diags);
             }
-            Op::ProgramEnd => self.switch(END, false, &mut stmt, made, diags),
+            Op::ProgramEnd => {
+                self.switch(END, false, &mut stmt, made, diags);
+                self.cancel_shifts(&mut stmt, made, diags);
+            }
             op if cuts(op) => self.again_before(made, &mut stmt.joined, diags, stmt.span),
             _ => {}
         }
@@ -236,6 +242,22 @@ impl SideEffects {
             ..Stmt::new(stmt.span, op)
         });
         insert(made, stmt, at, new.collect());
+    }
+
+    /// Local shifts at the end of the program, where the source's control cancels them and the target's may keep them.
+    fn cancel_shifts(&mut self, stmt: &mut Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        let behaviour = Behaviour::ShiftAtEnd;
+        let both_open = self.source.is_open(behaviour) && self.target.is_open(behaviour);
+        if !self.source.does(behaviour) || self.target.surely(behaviour) || both_open {
+            return;
+        }
+        let clear = |slot: FrameSlot| Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::ClearFrame(slot)) };
+        let new: Vec<Stmt> = self.shifts.drain(..).map(clear).collect();
+        if !new.is_empty() {
+            diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
+        }
+        let at = insertion(made, stmt);
+        insert(made, stmt, at, new);
     }
 
     /// Whether Z goes to machine zero in words before a tool change.
@@ -398,10 +420,21 @@ impl SideEffects {
                 (self.spindle, self.coolant) = (Switch::Off, Switch::Off);
                 self.length_next = None;
             }
+            Op::SetSlot(slot) if matches!(**slot, Slot::Shift { origin: false, .. }) => {
+                self.shifted(FrameSlot::Local);
+            }
+            Op::SetFrame(_) => self.shifted(FrameSlot::Chain),
+            Op::ClearFrame(slot) if sure => self.shifts.retain(|own| own != slot),
             flow!() => self.elsewhere(),
             _ => {}
         }
         self.note_z(stmt);
+    }
+
+    fn shifted(&mut self, slot: FrameSlot) {
+        if !self.shifts.contains(&slot) {
+            self.shifts.push(slot);
+        }
     }
 
     fn note_z(&mut self, stmt: &Stmt) {
