@@ -131,6 +131,11 @@ impl Job {
     /// there by itself for a tool change, as the source's control does; open as before.
     pub fn target_behaviours(&self) -> Behaviours {
         let mut target = self.to.behaviours();
+        if self.to.dialect.can.everything || self.to.dialect.can.flat {
+            // A text form is no control that would keep anything.
+            let shift = Behaviour::ShiftAtEnd;
+            target.set(shift, self.from.behaviours().get(shift), false);
+        }
         let caps = &self.to.dialect.caps;
         let says = caps.references.home || caps.machine_coordinates;
         let (change, source) = (Behaviour::ZAtChange, self.source_behaviours());

@@ -121,7 +121,7 @@ const ENDS: &[Case] = &[
 
 /// A local shift that is still in force at the end: a Sinumerik drops it, LinuxCNC keeps it for the next program.
 const SHIFTS: &[Case] = &[
-    case("siemens", "linuxcnc", "TRANS X10 / G1 X5 F100 / G0 Z100", "G0 Z100 / M5 / G52 X0 / M2", &[426]),
+    case("siemens", "linuxcnc", "TRANS X10 / G1 X5 F100 / G0 Z100", "G0 Z100 / G52 X0 / M2", &[426]),
     case("siemens", "fanuc", "TRANS X10 / G1 X5 F100 / G0 Z100", "G52 X0. / M30", &[426]),
     case("fanuc", "linuxcnc", "G52 X5. Y5. / G01 X10. F100.", "G52 X0 Y0 / M2", &[426]),
     case("fanuc", "linuxcnc", "G52 X5. Y5. / G01 X10. F100. / G52 X0. Y0.", "G52 X0 Y0 / M2", &[]),

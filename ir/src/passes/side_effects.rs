@@ -420,8 +420,13 @@ impl SideEffects {
                 (self.spindle, self.coolant) = (Switch::Off, Switch::Off);
                 self.length_next = None;
             }
-            Op::SetSlot(slot) if matches!(**slot, Slot::Shift { origin: false, .. }) => {
-                self.shifted(FrameSlot::Local);
+            Op::SetSlot(slot) => {
+                if let Slot::Shift { origin: false, axes } = &**slot {
+                    match sure && axes.iter().flatten().all(is_zero) {
+                        true => self.shifts.retain(|own| *own != FrameSlot::Local),
+                        false => self.shifted(FrameSlot::Local),
+                    }
+                }
             }
             Op::SetFrame(_) => self.shifted(FrameSlot::Chain),
             Op::ClearFrame(slot) if sure => self.shifts.retain(|own| own != slot),
