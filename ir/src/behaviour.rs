@@ -66,6 +66,8 @@ behaviours! {
     LengthAfterReturn = "length-after-return", "tool length after a reference point return", ["returns", "cancelled"], Machine;
     /// The same after a move in machine coordinates along Z.
     LengthAfterMachineMove = "length-after-machine-move", "tool length after a move in machine coordinates", ["returns", "cancelled"], Machine;
+    /// What a dwell counts under a feed per revolution: seconds, or turns of the spindle.
+    DwellPerRevolution = "dwell-per-revolution", "dwell under a feed per revolution", ["seconds", "turns"], Machine;
     /// A local shift (G52, TRANS) that is in force at M02 and M30: the next program begins with it, or without. No
     /// move of the program depends on it, so that it is written and not executed.
     ShiftAtEnd = "shift-at-end", "local shift at the program end", ["kept", "cancelled"], Nothing;

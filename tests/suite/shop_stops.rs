@@ -128,6 +128,17 @@ const SHIFTS: &[Case] = &[
     case("linuxcnc", "fanuc", "G52 X5 Y5 / G1 X10 F100", "X10. F100. / M05 / M30", &[426]),
 ];
 
+const TURNS: &str = "G95 G01 Z-1. F0.1 / G04 X2. / G94 X5. F100.";
+
+/// A dwell under a feed per revolution: seconds, or turns by a Fanuc's parameter.
+const DWELLS: &[Case] = &[
+    case("fanuc", "linuxcnc", TURNS, "G4 P2", &[323]),
+    case("fanuc", "siemens", TURNS, "G4 F2", &[323]),
+    case("linuxcnc", "fanuc", "G95 G1 Z-1 F0.1 / G4 P2 / G94 X5 F100", "G04 X2.", &[323]),
+    stated(case("fanuc", "linuxcnc", TURNS, "G4 P2", &[]), &[("dwell_per_revolution", "seconds")], &[]),
+    case("fanuc", "linuxcnc", "G01 Z-1. F100. / G04 X2.", "G4 P2", &[]),
+];
+
 const HOME: &str = "G01 Z-1. F100. / G91 G28 Z0. / G90 G00 X50. / Z10. / G01 Z-1.";
 const PLACE: &str = "G01 Z-1. F100. / G53 G00 Z0. / G00 X50. / Z10. / G01 Z-1.";
 
@@ -188,6 +199,11 @@ fn ends_of_programs() {
 #[test]
 fn shifts_at_the_end() {
     run(SHIFTS);
+}
+
+#[test]
+fn dwells_per_revolution() {
+    run(DWELLS);
 }
 
 #[test]

@@ -9,7 +9,8 @@ use super::{Event, Exec, Kind, Length, Z, by_control};
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, FeedMode, Spindle};
 use crate::diag::{Diagnostic, Fault};
-use crate::num::Nanos;
+use crate::expr::Expr;
+use crate::num::{Nanos, ONE};
 use crate::program::{Op, ReferencePoint, Stmt};
 use crate::source::Span;
 
@@ -35,7 +36,11 @@ impl Exec {
     pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
         let included = if self.includes_in(stmts) { Behaviour::FrameOffsetIncremental.bit() } else { 0 };
         let turns = if self.turns_far_in(stmts) { Behaviour::RotaryTurn.bit() } else { 0 };
-        included | turns | self.lengths_aside_in(stmts)
+        let per_turn = |stmt: &Stmt| matches!(stmt.op, Op::SetFeedMode(FeedMode::PerRevolution));
+        let dwells = stmts.iter().any(|stmt| matches!(stmt.op, Op::Dwell(_)))
+            && (self.state.feed_mode == FeedMode::PerRevolution || stmts.iter().any(per_turn));
+        let dwells = if dwells { Behaviour::DwellPerRevolution.bit() } else { 0 };
+        included | turns | dwells | self.lengths_aside_in(stmts)
     }
 
     /// Another value of a behaviour counts from now on.
@@ -72,6 +77,29 @@ impl Exec {
             // Beyond every feed: the next cut needs another.
             Err(_) => self.feed = 0,
         }
+    }
+
+    /// A dwell: seconds, or turns of the spindle where the control counts these under a feed per revolution.
+    ///
+    /// # Errors
+    /// Turns of a spindle without a speed.
+    #[cold]
+    pub(super) fn dwell_code(
+        &mut self,
+        amount: &Expr,
+        span: Span,
+        out: &mut Vec<Event>,
+    ) -> Result<(), Diagnostic> {
+        let mut seconds = self.value(amount, span)?;
+        if self.state.feed_mode == FeedMode::PerRevolution && self.does(Behaviour::DwellPerRevolution) {
+            let turns = self.state.turns(self.last[0]);
+            if turns <= 0 {
+                return self.fault(Fault::NoSpeed, span);
+            }
+            let counted = i128::from(seconds) * 60 * i128::from(ONE) / i128::from(turns);
+            seconds = Nanos::try_from(counted).unwrap_or(Nanos::MAX);
+        }
+        self.emit(Kind::Dwell(seconds), span, out)
     }
 
     /// A stop, or the end of the program.

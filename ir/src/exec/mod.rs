@@ -637,10 +637,7 @@ impl Exec {
             Op::FloodOn => self.coolant(true, self.state.mist, span, out)?,
             Op::MistOn => self.coolant(self.state.flood, true, span, out)?,
             Op::CoolantOff => self.coolant(false, false, span, out)?,
-            Op::Dwell(seconds) => {
-                let seconds = self.value(seconds, span)?;
-                self.emit(Kind::Dwell(seconds), span, out)?;
-            }
+            Op::Dwell(amount) => self.dwell_code(amount, span, out)?,
             Op::StartCycle(cycle) => self.start_cycle(cycle, span)?,
             Op::Hole(m) => self.hole(&m.to, span, out)?,
             Op::Pattern(pattern) => self.pattern(pattern, span, out)?,
