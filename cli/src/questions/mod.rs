@@ -1,7 +1,7 @@
 //! Questions: facts of a source's control that the program does not state and that change its cut.
 //!
-//! A fact is asked only if its two values, executed, make two different cuts of this program. [`find`] takes the
-//! facts that a reading has assumed, runs the source under both values ([`race`]), and keeps those that differ.
+//! A fact is asked only if its two values, executed, make two different cuts of this program. `find` takes the
+//! facts that a reading has assumed, runs the source under both values (`race`), and keeps those that differ.
 //!
 //! ```text
 //! G43 H1 Z100     → is Z100 100 mm or 0.1 mm?   answer: `--from-option decimal_point=…`
@@ -172,7 +172,7 @@ pub(crate) fn find(
 /// The questions of a text, which is read for it.
 ///
 /// # Errors
-/// As of [`find`]; a text in memory gives none.
+/// As of `find`; a text in memory gives none.
 pub fn of_text(job: &Job, text: &[u8]) -> io::Result<Vec<Question>> {
     let (mut reader, mut batch) = (job.reader(true), Batch::default());
     reader.read(text, 0, &mut batch);
