@@ -592,8 +592,9 @@ impl<'j> Line<'j> {
     }
 
     fn count(&mut self) {
-        let sets = |stmts: &[Stmt]| stmts.iter().any(|s| matches!(s.op, Op::SetMotionControlMode(_)));
-        self.sets_path |= sets(&self.batch.stmts) || self.batch.procedures.iter().any(|p| sets(&p.body));
+        let procedures = &self.batch.procedures;
+        self.sets_path |=
+            heading::sets_path(&self.batch.stmts) || procedures.iter().any(|p| heading::sets_path(&p.body));
         let blocks = self.batch.stmts.iter().filter(|s| !s.joined).count();
         self.blocks += blocks as u64;
         let told = |s: &&Stmt| !matches!(s.op, Op::Blank | Op::Comment(_));

@@ -109,6 +109,7 @@ fn printed(text: &[u8], tables: &Tables) -> Result<String, String> {
     // The stand-alone interpreter is a machine in inches.
     let mut chosen = settings("linuxcnc");
     chosen.choose("machine_units", "inch").expect("an option");
+    let arcs = chosen.arc_rule();
     let mut reader = Reader::new(chosen, true);
     reader.read(text, 0, &mut batch);
     reader.finish(&mut batch);
@@ -120,7 +121,7 @@ fn printed(text: &[u8], tables: &Tables) -> Result<String, String> {
     let main = Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() };
     let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
     let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
-    rs274::print(&program, text, tables).map_err(|d| format!("{:?}", d.fault))
+    rs274::print(&program, text, tables, arcs).map_err(|d| format!("{:?}", d.fault))
 }
 
 /// The tools of a table: a line has their number behind a T, their offsets behind X, Y and Z, and their diameter behind

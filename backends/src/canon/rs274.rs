@@ -34,17 +34,6 @@ use ncc_ir::track::Tracker;
 use ncc_ir::valid::leads_nowhere;
 use ncc_ir::world::{Tables, World};
 
-/// Which arcs the interpreter takes (interp_arc.cc): 0.02 mm or 0.002 in, times the root of two, or a thousandth of the
-/// larger radius, and never a hundred times that; no radius below 0.00005 in.
-const ARCS: ArcRule = ArcRule {
-    tolerance: Some([28_284_271, 71_842_048]),
-    relative: ONE / 1000,
-    of_larger: true,
-    limit: 100,
-    least: 1_270_000,
-    short: [1_270_000; 2],
-};
-
 /// How far the interpreter stands before where it takes a probe to have touched: 0.01 inch.
 pub const BACKS_OFF: Nanos = 254 * ONE / 1000;
 
@@ -60,11 +49,11 @@ enum Turning {
 }
 
 /// Prints the calls of a program; `source` is its text, of which the comments are shown, and `tables` has lengths
-/// and radii of tools by their numbers.
+/// and radii of tools by their numbers, and `arcs` is which arcs the interpreter takes.
 ///
 /// # Errors
 /// The interpreter refuses it, or it says what this printer has no table for.
-pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String, Diagnostic> {
+pub fn print(program: &Program, source: &[u8], tables: &Tables, arcs: ArcRule) -> Result<String, Diagnostic> {
     let entry = Modes {
         units: Some(Units::Mm),
         plane: Some(Plane::Xy),
@@ -83,7 +72,7 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String
     world.tables = tables.clone();
     world.backs_off = BACKS_OFF;
     world.length_by_change = true;
-    world.arcs = ARCS;
+    world.arcs = arcs;
     let mut exec = Exec::new(&world, 0);
     // The interpreter makes a call of a move that goes nowhere too.
     exec.every_move();
@@ -94,6 +83,7 @@ pub fn print(program: &Program, source: &[u8], tables: &Tables) -> Result<String
         program,
         source,
         tables,
+        arcs,
         out: String::new(),
         at: start,
         beside: false,
@@ -133,6 +123,8 @@ struct Printer<'p> {
     program: &'p Program,
     source: &'p [u8],
     tables: &'p Tables,
+    /// Which arcs the interpreter takes.
+    arcs: ArcRule,
     out: String,
     /// Modes, position and the cycle in force.
     at: Tracker,
@@ -611,18 +603,17 @@ impl Printer<'_> {
             Centre::Point { .. } => self.at.centre(arc).ok_or_else(|| cannot("this centre"))?,
             Centre::Radius(radius) => {
                 let radius = self.at.nanos(radius).ok_or_else(|| cannot("this radius"))?;
-                geometry::centre_by_radius(start, end, radius, arc.turn, ARCS.short(self.inch())).map_err(
-                    |fault| match fault {
+                geometry::centre_by_radius(start, end, radius, arc.turn, self.arcs.short(self.inch()))
+                    .map_err(|fault| match fault {
                         ArcFault::RadiusTooSmall => Fault::ArcRadiusTooSmall,
                         ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => Fault::ArcRadiusNoWay,
                         ArcFault::EndOffCircle { radii, allowed } => {
                             Fault::ArcEndOffCircle { radii, allowed }
                         }
-                    },
-                )?
+                    })?
             }
         };
-        ARCS.check(geometry::radii(start, end, centre), self.inch()).map_err(|fault| match fault {
+        self.arcs.check(geometry::radii(start, end, centre), self.inch()).map_err(|fault| match fault {
             ArcFault::EndOffCircle { radii, allowed } => Fault::ArcEndOffCircle { radii, allowed },
             ArcFault::RadiusTooSmall | ArcFault::NoWay | ArcFault::NoRadius | ArcFault::Straight => {
                 Fault::ArcRadiusTooSmall

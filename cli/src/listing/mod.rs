@@ -87,7 +87,7 @@ pub(crate) fn run(
         let main = batch.main(body);
         let procedures = [main].into_iter().chain(std::mem::take(&mut batch.procedures)).collect();
         let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures };
-        match rs274::print(&program, &text, &tables(job)) {
+        match rs274::print(&program, &text, &tables(job), job.from.arc_rule()) {
             Ok(printed) => {
                 let same = job.verify.then(|| read_back::verify(job, &program, &text, &printed));
                 match same.unwrap_or(Ok(())) {

@@ -34,13 +34,19 @@ impl Exec {
     /// Behaviours that these statements come to from the state that the control is in, a bit each; those that any
     /// state comes to are [`touched`]'s.
     pub fn comes_to(&self, stmts: &[Stmt]) -> u64 {
-        let included = if self.includes_in(stmts) { Behaviour::FrameOffsetIncremental.bit() } else { 0 };
-        let turns = if self.turns_far_in(stmts) { Behaviour::RotaryTurn.bit() } else { 0 };
-        let per_turn = |stmt: &Stmt| matches!(stmt.op, Op::SetFeedMode(FeedMode::PerRevolution));
-        let dwells = stmts.iter().any(|stmt| matches!(stmt.op, Op::Dwell(_)))
-            && (self.state.feed_mode == FeedMode::PerRevolution || stmts.iter().any(per_turn));
-        let dwells = if dwells { Behaviour::DwellPerRevolution.bit() } else { 0 };
-        included | turns | dwells | self.lengths_aside_in(stmts)
+        let bit = |comes: bool, behaviour: Behaviour| if comes { behaviour.bit() } else { 0 };
+        let in_mode = |mode: FeedMode, counted: fn(&Op) -> bool| {
+            stmts.iter().any(|stmt| counted(&stmt.op))
+                && (self.state.feed_mode == mode
+                    || stmts.iter().any(|stmt| matches!(stmt.op, Op::SetFeedMode(set) if set == mode)))
+        };
+        let dwells = in_mode(FeedMode::PerRevolution, |op| matches!(op, Op::Dwell(_)));
+        let arcs = in_mode(FeedMode::InverseTime, |op| matches!(op, Op::ArcFeed(_)));
+        bit(self.includes_in(stmts), Behaviour::FrameOffsetIncremental)
+            | bit(self.turns_far_in(stmts), Behaviour::RotaryTurn)
+            | bit(dwells, Behaviour::DwellPerRevolution)
+            | bit(arcs, Behaviour::ArcByTime)
+            | self.lengths_aside_in(stmts)
     }
 
     /// Another value of a behaviour counts from now on.
@@ -252,4 +258,34 @@ pub fn touched(op: &Op) -> u64 {
 /// Whether an event happens in a cut, where all of the machine's state counts.
 pub(crate) fn cuts(kind: &Kind) -> bool {
     matches!(kind, Kind::Feed | Kind::Synchronised { .. } | Kind::Probe { .. } | Kind::Arc { .. })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::canon::{Fact, Modes, Plane, Turn};
+    use crate::num::{Num, Unit};
+    use crate::program::{Arc, Centre, Point};
+    use crate::world::World;
+
+    /// What F counts on an arc is a question under a feed by time alone, stated before or with the arc.
+    #[test]
+    fn an_arc_comes_to_its_fact_under_inverse_time() {
+        let stmt = |op| Stmt::new(Span::default(), op);
+        let arc = || {
+            stmt(Op::ArcFeed(Box::new(Arc {
+                plane: Fact::Known(Plane::Xy),
+                turn: Turn::Clockwise,
+                to: Point::default(),
+                centre: Centre::Radius(Expr::Num(Num::int(5, Unit::Mm))),
+                turns: 0,
+                said: true,
+            })))
+        };
+        let exec = Exec::new(&World::generate(0, &Modes::default()), 0);
+        let comes = |stmts: &[Stmt]| exec.comes_to(stmts) & Behaviour::ArcByTime.bit() != 0;
+        assert!(!comes(&[arc()]));
+        assert!(comes(&[stmt(Op::SetFeedMode(FeedMode::InverseTime)), arc()]));
+        assert!(!comes(&[stmt(Op::SetFeedMode(FeedMode::InverseTime))]));
+    }
 }

@@ -17,7 +17,8 @@ fn listed(job: &Job) -> (Program, String) {
     reader.finish(&mut batch);
     let main = Procedure { body: std::mem::take(&mut batch.stmts), ..Procedure::default() };
     let program = Program { name: batch.name.clone(), assumed: batch.assumed, procedures: vec![main] };
-    let text = rs274::print(&program, PART.as_bytes(), &Default::default()).expect("a listing");
+    let text =
+        rs274::print(&program, PART.as_bytes(), &Default::default(), job.from.arc_rule()).expect("a listing");
     (program, text)
 }
 
