@@ -174,6 +174,19 @@ const LENGTHS: &[Case] = &[
     ),
 ];
 
+/// What F counts where a rotary axis turns in a cut: open on a Siemens, which is told in a loop as well.
+const ROTARY_FEEDS: &[Case] = &[
+    case("siemens", "linuxcnc", "G0 A0 / G1 Z-1 F100 / X40 A30", "X40 A30", &[323]),
+    case(
+        "siemens",
+        "linuxcnc",
+        "G0 A0 / R1=0 / WHILE R1<2 / G91 G1 X40 A30 F100 / G90 / R1=R1+1 / ENDWHILE",
+        "G91 G1 X40 A30",
+        &[323],
+    ),
+    case("siemens", "linuxcnc", "G0 A0 / G1 Z-1 F100 / G0 X40 A30", "G0 X40 A30", &[]),
+];
+
 /// How corners are taken by a program that never says it.
 const PATHS: &[Case] = &[
     case("fanuc", "linuxcnc", "G00 Z5. / X100. / Z-20.", "X100 / Z-20", &[326]),
@@ -214,6 +227,11 @@ fn lengths_after_places_of_the_machine() {
 #[test]
 fn path_modes_at_the_start() {
     run(PATHS);
+}
+
+#[test]
+fn rotary_feeds_in_the_stream_and_in_loops() {
+    run(ROTARY_FEEDS);
 }
 
 /// Messages that these tests are about.

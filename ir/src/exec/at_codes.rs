@@ -16,7 +16,7 @@ use crate::source::Span;
 
 impl Exec {
     /// Whether the control does something besides the name of a code; notes that it was asked.
-    fn does(&mut self, behaviour: Behaviour) -> bool {
+    pub(super) fn does(&mut self, behaviour: Behaviour) -> bool {
         self.asked |= behaviour.bit();
         self.world.behaviours.does(behaviour)
     }

@@ -20,12 +20,12 @@ pub(super) type Pace = Option<Nanos>;
 impl Exec {
     /// The time of a cut along a line from where the machine stands, if rotary axes turn in it.
     #[inline]
-    pub(super) fn pace_of_line(&self, end: &[Nanos; AXES]) -> Pace {
+    pub(super) fn pace_of_line(&mut self, end: &[Nanos; AXES]) -> Pace {
         if end[3..] == self.last[3..] { None } else { self.pace_of_turn(end) }
     }
 
     #[cold]
-    fn pace_of_turn(&self, end: &[Nanos; AXES]) -> Pace {
+    fn pace_of_turn(&mut self, end: &[Nanos; AXES]) -> Pace {
         if self.state.tip || self.state.tilted {
             return None;
         }
@@ -37,6 +37,7 @@ impl Exec {
             }
             FeedMode::PerRevolution | FeedMode::InverseTime => return None,
         };
+        self.asked |= Behaviour::RotaryFeed.bit();
         let number = self.feed as f64 / ONE as f64 / unit * per_minute;
         let along = |axes: std::ops::Range<usize>| {
             axes.map(|axis| (end[axis] - self.last[axis]) as f64 / ONE as f64).fold(0.0, f64::hypot)
@@ -52,9 +53,8 @@ impl Exec {
     }
 
     /// The time of an arc of so many degrees, where F by time counts radii.
-    pub(super) fn pace_of_arc(&self, degrees: f64) -> Pace {
-        let by_time = self.state.feed_mode == FeedMode::InverseTime;
-        if !by_time || !self.world.behaviours.does(Behaviour::ArcByTime) {
+    pub(super) fn pace_of_arc(&mut self, degrees: f64) -> Pace {
+        if self.state.feed_mode != FeedMode::InverseTime || !self.does(Behaviour::ArcByTime) {
             return None;
         }
         rate(self.feed as f64 / ONE as f64 / degrees.abs().to_radians())
