@@ -27,7 +27,7 @@ pub struct Source {
     pub name: String,
     /// What programs it calls from files of their own; they stand behind its own text in `file`.
     pub called: Option<Called>,
-    /// What was taken for granted of it before it is read.
+    /// Assumptions about the file that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,
     identity: Option<Handle>,
 }

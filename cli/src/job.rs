@@ -59,11 +59,11 @@ pub struct Job {
     pub source_name: String,
     /// Files of called programs, which stand behind the source's own text.
     pub called: Option<Called>,
-    /// What is taken for granted of the source before it is read.
+    /// Assumptions about the source that the user stated, such as `--assume milling`.
     pub assumed: Vec<Diagnostic>,
     /// Other dialects that explain the source's text as well as its own: where it was recognised, and not named.
     pub rivals: Vec<&'static Dialect>,
-    /// What is done about questions: facts that the program does not state and that change its cut.
+    /// The handling of questions: facts that change the cut and that the program does not state.
     pub questions: Policy,
     /// Verdicts that stop a translation by themselves, and shall not.
     pub allow: Vec<Verdict>,
@@ -117,8 +117,8 @@ impl Job {
         self.from.dialect.id != to.id && !to.can.everything && !to.can.flat
     }
 
-    /// What codes of the source's control do besides their names. A list of events has no word for machine zero: it is
-    /// of the program's own moves.
+    /// Side effects of codes on the source's control. A list of events has no word for machine zero: it holds the
+    /// program's own moves only.
     pub fn source_behaviours(&self) -> Behaviours {
         let mut source = self.from.behaviours();
         if self.to.dialect.can.flat {
@@ -127,8 +127,8 @@ impl Job {
         source
     }
 
-    /// What codes of the target's control do besides their names. A target without words for machine zero is taken to go
-    /// there by itself for a tool change, as the source's control does; open as before.
+    /// Side effects of codes on the target's control. A target without words for machine zero is assumed to move Z
+    /// there at a tool change, as the source's control does. An open fact stays open.
     pub fn target_behaviours(&self) -> Behaviours {
         let mut target = self.to.behaviours();
         if self.to.dialect.can.everything || self.to.dialect.can.flat {

@@ -28,14 +28,14 @@ use crate::render::{Place, Told};
 /// Of the further signs, so many are named.
 const MOST_SIGNS: usize = 4;
 
-/// What `--assume` takes for granted.
+/// Assumptions that `--assume` states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Assumed {
     /// Every program is for a mill, whatever it looks like
     Milling,
 }
 
-/// How a refusal is told.
+/// The form in which a refusal is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Voice {
     /// For people.
@@ -46,7 +46,7 @@ pub(crate) enum Voice {
     Quiet,
 }
 
-/// Opens a program. One that is not for a mill is refused, and that is told on `err`.
+/// Opens a program, and reports on `err` that it refuses a program that is not for a mill.
 ///
 /// # Errors
 /// It cannot be read. Or it is not for a mill: such a problem has been told, and has no words of its own.

@@ -74,7 +74,7 @@ pub(super) struct Row {
     pub(super) missing: Vec<Missing>,
     /// Why there is no output, in one line.
     pub(super) reason: Option<String>,
-    /// What is asked, the most dangerous first.
+    /// Questions, the most dangerous first.
     pub(super) questions: Vec<Value>,
     pub(super) messages: Vec<Value>,
     pub(super) seconds: f64,

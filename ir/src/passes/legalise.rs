@@ -192,8 +192,7 @@ impl Legaliser {
         }
     }
 
-    /// What codes of the source's control do besides their names: a spindle that it stops at a tool change does not go on
-    /// turning.
+    /// Sets the side effects of codes on the source's control. The passes compare them with the target's.
     pub fn set_source_behaviours(&mut self, source: Behaviours) {
         let up = |behaviours: &Behaviours| behaviours.surely(Behaviour::ZAtChange);
         self.walk.at.z_lost_at_change = up(&source) || up(&self.target.caps.behaviours);

@@ -129,7 +129,7 @@ pub struct Target {
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.
     pub other_control: bool,
-    /// What codes of the source's control do besides their names.
+    /// Side effects of codes on the source's control.
     pub source: Behaviours,
     /// Variables, by their names in lower case, that have a value before the program begins.
     pub given: BTreeMap<Text, f64>,
