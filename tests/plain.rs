@@ -194,6 +194,7 @@ pub fn setup(world: &World, skip: u16) -> Setup {
             return_initial: world.power_on.return_level != Some(ReturnLevel::Retract),
             ..PowerOn::default()
         },
+        left: Default::default(),
         last_digits_up: false,
     }
 }

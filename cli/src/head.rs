@@ -110,6 +110,12 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
             let [to, from] = dialects.map(|dialect| dialect.id.as_str());
             format!("no path mode is programmed: corners {source} on {from}, {target} on {to}")
         }
+        Fault::NextRunShifted { axis, .. } => {
+            format!("no shift of {} at the start, though the program leaves one", char::from(axis.letter()))
+        }
+        Fault::NextRunTurned => {
+            "no rotation, scale or mirror at the start, though the program leaves one".to_owned()
+        }
         Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),

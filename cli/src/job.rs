@@ -9,7 +9,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 use ncc_backends::Layout;
 use ncc_dialects::{Dialect, Settings};
 use ncc_frontends::Reader;
-use ncc_ir::behaviour::{Behaviour, Behaviours};
+use ncc_ir::behaviour::{Behaviour, Behaviours, Concern};
 use ncc_ir::beside::Rules;
 use ncc_ir::canon::AXES;
 use ncc_ir::diag::{Diagnostic, Gravity, Verdict};
@@ -133,8 +133,9 @@ impl Job {
         let mut target = self.to.behaviours();
         if self.to.dialect.can.everything || self.to.dialect.can.flat {
             // A text form is no control that would keep anything.
-            let shift = Behaviour::ShiftAtEnd;
-            target.set(shift, self.from.behaviours().get(shift), false);
+            for behaviour in Behaviour::ALL.iter().filter(|one| one.concern() == Concern::AtEnd) {
+                target.set(*behaviour, self.from.behaviours().get(*behaviour), false);
+            }
         }
         let caps = &self.to.dialect.caps;
         let says = caps.references.home || caps.machine_coordinates;

@@ -2,6 +2,7 @@
 //! worlds and under the same block-skip settings, and their events compared.
 
 mod facts;
+mod twice;
 mod whole;
 
 pub(crate) use facts::stops_differ;
@@ -491,6 +492,7 @@ impl Verifier {
                 .advance(&mut run.source_events, &mut run.target_events, true)
                 .map_err(|d| different(&d, run.source.unsaid(&self.own_facts), self.last))?;
         }
+        self.compare_next_runs();
         Ok(())
     }
 

@@ -15,6 +15,8 @@ pub enum Concern {
     Machine,
     /// The cut is the same under all values.
     Nothing,
+    /// The first run cuts the same under all values, the next one may begin otherwise.
+    AtEnd,
 }
 
 macro_rules! behaviours {
@@ -68,9 +70,12 @@ behaviours! {
     LengthAfterMachineMove = "length-after-machine-move", "tool length after a move in machine coordinates", ["returns", "cancelled"], Machine;
     /// What a dwell counts under a feed per revolution: seconds, or turns of the spindle.
     DwellPerRevolution = "dwell-per-revolution", "dwell under a feed per revolution", ["seconds", "turns"], Machine;
-    /// A local shift (G52, TRANS) that is in force at M02 and M30: the next program begins with it, or without. No
-    /// move of the program depends on it, so that it is written and not executed.
-    ShiftAtEnd = "shift-at-end", "local shift at the program end", ["kept", "cancelled"], Nothing;
+    /// A local shift (G52, TRANS) that is in force at M02 and M30: the next program begins with it, or without.
+    ShiftAtEnd = "shift-at-end", "local shift at the program end", ["kept", "cancelled"], AtEnd;
+    /// The same of a shift of the origin (G92).
+    OriginAtEnd = "origin-at-end", "shift of the origin at the program end", ["kept", "cancelled"], AtEnd;
+    /// The same of a rotation, scale and mirror that a program has programmed (G68, G51, G51.1).
+    RotationAtEnd = "rotation-at-end", "rotation, scale and mirror at the program end", ["kept", "cancelled"], AtEnd;
     /// The spindle at M02 and M30.
     SpindleAtEnd = "spindle-at-end", "spindle at the program end", ["does-not", "stops"], Nothing;
     /// The active F behind a change between millimetres and inches: the same feed, or the same number in the new unit.

@@ -5,6 +5,7 @@
 
 use crate::behaviour::Behaviour;
 use crate::beside::Unreachable;
+use crate::canon::Axis;
 use crate::maps::Numbered;
 use crate::num::Num;
 use crate::source::Span;
@@ -316,6 +317,11 @@ faults! {
     OptionalStopDiffers = 325, verdict(Verdict::Assumed);
     /// The program never says how corners are taken, and the two controls begin otherwise: how each does.
     PathAtStart { source: &'static str, target: &'static str } = 326, verdict(Verdict::Assumed);
+    /// The program leaves a shift in force that one control keeps for its next run, before it shifts the axis itself:
+    /// by how much each begins it shifted, nanos of a millimetre or a degree.
+    NextRunShifted { axis: Axis, source: i64, target: i64 } = 327, verdict(Verdict::Assumed);
+    /// The same of a rotation, a scale or a mirror.
+    NextRunTurned = 328, verdict(Verdict::Assumed);
     /// A cut at a feed that was stated before the units changed: what it was, and what the source's control makes of it;
     /// nanos of a millimetre.
     FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);

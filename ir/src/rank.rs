@@ -60,6 +60,8 @@ impl Fault {
             | Fault::OpenBehaviour { .. }
             | Fault::MovedAtChange
             | Fault::PathAtStart { .. }
+            | Fault::NextRunShifted { .. }
+            | Fault::NextRunTurned
             | Fault::AssumedMilling { .. }
             | Fault::FeedAtUnits { .. }
             | Fault::OptionalStopDiffers

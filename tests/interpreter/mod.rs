@@ -15,6 +15,7 @@ mod hole;
 pub mod ir;
 pub mod linuxcnc;
 pub mod mach9;
+mod next_run;
 mod pace;
 pub mod setup;
 pub mod siemens;
@@ -273,17 +274,18 @@ pub struct Machine {
 
 impl Machine {
     /// A machine that was just switched on.
-    pub fn new(setup: Setup) -> Machine {
+    pub fn new(mut setup: Setup) -> Machine {
         let modes = setup.power_on;
+        let next_run::Left { stored, slots } = std::mem::take(&mut setup.left);
         Machine {
             at: setup.start,
             touched: None,
             touched_above: None,
             setup,
-            stored: Stored::default(),
-            slots: Slots::default(),
-            turn: Frame::NONE,
-            slot_shift: [0.0; 6],
+            stored,
+            turn: slots.turn(),
+            slot_shift: slots.shift(),
+            slots,
             settled: [true; 6],
             inch: modes.inch,
             absolute: modes.absolute,

@@ -1,5 +1,6 @@
 //! What the control knows that no program says: its tables, its switches, its modes at power-on.
 
+use super::next_run::Left;
 use super::{Kinematics, Place};
 
 /// What the control knows that the program does not say.
@@ -46,6 +47,8 @@ pub struct Setup {
     /// Whether powers, for LinuxCNC, and what words round, for a Fanuc, come out a little greater, by less than a control
     /// promises: what then goes elsewhere hangs on the last digits of its numbers.
     pub last_digits_up: bool,
+    /// What the program that ran before has left.
+    pub left: Left,
 }
 
 /// What a machine counts by itself.
@@ -130,6 +133,7 @@ impl Setup {
             kinematics: Kinematics { tip: [0.0; 3], plane: [0.0; 3], upright: None },
             power_on: PowerOn::default(),
             last_digits_up: false,
+            left: Left::default(),
         }
     }
 }

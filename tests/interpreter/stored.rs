@@ -22,6 +22,16 @@ pub(super) struct Stored {
 }
 
 impl Stored {
+    /// The tool is out of the spindle.
+    pub(super) fn nothing_in_force(&mut self) {
+        self.aside = [0.0; 2];
+    }
+
+    /// Whether a program has put anything into the tables.
+    pub(super) fn holds(&self) -> bool {
+        !(self.zeros.is_empty() && self.turns.is_empty() && self.lengths.is_empty() && self.radii.is_empty())
+    }
+
     /// What an entry puts a tool aside; none where no program has said so.
     pub(super) fn aside_of(&self, entry: u32) -> [f64; 2] {
         self.asides.get(&entry).copied().unwrap_or_default()

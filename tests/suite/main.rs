@@ -46,4 +46,5 @@ mod text_forms;
 mod tidy;
 mod time;
 mod time_modes;
+mod twice;
 mod verify;

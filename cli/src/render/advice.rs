@@ -145,6 +145,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::PathAtStart { .. } => {
             own("program the path mode at the start: exact stop, or rounding with its tolerance")
         }
+        Fault::NextRunShifted { .. } | Fault::NextRunTurned => {
+            own("cancel it in the source before its end, or state it at its start")
+        }
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {

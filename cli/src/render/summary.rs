@@ -289,6 +289,8 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::FeedAtUnits { .. }
         | Fault::MovedAtChange
         | Fault::PathAtStart { .. }
+        | Fault::NextRunShifted { .. }
+        | Fault::NextRunTurned
         | Fault::OptionalStopDiffers
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }

@@ -4,6 +4,7 @@
 //! is in `advice`, the background on the fault's page in `pages/`.
 
 use ncc_dialects::{Dialect, Meaning};
+use ncc_ir::behaviour::Concern;
 use ncc_ir::canon::PathMode;
 use ncc_ir::diag::{ArgumentCheck, Fault, ModeName};
 use ncc_ir::maps::Numbered;
@@ -207,9 +208,29 @@ pub fn words(fault: &Fault, at: Context) -> Words {
             format!("{}: started again before this cut", behaviour.about()),
             format!("{to} may have switched it off by itself, {from} has not"),
         ),
-        Fault::OpenBehaviour { behaviour, source, other, .. } => (
-            format!("check at the machine: {}", behaviour.about()),
-            format!("another cut where {} = {other} on {}", behaviour.option(), if *source { from } else { to }),
+        Fault::OpenBehaviour { behaviour, source, other, .. } => {
+            let cut = match behaviour.concern() {
+                Concern::AtEnd => "the next run begins in another place",
+                Concern::Machine | Concern::Nothing => "another cut",
+            };
+            let control = if *source { from } else { to };
+            (
+                format!("check at the machine: {}", behaviour.about()),
+                format!("{cut} where {} = {other} on {control}", behaviour.option()),
+            )
+        }
+        Fault::NextRunShifted { axis, source, target } => (
+            "check at the machine: the next run begins in another place".into(),
+            format!(
+                "{from} begins it with {} shifted by {}, {to} by {}",
+                char::from(axis.letter()),
+                millimetres(*source),
+                millimetres(*target)
+            ),
+        ),
+        Fault::NextRunTurned => (
+            "check at the machine: the next run begins in another frame".into(),
+            "one control keeps a rotation, scale or mirror at the end of the program, the other does not".into(),
         ),
         Fault::FeedAtUnits { before, now } => (
             match before == now {

@@ -200,7 +200,7 @@ impl Verifier {
 
 /// Open facts of both controls that are looked at: those that matter at the machine, between two controls.
 pub(super) fn looked_at(job: &Job) -> [u64; 2] {
-    let matter = Behaviour::ALL.iter().filter(|behaviour| behaviour.concern() == Concern::Machine);
+    let matter = Behaviour::ALL.iter().filter(|behaviour| behaviour.concern() != Concern::Nothing);
     let matter = matter.fold(0, |bits, behaviour| bits | behaviour.bit());
     [&job.from, &job.to]
         .map(|side| if job.between_controls() { side.behaviours().open() & matter } else { 0 })

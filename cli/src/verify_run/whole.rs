@@ -320,6 +320,7 @@ impl Verifier {
             starts.extend(start);
         }
         self.runs = runs;
+        self.compare_next_runs();
         let sides = [source, &target];
         if let Some(plain) = plain {
             self.whole_with_facts(&plain, sides, given, asked)?;

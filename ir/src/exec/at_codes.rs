@@ -132,6 +132,7 @@ impl Exec {
             _ => {
                 self.switch_off(Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd);
                 self.emit(Kind::ProgramEnd, span, out)?;
+                self.ends_by_code();
                 self.ended = true;
                 Ok(())
             }

@@ -273,6 +273,9 @@ impl Exec {
             |value| self.value(value, span),
             || Diagnostic::new(Fault::OutOfRange { word: "factor".into() }, span),
         )?;
+        if !frame.added {
+            self.fills_shift(None, span);
+        }
         self.use_slots(frames);
         Ok(())
     }
@@ -285,6 +288,7 @@ impl Exec {
             self.said &= !super::SHIFT_STORED;
         }
         frames.set(slot, &Now { exec: self, span })?;
+        self.fills(slot, span);
         self.use_slots(frames);
         Ok(())
     }
@@ -297,6 +301,8 @@ impl Exec {
                 .not_executed("coordinates of the present point in a frame that turns or scales", span);
         }
         self.said |= super::SHIFT_STORED;
+        let named = axes.iter().enumerate().filter(|(_, word)| word.is_some());
+        self.fills_shift(Some(named.fold(0, |bits, (axis, _)| bits | 1 << axis)), span);
         let shift = self.origin_shift();
         if self.offset_turned {
             if frames.chain() != Chain::NONE {
@@ -329,6 +335,7 @@ impl Exec {
             self.said |= super::SHIFT | super::SHIFT_STORED;
             self.said &= !super::SHIFT_TAKEN_UP;
         }
+        self.empties(slot);
         let mut frames = self.slots();
         frames.clear(slot);
         self.use_slots(frames);

@@ -19,6 +19,7 @@ mod entry;
 mod event;
 mod frame;
 mod holes;
+mod left;
 mod message;
 mod needed;
 mod nesting;
@@ -42,6 +43,7 @@ pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
 pub(crate) use frame::Chain;
+pub use left::Again;
 pub(crate) use pace::{DEGREES, LINEAR};
 pub(crate) use rotary::end as rotary_end;
 pub(crate) use run::again;
@@ -90,6 +92,8 @@ pub struct Exec {
     offset_turned: bool,
     /// Changes of frames and work offsets that the next incremental words include.
     carried: Option<Box<carried::Carried>>,
+    /// Slots that were left full by an earlier run, or will be.
+    outlived: left::Outlived,
     /// Position of the last move's event.
     last: [Nanos; AXES],
     /// Direction of the last move.
@@ -211,6 +215,7 @@ impl Exec {
             slots: None,
             offset_turned: false,
             carried: None,
+            outlived: left::Outlived::default(),
             last: world.start,
             heading: Heading::None,
             after_stop: None,
@@ -409,11 +414,14 @@ impl Exec {
     fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
         let mut next = self.position;
         let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
+        let mut absolute = 0;
         for (axis, word) in to.axes.iter().enumerate() {
             if let Some(word) = word {
                 next[axis] = self.target(word, from[axis], span)?;
+                absolute |= u32::from(word.distance.or(self.modes.distance) == Distance::Absolute) << axis;
             }
         }
+        self.relies_on_slots(absolute);
         if Exec::turns(to) {
             self.turn_rotary(to, &mut next);
         }

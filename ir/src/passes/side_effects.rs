@@ -244,17 +244,20 @@ impl SideEffects {
         insert(made, stmt, at, new.collect());
     }
 
-    /// Local shifts at the end of the program, where the source's control cancels them and the target's may keep them.
+    /// Shifts and frames at the end of the program, where the source's control cancels them and the target's may keep
+    /// them.
     fn cancel_shifts(&mut self, stmt: &mut Stmt, made: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
-        let behaviour = Behaviour::ShiftAtEnd;
-        let both_open = self.source.is_open(behaviour) && self.target.is_open(behaviour);
-        if !self.source.does(behaviour) || self.target.surely(behaviour) || both_open {
-            return;
-        }
-        let clear = |slot: FrameSlot| Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::ClearFrame(slot)) };
-        let new: Vec<Stmt> = self.shifts.drain(..).map(clear).collect();
-        if !new.is_empty() {
-            diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
+        let mut new = Vec::new();
+        for slot in self.shifts.drain(..) {
+            let Some(behaviour) = at_end(slot) else { continue };
+            if !self.source.does(behaviour) || self.target.surely(behaviour) {
+                continue;
+            }
+            let told = |d: &Diagnostic| d.fault == Fault::SideEffectWritten { behaviour };
+            if !diags.iter().any(|d| d.span == stmt.span && told(d)) {
+                diags.push(Diagnostic::new(Fault::SideEffectWritten { behaviour }, stmt.span));
+            }
+            new.push(Stmt { skip: stmt.skip, ..Stmt::new(stmt.span, Op::ClearFrame(slot)) });
         }
         let at = insertion(made, stmt);
         insert(made, stmt, at, new);
@@ -421,14 +424,26 @@ impl SideEffects {
                 self.length_next = None;
             }
             Op::SetSlot(slot) => {
-                if let Slot::Shift { origin: false, axes } = &**slot {
-                    match sure && axes.iter().flatten().all(is_zero) {
-                        true => self.shifts.retain(|own| *own != FrameSlot::Local),
-                        false => self.shifted(FrameSlot::Local),
+                let (own, none) = match &**slot {
+                    Slot::Shift { origin: false, axes } => {
+                        (FrameSlot::Local, axes.iter().flatten().all(is_zero))
                     }
+                    Slot::Shift { origin: true, axes } => {
+                        (FrameSlot::Shift, axes.iter().all(|word| word.as_ref().is_some_and(is_zero)))
+                    }
+                    Slot::Rotation { angle, .. } => (FrameSlot::Rotation, is_zero(&angle.value)),
+                    Slot::Scale { .. } => (FrameSlot::Scale, false),
+                    Slot::Mirror(_) => (FrameSlot::Mirror, false),
+                    Slot::NoMirror(axes) => (FrameSlot::Mirror, *axes == [true; 3]),
+                    Slot::Tilt(_) => (FrameSlot::Tilt, true),
+                };
+                match sure && none {
+                    true => self.shifts.retain(|other| *other != own),
+                    false => self.shifted(own),
                 }
             }
             Op::SetFrame(_) => self.shifted(FrameSlot::Chain),
+            Op::SetPosition(_) => self.shifted(FrameSlot::Shift),
             Op::ClearFrame(slot) if sure => self.shifts.retain(|own| own != slot),
             flow!() => self.elsewhere(),
             _ => {}
@@ -461,6 +476,16 @@ impl SideEffects {
             _ => {}
         }
         self.machine = false;
+    }
+}
+
+/// What decides whether a control keeps what is in a slot at the end of the program.
+fn at_end(slot: FrameSlot) -> Option<Behaviour> {
+    match slot {
+        FrameSlot::Local | FrameSlot::Chain => Some(Behaviour::ShiftAtEnd),
+        FrameSlot::Shift => Some(Behaviour::OriginAtEnd),
+        FrameSlot::Rotation | FrameSlot::Scale | FrameSlot::Mirror => Some(Behaviour::RotationAtEnd),
+        FrameSlot::Polar | FrameSlot::Tilt => None,
     }
 }
 
