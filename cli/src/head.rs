@@ -116,6 +116,7 @@ pub fn assumption(fault: &Fault, dialects: [&Dialect; 2]) -> Option<String> {
         Fault::NextRunTurned => {
             "no rotation, scale or mirror at the start, though the program leaves one".to_owned()
         }
+        Fault::RoundsFreely => "corners rounded without a tolerance".to_owned(),
         Fault::MovedAtChange => "a tool change takes Z to machine zero".to_owned(),
         Fault::AssumedContourEnds => "the same way onto a compensated contour, and off it".to_owned(),
         Fault::AssumedRadius { .. } => "a radius entry = the radius of the tool of its number".to_owned(),

@@ -170,7 +170,7 @@ impl<'j> Line<'j> {
         legaliser.set_source_arcs(job.from.arc_rule());
         legaliser.set_source_refuses(job.from.dialect.caps.refused_compensated);
         if job.between_controls() {
-            legaliser.between_controls();
+            legaliser.between_controls(!job.from.dialect.can.rounds_freely);
         }
         legaliser.set_source_behaviours(job.source_behaviours());
         legaliser.stand_at(&job.start);
@@ -191,7 +191,7 @@ impl<'j> Line<'j> {
             batch: Batch::default(),
             folder,
             renumbering: Renumbering::new(maps),
-            side_effects: SideEffects::new(job.source_behaviours(), job.target_behaviours()),
+            side_effects: as_there::side_effects(job),
             legaliser,
             writer,
             text: Vec::new(),

@@ -4,11 +4,11 @@
 mod facts;
 mod twice;
 mod whole;
+mod worlds;
 
 pub(crate) use facts::stops_differ;
 use facts::{Other, done_by_target, looked_at};
-
-use std::collections::BTreeMap;
+pub(crate) use worlds::worlds_of;
 
 use ncc_dialects::{Dialect, Quantity, Settings};
 use ncc_frontends::{Batch, Reader};
@@ -16,14 +16,13 @@ use ncc_ir::alarms::Alarms;
 use ncc_ir::canon::{AXES, Modes};
 use ncc_ir::computes::Said;
 use ncc_ir::diag::{Diagnostic, Fault, Gravity, ModeName};
-use ncc_ir::exec::{Event, Exec, named_tool};
+use ncc_ir::exec::{Event, Exec};
 use ncc_ir::expr::Function;
 use ncc_ir::num::Nanos;
 use ncc_ir::passes::variables::Fineness;
 use ncc_ir::program::{Op, ProgramName, Stmt};
 use ncc_ir::source::Span;
 use ncc_ir::verify::{self, Comparison, Difference, Pair, Resolution};
-use ncc_ir::world::World;
 
 use crate::difference;
 use crate::given::Given;
@@ -159,23 +158,6 @@ fn fineness(job: &Job) -> Fineness {
     }
 }
 
-/// What neither program says stays what it was before it, by whatever number: where numbers differ, the
-/// target's work offset and length entry at power-on get numbers that no program has, for the source's.
-fn same_at_power_on(source: &World, target: &mut World, from: &Modes, to: &Modes) {
-    if let (Some(map), Some(own), None, None) =
-        (&mut target.renaming.offsets, source.power_on.work_offset, from.work_offset, to.work_offset)
-    {
-        map.insert(u16::MAX, own);
-        target.power_on.work_offset = Some(u16::MAX);
-    }
-    if let (Some(map), Some(own), None, None) =
-        (&mut target.renaming.entries, source.power_on.length_offset, from.length_offset, to.length_offset)
-    {
-        map.insert(u32::MAX, own);
-        target.power_on.length_offset = Some(u32::MAX);
-    }
-}
-
 /// What the target's control always begins with, as far as the source's has no such fact.
 fn own_facts(job: &Job) -> Modes {
     let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
@@ -190,39 +172,6 @@ fn own_facts(job: &Job) -> Modes {
         length_offset: to.length_offset.filter(|_| from.length_offset.is_none()),
         no_origin_shift: to.no_origin_shift.filter(|_| from.no_origin_shift.is_none()),
     }
-}
-
-/// The world of a seed, as the source's control and as the target's has it.
-pub(crate) fn worlds_of(job: &Job, seed: u32) -> [World; 2] {
-    let (from, to) = (fixed(job.from.dialect), fixed(job.to.dialect));
-    let renaming = job.machines.renaming();
-    let own_entries = match (&renaming.tools, &job.machines.from) {
-        (Some(_), Some(machine)) => machine.tables().edge_entries,
-        (None, _) | (_, None) => BTreeMap::new(),
-    };
-    let mut source = World::generate(seed, &from).with_external();
-    source.behaviours = job.source_behaviours();
-    source.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
-    source.arcs = job.from.arc_rule();
-    source.refused_compensated = job.from.dialect.caps.refused_compensated;
-    source.tables.edge_entries = own_entries;
-    source.tables.radii = job.compensating().radii;
-    let mut target = World::generate(seed, &to).with_external();
-    target.behaviours = job.target_behaviours();
-    target.feed_ends_with_mode = job.to.dialect.can.feed_ends_with_mode;
-    target.arcs = job.to.arc_rule();
-    target.refused_compensated = job.to.dialect.caps.refused_compensated;
-    target.tables.edge_entries.clone_from(&renaming.edge_entries);
-    target.renaming = renaming;
-    let named = &target.renaming.tool_names;
-    source.tables.named_lengths =
-        named.iter().map(|(n, name)| (named_tool(name), target.edge_length(i64::from(*n), 1))).collect();
-    // A control without a word for it takes corners in its one way.
-    let caps = &job.to.dialect.caps;
-    let path = caps.only_path.filter(|mode| !caps.says_path(*mode));
-    (source.path, target.path) = (path, path);
-    same_at_power_on(&source, &mut target, &from, &to);
-    [source, target]
 }
 
 impl Verifier {

@@ -7,12 +7,14 @@
 
 mod begins;
 pub mod canon;
+mod corners;
 pub mod ir;
 pub mod pieces;
 pub mod recognise;
 pub mod siemens;
 pub mod word;
 
+use corners::Corners;
 use ncc_dialects::{Dialect, Family, Settings};
 use ncc_ir::canon::Modes;
 use ncc_ir::diag::{Diagnostic, Fault};
@@ -166,7 +168,13 @@ impl Batch {
 }
 
 /// The reader of one text, of whichever family its dialect is.
-pub enum Reader {
+pub struct Reader {
+    family: OfFamily,
+    corners: Option<Corners>,
+}
+
+/// The reader of a family of dialects.
+enum OfFamily {
     /// Letters and numbers.
     Word(Box<word::Reader>),
     /// The canonical functions.
@@ -182,30 +190,35 @@ impl Reader {
     /// and never says is taken from the dictionary, recorded in [`Batch::assumed`] and reported
     /// once; without (text that ncc wrote), it stays open.
     pub fn new(settings: Settings, assume: bool) -> Reader {
-        match settings.dialect.family {
-            Family::Word => Reader::Word(Box::new(word::Reader::new(settings, assume))),
-            Family::Canon => Reader::Canon(Box::new(canon::Reader::new(settings, assume))),
-            Family::Sinumerik => Reader::Siemens(Box::new(siemens::Reader::new(settings, assume))),
-            Family::Ir => Reader::Ir(Box::new(ir::Reader::new(settings, assume))),
-        }
+        let corners = Corners::of(&settings).filter(|_| assume);
+        let family = match settings.dialect.family {
+            Family::Word => OfFamily::Word(Box::new(word::Reader::new(settings, assume))),
+            Family::Canon => OfFamily::Canon(Box::new(canon::Reader::new(settings, assume))),
+            Family::Sinumerik => OfFamily::Siemens(Box::new(siemens::Reader::new(settings, assume))),
+            Family::Ir => OfFamily::Ir(Box::new(ir::Reader::new(settings, assume))),
+        };
+        Reader { family, corners }
     }
 
     /// The program of the text is called by another, states nothing of what its caller has in force, and goes back to
     /// it: what the text never says is taken for granted from here on, as of a source.
     pub fn called(&mut self) {
-        match self {
-            Reader::Word(reader) => reader.called(),
-            Reader::Siemens(reader) => reader.called(),
-            Reader::Canon(_) | Reader::Ir(_) => {}
+        if let Some(corners) = &mut self.corners {
+            corners.called();
+        }
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.called(),
+            OfFamily::Siemens(reader) => reader.called(),
+            OfFamily::Canon(_) | OfFamily::Ir(_) => {}
         }
     }
 
     /// The text is that of a file of this name, by which or by whose extension some controls know subprograms.
     pub fn named(&mut self, file: &str) {
-        match self {
-            Reader::Siemens(reader) => reader.named(file),
-            Reader::Word(reader) => reader.named(file),
-            Reader::Canon(_) | Reader::Ir(_) => {}
+        match &mut self.family {
+            OfFamily::Siemens(reader) => reader.named(file),
+            OfFamily::Word(reader) => reader.named(file),
+            OfFamily::Canon(_) | OfFamily::Ir(_) => {}
         }
     }
 
@@ -214,40 +227,54 @@ impl Reader {
     /// numbers without a point are noted in [`Batch::bare`]. Of the families of words alone; texts of
     /// the others are refused as ever.
     pub fn watch(&mut self) {
-        match self {
-            Reader::Word(reader) => reader.watch(),
-            Reader::Siemens(reader) => reader.watch(),
-            Reader::Canon(_) | Reader::Ir(_) => {}
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.watch(),
+            OfFamily::Siemens(reader) => reader.watch(),
+            OfFamily::Canon(_) | OfFamily::Ir(_) => {}
         }
     }
 
     /// Reads further whole lines. Spans count from `base`, the place of the first byte of `text`
     /// in the source.
     pub fn read(&mut self, text: &[u8], base: u32, out: &mut Batch) {
-        match self {
-            Reader::Word(reader) => reader.read(text, base, out),
-            Reader::Canon(reader) => reader.read(text, base, out),
-            Reader::Siemens(reader) => reader.read(text, base, out),
-            Reader::Ir(reader) => reader.read(text, base, out),
+        let before = (out.stmts.len(), out.procedures.len());
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.read(text, base, out),
+            OfFamily::Canon(reader) => reader.read(text, base, out),
+            OfFamily::Siemens(reader) => reader.read(text, base, out),
+            OfFamily::Ir(reader) => reader.read(text, base, out),
         }
+        self.state_corners(before, out);
     }
 
     /// A line that is too long to be handed over: only its place is known.
     pub fn too_long(&mut self, span: Span, out: &mut Batch) {
-        match self {
-            Reader::Word(reader) => reader.too_long(span, out),
-            Reader::Siemens(reader) => reader.too_long(span, out),
-            Reader::Canon(_) | Reader::Ir(_) => out.report(Fault::BlockTooLong { limit: LONGEST_LINE }, span),
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.too_long(span, out),
+            OfFamily::Siemens(reader) => reader.too_long(span, out),
+            OfFamily::Canon(_) | OfFamily::Ir(_) => {
+                out.report(Fault::BlockTooLong { limit: LONGEST_LINE }, span)
+            }
         }
     }
 
     /// The end of the text.
     pub fn finish(&mut self, out: &mut Batch) {
-        match self {
-            Reader::Word(reader) => reader.finish(out),
-            Reader::Canon(reader) => reader.finish(out),
-            Reader::Siemens(reader) => reader.finish(out),
-            Reader::Ir(reader) => reader.finish(out),
+        let before = (out.stmts.len(), out.procedures.len());
+        match &mut self.family {
+            OfFamily::Word(reader) => reader.finish(out),
+            OfFamily::Canon(reader) => reader.finish(out),
+            OfFamily::Siemens(reader) => reader.finish(out),
+            OfFamily::Ir(reader) => reader.finish(out),
+        }
+        self.state_corners(before, out);
+    }
+
+    fn state_corners(&mut self, (stmts, procedures): (usize, usize), out: &mut Batch) {
+        let Some(corners) = &mut self.corners else { return };
+        corners.state(&mut out.stmts, stmts, out.assumed.units);
+        for procedure in &mut out.procedures[procedures..] {
+            corners.state_in(&mut procedure.body);
         }
     }
 }

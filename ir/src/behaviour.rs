@@ -94,6 +94,8 @@ behaviours! {
     /// How far and which way round an absolute word turns a rotary axis: as far as its number says, the shortest way to
     /// that angle, or to that angle in the direction of the sign.
     RotaryTurn = "rotary-turn", "turn of a rotary axis by an absolute word", ["as-programmed", "shortest", "sign"], Machine;
+    /// Digits of an incremental word below the least increment: they count, or are cut off word by word.
+    FineDigits = "fine-digits", "digits below the least increment in incremental words", ["count", "cut-off"], Machine;
     /// Whether the first incremental word of an axis after a change of frame or work offset includes the change: it
     /// counts from the coordinate that the axis was programmed to before, else from where the axis stands.
     FrameOffsetIncremental = "frame-offset-incremental", "change of frame in an incremental word", ["excluded", "included"], Machine;

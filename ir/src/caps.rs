@@ -205,6 +205,8 @@ pub struct Caps {
     pub stop_messages: bool,
     /// Modes of taking corners, a bit each.
     pub path_modes: u16,
+    /// Whether plain rounding goes as far from the path as the acceleration asks for.
+    pub rounds_freely: bool,
     /// Whether the length of rounding can be another one in rapids.
     pub path_in_rapids: bool,
     /// Whether moves that the control makes one have a length of their own.

@@ -322,6 +322,8 @@ faults! {
     NextRunShifted { axis: Axis, source: i64, target: i64 } = 327, verdict(Verdict::Assumed);
     /// The same of a rotation, a scale or a mirror.
     NextRunTurned = 328, verdict(Verdict::Assumed);
+    /// Plain rounding of corners has no bound on the target's control, and one on the source's.
+    RoundsFreely = 329, verdict(Verdict::Assumed);
     /// A cut at a feed that was stated before the units changed: what it was, and what the source's control makes of it;
     /// nanos of a millimetre.
     FeedAtUnits { before: i64, now: i64 } = 331, verdict(Verdict::Assumed);

@@ -62,6 +62,7 @@ impl Fault {
             | Fault::PathAtStart { .. }
             | Fault::NextRunShifted { .. }
             | Fault::NextRunTurned
+            | Fault::RoundsFreely
             | Fault::AssumedMilling { .. }
             | Fault::FeedAtUnits { .. }
             | Fault::OptionalStopDiffers

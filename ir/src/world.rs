@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use crate::behaviour::Behaviours;
 use crate::canon::{AXES, Distance, FeedMode, Modes, Motion, PathMode, Plane, ReturnLevel, Units};
 use crate::compensated::Refused;
+use crate::exec::Increments;
 use crate::maps::Renaming;
 use crate::num::{Nanos, ONE};
 use crate::program::{ReferencePoint, ToolValue};
@@ -44,6 +45,8 @@ pub struct World {
     pub refused_compensated: Refused,
     /// What codes of the control do besides their names.
     pub behaviours: Behaviours,
+    /// The least increments of the control, where digits below them may not count.
+    pub increments: Option<Increments>,
     /// Whether the operator's switch for optional stops is on.
     pub optional_stop: bool,
     /// Angle at which the spindle stops where nothing else is said, degrees.
@@ -183,6 +186,7 @@ impl World {
             arcs: ArcRule::default(),
             refused_compensated: Refused::default(),
             behaviours: Behaviours::default(),
+            increments: None,
             optional_stop: false,
             break_lift: 0,
             orientation: 0,

@@ -179,7 +179,7 @@ pub fn rests_on(fault: &Fault, told: Told, from: &Dialect, to: &Dialect) -> Opti
         Fault::AssumedOffsetWithZ => (Side::From, Place::Confirmed(OFFSET_WITH_Z.to_owned())),
         Fault::AssumedHoleOrder { pattern } => (side, Place::Confirmed(format!("{pattern}{ORDER}"))),
         Fault::PathAtStart { .. } => (Side::To, Place::Confirmed(CORNERS_AT_START.to_owned())),
-        Fault::AssumedPath { .. } => (Side::To, Place::Confirmed(CORNERS.to_owned())),
+        Fault::AssumedPath { .. } | Fault::RoundsFreely => (Side::To, Place::Confirmed(CORNERS.to_owned())),
         Fault::AssumedTip => (Side::To, Place::Confirmed(TIP.to_owned())),
         Fault::AssumedTilt => (Side::To, Place::Confirmed(TILT.to_owned())),
         Fault::OpenBehaviour { behaviour, source, .. } => {

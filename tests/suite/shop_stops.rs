@@ -192,7 +192,60 @@ const PATHS: &[Case] = &[
     case("fanuc", "linuxcnc", "G00 Z5. / X100. / Z-20.", "X100 / Z-20", &[326]),
     case("haas", "siemens", "G01 X20. F5000. / Y20.", "Y20", &[326]),
     case("linuxcnc", "fanuc", "G64 / G01 X20. F5000. / Y20.", "Y20.", &[]),
+    // A G64 that the machine bounds, where nothing bounds it: told, or said with the length that somebody has stated.
+    case("fanuc", "linuxcnc", "G64 / G01 X20. F5000.", "G64 / G1 X20", &[329]),
+    case("haas", "linuxcnc", "G64 / G01 X20. F5000.", "G64 / G1 X20", &[329]),
+    case("fanuc", "siemens", "G64 / G01 X20. F5000.", "G64 / G1 X20", &[329]),
+    stated(
+        case("fanuc", "linuxcnc", "G64 / G01 X20. F5000.", "G64 P0.02 / G1 X20", &[]),
+        &[("path_tolerance", "0.02")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "linuxcnc", "G01 X20. F5000. / G61 / Y20. / G64 / X0.", "G64 P0.05 / T1 M6", &[]),
+        &[("path_tolerance", "0.05")],
+        &[],
+    ),
+    stated(
+        case("haas", "linuxcnc", "G01 X1. F50. / G61 / X2. / G64 / X0.", "G64 P0.01 / X0", &[]),
+        &[("path_tolerance", "0.01")],
+        &[],
+    ),
+    // It stops at each end point there: nothing is rounded.
+    case("fanuc", "linuxcnc", "G61 / G01 X20. F5000.", "G61.1 / G1 X20", &[]),
+    case("linuxcnc", "siemens", "G64 / G01 X20. F5000.", "G64 / G1 X20", &[]),
 ];
+
+/// Digits below the least increment: of incremental words they count, or each word is cut off.
+const FINE_DIGITS: &[Case] = &[
+    case("fanuc", "linuxcnc", "G91 G01 X0.0005 F100. / X0.0005 / X0.0005", "X0.0005 / X0.0005", &[323]),
+    case("fanuc", "siemens", "G91 G01 X0.0015 Y1. F100. / X0.0015", "G91 G1 X0.002 Y1", &[323]),
+    case("haas", "linuxcnc", "G20 / G91 G01 X0.00005 F10. / X0.00005", "X0.00005", &[323]),
+    case("fanuc", "haas", "G91 G01 Z-0.0015 F100. / Z-0.0015", "Z-0.00", &[323]),
+    stated(
+        case("fanuc", "linuxcnc", "G91 G01 X0.0015 F100. / X0.0005", "G91 G1 X0.001 F100 / X0", &[426]),
+        &[("fine_digits", "cut-off")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "siemens", "G91 G01 X-0.0015 F100. / G90 X1.0015", "X-0.001 F100 / G90 X1.002", &[426]),
+        &[("fine_digits", "cut-off")],
+        &[],
+    ),
+    stated(
+        case("fanuc", "linuxcnc", "G91 G01 X0.0005 F100. / X0.0005", "X0.0005 F100 / X0.0005", &[]),
+        &[("fine_digits", "count")],
+        &[],
+    ),
+    // Nothing adds up in absolute words, and these have no such digits.
+    case("fanuc", "linuxcnc", "G01 X0.0005 F100. / X1.0005", "X1.0005", &[]),
+    case("fanuc", "siemens", "G91 G01 X0.001 F100. / X0.0010", "G91 G1 X0.001", &[]),
+];
+
+#[test]
+fn fine_digits_of_incremental_words() {
+    run(FINE_DIGITS);
+}
 
 #[test]
 fn stops() {
@@ -235,7 +288,7 @@ fn rotary_feeds_in_the_stream_and_in_loops() {
 }
 
 /// Messages that these tests are about.
-const ABOUT: &[u16] = &[322, 323, 324, 325, 426];
+const ABOUT: &[u16] = &[322, 323, 324, 325, 329, 426];
 
 fn run(cases: &[Case]) {
     let mut failures = Failures::default();

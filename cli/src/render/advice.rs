@@ -148,6 +148,9 @@ pub fn advice(fault: &Fault, at: Context) -> Vec<String> {
         Fault::NextRunShifted { .. } | Fault::NextRunTurned => {
             own("cancel it in the source before its end, or state it at its start")
         }
+        Fault::RoundsFreely => own(
+            "state how far corners lie from the path on the source's machine, `--from-option path_tolerance=0.02`, or program a tolerance",
+        ),
         Fault::MovedAtChange => own("check at the machine that the way up is free"),
         Fault::SideEffectWritten { .. } => Vec::new(),
         Fault::DoneByTarget { behaviour } => own(match behaviour {

@@ -291,6 +291,7 @@ pub fn phrase(fault: &Fault, at: Context) -> String {
         | Fault::PathAtStart { .. }
         | Fault::NextRunShifted { .. }
         | Fault::NextRunTurned
+        | Fault::RoundsFreely
         | Fault::OptionalStopDiffers
         | Fault::AssumedEdge { .. }
         | Fault::AssumedRadius { .. }

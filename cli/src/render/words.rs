@@ -228,6 +228,10 @@ pub fn words(fault: &Fault, at: Context) -> Words {
                 millimetres(*target)
             ),
         ),
+        Fault::RoundsFreely => (
+            "check at the machine: corners are rounded without a tolerance".into(),
+            format!("{from} rounds them by what its axes lag behind, {to} as far as the acceleration asks for"),
+        ),
         Fault::NextRunTurned => (
             "check at the machine: the next run begins in another frame".into(),
             "one control keeps a rotation, scale or mirror at the end of the program, the other does not".into(),

@@ -144,6 +144,7 @@ pub(crate) fn worlds(job: &Job, clearances: [Option<Nanos>; 2]) -> Vec<World> {
     worlds.extend((1..=WORLDS).map(|seed| World::generate(seed, &fixed).with_external()));
     for world in &mut worlds {
         world.behaviours = job.from.behaviours();
+        world.increments = job.from.fine_increments();
         world.feed_ends_with_mode = job.from.dialect.can.feed_ends_with_mode;
         world.arcs = job.from.arc_rule();
         world.refused_compensated = job.from.dialect.caps.refused_compensated;

@@ -651,6 +651,7 @@ fn world(plan: &Plan) -> World {
         backs_off: 0,
         length_by_change: false,
         behaviours: job.from.behaviours(),
+        increments: job.from.fine_increments(),
         optional_stop: false,
         feed_ends_with_mode: job.from.dialect.can.feed_ends_with_mode,
         arcs: job.from.arc_rule(),

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use ncc_dialects::{CodeRow, Quantity, SystemRow};
+use ncc_dialects::{CodeRow, PATH_TOLERANCE, Quantity, SystemRow};
 use ncc_ir::canon::Modes;
 use ncc_ir::code_of;
 use ncc_ir::computes::{Computes, Said};
@@ -11,6 +11,7 @@ use ncc_ir::diag::{Diagnostic, Fault};
 use ncc_ir::num::{Num, Unit};
 use ncc_ir::passes::Target;
 use ncc_ir::passes::known_facts::{self, Known};
+use ncc_ir::passes::side_effects::SideEffects;
 use ncc_ir::passes::variables::{self, Digits, Renamed};
 use ncc_ir::passes::{
     alarm_numbers, arithmetic, centres_from_start, computed_frames, computed_holes, control_forms,
@@ -135,13 +136,19 @@ pub(super) fn target(job: &Job) -> Target {
     }
 }
 
+/// The pass that writes what codes do besides their names.
+pub(super) fn side_effects(job: &Job) -> SideEffects {
+    SideEffects::new(job.source_behaviours(), job.target_behaviours(), job.from.fine_increments())
+}
+
 /// How the two controls take corners that no program speaks of, where that is not the same.
 pub(super) fn path_at_start(job: &Job) -> Option<Diagnostic> {
     let [from, to] =
         [&job.from, &job.to].map(|side| side.dialect.power_on.path.as_ref().map(|fact| fact.value));
     let (from, to) = (from?, to?);
     let fault = Fault::PathAtStart { source: from.words(), target: to.words() };
-    (job.between_controls() && from != to).then(|| Diagnostic::new(fault, Span::default()))
+    let stated = job.from.get(PATH_TOLERANCE) != "0" && !job.from.get(PATH_TOLERANCE).is_empty();
+    (job.between_controls() && from != to && !stated).then(|| Diagnostic::new(fault, Span::default()))
 }
 
 /// A parameter of the source's control, in mm, needed where a cycle that rests on it is written out.

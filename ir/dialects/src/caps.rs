@@ -318,6 +318,7 @@ pub(crate) fn caps(dialect: &Dialect) -> Caps {
                 })
                 .fold(0, |bits, (mode, _)| bits | 1 << *mode as u16),
         },
+        rounds_freely: dialect.can.rounds_freely,
         path_merges: everything
             || dialect.code.iter().any(|row| {
                 let rounded = row.means == Some(Meaning::SetMotionControlMode(PathMode::Continuous));

@@ -502,6 +502,9 @@ pub struct Can {
     /// Canned cycles are driven through every point, whatever path mode is in force (LinuxCNC's G61): no corner of
     /// theirs is rounded. It counts for times alone.
     pub cycles_in_exact_path: bool,
+    /// Plain rounding of corners (G64) goes as far from the path as the acceleration asks for, without a tolerance. Else
+    /// it is bounded, by a setting or by what the axes lag behind.
+    pub rounds_freely: bool,
     /// Every structure is expanded, every axis named.
     pub flat: bool,
     /// Grids are written only up to this many columns and rows.
@@ -570,6 +573,11 @@ impl Dialect {
     /// Whether calls of cycles state the plane to which they return.
     pub fn states_return_planes(&self) -> bool {
         self.call.iter().any(|row| row.place(ParameterRole::ReturnPlane).is_some())
+    }
+
+    /// Whether the control rounds corners from power-on.
+    pub fn starts_rounding(&self) -> bool {
+        self.power_on.path.as_ref().is_some_and(|path| path.value != crate::power_on::PathStart::ExactStop)
     }
 
     /// The letter that has a role.

@@ -7,9 +7,11 @@ use ncc_ir::behaviour::{Behaviour, Behaviours};
 use ncc_ir::canon::Units;
 use ncc_ir::caps::Caps;
 use ncc_ir::cycle::Approach;
+use ncc_ir::exec::Increments;
 use ncc_ir::num::{Nanos, ONE};
 use ncc_ir::round::{ArcRule, MOST_SHORT};
 
+use crate::Quantity;
 use crate::cycles::{AskedDwell, CycleRow, DWELLS, DwellWord};
 use crate::power_on::{PowerOnFact, UnitsName};
 use crate::repeats::REPEAT_COUNT;
@@ -59,6 +61,9 @@ pub const ARC_TOLERANCE_INCH: &str = "arc_tolerance_inch";
 
 /// Option of a dictionary: the part of a radius up to which that difference is accepted too.
 pub const ARC_TOLERANCE_PART: &str = "arc_tolerance_part";
+
+/// Option of a dictionary: how far from the path plain rounding of corners goes on this machine, in mm; 0 is not stated.
+pub const PATH_TOLERANCE: &str = "path_tolerance";
 
 /// A dialect and the values of its options.
 #[derive(Clone, Debug)]
@@ -202,6 +207,18 @@ impl Settings {
             }
         }
         all
+    }
+
+    /// The least increments of the control, where digits below them may not count.
+    pub fn fine_increments(&self) -> Option<Increments> {
+        let behaviours = self.behaviours();
+        if !behaviours.does(Behaviour::FineDigits) && !behaviours.is_open(Behaviour::FineDigits) {
+            return None;
+        }
+        let lengths = self.dialect.numbers(Quantity::Length);
+        let inch = lengths.increment_inch.unwrap_or(lengths.increment);
+        let degree = self.dialect.numbers(Quantity::Angle).increment;
+        Some(Increments { mm: lengths.increment, inch, degree })
     }
 
     /// What the dialect can say, as its options are.

@@ -46,6 +46,7 @@ impl Exec {
             | bit(self.turns_far_in(stmts), Behaviour::RotaryTurn)
             | bit(dwells, Behaviour::DwellPerRevolution)
             | bit(arcs, Behaviour::ArcByTime)
+            | bit(self.is_fine_in(stmts), Behaviour::FineDigits)
             | self.lengths_aside_in(stmts)
     }
 

@@ -147,6 +147,9 @@ impl Exec {
         if !alike(Behaviour::RotaryTurn) && moves.iter().filter_map(words).any(Exec::turns) {
             return false;
         }
+        if !alike(Behaviour::FineDigits) && (self.is_fine_in(moves) || other.is_fine_in(moves)) {
+            return false;
+        }
         if self.carried == other.carried && alike(INCLUDED) {
             return true;
         }

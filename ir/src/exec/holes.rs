@@ -282,13 +282,8 @@ impl Exec {
                 span,
             );
         }
-        let mut next = self.position;
         let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
-        for (axis, word) in to.axes.iter().enumerate() {
-            if let Some(word) = word {
-                next[axis] = self.target(word, from[axis], span)?;
-            }
-        }
+        let next = self.put(to, self.position, &from, span)?;
         self.make_hole(&cycle, next, to.axes[self.along].is_some(), span, out)
     }
 

@@ -17,6 +17,7 @@ mod data;
 mod emit;
 mod entry;
 mod event;
+mod fine;
 mod frame;
 mod holes;
 mod left;
@@ -42,6 +43,7 @@ pub use centre_path::AsProgrammed;
 pub use compensation::Compensation;
 pub use conduct::named_tool;
 pub use event::{Attribute, Event, Kind, Movement, Seen, State, Stored, Written, by_control};
+pub use fine::Increments;
 pub(crate) use frame::Chain;
 pub use left::Again;
 pub(crate) use pace::{DEGREES, LINEAR};
@@ -409,19 +411,34 @@ impl Exec {
         })
     }
 
-    /// Where the words put the axes; takes up a waiting length with a Z word.
+    /// Where words put the axes that they name; incremental ones count from `from`.
     #[inline]
-    fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
-        let mut next = self.position;
-        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
+    fn put(
+        &mut self,
+        to: &Point,
+        mut next: [Nanos; AXES],
+        from: &[Nanos; AXES],
+        span: Span,
+    ) -> Result<[Nanos; AXES], Diagnostic> {
         let mut absolute = 0;
         for (axis, word) in to.axes.iter().enumerate() {
-            if let Some(word) = word {
-                next[axis] = self.target(word, from[axis], span)?;
-                absolute |= u32::from(word.distance.or(self.modes.distance) == Distance::Absolute) << axis;
+            let Some(word) = word else { continue };
+            next[axis] = self.target(word, from[axis], span)?;
+            if word.distance.or(self.modes.distance) == Distance::Absolute {
+                absolute |= 1 << axis;
+            } else if self.world.increments.is_some() {
+                next[axis] = from[axis] + self.cut_off(axis, next[axis] - from[axis]);
             }
         }
         self.relies_on_slots(absolute);
+        Ok(next)
+    }
+
+    /// Where the words put the axes; takes up a waiting length with a Z word.
+    #[inline]
+    fn set_axes(&mut self, to: &Point, span: Span) -> Result<(), Diagnostic> {
+        let from = if self.carried.is_some() { self.counted_from(to, span)? } else { self.position };
+        let mut next = self.put(to, self.position, &from, span)?;
         if Exec::turns(to) {
             self.turn_rotary(to, &mut next);
         }

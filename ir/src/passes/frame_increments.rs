@@ -393,7 +393,7 @@ pub(crate) fn words_of(op: &Op) -> Option<&Point> {
     }
 }
 
-fn words_of_mut(op: &mut Op) -> Option<&mut Point> {
+pub(super) fn words_of_mut(op: &mut Op) -> Option<&mut Point> {
     match op {
         Op::StraightTraverse(m) | Op::StraightFeed(m) | Op::Hole(m) | Op::Position(m) => Some(&mut m.to),
         Op::ArcFeed(arc) => Some(&mut arc.to),

@@ -170,9 +170,9 @@ impl Legaliser {
         self.target.program_numbers = numbers;
     }
 
-    /// The source is the program of another kind of control.
-    pub fn between_controls(&mut self) {
-        self.target.other_control = true;
+    /// The source is the program of another kind of control, whose plain rounding of corners is bounded, or not.
+    pub fn between_controls(&mut self, bounded: bool) {
+        (self.target.other_control, self.target.corners_bounded) = (true, bounded);
         self.lacks |= ORIENT;
         let caps = &mut self.target.caps;
         if caps.repeat_by_numbers && !caps.repeat_count_known {

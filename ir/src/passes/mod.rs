@@ -35,6 +35,7 @@ pub mod expand_turns;
 pub mod feed_time;
 pub mod feed_unit;
 pub mod feed_with_cycle;
+mod fine_digits;
 pub mod flatten;
 pub mod flatten_facts;
 pub mod fold_cycles;
@@ -129,6 +130,8 @@ pub struct Target {
     pub program_numbers: BTreeSet<u32>,
     /// Whether the source is the program of another kind of control.
     pub other_control: bool,
+    /// Whether plain rounding of corners is bounded on the source's control.
+    pub corners_bounded: bool,
     /// Side effects of codes on the source's control.
     pub source: Behaviours,
     /// Variables, by their names in lower case, that have a value before the program begins.

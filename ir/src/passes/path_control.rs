@@ -70,6 +70,10 @@ pub(super) fn over(body: &mut Vec<Stmt>, state: &mut State, target: &Target, dia
                 let control = sayable(control, caps, stmt.span, state, diags);
                 state.again = None;
                 state.said = stmt.skip.is_none().then(|| control.clone());
+                let freely = control.mode == PathMode::Continuous && caps.rounds_freely;
+                if freely && target.corners_bounded && state.first_time(34) {
+                    diags.push(Diagnostic::new(Fault::RoundsFreely, stmt.span));
+                }
                 if caps.only_path == Some(control.mode) && !caps.says_path(control.mode) {
                     if state.first_time(32) {
                         let path = control.mode.name().into();

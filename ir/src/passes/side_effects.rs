@@ -20,11 +20,14 @@
 use crate::behaviour::{Behaviour, Behaviours};
 use crate::canon::{AXES, Axis};
 use crate::diag::{Diagnostic, Fault};
+use crate::exec::Increments;
 use crate::expr::Expr;
 use crate::kinds::{drilling, flow, moves, polar};
 use crate::num::Num;
 use crate::program::{FrameSlot, Op, Point, Procedure, Reference, ReferencePoint, Slot, Stmt};
 use crate::source::Span;
+
+use super::fine_digits;
 
 /// What is known of a switch.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,6 +65,8 @@ pub struct SideEffects {
     /// The operation that starts the spindle, where a whole program has no other one: a spindle that may turn turns by
     /// this.
     only_sense: Option<Op>,
+    /// Digits that the source's control cuts off.
+    fine: fine_digits::State,
 }
 
 /// What the length of the tool needs before the next move of Z, after a place of the machine.
@@ -81,8 +86,8 @@ const CHANGE: [Behaviour; 2] = [Behaviour::SpindleAtChange, Behaviour::CoolantAt
 const END: [Behaviour; 2] = [Behaviour::SpindleAtEnd, Behaviour::CoolantAtEnd];
 
 impl SideEffects {
-    /// At the start of a main program: everything is off.
-    pub fn new(source: Behaviours, target: Behaviours) -> SideEffects {
+    /// At the start of a main program: everything is off. `increments` are the source's.
+    pub fn new(source: Behaviours, target: Behaviours, increments: Option<Increments>) -> SideEffects {
         SideEffects {
             source,
             target,
@@ -96,19 +101,22 @@ impl SideEffects {
             length_known: true,
             length_next: None,
             only_sense: None,
+            fine: fine_digits::State::new(&source, &target, increments),
         }
     }
 
     /// Whether further statements would be rewritten.
     pub fn touches(&self, stmts: &[Stmt]) -> bool {
-        self.source != self.target
-            && (self.again.iter().any(Option::is_some)
-                || self.length_next.is_some()
-                || stmts.iter().any(|stmt| is_code(&stmt.op)))
+        self.fine.touches(stmts)
+            || self.source != self.target
+                && (self.again.iter().any(Option::is_some)
+                    || self.length_next.is_some()
+                    || stmts.iter().any(|stmt| is_code(&stmt.op)))
     }
 
     /// Rewrites further statements of the main procedure.
     pub fn over(&mut self, stmts: &mut Vec<Stmt>, diags: &mut Vec<Diagnostic>) {
+        self.fine.over(stmts, diags);
         if !self.touches(stmts) {
             return stmts.iter().for_each(|stmt| self.note(stmt));
         }

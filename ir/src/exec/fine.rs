@@ -1,0 +1,73 @@
+//! Digits of incremental words that are below the least increment of a control.
+//!
+//! Two hundred times X0.0005 is a tenth of a millimetre, or nothing where each word is cut off to thousandths. Of
+//! absolute words no more than the last digit is in question: they are taken as they stand.
+
+use super::Exec;
+use crate::behaviour::Behaviour;
+use crate::canon::{AXES, Distance};
+use crate::num::{Nanos, ONE};
+use crate::passes::frame_increments::words_of;
+use crate::program::{Coord, Op, Stmt};
+
+/// Least increments of a control, as digits behind the point: of millimetres, of inches, of degrees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Increments {
+    /// Of millimetres, 0 to 9.
+    pub mm: u8,
+    /// Of inches, 0 to 9.
+    pub inch: u8,
+    /// Of degrees, 0 to 9.
+    pub degree: u8,
+}
+
+impl Increments {
+    /// Digits behind the point of an axis.
+    pub(crate) fn digits(self, axis: usize, inch: bool) -> u8 {
+        match (axis < 3, inch) {
+            (false, _) => self.degree,
+            (true, false) => self.mm,
+            (true, true) => self.inch,
+        }
+    }
+
+    /// The least increment of an axis, nanos of a millimetre or a degree.
+    fn of(self, axis: usize, inch: bool) -> Nanos {
+        let least = ONE / 10_i64.pow(u32::from(self.digits(axis, inch).min(9)));
+        if inch && axis < 3 { least * 127 / 5 } else { least }
+    }
+}
+
+/// What decides what becomes of such digits.
+const DIGITS: Behaviour = Behaviour::FineDigits;
+
+impl Exec {
+    /// An incremental way of an axis as the control takes it.
+    #[cold]
+    pub(super) fn cut_off(&mut self, axis: usize, way: Nanos) -> Nanos {
+        let Some(least) = self.world.increments.map(|all| all.of(axis, self.modes.inch)) else { return way };
+        let rest = way % least;
+        if rest == 0 || !self.does(DIGITS) { way } else { way - rest }
+    }
+
+    /// Whether any of these statements has an incremental word with such digits.
+    pub(super) fn is_fine_in(&self, stmts: &[Stmt]) -> bool {
+        let Some(increments) = self.world.increments else { return false };
+        let (mut distance, mut inch) = (self.modes.distance, self.modes.inch);
+        stmts.iter().any(|stmt| {
+            match &stmt.op {
+                Op::SetDistanceMode(mode) => distance = *mode,
+                Op::UseLengthUnits(units) => inch = *units == crate::canon::Units::Inch,
+                _ => {}
+            }
+            if distance == Distance::Absolute {
+                return false;
+            }
+            let fine = |(axis, word): (usize, &Option<Coord>)| {
+                let nanos = word.as_ref().and_then(|word| word.value.literal()).and_then(|n| n.nanos(inch));
+                nanos.is_some_and(|nanos| nanos % increments.of(axis, inch) != 0)
+            };
+            words_of(&stmt.op).is_some_and(|to| to.axes.iter().take(AXES).enumerate().any(fine))
+        })
+    }
+}
